@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(SONAR_CCACHE ccache)
+if(SONAR_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SONAR_CCACHE})
+endif()
+
+add_library(sonar_options INTERFACE)
+# -ffp-contract=off: a fused multiply-add would make products differ between compilers and processors.
+target_compile_options(sonar_options INTERFACE -ffp-contract=off -Wall -Wextra -Werror -Wshadow -Wconversion
+                       -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wnull-dereference)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 sees null dereferences and uninitialised values in its own standard library once it inlines it.
+  target_compile_options(sonar_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized)
+endif()
+if(SONAR_SANITIZE)
+  target_compile_options(sonar_options INTERFACE -fsanitize=${SONAR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(sonar_options INTERFACE -fsanitize=${SONAR_SANITIZE})
+endif()
+if(SONAR_FUZZ)
+  target_compile_options(sonar_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+if(SONAR_PLAIN_THREADS)
+  target_compile_definitions(sonar_options INTERFACE SONAR_PLAIN_THREADS)
+endif()

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/result.h"
+
+namespace sonar {
+
+// Every parameter struct P has one function
+//   template <class Visitor> void describe(Visitor& v, P& p) {
+//     v.field("minimum_range_m", p.minimum_range_m, {.unit = "m", .min = 0, .max = 500, .text = "what it does"});
+//     v.choice("mode", p.mode, kModeNames, "what it chooses");       // enum class with values 0, 1, ...
+//     v.group("median", p.median, "what the group is");              // another described struct
+//   }
+// JSON, command-line flags, panels, hashes and docs are visitors of it. Fields are bool, int, double or std::string.
+
+struct FieldInfo {
+  std::string_view unit;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  std::string_view text;
+};
+
+using ChoiceNames = std::span<const std::string_view>;
+
+/// Visitor that finds the first field outside its range.
+class RangeCheck {
+ public:
+  void field(std::string_view, bool&, const FieldInfo&) {}
+  void field(std::string_view, std::string&, const FieldInfo&) {}
+  void field(std::string_view name, int& value, const FieldInfo& info) { check(name, value, info); }
+  void field(std::string_view name, double& value, const FieldInfo& info) { check(name, value, info); }
+  template <class E>
+  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+    const auto index = static_cast<std::size_t>(value);
+    if (index >= names.size()) note(fmt::format("{}{}: value {} is none of its choices", prefix_, name, index));
+  }
+  template <class P>
+  void group(std::string_view name, P& p, std::string_view) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(name) + ".";
+    describe(*this, p);
+    prefix_ = outer;
+  }
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+
+ private:
+  void check(std::string_view name, double value, const FieldInfo& info) {
+    if (std::isnan(value) || value < info.min || value > info.max) {
+      note(fmt::format("{}{} = {} is outside {} .. {} {}", prefix_, name, value, info.min, info.max, info.unit));
+    }
+  }
+  void note(std::string text) {
+    if (problem_.empty()) problem_ = std::move(text);
+  }
+  std::string prefix_;
+  std::string problem_;
+};
+
+/// Refuses a parameter struct with a field outside its described range; the error names the field.
+template <class P>
+Result<void> validate(P parameters) {
+  RangeCheck check;
+  describe(check, parameters);
+  if (!check.problem().empty()) return fail(ErrorCode::bad_parameter, check.problem());
+  return {};
+}
+
+}  // namespace sonar

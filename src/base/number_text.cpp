@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/number_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sonar {
+
+std::string shortest(double value) {
+  if (std::isnan(value)) return {};
+  if (value == 0.0) return "0";
+  return fmt::format("{}", value);
+}
+
+std::string degrees_text(double degrees) {
+  if (std::isnan(degrees)) return {};
+  return fmt::format("{:.8f}", degrees);
+}
+
+}  // namespace sonar
