@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geo/frames.h"
+
+namespace sonar {
+
+Point<Enu> to_enu(const Point<Sonar>& p, double heading_rad) {
+  const double c = std::cos(heading_rad);
+  const double s = std::sin(heading_rad);
+  return {p.x * s + p.y * c, p.x * c - p.y * s, -p.z};
+}
+
+Point<Sonar> to_sonar(const Point<Enu>& p, double heading_rad) {
+  const double c = std::cos(heading_rad);
+  const double s = std::sin(heading_rad);
+  return {p.x * s + p.y * c, p.x * c - p.y * s, -p.z};
+}
+
+Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad) {
+  const double cr = std::cos(roll_rad);
+  const double sr = std::sin(roll_rad);
+  const double cp = std::cos(pitch_rad);
+  const double sp = std::sin(pitch_rad);
+  const double y = p.y * cr - p.z * sr;
+  const double z = p.y * sr + p.z * cr;
+  return {p.x * cp + z * sp, y, -p.x * sp + z * cp};
+}
+
+double wrap_360(double deg) {
+  const double wrapped = deg - 360.0 * std::floor(deg / 360.0);
+  return wrapped >= 360.0 ? 0.0 : wrapped;
+}
+
+double wrap_180(double deg) { return wrap_360(deg + 180.0) - 180.0; }
+
+}  // namespace sonar

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geo/sector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "base/check.h"
+
+namespace sonar {
+namespace {
+
+std::vector<AngleBounds> tile(const std::vector<double>& centres, double lone_width) {
+  const std::size_t n = centres.size();
+  std::vector<AngleBounds> bounds(n);
+  if (n == 1) {
+    bounds[0] = {centres[0] - lone_width / 2, centres[0] + lone_width / 2};
+    return bounds;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double below = i > 0 ? centres[i] - centres[i - 1] : centres[1] - centres[0];
+    const double above = i + 1 < n ? centres[i + 1] - centres[i] : centres[n - 1] - centres[n - 2];
+    bounds[i] = {centres[i] - below / 2, centres[i] + above / 2};
+  }
+  return bounds;
+}
+
+double fractional_index(const std::vector<double>& centres, const std::vector<AngleBounds>& bounds, double value) {
+  if (centres.size() == 1) return (value - centres[0]) / (bounds[0].upper - bounds[0].lower);
+  const auto upper = std::upper_bound(centres.begin() + 1, centres.end() - 1, value);
+  const auto i = static_cast<std::size_t>(upper - centres.begin()) - 1;
+  return static_cast<double>(i) + (value - centres[i]) / (centres[i + 1] - centres[i]);
+}
+
+bool strictly_rising(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) { return !(a < b); }) == values.end();
+}
+
+}  // namespace
+
+Sector::Sector(std::vector<double> elevation_rad, std::vector<double> azimuth_rad, RangeAxis range,
+               double lone_elevation_width_rad, double lone_azimuth_width_rad)
+    : elevation_rad_(std::move(elevation_rad)), azimuth_rad_(std::move(azimuth_rad)), range_(range) {
+  SONAR_CHECK(!elevation_rad_.empty() && !azimuth_rad_.empty());
+  SONAR_CHECK(strictly_rising(elevation_rad_) && strictly_rising(azimuth_rad_));
+  SONAR_CHECK(range_.spacing_m > 0.0 && range_.count >= 0);
+  elevation_bounds_ = tile(elevation_rad_, lone_elevation_width_rad);
+  azimuth_bounds_ = tile(azimuth_rad_, lone_azimuth_width_rad);
+  shell_.resize(static_cast<std::size_t>(range_.count));
+  for (int i = 0; i < range_.count; ++i) {
+    const double r = range_.range_m(i);
+    const double r1 = r - range_.spacing_m / 2;
+    const double r2 = r + range_.spacing_m / 2;
+    shell_[static_cast<std::size_t>(i)] = r < range_.spacing_m ? 0.0 : (r2 * r2 * r2 - r1 * r1 * r1) / 3.0;
+  }
+}
+
+Point<Sonar> Sector::direction(double elevation_rad, double azimuth_rad) {
+  const double c = std::cos(elevation_rad);
+  return {c * std::cos(azimuth_rad), c * std::sin(azimuth_rad), -std::sin(elevation_rad)};
+}
+
+Point<Sonar> Sector::centre(int fan, int beam, int sample) const {
+  return direction(elevation_rad(fan), azimuth_rad(beam)) * range_.range_m(sample);
+}
+
+double Sector::solid_angle_sr(int fan, int beam) const {
+  const AngleBounds e = elevation_bounds(fan);
+  const AngleBounds a = azimuth_bounds(beam);
+  return (a.upper - a.lower) * std::abs(std::sin(e.upper) - std::sin(e.lower));
+}
+
+SectorIndex Sector::index_of(const Point<Sonar>& p) const {
+  const double range = norm(p);
+  const double elevation = range > 0.0 ? std::asin(std::clamp(-p.z / range, -1.0, 1.0)) : 0.0;
+  const double middle = (azimuth_rad_.front() + azimuth_rad_.back()) / 2;
+  const double turns = 2.0 * std::numbers::pi;
+  double azimuth = std::atan2(p.y, p.x);
+  azimuth -= turns * std::round((azimuth - middle) / turns);
+  return {fractional_index(elevation_rad_, elevation_bounds_, elevation),
+          fractional_index(azimuth_rad_, azimuth_bounds_, azimuth), range_.sample_at(range)};
+}
+
+bool Sector::contains(const SectorIndex& index) const {
+  return index.fan >= -0.5 && index.fan <= fans() - 0.5 && index.beam >= -0.5 && index.beam <= beams() - 0.5 &&
+         index.sample >= -0.5 && index.sample <= range_.count - 0.5;
+}
+
+}  // namespace sonar
