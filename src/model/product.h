@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "model/beam_grid.h"
+#include "model/mask.h"
+#include "model/navigation.h"
+#include "model/school.h"
+
+namespace sonar {
+
+inline constexpr int kProductVersion = 1;
+
+/// A raw file that a product came from.
+struct InputFile {
+  std::string name;  ///< file name without folder
+  std::uint64_t size = 0;
+  std::string hash;  ///< hexadecimal XXH3-128 of the file's identity (see io/simrad/index.h)
+  friend bool operator==(const InputFile&, const InputFile&) = default;
+};
+
+/// What the grid's samples are, for turning (channel, sample) back into places without the raw files.
+struct GridRecord {
+  BeamGrid grid;
+  std::vector<std::int32_t> sample_count;  ///< [fan]
+  RangeAxis range;                         ///< first_m unclamped, may be negative
+  double sound_speed_mps = 0.0;
+};
+
+/// One mask in the product's table.
+struct SchoolMask {
+  std::int64_t school_id = 0;
+  std::int64_t ping_index = 0;
+  PingMask mask;  ///< rows = fan * beams + beam of the grid; the file stores channels
+};
+
+/// Everything known about one observation; one self-contained netCDF file (INTERFACES section 4).
+struct ObservationProduct {
+  std::string observation;      ///< display name, "obs-0001"
+  std::string program_version;  ///< sonar_explorer_version
+  std::string title;            ///< carries SYNTHETIC where the survey's name does
+  std::string source;           ///< sounder name and version
+  std::string history;          ///< how it was made; no dates
+  std::string recipe_json;
+  std::string recipe_hash;
+  std::string stage_versions;  ///< "median 1, detect 1, ..."
+  std::string input_hash;      ///< key of (input, recipe, stage versions, journal lines): equal key, equal product
+  std::vector<InputFile> input_files;
+  std::vector<PingNavigation> pings;
+  std::optional<GridRecord> grid;  ///< empty where the beams make no product grid
+  std::vector<SchoolRow> schools;
+  std::vector<SchoolPingRow> school_pings;  ///< sorted by school_id, ping_index
+  std::vector<SchoolMask> masks;            ///< sorted by school_id, ping_index
+  Diagnostics diagnostics;
+};
+
+}  // namespace sonar

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "base/time.h"
+
+namespace sonar {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Bits of SchoolPingRow::edge_flags (INTERFACES section 3).
+enum EdgeFlags : std::int32_t {
+  kEdgeFore = 1,
+  kEdgeAft = 2,
+  kEdgeTopFan = 4,
+  kEdgeBottomFan = 8,
+  kEdgeNear = 16,
+  kEdgeFar = 32,
+  kEdgeSeabed = 64,
+  kEdgeSurface = 128,
+  kEdgeFlagged = 256,
+};
+/// touches_edge = (edge_flags & kTouchesEdge) != 0.
+inline constexpr std::int32_t kTouchesEdge = 255;
+/// The centre of a mask cut here is not the school's centre along the ship or along range.
+inline constexpr std::int32_t kCutsCentre = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
+
+/// One school in one ping: a row of school_pings.csv. NaN = unknown.
+struct SchoolPingRow {
+  std::string observation;
+  std::int64_t school_id = 0;
+  std::int64_t ping_index = 0;
+  TimeNs time_utc = 0;
+  double latitude = kUnknown;
+  double longitude = kUnknown;
+  double depth_m = kUnknown;
+  double range_m = kUnknown;
+  double bearing_deg = kUnknown;
+  std::int64_t n_voxels = 0;
+  std::int64_t n_beams = 0;
+  std::int64_t n_fans = 0;
+  double volume_m3 = kUnknown;
+  double length_m = kUnknown;
+  double width_m = kUnknown;
+  double height_m = kUnknown;
+  double axis_deg = kUnknown;
+  double depth_min_m = kUnknown;
+  double depth_max_m = kUnknown;
+  double sv_mean_db = kUnknown;
+  double sv_p95_db = kUnknown;
+  double sv_max_db = kUnknown;
+  double backscatter_m2 = kUnknown;
+  double valid_fraction = kUnknown;
+  double volume_corrected_m3 = kUnknown;
+  double length_corrected_m = kUnknown;
+  double width_corrected_m = kUnknown;
+  double height_corrected_m = kUnknown;
+  double sv_corrected_db = kUnknown;
+  double snr_db = kUnknown;
+  double threshold_db = kUnknown;
+  std::int64_t edge_flags = 0;
+  double edge_fraction = kUnknown;
+  std::int64_t touches_edge = 0;
+  double bottom_depth_m = kUnknown;
+  std::int64_t provisional = 0;
+};
+
+/// One school track: a row of schools.csv.
+struct SchoolRow {
+  std::string observation;
+  std::int64_t school_id = 0;
+  std::string continues;
+  TimeNs first_time_utc = 0;
+  TimeNs last_time_utc = 0;
+  std::int64_t n_pings = 0;
+  std::int64_t n_pings_whole = 0;
+  double latitude = kUnknown;
+  double longitude = kUnknown;
+  double depth_m = kUnknown;
+  double volume_m3 = kUnknown;
+  double volume_corrected_m3 = kUnknown;
+  double length_m = kUnknown;
+  double width_m = kUnknown;
+  double height_m = kUnknown;
+  double sv_mean_db = kUnknown;
+  double sv_corrected_db = kUnknown;
+  double backscatter_m2 = kUnknown;
+  double speed_mps = kUnknown;
+  double speed_se_mps = kUnknown;
+  double course_deg = kUnknown;
+  double vertical_speed_mps = kUnknown;
+  double touches_edge_fraction = kUnknown;
+  std::string origin = "automatic";
+  std::string status = "unreviewed";
+  std::string operator_name;  ///< column `operator`
+  TimeNs decided_utc = 0;     ///< 0 = not decided
+  std::string species;
+  std::string comment;
+};
+
+/// Time column: ISO 8601 in text, empty for 0.
+struct TimeColumn {
+  TimeNs& value;
+};
+/// Latitude or longitude column: eight decimals in text.
+struct DegreesColumn {
+  double& value;
+};
+
+/// Visits the columns of a row in their fixed order: v(name, unit, member) with member std::string&, std::int64_t&,
+/// double&, TimeColumn or DegreesColumn. CSV, netCDF and map layers are visitors of this one list.
+template <class Visitor>
+void columns(Visitor& v, SchoolPingRow& r) {
+  v("observation", "", r.observation);
+  v("school_id", "", r.school_id);
+  v("ping_index", "", r.ping_index);
+  v("time_utc", "", TimeColumn{r.time_utc});
+  v("latitude", "degrees_north", DegreesColumn{r.latitude});
+  v("longitude", "degrees_east", DegreesColumn{r.longitude});
+  v("depth_m", "m", r.depth_m);
+  v("range_m", "m", r.range_m);
+  v("bearing_deg", "degrees", r.bearing_deg);
+  v("n_voxels", "1", r.n_voxels);
+  v("n_beams", "1", r.n_beams);
+  v("n_fans", "1", r.n_fans);
+  v("volume_m3", "m3", r.volume_m3);
+  v("length_m", "m", r.length_m);
+  v("width_m", "m", r.width_m);
+  v("height_m", "m", r.height_m);
+  v("axis_deg", "degrees", r.axis_deg);
+  v("depth_min_m", "m", r.depth_min_m);
+  v("depth_max_m", "m", r.depth_max_m);
+  v("sv_mean_db", "dB re 1 m-1", r.sv_mean_db);
+  v("sv_p95_db", "dB re 1 m-1", r.sv_p95_db);
+  v("sv_max_db", "dB re 1 m-1", r.sv_max_db);
+  v("backscatter_m2", "m2", r.backscatter_m2);
+  v("valid_fraction", "1", r.valid_fraction);
+  v("volume_corrected_m3", "m3", r.volume_corrected_m3);
+  v("length_corrected_m", "m", r.length_corrected_m);
+  v("width_corrected_m", "m", r.width_corrected_m);
+  v("height_corrected_m", "m", r.height_corrected_m);
+  v("sv_corrected_db", "dB re 1 m-1", r.sv_corrected_db);
+  v("snr_db", "dB", r.snr_db);
+  v("threshold_db", "dB re 1 m-1", r.threshold_db);
+  v("edge_flags", "1", r.edge_flags);
+  v("edge_fraction", "1", r.edge_fraction);
+  v("touches_edge", "1", r.touches_edge);
+  v("bottom_depth_m", "m", r.bottom_depth_m);
+  v("provisional", "1", r.provisional);
+}
+
+template <class Visitor>
+void columns(Visitor& v, SchoolRow& r) {
+  v("observation", "", r.observation);
+  v("school_id", "", r.school_id);
+  v("continues", "", r.continues);
+  v("first_time_utc", "", TimeColumn{r.first_time_utc});
+  v("last_time_utc", "", TimeColumn{r.last_time_utc});
+  v("n_pings", "1", r.n_pings);
+  v("n_pings_whole", "1", r.n_pings_whole);
+  v("latitude", "degrees_north", DegreesColumn{r.latitude});
+  v("longitude", "degrees_east", DegreesColumn{r.longitude});
+  v("depth_m", "m", r.depth_m);
+  v("volume_m3", "m3", r.volume_m3);
+  v("volume_corrected_m3", "m3", r.volume_corrected_m3);
+  v("length_m", "m", r.length_m);
+  v("width_m", "m", r.width_m);
+  v("height_m", "m", r.height_m);
+  v("sv_mean_db", "dB re 1 m-1", r.sv_mean_db);
+  v("sv_corrected_db", "dB re 1 m-1", r.sv_corrected_db);
+  v("backscatter_m2", "m2", r.backscatter_m2);
+  v("speed_mps", "m s-1", r.speed_mps);
+  v("speed_se_mps", "m s-1", r.speed_se_mps);
+  v("course_deg", "degrees", r.course_deg);
+  v("vertical_speed_mps", "m s-1", r.vertical_speed_mps);
+  v("touches_edge_fraction", "1", r.touches_edge_fraction);
+  v("origin", "", r.origin);
+  v("status", "", r.status);
+  v("operator", "", r.operator_name);
+  v("decided_utc", "", TimeColumn{r.decided_utc});
+  v("species", "", r.species);
+  v("comment", "", r.comment);
+}
+
+}  // namespace sonar
