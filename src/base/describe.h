@@ -25,10 +25,10 @@ namespace sonar {
 // JSON, command-line flags, panels, hashes and docs are visitors of it. Fields are bool, int, double or std::string.
 
 struct FieldInfo {
-  std::string_view unit;
+  std::string_view unit = {};
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::string_view text;
+  std::string_view text = {};
 };
 
 using ChoiceNames = std::span<const std::string_view>;

@@ -13,7 +13,7 @@ namespace {
 
 const geod_geodesic& wgs84() {
   static const geod_geodesic ellipsoid = [] {
-    geod_geodesic g;
+    geod_geodesic g{};
     geod_init(&g, 6378137.0, 1.0 / 298.257223563);
     return g;
   }();

@@ -4,12 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/time.h"
 
 namespace sonar {
+
+/// What a reduced raw file says of a beam of which it holds a part only. Stands behind the samples of its RAW0.
+struct ReducedRow {
+  float background_db = 0.0F;         ///< noise that was subtracted in the whole ping, dB re 1 W; NaN = none
+  std::int32_t seabed_sample = 0;     ///< first sample that was seabed; the recorded count or more = none
+  std::int32_t recorded_samples = 0;  ///< of the whole beam, offset included
+  friend bool operator==(const ReducedRow&, const ReducedRow&) = default;
+};
 
 /// One channel of one ping: RAW0's header and a view of its power counts.
 struct ChannelPing {
@@ -30,6 +39,7 @@ struct ChannelPing {
   int mode = 0;
   int offset = 0;                             ///< index of the first stored sample
   std::span<const std::int16_t> power_count;  ///< [stored sample], 10 log10(2)/256 dB re 1 W; little-endian as stored
+  std::optional<ReducedRow> reduced;          ///< only in reduced files
 };
 
 /// A whole ping, with the bytes that its channels' spans point into. Values never change once published.

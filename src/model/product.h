@@ -52,6 +52,9 @@ struct ObservationProduct {
   std::string input_hash;      ///< key of (input, recipe, stage versions, journal lines): equal key, equal product
   std::vector<InputFile> input_files;
   std::vector<PingNavigation> pings;
+  /// [ping][row of the grid], dB re 1 W: background level that was subtracted; NaN = none. Empty, or one entry a ping
+  /// (itself empty where the ping has none). With it every number can be recomputed from the raw files.
+  std::vector<std::vector<float>> background_db;
   std::optional<GridRecord> grid;  ///< empty where the beams make no product grid
   std::vector<SchoolRow> schools;
   std::vector<SchoolPingRow> school_pings;  ///< sorted by school_id, ping_index
