@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signal/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/check.h"
+#include "base/units.h"
+#include "signal/flag_kernels.h"
+#include "signal/row_kernels.h"
+
+namespace sonar {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+using Row = std::span<const std::int16_t>;
+
+/// in  row with kNoData where samples are flagged; it lies below all data, so ranks are shifted by its number
+double low_quantile_db(Row row, const BackgroundParams& params) {
+  std::size_t recorded = row.size();
+  while (recorded > 0 && row[recorded - 1] == kNoData) --recorded;
+  const auto far = static_cast<std::size_t>(std::ceil(params.far_fraction * static_cast<double>(recorded)));
+  const Row used = row.first(recorded).last(std::min(far, recorded));
+  const std::size_t data = count_data(used);
+  if (data == 0 || data < static_cast<std::size_t>(params.minimum_samples)) return kUnknown;
+  const auto rank = std::min(data - 1, static_cast<std::size_t>(params.quantile * static_cast<double>(data)));
+  const std::int16_t value = select_rank(used, used.size() - data + rank);
+  // The sample of this rank lies on average at this quantile of the distribution.
+  const double p = static_cast<double>(rank + 1) / static_cast<double>(data + 1);
+  return db_from_counts(value) - 10.0 * std::log10(-std::log1p(-p));
+}
+
+double weakest_block_db(Row row, const BackgroundParams& params) {
+  if (count_data(row) < static_cast<std::size_t>(params.minimum_samples)) return kUnknown;
+  const auto block = static_cast<std::size_t>(params.block_samples);
+  double weakest = std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first < row.size(); first += block) {
+    double sum = 0.0;
+    std::size_t data = 0;
+    for (const std::int16_t count : row.subspan(first, std::min(block, row.size() - first))) {
+      if (count == kNoData) continue;
+      sum += linear_from_count(count);
+      ++data;
+    }
+    if (2 * data > block) weakest = std::min(weakest, sum / static_cast<double>(data));
+  }
+  if (!std::isfinite(weakest) || weakest <= 0.0) return kUnknown;
+  return std::min(db_from_linear(weakest), params.maximum_db);
+}
+
+/// The count at or just above a level; outside the range of counts its end.
+std::int16_t count_from_db(double db) {
+  return static_cast<std::int16_t>(std::lround(std::clamp<double>(counts_from_db(db), kMinCount, kMaxCount)));
+}
+
+}  // namespace
+
+std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
+                                        const BackgroundParams& params) {
+  SONAR_CHECK(power.shape() == flags.shape());
+  const auto rows = static_cast<int>(power.shape().rows());
+  std::vector<double> level_db(static_cast<std::size_t>(rows));
+  std::vector<std::int16_t> sound(static_cast<std::size_t>(power.shape().samples));
+  for (int row = 0; row < rows; ++row) {
+    copy_unflagged(power.row(row), flags.row(row), kNotFiltered, 0, sound);
+    level_db[static_cast<std::size_t>(row)] = params.method == BackgroundMethod::low_quantile
+                                                  ? low_quantile_db(sound, params)
+                                                  : weakest_block_db(sound, params);
+  }
+  return level_db;
+}
+
+std::vector<double> combine_background(std::span<const std::vector<double>> pings) {
+  if (pings.empty()) return {};
+  std::vector<double> combined(pings.front().size(), kUnknown);
+  std::vector<double> known;
+  for (std::size_t row = 0; row < combined.size(); ++row) {
+    known.clear();
+    for (const auto& ping : pings) {
+      SONAR_CHECK(ping.size() == combined.size());
+      if (!std::isnan(ping[row])) known.push_back(ping[row]);
+    }
+    if (known.empty()) continue;
+    std::sort(known.begin(), known.end());
+    const double low = linear_from_db(known[(known.size() - 1) / 2]);
+    const double high = linear_from_db(known[known.size() / 2]);
+    combined[row] = known.size() % 2 == 1 ? known[known.size() / 2] : db_from_linear(0.5 * (low + high));
+  }
+  return combined;
+}
+
+std::vector<double> noise_sv_db(double level_db, std::span<const std::int16_t> table) {
+  std::vector<double> sv_db(table.size(), kUnknown);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table[i] != kNoData) sv_db[i] = level_db + db_from_counts(table[i]);
+  }
+  return sv_db;
+}
+
+std::vector<std::int16_t> noise_sv_counts(double level_db, double margin_db, std::span<const std::int16_t> table) {
+  std::vector<std::int16_t> limit(table.size(), kNoData);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table[i] == kNoData) continue;
+    limit[i] = std::isnan(level_db) ? kMinCount : count_from_db(level_db + margin_db + db_from_counts(table[i]));
+  }
+  return limit;
+}
+
+void flag_low_snr(View3<const std::int16_t> power, std::span<const double> level_db, double margin_db,
+                  View3<SampleFlags> flags) {
+  SONAR_CHECK(power.shape() == flags.shape() && level_db.size() == power.shape().rows());
+  for (std::size_t row = 0; row < level_db.size(); ++row) {
+    if (std::isnan(level_db[row])) continue;
+    const int index = static_cast<int>(row);
+    flag_below(power.row(index), count_from_db(level_db[row] + margin_db), SampleFlags::low_snr, flags.row(index));
+  }
+}
+
+void flag_low_snr(std::span<const std::int16_t> sv, std::span<const std::int16_t> limit, std::span<SampleFlags> flags) {
+  flag_below(sv, limit, SampleFlags::low_snr, flags);
+}
+
+}  // namespace sonar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+
+namespace sonar {
+
+enum class BackgroundMethod { low_quantile, de_robertis };
+inline constexpr std::array<std::string_view, 2> kBackgroundMethodNames = {"low_quantile", "de_robertis"};
+
+struct BackgroundParams {
+  BackgroundMethod method = BackgroundMethod::low_quantile;
+  double quantile = 0.2;
+  double far_fraction = 0.75;
+  int minimum_samples = 64;
+  int block_samples = 26;
+  double maximum_db = 0.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, BackgroundParams& p) {
+  v.choice("method", p.method, kBackgroundMethodNames,
+           "low_quantile: from the weak samples of the far part of a beam; de_robertis: weakest block of range");
+  v.field("quantile", p.quantile, {.unit = "", .min = 0.01, .max = 0.9, .text = "low_quantile: which quantile"});
+  v.field("far_fraction", p.far_fraction,
+          {.unit = "", .min = 0.05, .max = 1, .text = "share of the beam, counted from its far end, that is used"});
+  v.field("minimum_samples", p.minimum_samples,
+          {.unit = "samples", .min = 1, .max = 100000, .text = "fewer sound samples leave the background unknown"});
+  v.field("block_samples", p.block_samples,
+          {.unit = "samples", .min = 1, .max = 10000, .text = "de_robertis: length of a block (26 = 10 m)"});
+  v.field("maximum_db", p.maximum_db,
+          {.unit = "dB re 1 W", .min = -300, .max = 100, .text = "de_robertis: no background above this"});
+}
+
+/// Mean background noise power of each beam from one ping, without the flagged samples.
+/// low_quantile: noise power is exponentially distributed, so its mean is q_p / ln(1 / (1 - p)); robust against
+/// schools. in      power [fan][beam][sample], counts re 1 W; flags, same shape out     [fan * beams + beam], dB re 1
+/// W; NaN where too few samples are sound source  Holmin et al. 2016 (low quantile); De Robertis & Higginbottom 2007
+[[nodiscard]] std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
+                                                      const BackgroundParams& params);
+
+/// Median over pings of each row's background; NaN are left out, a row without any stays NaN.
+/// in      one estimate per ping, all of one length
+[[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings);
+
+/// Sv of the background at each sample: its power plus what the sonar equation adds there.
+/// in      level_db of the row, table = sv_table() of the row
+/// out     [sample], dB re 1 m^-1; NaN where the level is NaN or the table holds kNoData
+[[nodiscard]] std::vector<double> noise_sv_db(double level_db, std::span<const std::int16_t> table);
+
+/// The same plus a margin, in Sv counts, for thresholds; an unknown level gives kMinCount, "no data" stays so.
+[[nodiscard]] std::vector<std::int16_t> noise_sv_counts(double level_db, double margin_db,
+                                                        std::span<const std::int16_t> table);
+
+/// Flags low_snr where power < background + margin; rows of unknown background are left alone.
+/// in      power as recorded (power minus background power equals Sv minus background Sv); level_db [row]
+void flag_low_snr(View3<const std::int16_t> power, std::span<const double> level_db, double margin_db,
+                  View3<SampleFlags> flags);
+
+/// Flags low_snr in one row of Sv counts below a limit for each sample, as made by noise_sv_counts().
+void flag_low_snr(std::span<const std::int16_t> sv, std::span<const std::int16_t> limit, std::span<SampleFlags> flags);
+
+}  // namespace sonar

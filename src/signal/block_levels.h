@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+#include "signal/flag_params.h"
+
+namespace sonar {
+
+// Mean count of each beam over blocks of range: what the hot beams and the walls are judged by. A mean of decibels, which
+// a few strong samples hardly move; it only finds faults and reaches no result. Internal to this room.
+class BlockLevels {
+ public:
+  static constexpr int kUnknown = std::numeric_limits<int>::min();
+
+  /// Blocks of which fewer than half the samples are sound (kNotFiltered) are unknown.
+  BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, int block_samples);
+
+  [[nodiscard]] int blocks() const { return blocks_; }
+  [[nodiscard]] int block_samples() const { return block_samples_; }
+  /// Counts, or kUnknown.
+  [[nodiscard]] int level(int row, int block) const {
+    return levels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(blocks_) + static_cast<std::size_t>(block)];
+  }
+  /// The beam's own background: the lower quartile of its blocks; kUnknown where it has none.
+  [[nodiscard]] int background(int row) const { return background_[static_cast<std::size_t>(row)]; }
+
+ private:
+  int block_samples_ = 0;
+  int blocks_ = 0;
+  std::vector<int> levels_;      ///< [row][block]
+  std::vector<int> background_;  ///< [row]
+};
+
+/// flag_hot_beams() and flag_walls() with levels that are worked out once for both.
+void flag_hot_beams(View3<const std::int16_t> power, const BlockLevels& levels, const HotBeamParams& params,
+                    View3<SampleFlags> flags);
+void flag_walls(View3<const std::int16_t> power, const BlockLevels& levels, const WallParams& params,
+                View3<SampleFlags> flags);
+
+}  // namespace sonar

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sonar {
+
+/// What turns one channel's received power into volume backscattering strength; dB values as stored in the files.
+struct ChannelCalibration {
+  double frequency_hz = 0.0;
+  double absorption_db_per_m = 0.0;  ///< one way
+  double transmit_power_w = 0.0;
+  double pulse_length_s = 0.0;  ///< nominal
+  double sound_speed_mps = 0.0;
+  double gain_db = 0.0;  ///< on the axis, counted twice
+  double sa_correction_db = 0.0;
+  double equivalent_beam_angle_db = 0.0;  ///< 10 log10 of psi in sr
+  double extra_factor_db = 0.0;           ///< added to Sv: a user's own calibration
+};
+
+/// True where the sonar equation has a finite answer: all members finite, frequency, power, pulse and speed positive.
+[[nodiscard]] bool is_sound(const ChannelCalibration& calibration);
+
+/// The part of the sonar equation that does not depend on range, dB:
+/// -10 log10(Pt lambda^2 c tau psi / (32 pi^2)) - 2 G - 2 Sa + extra factor.
+[[nodiscard]] double sv_constant_db(const ChannelCalibration& calibration);
+
+/// Range-dependent part of the sonar equation ("time varied gain"), dB: 20 log10 r + 2 alpha r at each sample.
+/// in      first_range_m: range of sample 0, may be negative; ranges below one spacing count as one spacing
+/// out     [sample]
+[[nodiscard]] std::vector<double> tvg_db(double absorption_db_per_m, double first_range_m, double spacing_m, int count);
+
+/// What is added to power counts (10 log10(2)/256 dB re 1 W) to get Sv counts (same step, dB re 1 m^-1).
+/// Sv = P + 20 log10 r + 2 alpha r - 10 log10(Pt lambda^2 c tau psi / (32 pi^2)) - 2 G - 2 Sa + extra factor
+/// out     [sample], saturating; all kNoData where the calibration is not sound or spacing_m is not positive
+/// source  Simrad; ICES SONAR-netCDF4 convention, type 3
+[[nodiscard]] std::vector<std::int16_t> sv_table(const ChannelCalibration& calibration, double first_range_m,
+                                                 double spacing_m, int count);
+
+/// Adds a table to a row of counts in place, saturating to kMinCount..kMaxCount; "no data" on either side stays so.
+/// in      counts, table [sample]; samples beyond the table's end become kNoData
+void apply_sv_table(std::span<std::int16_t> counts, std::span<const std::int16_t> table);
+
+}  // namespace sonar

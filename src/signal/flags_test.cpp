@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signal/flags.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/describe.h"
+#include "base/units.h"
+#include "signal/test_data.h"
+
+namespace sonar {
+namespace {
+
+constexpr Shape3 kMs70{20, 25, 1320};
+constexpr double kSpacing_m = 0.3776;
+
+/// Elevation -45..0 in 20 fans and azimuth -30..30 in 25 beams, as on an MS70.
+PingGeometry ms70_geometry() {
+  PingGeometry geometry{.first_range_m = -0.755,
+                        .spacing_m = kSpacing_m,
+                        .transducer_depth_m = 7.0,
+                        .elevation_deg = {},
+                        .vertical_width_deg = {}};
+  for (int fan = 0; fan < 20; ++fan) geometry.elevation_deg.push_back(-45.0 + fan * 45.0 / 19.0);
+  geometry.vertical_width_deg.assign(500, 7.0);
+  return geometry;
+}
+
+struct Ellipsoid {
+  double range_m, azimuth_deg, elevation_deg;
+  double across_m, along_m, half_height_m;  ///< semi-axes
+};
+
+/// The body's echo in each voxel, 0..1: a beam of 7 degrees in height (12 dB (a / width)^2, two-way), and its overlap by
+/// -13 dB into the beams beside.
+Array3<double> echo_of(const Ellipsoid& e, Shape3 shape) {
+  const auto place = [](double r, double az, double el) {
+    return std::array{r * std::cos(el) * std::sin(az), r * std::cos(el) * std::cos(az), r * std::sin(el)};
+  };
+  const auto centre = place(e.range_m, rad_from_deg(e.azimuth_deg), rad_from_deg(e.elevation_deg));
+  const double reach_m = std::max({e.across_m, e.along_m, e.half_height_m});
+  Array3<double> echo(shape);
+  constexpr int kFine = 4;
+  for (int b = 0; b < shape.beams; ++b) {
+    for (int s = std::max(static_cast<int>((e.range_m - reach_m) / kSpacing_m), 0); s < shape.samples; ++s) {
+      if (s * kSpacing_m > e.range_m + reach_m) break;
+      for (int fine = -3 * kFine; fine < (shape.fans + 3) * kFine; ++fine) {
+        const double fan = static_cast<double>(fine) / kFine;
+        const auto p =
+            place(s * kSpacing_m, rad_from_deg(-30.0 + b * 60.0 / 24.0), rad_from_deg(-45.0 + fan * 45.0 / 19.0));
+        const double d = std::pow((p[0] - centre[0]) / e.across_m, 2) + std::pow((p[1] - centre[1]) / e.along_m, 2) +
+                         std::pow((p[2] - centre[2]) / e.half_height_m, 2);
+        if (d >= 1.0) continue;
+        for (int f = std::max(fine / kFine - 3, 0); f <= std::min(fine / kFine + 3, shape.fans - 1); ++f) {
+          const double off = (f - fan) * 45.0 / 19.0 / 7.0;
+          const double here = std::pow(10.0, -2.4 * off * off);
+          echo(f, b, s) = std::max(echo(f, b, s), here);
+          if (b > 0) echo(f, b - 1, s) = std::max(echo(f, b - 1, s), 0.05 * here);
+          if (b + 1 < shape.beams) echo(f, b + 1, s) = std::max(echo(f, b + 1, s), 0.05 * here);
+        }
+      }
+    }
+  }
+  return echo;
+}
+
+void add_echo(Array3<std::int16_t>& ping, const Array3<double>& echo, double power_db, std::uint64_t seed) {
+  TestRandom random(seed);
+  for (std::size_t i = 0; i < echo.all().size(); ++i) {
+    if (echo.all()[i] == 0.0) continue;
+    auto& count = ping.all()[i];
+    count = counts_of_power(linear_from_db(db_from_counts(count)) +
+                            linear_from_db(power_db) * echo.all()[i] * random.exponential());
+  }
+}
+
+/// Adds a speckled body of a mean power (dB re 1 W) at its heart.
+void add_school(Array3<std::int16_t>& ping, const Ellipsoid& e, double power_db, std::uint64_t seed) {
+  add_echo(ping, echo_of(e, ping.shape()), power_db, seed);
+}
+
+void add_power(std::int16_t& count, double power_db, TestRandom& random) {
+  count = counts_of_power(linear_from_db(db_from_counts(count)) + linear_from_db(power_db) * random.exponential());
+}
+
+/// Beams differ by up to 10 dB.
+void tilt_beams(Array3<std::int16_t>& ping) {
+  const Shape3 shape = ping.shape();
+  for (int f = 0; f < shape.fans; ++f) {
+    for (int b = 0; b < shape.beams; ++b) {
+      const auto shift = static_cast<std::int16_t>(counts_from_db(10.0 * ((f * 7 + b * 13) % 17) / 16.0));
+      for (auto& v : ping.row(f, b)) v = static_cast<std::int16_t>(v + shift);
+    }
+  }
+}
+
+std::size_t faults(const Array3<std::int16_t>& ping, SampleFlags which) {
+  Array3<SampleFlags> flags(ping.shape());
+  flag_ping(ping.view(), {}, {}, {}, flags.view());
+  return count_flag(flags, which);
+}
+
+// By hand: sample i lies at -0.755 + 0.3776 i; 15 m is reached at i = 41.72.
+TEST(flags, near_field_ends_at_its_range) {
+  Array3<SampleFlags> flags({2, 3, 100});
+  flag_near_field(ms70_geometry(), {}, flags.view());
+  EXPECT_EQ(count_flag(flags, SampleFlags::near_field), 6U * 42U);
+  EXPECT_TRUE(any(flags(1, 2, 41)));
+  EXPECT_FALSE(any(flags(1, 2, 42)));
+}
+
+TEST(flags, surface_mode_fan_takes_the_top_fan_wherever_it_stands) {
+  auto geometry = ms70_geometry();
+  std::swap(geometry.elevation_deg[3], geometry.elevation_deg[19]);
+  Array3<SampleFlags> flags(kMs70);
+  flag_surface(geometry, {.enabled = true, .mode = SurfaceMode::fan, .fans = 1, .margin_m = 2.0}, flags.view());
+  EXPECT_EQ(count_flag(flags, SampleFlags::surface), 25U * 1320U);
+  EXPECT_TRUE(any(flags(3, 0, 0)));
+}
+
+// By hand: the top fan's upper edge rises 3.5 degrees; 7 m deep less 2 m: 5 / sin(3.5 deg) = 81.90 m, sample 218.9.
+// The next fan's edge rises 1.132 deg: 5 / sin = 253.1 m, sample 672.4; the third looks down.
+TEST(flags, surface_mode_edge_keeps_upper_fans_near_the_ship) {
+  Array3<SampleFlags> flags(kMs70);
+  flag_surface(ms70_geometry(), {}, flags.view());
+  EXPECT_FALSE(any(flags(19, 7, 218)));
+  EXPECT_TRUE(any(flags(19, 7, 219)));
+  EXPECT_FALSE(any(flags(18, 7, 672)));
+  EXPECT_TRUE(any(flags(18, 7, 673)));
+  EXPECT_EQ(count_flag(flags, SampleFlags::surface), 25U * (1320U - 219U) + 25U * (1320U - 673U));
+}
+
+TEST(flags, unknown_geometry_leaves_the_surface_alone) {
+  Array3<SampleFlags> flags({1, 1, 10});
+  flag_surface({}, {}, flags.view());
+  flag_surface({.first_range_m = 0,
+                .spacing_m = 1,
+                .transducer_depth_m = 5,
+                .elevation_deg = {std::numeric_limits<double>::quiet_NaN()},
+                .vertical_width_deg = {}},
+               {}, flags.view());
+  flag_near_field({}, {}, flags.view());
+  EXPECT_EQ(count_flag(flags, kNotFiltered), 0U);
+}
+
+TEST(flags, lost_samples_constant_and_repeated_stretches) {
+  auto ping = noise_ping({3, 4, 500}, -120, 1);
+  for (int s = 100; s < 200; ++s) ping(1, 2, s) = -9000;
+  for (int s = 300; s < 400; ++s) ping(2, 2, s) = ping(2, 1, s);
+  for (int s = 250; s < 290; ++s) ping(0, 3, s) = -9000;  // too short
+  for (int s = 480; s < 500; ++s) ping(0, 0, s) = kNoData;
+  Array3<SampleFlags> flags(ping.shape());
+  flag_lost(ping.view(), {}, flags.view());
+  EXPECT_NEAR(static_cast<double>(count_flag(flags, SampleFlags::lost)), 220.0, 3.0);
+  EXPECT_TRUE(any(flags(1, 2, 150)) && any(flags(2, 2, 350)) && any(flags(0, 0, 499)));
+}
+
+TEST(flags, noise_of_unequal_beams_holds_no_fault) {
+  for (const double level_db : {-160.0, -120.0, -20.0}) {
+    auto ping = noise_ping(kMs70, level_db, 2);
+    tilt_beams(ping);
+    EXPECT_EQ(faults(ping, SampleFlags::hot_beam | SampleFlags::wall | SampleFlags::lost), 0U);
+    EXPECT_LE(faults(ping, SampleFlags::impulse), 10U);
+  }
+}
+
+TEST(flags, a_permanently_noisy_beam_is_no_hot_beam) {
+  auto ping = noise_ping(kMs70, -130, 3);
+  const auto louder = static_cast<std::int16_t>(counts_from_db(14.0));
+  for (auto& v : ping.row(9, 9)) v = static_cast<std::int16_t>(v + louder);
+  EXPECT_EQ(faults(ping, SampleFlags::hot_beam), 0U);
+}
+
+TEST(flags, hot_stretches_are_found_with_their_ends) {
+  auto ping = noise_ping(kMs70, -125, 4);
+  tilt_beams(ping);
+  add_school(ping, {200, 0, -20, 40, 25, 15}, -100, 5);
+  TestRandom random(6);
+  struct Hot {
+    int fan, beam, begin, end;
+  };
+  // One in open water, one through the school, one at the end of the data, one at a corner of the grid, a whole beam.
+  for (const Hot& hot :
+       {Hot{3, 4, 300, 500}, {10, 12, 400, 700}, {15, 20, 1100, 1320}, {0, 0, 500, 700}, {5, 9, 0, 1320}}) {
+    for (int s = hot.begin; s < hot.end; ++s) add_power(ping(hot.fan, hot.beam, s), -70, random);
+    Array3<SampleFlags> flags(kMs70);
+    flag_hot_beams(ping.view(), {}, flags.view());
+    int missed = 0;
+    int beyond = 0;
+    for (int s = 0; s < kMs70.samples; ++s) {
+      const bool is_hot = s >= hot.begin && s < hot.end;
+      const bool flagged = any(flags(hot.fan, hot.beam, s) & SampleFlags::hot_beam);
+      missed += is_hot && !flagged ? 1 : 0;
+      beyond += !is_hot && flagged ? 1 : 0;
+    }
+    EXPECT_LE(missed, 2) << hot.fan;
+    EXPECT_LE(beyond, 6) << hot.fan;
+  }
+  Array3<SampleFlags> flags(kMs70);
+  flag_hot_beams(ping.view(), {}, flags.view());
+  EXPECT_LE(count_flag(flags, SampleFlags::hot_beam), 200U + 300U + 220U + 200U + 1320U + 30U);
+}
+
+TEST(flags, walls_are_found_in_all_fans_and_in_one) {
+  for (const int thickness : {2, 3, 6, 12}) {
+    auto ping = noise_ping(kMs70, -125, 7);
+    tilt_beams(ping);
+    add_school(ping, {200, 0, -20, 60, 30, 25}, -95, 8);
+    TestRandom random(9);
+    // Through the school's middle (sample 530), in open water, and one in fan 4 alone.
+    for (int f = 0; f < kMs70.fans; ++f) {
+      for (int b = 0; b < kMs70.beams; ++b) {
+        for (int n = 0; n < thickness; ++n) {
+          add_power(ping(f, b, 520 + n), -75, random);
+          add_power(ping(f, b, 900 + n), -90, random);
+          if (f == 4) add_power(ping(f, b, 1100 + n), -90, random);
+        }
+      }
+    }
+    Array3<SampleFlags> flags(kMs70);
+    flag_walls(ping.view(), {}, flags.view());
+    for (int f = 0; f < kMs70.fans; ++f) {
+      for (int n = 0; n < thickness; ++n) {
+        EXPECT_TRUE(any(flags(f, 12, 520 + n))) << f << ' ' << thickness;
+        EXPECT_TRUE(any(flags(f, 3, 900 + n))) << f << ' ' << thickness;
+      }
+    }
+    EXPECT_TRUE(any(flags(4, 20, 1100)));
+    const auto wall = static_cast<std::size_t>(thickness);
+    EXPECT_LE(count_flag(flags, SampleFlags::wall), 2 * 500 * (wall + 3) + 25 * (wall + 3));
+  }
+}
+
+// No school is a wall or a hot beam, however big or near: spheres, flat and long ones, some wider than the sector.
+TEST(flags, schools_are_no_faults) {
+  const Ellipsoid bodies[] = {{30, 0, -20, 25, 5, 15},   {40, 0, -22, 60, 4, 30},   {60, 0, -25, 100, 20, 60},
+                              {25, 0, -20, 100, 2, 100}, {150, 10, -10, 12, 80, 6}, {400, -20, -5, 8, 60, 8},
+                              {80, 0, -20, 200, 3, 5},   {300, 0, -3, 150, 40, 20}, {100, 0, -40, 60, 60, 3},
+                              {50, 5, -15, 6, 40, 6}};
+  std::uint64_t seed = 10;
+  for (const Ellipsoid& body : bodies) {
+    const auto echo = echo_of(body, kMs70);
+    for (const double level_db : {-108.0, -65.0}) {
+      auto ping = noise_ping(kMs70, -125, ++seed);
+      tilt_beams(ping);
+      const auto before = ping;
+      add_echo(ping, echo, level_db, ++seed);
+      Array3<SampleFlags> flags(kMs70);
+      flag_ping(ping.view(), {}, {}, {}, flags.view());
+      std::size_t members = 0;
+      for (std::size_t i = 0; i < ping.all().size(); ++i) members += ping.all()[i] != before.all()[i] ? 1U : 0U;
+      const std::size_t lost = count_flag(flags, kFault);
+      EXPECT_LE(lost, 12U + members / 1000)
+          << body.range_m << " m, " << level_db << " dB, of " << members << ", hot "
+          << count_flag(flags, SampleFlags::hot_beam) << ", wall " << count_flag(flags, SampleFlags::wall);
+    }
+  }
+}
+
+// A flat seabed meets every beam of a fan at one range, D / sin(tilt), smeared by a 7 degree beam.
+TEST(flags, the_seabed_is_no_wall) {
+  for (const double depth_m : {25.0, 50.0, 100.0, 200.0}) {
+    auto ping = noise_ping(kMs70, -125, 40);
+    TestRandom random(41);
+    for (int f = 0; f < kMs70.fans; ++f) {
+      const double tilt_deg = 45.0 - f * 45.0 / 19.0;
+      for (int s = 1; s < kMs70.samples; ++s) {
+        const double range_m = s * kSpacing_m;
+        if (depth_m >= range_m) continue;
+        const double angle_deg = deg_from_rad(std::asin(depth_m / range_m)) - tilt_deg;
+        const double echo_db = -60.0 - 30.0 * std::log10(range_m / 100.0) - 2 * 12.0 * std::pow(angle_deg / 7.0, 2);
+        if (echo_db < -140.0) continue;
+        for (int b = 0; b < kMs70.beams; ++b) add_power(ping(f, b, s), echo_db, random);
+      }
+    }
+    EXPECT_EQ(faults(ping, SampleFlags::wall), 0U) << depth_m;
+    EXPECT_EQ(faults(ping, SampleFlags::hot_beam), 0U) << depth_m;
+  }
+}
+
+TEST(flags, impulses_are_found_and_school_fronts_are_not) {
+  auto ping = noise_ping(kMs70, -125, 50);
+  add_school(ping, {200, 0, -20, 40, 25, 15}, -95, 51);
+  TestRandom random(52);
+  Array3<std::uint8_t> hit(kMs70);
+  const auto clean = ping;
+  std::size_t hits = 0;
+  for (int n = 0; n < 600; ++n) {
+    const int f = random.below(20);
+    const int b = random.below(25);
+    const int s = 10 + random.below(1300);
+    const int width = 1 + random.below(3);
+    for (int i = 0; i < width; ++i) {
+      if (hit(f, b, s + i) == 0) ++hits;
+      ping(f, b, s + i) = counts_of_power(1e-5);
+      hit(f, b, s + i) = 1;
+    }
+  }
+  for (const bool with_neighbours : {false, true}) {
+    Array3<SampleFlags> flags(kMs70);
+    const auto before = noise_ping(kMs70, -125, 53);
+    NeighbourPings neighbours;
+    if (with_neighbours) neighbours = {before.view(), before.view()};
+    flag_impulses(ping.view(), neighbours, {}, flags.view());
+    std::size_t found = 0;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < flags.all().size(); ++i) {
+      const bool flagged = any(flags.all()[i]);
+      found += flagged && hit.all()[i] != 0 ? 1U : 0U;
+      wrong += flagged && hit.all()[i] == 0 ? 1U : 0U;
+    }
+    EXPECT_GT(static_cast<double>(found), 0.9 * static_cast<double>(hits));
+    EXPECT_LE(wrong, 8U);
+  }
+}
+
+TEST(flags, a_peak_that_the_next_ping_shows_too_is_no_impulse) {
+  auto ping = noise_ping({5, 5, 200}, -125, 60);
+  ping(2, 2, 100) = counts_of_power(1e-8);
+  auto next = noise_ping({5, 5, 200}, -125, 61);
+  Array3<SampleFlags> alone(ping.shape());
+  flag_impulses(ping.view(), {}, {}, alone.view());
+  EXPECT_TRUE(any(alone(2, 2, 100)));
+  next(2, 2, 102) = counts_of_power(1e-8);
+  Array3<SampleFlags> flags(ping.shape());
+  flag_impulses(ping.view(), {.before = {}, .after = next.view()}, {}, flags.view());
+  EXPECT_FALSE(any(flags(2, 2, 100)));
+}
+
+TEST(flags, any_size_is_taken) {
+  for (const Shape3 shape : {Shape3{0, 0, 0},
+                             Shape3{1, 1, 1},
+                             {1, 1, 5},
+                             {1, 1, 3000},
+                             {1, 12, 7},
+                             {3, 1, 64},
+                             {1, 30, 900},
+                             {2, 9, 13},
+                             {60, 40, 20}}) {
+    const auto ping = noise_ping(shape, -125, 70);
+    Array3<SampleFlags> flags(shape);
+    PingGeometry geometry{
+        .first_range_m = 0, .spacing_m = 0.4, .transducer_depth_m = 7, .elevation_deg = {}, .vertical_width_deg = {}};
+    geometry.elevation_deg.assign(static_cast<std::size_t>(shape.fans), -10.0);
+    flag_ping(ping.view(), geometry, {}, {ping.view(), ping.view()}, flags.view());
+    EXPECT_EQ(count_flag(flags, kFault), 0U);
+  }
+}
+
+TEST(flags, each_has_its_switch_and_its_parameters_are_checked) {
+  FlagParams off;
+  off.near_field.enabled = off.surface.enabled = off.lost.enabled = false;
+  off.hot_beam.enabled = off.wall.enabled = off.impulse.enabled = false;
+  auto ping = noise_ping({4, 9, 400}, -125, 80);
+  for (auto& v : ping.row(2, 3)) v = 0;
+  Array3<SampleFlags> flags(ping.shape());
+  PingGeometry geometry = ms70_geometry();
+  geometry.elevation_deg.resize(4, 5.0);
+  flag_ping(ping.view(), geometry, off, {}, flags.view());
+  EXPECT_EQ(count_flag(flags, kNotFiltered), 0U);
+  EXPECT_TRUE(validate(FlagParams{}).has_value());
+  FlagParams bad;
+  bad.wall.beam_fraction = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(validate(bad).has_value());
+}
+
+}  // namespace
+}  // namespace sonar
