@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/byte_source.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace sonar {
+namespace {
+
+std::string system_text(int error) { return std::system_category().message(error); }
+
+class FileSource final : public ByteSource {
+ public:
+  FileSource(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
+  ~FileSource() override { ::close(descriptor_); }
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Result<std::uint64_t> size() const override {
+    struct stat info {};
+    if (::fstat(descriptor_, &info) != 0) return fail(ErrorCode::io, system_text(errno), {.file = name_});
+    return static_cast<std::uint64_t>(info.st_size);
+  }
+
+  [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const override {
+    std::size_t done = 0;
+    while (done < out.size()) {
+      const ssize_t n = ::pread(descriptor_, out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
+      if (n == 0) break;
+      if (n < 0) {
+        if (errno == EINTR) continue;
+        return fail(ErrorCode::io, system_text(errno),
+                    {.file = name_, .offset = static_cast<std::int64_t>(offset + done)});
+      }
+      done += static_cast<std::size_t>(n);
+    }
+    return done;
+  }
+
+ private:
+  std::string name_;
+  int descriptor_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    const int error = errno;
+    return fail(error == ENOENT ? ErrorCode::not_found : ErrorCode::io, system_text(error), {.file = path.string()});
+  }
+  auto source = std::make_shared<const FileSource>(path.string(), descriptor);
+  struct stat info {};
+  if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode)) {
+    return fail(ErrorCode::io, "is a folder, not a file", {.file = path.string()});
+  }
+  return std::shared_ptr<const ByteSource>(std::move(source));
+}
+
+MemorySource::MemorySource(std::string name, std::span<const std::byte> bytes)
+    : name_(std::move(name)), bytes_(bytes.begin(), bytes.end()) {}
+
+void MemorySource::append(std::span<const std::byte> bytes) {
+  const std::scoped_lock lock(mutex_);
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+}
+
+Result<std::uint64_t> MemorySource::size() const {
+  const std::scoped_lock lock(mutex_);
+  return static_cast<std::uint64_t>(bytes_.size());
+}
+
+Result<std::size_t> MemorySource::read(std::uint64_t offset, std::span<std::byte> out) const {
+  const std::scoped_lock lock(mutex_);
+  if (offset >= bytes_.size()) return std::size_t{0};
+  const auto first = static_cast<std::size_t>(offset);
+  const std::size_t count = std::min(out.size(), bytes_.size() - first);
+  std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(first), count, out.begin());
+  return count;
+}
+
+}  // namespace sonar

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sonar {
+
+/// Bytes that may grow at the end and never change before it: a file, memory, a file that is still being written.
+/// threads  all const members may be called from any thread
+class ByteSource {
+ public:
+  ByteSource() = default;
+  virtual ~ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  /// As the user named it.
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  /// Bytes that can be read now; a later call may return more.
+  [[nodiscard]] virtual Result<std::uint64_t> size() const = 0;
+  /// Fills `out` from `offset`; returns how many bytes were there (fewer only at the end).
+  /// errors  io
+  [[nodiscard]] virtual Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const = 0;
+};
+
+/// A file, read with pread and never mapped: a mapping counts as our memory, and a file cut short under it kills us.
+/// errors  not_found, io
+[[nodiscard]] Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path& path);
+
+/// Bytes in memory that may be appended to while others read.
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::string name, std::span<const std::byte> bytes = {});
+  void append(std::span<const std::byte> bytes);
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Result<std::uint64_t> size() const override;
+  [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const override;
+
+ private:
+  std::string name_;
+  mutable std::mutex mutex_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace sonar

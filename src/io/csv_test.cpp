@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/csv.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Csv, header_is_the_published_one) {
+  EXPECT_EQ(csv_text(std::vector<SchoolRow>{}),
+            "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,"
+            "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,"
+            "speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,"
+            "decided_utc,species,comment\n");
+  EXPECT_EQ(csv_text(std::vector<SchoolPingRow>{}),
+            "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,"
+            "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"
+            "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
+            "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
+            "bottom_depth_m,provisional\n");
+}
+
+TEST(Csv, rows_read_back) {
+  SchoolRow row;
+  row.observation = "obs-0001";
+  row.school_id = 3;
+  row.first_time_utc = time_from_calendar(2026, 11, 21, 3.25);
+  row.latitude = 60.123456789;
+  row.depth_m = 0.1;
+  row.comment = "line one\nline \"two\", end";
+  const auto table = parse_csv(csv_text(std::vector{row}), "x.csv");
+  ASSERT_TRUE(table);
+  const auto back = csv_rows<SchoolRow>(*table);
+  ASSERT_TRUE(back) << to_line(back.error());
+  ASSERT_EQ(back->size(), 1U);
+  EXPECT_EQ((*back)[0].comment, row.comment);
+  EXPECT_EQ((*back)[0].first_time_utc, row.first_time_utc);
+  EXPECT_EQ((*back)[0].decided_utc, 0);
+  EXPECT_EQ((*back)[0].latitude, 60.12345679);
+  EXPECT_EQ((*back)[0].depth_m, 0.1);
+  EXPECT_TRUE(std::isnan((*back)[0].speed_mps));
+}
+
+TEST(Csv, quotes_line_ends_and_byte_order_mark) {
+  const auto table = parse_csv(
+      "\xEF\xBB\xBF"
+      "a,b\r\n\"x \"\"y\"\"\",\r\n\r\n\"1\n2\",3",
+      "t.csv");
+  ASSERT_TRUE(table) << to_line(table.error());
+  EXPECT_EQ(table->header, (std::vector<std::string>{"a", "b"}));
+  ASSERT_EQ(table->records.size(), 2U);
+  EXPECT_EQ(table->records[0].fields, (std::vector<std::string>{"x \"y\"", ""}));
+  EXPECT_EQ(table->records[1].fields, (std::vector<std::string>{"1\n2", "3"}));
+  EXPECT_EQ(table->records[1].line, 4);
+  EXPECT_TRUE(std::isnan(*table->number(table->records[0], 1)));
+}
+
+TEST(Csv, errors_name_file_and_line) {
+  const auto text_of = [](std::string_view text) { return to_line(parse_csv(text, "t.csv").error()); };
+  EXPECT_THAT(text_of(""), HasSubstr("t.csv: has no header"));
+  EXPECT_THAT(text_of("a,b\n1,2\n3\n"), HasSubstr("t.csv: line 3: 1 fields; the header has 2"));
+  EXPECT_THAT(text_of("a,b\n1,\"2\n"), HasSubstr("line 2: a quote is never closed"));
+  EXPECT_THAT(text_of("a,b\n\"1\"x,2\n"), HasSubstr("line 2: text after a closing quote"));
+  EXPECT_THAT(text_of("a,a\n"), HasSubstr("'a' stands twice"));
+  const auto table = parse_csv("channel,gain_db\n0,1.5x\n", "t.csv");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(to_line(table->number(table->records[0], 1).error()), HasSubstr("line 2: column 'gain_db' holds '1.5x'"));
+  EXPECT_EQ(*table->whole(table->records[0], 0), 0);
+  EXPECT_THAT(to_line(table->require_column("none").error()), HasSubstr("no column 'none'"));
+  EXPECT_THAT(to_line(csv_rows<SchoolRow>(*table).error()), HasSubstr("no column 'observation'"));
+}
+
+}  // namespace
+}  // namespace sonar

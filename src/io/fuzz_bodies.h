@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What the fuzz targets do with their input; the plain tests replay the corpora through the same functions.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/check.h"
+#include "io/nav_series.h"
+#include "io/nmea.h"
+#include "io/simrad/con1.h"
+#include "io/simrad/index.h"
+#include "io/simrad/index_cache.h"
+#include "io/simrad/indexer.h"
+#include "io/simrad/ping_reader.h"
+
+namespace sonar::fuzz {
+
+/// Any bytes make an index; it is the same when they come in two pieces, survives its cache, and every ping of it can
+/// be read.
+inline void simrad_raw(std::span<const std::byte> bytes) {
+  const MemorySource whole("fuzz", bytes);
+  const auto index = index_raw(whole);
+  SONAR_CHECK(index.has_value());
+  const std::vector<std::byte> encoded = encode_index(*index);
+  const auto decoded = decode_index(encoded);
+  SONAR_CHECK(decoded.has_value() && encode_index(*decoded) == encoded);
+  MemorySource growing("fuzz", bytes.first(bytes.size() / 2));
+  simrad::Indexer indexer;
+  SONAR_CHECK(indexer.refresh(growing).has_value());
+  growing.append(bytes.subspan(bytes.size() / 2));
+  SONAR_CHECK(indexer.finish(growing).has_value());
+  SONAR_CHECK(encode_index(indexer.index()) == encoded);
+  for (const PingEntry& entry : index->pings) {
+    const auto ping = read_ping(whole, entry);
+    SONAR_CHECK(ping.has_value() && !ping->channels.empty());
+  }
+}
+
+/// Whatever a sentence says, only possible values go into the series.
+inline void nmea(std::string_view text) {
+  const auto sentence = parse_nmea(text);
+  if (!sentence) return;
+  std::vector<NavSeries> series;
+  add_sentence(series, *sentence, 1'577'836'800 * kSecondNs);
+  for (const NavSeries& s : series) {
+    for (const NavSample& sample : s.samples) {
+      SONAR_CHECK(std::isfinite(sample.first) && !std::isinf(sample.second));
+      if (s.quantity == NavQuantity::position) {
+        SONAR_CHECK(std::abs(sample.first) <= 90.0 && std::abs(sample.second) <= 180.0);
+      }
+      if (s.quantity == NavQuantity::heading) SONAR_CHECK(sample.first >= 0.0 && sample.first < 360.0);
+    }
+  }
+}
+
+/// Angles are taken whole or not at all.
+inline void con1(std::string_view xml) {
+  SounderConfig config;
+  config.beams.resize(3);
+  const simrad::Con1Outcome outcome = simrad::apply_con1(simrad::parse_con1(xml), config);
+  SONAR_CHECK(outcome.used == outcome.problem.empty());
+  for (const BeamConfig& beam : config.beams) {
+    SONAR_CHECK(std::isfinite(beam.direction_deg[0]) && std::isfinite(beam.direction_deg[1]));
+  }
+}
+
+}  // namespace sonar::fuzz

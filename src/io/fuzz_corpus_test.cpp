@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "io/fuzz_bodies.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs every file of a corpus; expects at least one.
+template <class Body>
+void replay(const char* target, const Body& body) {
+  const fs::path folder = fs::path(__FILE__).parent_path() / "../../tests/data/fuzz" / target;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    body(std::string(std::istreambuf_iterator<char>(in), {}));
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(FuzzCorpus, SimradRaw) {
+  replay("simrad_raw", [](const std::string& bytes) { fuzz::simrad_raw(std::as_bytes(std::span(bytes))); });
+}
+
+TEST(FuzzCorpus, Nmea) {
+  replay("nmea", [](const std::string& text) { fuzz::nmea(text); });
+}
+
+TEST(FuzzCorpus, Con1) {
+  replay("con1", [](const std::string& xml) { fuzz::con1(xml); });
+}
+
+}  // namespace
+}  // namespace sonar

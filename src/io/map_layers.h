@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gdal_priv.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "io/atomic_file.h"
+#include "io/columns.h"
+#include "io/survey_map.h"
+
+namespace sonar {
+
+/// The open layers of one map: tables of features in files that appear together when committed.
+class MapLayers {
+ public:
+  static Result<std::unique_ptr<MapLayers>> create(const std::filesystem::path& target, MapFormat format,
+                                                   TimeNs last_ping_time);
+  ~MapLayers();
+  MapLayers(const MapLayers&) = delete;
+  MapLayers& operator=(const MapLayers&) = delete;
+
+  /// columns  names and types of the attributes
+  Result<void> add_layer(const std::string& name, OGRwkbGeometryType type, const std::vector<Column>& columns);
+  /// Adds one feature with the values of one row; an empty or null geometry is left out.
+  Result<void> add(const std::string& layer, const OGRGeometry* geometry, const std::vector<Column>& columns,
+                   std::size_t row);
+  Result<void> commit();
+
+ private:
+  struct DatasetCloser {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+  };
+  using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+  MapLayers(std::filesystem::path target, MapFormat format, TimeNs last_ping_time);
+  Result<GDALDataset*> open(const std::filesystem::path& target);
+  [[nodiscard]] tl::unexpected<Error> refused(std::string_view what) const;
+
+  std::filesystem::path target_;
+  MapFormat format_;
+  std::string date_;
+  std::vector<AtomicFile> files_;
+  std::vector<Dataset> datasets_;
+  std::map<std::string, OGRLayer*> layers_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/navigation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "io/nav_track.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Speed is worked out of positions this far before and after.
+constexpr TimeNs kHalfBaseline = 10 * kSecondNs;
+constexpr double kLargestArm_m = 500.0;
+
+TimeNs ns_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
+
+struct Tracks {
+  NavTrack position;
+  NavTrack heading;
+  NavTrack velocity;
+  NavTrack log;
+  NavTrack clock;
+};
+
+Tracks choose(std::span<const NavSeries* const> series, const NavigationParams& p) {
+  return {choose_track(series, NavQuantity::position, p.position_talker),
+          choose_track(series, NavQuantity::heading, p.heading_talker),
+          choose_track(series, NavQuantity::velocity, p.speed_talker),
+          choose_track(series, NavQuantity::log, p.log_talker),
+          choose_track(series, NavQuantity::clock, p.clock_talker)};
+}
+
+bool usable(const std::array<double, 3>& place) {
+  return std::all_of(place.begin(), place.end(), [](double v) { return std::abs(v) <= kLargestArm_m; });
+}
+
+/// Antenna to transducer in the vessel's frame; empty where CON0's numbers are impossible.
+std::optional<Point<Vessel>> lever_arm(const SounderConfig& config, const NavigationParams& params) {
+  if (params.lever_arm == LeverArmSource::none) return Point<Vessel>{};
+  if (params.lever_arm == LeverArmSource::settings) {
+    return Point<Vessel>{params.lever_arm_x_m, params.lever_arm_y_m, params.lever_arm_z_m};
+  }
+  const std::array<double, 3> transducer =
+      config.beams.empty() ? std::array<double, 3>{} : config.beams.front().position_m;
+  const std::array<double, 3>& antenna = config.gps_offset_m;
+  if (!usable(transducer) || !usable(antenna)) return std::nullopt;
+  return Point<Vessel>{transducer[0] - antenna[0], transducer[1] - antenna[1], transducer[2] - antenna[2]};
+}
+
+/// Speed and course out of the positions round an instant.
+void velocity_from_positions(const NavTrack& positions, TimeNs time, TimeNs limit, PingNavigation& ping) {
+  TimeNs from_time = time - kHalfBaseline;
+  TimeNs to_time = time + kHalfBaseline;
+  Geographic from = position_at(positions, from_time, 0);
+  Geographic to = position_at(positions, to_time, 0);
+  if (std::isnan(from.latitude_deg)) from = position_at(positions, from_time, limit);
+  if (std::isnan(to.latitude_deg)) to = position_at(positions, to_time, limit);
+  if (std::isnan(from.latitude_deg)) from = position_at(positions, from_time = time, limit);
+  if (std::isnan(to.latitude_deg)) to = position_at(positions, to_time = time, limit);
+  if (std::isnan(from.latitude_deg) || std::isnan(to.latitude_deg) || from_time == to_time) return;
+  const GeodesicStep step = geodesic(from, to);
+  ping.speed_mps = step.distance_m / (static_cast<double>(to_time - from_time) * 1e-9);
+  if (step.distance_m > 0.0) ping.course_deg = step.bearing_deg;
+}
+
+void move_to_transducer(PingNavigation& ping, const Point<Vessel>& arm) {
+  if (!ping.has_position() || std::isnan(ping.heading_deg)) return;
+  if (arm == Point<Vessel>{}) return;
+  const Point<Sonar> level_arm = level(arm, rad_from_deg(ping.roll_deg), rad_from_deg(ping.pitch_deg));
+  ping.transducer = to_geographic(to_enu(level_arm, rad_from_deg(ping.heading_deg)), ping.transducer);
+}
+
+PingNavigation place(const PingMotion& motion, const Tracks& tracks, const Point<Vessel>& arm,
+                     const NavigationParams& params) {
+  const TimeNs limit = ns_of(params.fix_limit_s);
+  PingNavigation ping;
+  ping.time = motion.time + ns_of(params.time_offset_s);
+  ping.roll_deg = motion.roll_deg;
+  ping.pitch_deg = motion.pitch_deg;
+  ping.heave_m = params.heave == HeaveSign::up ? -motion.heave_m : motion.heave_m;
+  ping.transducer_depth_m = motion.transducer_depth_m != 0.0 ? motion.transducer_depth_m : params.transducer_depth_m;
+  if (params.heave != HeaveSign::off) ping.transducer_depth_m += ping.heave_m;
+  ping.transducer = position_at(tracks.position, motion.time, limit);
+  ping.heading_deg = angle_at(tracks.heading, motion.time, limit, AngleOf::first);
+  if (std::isnan(ping.heading_deg) && motion.heading_deg != 0.0) ping.heading_deg = wrap_360(motion.heading_deg);
+  if (tracks.velocity.samples.empty()) {
+    velocity_from_positions(tracks.position, motion.time, limit, ping);
+  } else {
+    ping.speed_mps = value_at(tracks.velocity, motion.time, limit);
+    ping.course_deg = angle_at(tracks.velocity, motion.time, limit, AngleOf::second);
+  }
+  ping.distance_nmi = value_at(tracks.log, motion.time, ns_of(params.log_limit_s));
+  ping.gps_minus_clock_s = value_at(tracks.clock, motion.time, limit);
+  move_to_transducer(ping, arm);
+  return ping;
+}
+
+double median_of(const NavTrack& track) {
+  if (track.samples.empty()) return kNaN;
+  std::vector<double> values;
+  for (const NavSample& sample : track.samples) values.push_back(sample.first);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Talkers talkers_of(const Tracks& tracks, std::span<const PingNavigation> pings) {
+  Talkers talkers;
+  if (!tracks.position.talker.empty()) talkers["position"] = tracks.position.talker;
+  if (!tracks.heading.talker.empty()) talkers["heading"] = tracks.heading.talker;
+  if (!tracks.velocity.talker.empty()) talkers["speed"] = tracks.velocity.talker;
+  if (!tracks.log.talker.empty()) talkers["log"] = tracks.log.talker;
+  if (!tracks.clock.talker.empty()) talkers["clock"] = tracks.clock.talker;
+  const auto any = [&](auto known) { return std::any_of(pings.begin(), pings.end(), known); };
+  if (tracks.heading.talker.empty() && any([](const PingNavigation& p) { return !std::isnan(p.heading_deg); })) {
+    talkers["heading"] = "RAW0";
+  }
+  if (tracks.velocity.talker.empty() && any([](const PingNavigation& p) { return !std::isnan(p.speed_mps); })) {
+    talkers["speed"] = "positions";
+  }
+  return talkers;
+}
+
+template <class Lacks>
+void note_lack(std::span<const PingNavigation> pings, Lacks lacks, DiagnosticCode code, std::string_view what,
+               Diagnostics& notes) {
+  const auto count = std::count_if(pings.begin(), pings.end(), lacks);
+  if (count == 0) return;
+  const auto first = std::find_if(pings.begin(), pings.end(), lacks) - pings.begin();
+  notes.push_back({code, "", -1, first, fmt::format("{} of {} pings have no {}", count, pings.size(), what)});
+}
+
+}  // namespace
+
+PingMotion ping_attitude(const PingEntry& entry) {
+  return {entry.time,
+          static_cast<double>(entry.roll_deg),
+          static_cast<double>(entry.pitch_deg),
+          static_cast<double>(entry.heave_m),
+          static_cast<double>(entry.heading_deg),
+          static_cast<double>(entry.transducer_depth_m)};
+}
+
+Navigation navigate(std::span<const NavSeries* const> series, std::span<const PingMotion> pings,
+                    const SounderConfig& config, const NavigationParams& params) {
+  const Tracks tracks = choose(series, params);
+  Navigation result;
+  const auto arm = lever_arm(config, params);
+  if (!arm) {
+    result.diagnostics.push_back({DiagnosticCode::bad_lever_arm, "", -1, -1,
+                                  fmt::format("an offset of CON0 is farther than {} m", kLargestArm_m)});
+  }
+  result.pings.reserve(pings.size());
+  for (const PingMotion& ping : pings) {
+    result.pings.push_back(place(ping, tracks, arm.value_or(Point<Vessel>{}), params));
+  }
+  result.talkers = talkers_of(tracks, result.pings);
+  result.gps_minus_clock_s = median_of(tracks.clock);
+  note_lack(
+      result.pings, [](const PingNavigation& p) { return !p.has_position(); }, DiagnosticCode::no_position, "position",
+      result.diagnostics);
+  note_lack(
+      result.pings, [](const PingNavigation& p) { return std::isnan(p.heading_deg); }, DiagnosticCode::no_heading,
+      "heading", result.diagnostics);
+  return result;
+}
+
+std::optional<NavSample> first_fix(std::span<const NavSeries* const> series, const NavigationParams& params) {
+  const NavTrack track = choose_track(series, NavQuantity::position, params.position_talker);
+  if (track.samples.empty()) return std::nullopt;
+  return track.samples.front();
+}
+
+}  // namespace sonar

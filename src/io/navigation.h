@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/diagnostics.h"
+#include "io/simrad/index.h"
+#include "model/navigation.h"
+#include "model/sounder.h"
+
+namespace sonar {
+
+enum class HeaveSign { off, down, up };
+enum class LeverArmSource { none, con0, settings };
+
+/// How the ship's sentences become the transducer's place.
+struct NavigationParams {
+  double time_offset_s = 0.0;
+  double transducer_depth_m = 7.0;
+  HeaveSign heave = HeaveSign::off;
+  LeverArmSource lever_arm = LeverArmSource::con0;
+  double lever_arm_x_m = 0.0;
+  double lever_arm_y_m = 0.0;
+  double lever_arm_z_m = 0.0;
+  double mounting_azimuth_deg = 270.0;
+  bool beams_stabilised = true;
+  double fix_limit_s = 30.0;
+  double log_limit_s = 900.0;
+  std::string position_talker;
+  std::string heading_talker;
+  std::string speed_talker;
+  std::string log_talker;
+  std::string clock_talker;
+  friend bool operator==(const NavigationParams&, const NavigationParams&) = default;
+};
+
+inline constexpr std::array<std::string_view, 3> kHeaveSignNames{"off", "down", "up"};
+inline constexpr std::array<std::string_view, 3> kLeverArmSourceNames{"none", "con0", "settings"};
+
+template <class Visitor>
+void describe(Visitor& v, NavigationParams& p) {
+  v.field("time_offset_s", p.time_offset_s,
+          {.unit = "s", .min = -1e6, .max = 1e6, .text = "Added to the datagrams' clock."});
+  v.field("transducer_depth_m", p.transducer_depth_m,
+          {.unit = "m", .min = 0, .max = 100, .text = "Depth of the transducer where the file says 0."});
+  v.choice("heave", p.heave, kHeaveSignNames,
+           "Whether recorded heave moves the transducer, and which way it counts; off: the sonar compensates it.");
+  v.choice("lever_arm", p.lever_arm, kLeverArmSourceNames,
+           "Where the way from the antenna to the transducer comes from.");
+  v.field("lever_arm_x_m", p.lever_arm_x_m,
+          {.unit = "m", .min = -500, .max = 500, .text = "Antenna to transducer, to the bow."});
+  v.field("lever_arm_y_m", p.lever_arm_y_m,
+          {.unit = "m", .min = -500, .max = 500, .text = "Antenna to transducer, to starboard."});
+  v.field("lever_arm_z_m", p.lever_arm_z_m,
+          {.unit = "m", .min = -500, .max = 500, .text = "Antenna to transducer, downwards."});
+  v.field("mounting_azimuth_deg", p.mounting_azimuth_deg,
+          {.unit = "deg", .min = 0, .max = 360, .text = "Where the sonar looks, clockwise from the bow; 270 = port."});
+  v.field("beams_stabilised", p.beams_stabilised,
+          {.text = "The beams keep their angle to the horizon, so that they turn with the heading only."});
+  v.field(
+      "fix_limit_s", p.fix_limit_s,
+      {.unit = "s", .min = 0, .max = 3600, .text = "A ping farther than this from any sentence has no such value."});
+  v.field("log_limit_s", p.log_limit_s,
+          {.unit = "s", .min = 0, .max = 86400, .text = "The same for the vessel's log, which comes seldom."});
+  v.field("position_talker", p.position_talker, {.text = "Talker of positions, e.g. GP; empty: the most frequent."});
+  v.field("heading_talker", p.heading_talker, {.text = "Talker of headings; empty: the most frequent."});
+  v.field("speed_talker", p.speed_talker, {.text = "Talker of speed and course; empty: the most frequent."});
+  v.field("log_talker", p.log_talker, {.text = "Talker of the log; empty: the most frequent."});
+  v.field("clock_talker", p.clock_talker, {.text = "Talker of GPS time; empty: the most frequent."});
+}
+
+/// {"position": "GP", "heading": "IN", "speed": "GP", "log": "SD", "clock": "GP"}; what nobody said is absent. Heading
+/// may be "RAW0" (the sample data's own), speed may be "positions" (worked out of them).
+using Talkers = std::map<std::string, std::string>;
+
+/// A ping to be placed: its datagram time and what its first channel says of the ship.
+struct PingMotion {
+  TimeNs time = 0;
+  double roll_deg = 0.0;
+  double pitch_deg = 0.0;
+  double heave_m = 0.0;
+  double heading_deg = 0.0;  ///< 0 = absent
+  double transducer_depth_m = 0.0;
+};
+[[nodiscard]] PingMotion ping_attitude(const PingEntry& entry);
+
+struct Navigation {
+  std::vector<PingNavigation> pings;  ///< as given
+  Talkers talkers;
+  double gps_minus_clock_s = 0.0;  ///< median over all sentences of the chosen talker; NaN = none
+  Diagnostics diagnostics;         ///< no_position, no_heading, bad_lever_arm; ping_index of the first concerned
+};
+
+/// Places every ping. One talker is chosen per quantity, the most frequent valid one over all the series given, and in
+/// it one kind of sentence (GGA before RMC before GLL, HDT before THS before HDG, where equally frequent); they are
+/// never mixed.
+/// Position is interpolated along the geodesic between two fixes, log and speed linearly, heading and course over the
+/// shorter arc; beyond the first and last sentence, and in gaps, values hold up to fix_limit_s (positions go on at
+/// the speed of the last two fixes). Heading falls back to the ping's own.
+/// `time` of a result is the ping's plus time_offset_s, gps_minus_clock_s is without it.
+/// series   of all files concerned, in the order of the files
+/// threads  pure
+[[nodiscard]] Navigation navigate(std::span<const NavSeries* const> series, std::span<const PingMotion> pings,
+                                  const SounderConfig& config, const NavigationParams& params);
+
+/// The first valid fix of the talker that navigate() would choose; empty where there is none.
+[[nodiscard]] std::optional<NavSample> first_fix(std::span<const NavSeries* const> series,
+                                                 const NavigationParams& params);
+
+}  // namespace sonar

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sonar::netcdf {
+
+/// The lock round every call into netCDF-C, which is not thread-safe. Held as long as a file is open.
+[[nodiscard]] std::unique_lock<std::mutex> lock();
+
+/// A dimension of the file being written.
+struct Dimension {
+  int id = -1;
+  std::size_t length = 0;
+};
+
+/// How a variable is stored: in one piece, or in chunks with shuffle and deflate 1.
+enum class Storage { plain, packed };
+
+/// Writes one netCDF-4 file. After the first failure every further call does nothing and close() tells the failure.
+/// threads  holds the lock for its lifetime
+class Writer {
+ public:
+  /// path  written over; `named` stands in messages
+  Writer(const std::filesystem::path& path, std::string named);
+  ~Writer();
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  [[nodiscard]] int root() const { return file_; }
+  int group(int parent, const std::string& name);
+  Dimension dimension(int group, const std::string& name, std::size_t length);
+
+  static constexpr int kGlobal = -1;  ///< attribute of the group itself
+  void attribute(int group, int variable, const std::string& name, std::string_view text);
+  void attribute(int group, int variable, const std::string& name, double value);
+  void attribute(int group, int variable, const std::string& name, std::int64_t value);
+  void attribute(int group, int variable, const std::string& name, const std::vector<std::string>& texts);
+
+  /// Defines a variable, writes it, and returns its id. Values lie in row-major order; `unit` "" = no attribute.
+  template <class T>
+  int variable(int group, const std::string& name, std::string_view unit, const std::vector<Dimension>& dimensions,
+               const std::vector<T>& values, Storage storage = Storage::plain);
+
+  /// Defines a variable of whole arrays that are written one by one along its first dimension; what is never written
+  /// reads as 0 and takes no room.
+  template <class T>
+  int sliced_variable(int group, const std::string& name, std::string_view unit,
+                      const std::vector<Dimension>& dimensions);
+  /// Writes slice `index` of a sliced_variable().
+  template <class T>
+  void slice(int group, int variable, std::size_t index, const std::vector<Dimension>& dimensions,
+             const std::vector<T>& values);
+
+  /// Remarks a failure that is not netCDF's.
+  void refuse(Error error);
+  [[nodiscard]] Result<void> close();
+
+ private:
+  bool check(int status, std::string_view what);
+  int define(int group, const std::string& name, std::string_view unit, const std::vector<Dimension>& dimensions,
+             int type, std::size_t value_size, Storage storage);
+  std::unique_lock<std::mutex> lock_;
+  std::string named_;
+  int file_ = -1;
+  Result<void> status_;
+};
+
+/// Reads one netCDF-4 file. As the writer, it remembers the first failure and then gives empty values.
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, std::string named);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  [[nodiscard]] int root() const { return file_; }
+  /// -1, without failure, where there is none.
+  [[nodiscard]] int find_group(int parent, const std::string& name);
+  [[nodiscard]] int group(int parent, const std::string& name);
+  [[nodiscard]] bool has_variable(int group, const std::string& name);
+  [[nodiscard]] bool has_attribute(int group, const std::string& name);
+  [[nodiscard]] std::size_t dimension(int group, const std::string& name);
+
+  [[nodiscard]] std::string text(int group, const std::string& name);
+  [[nodiscard]] std::int64_t whole(int group, const std::string& name);
+  [[nodiscard]] std::vector<std::string> texts(int group, const std::string& name);
+
+  /// The whole variable, converted to T; refused where it has not exactly `expected` values.
+  template <class T>
+  [[nodiscard]] std::vector<T> values(int group, const std::string& name, std::size_t expected);
+  /// Number of values of a variable.
+  [[nodiscard]] std::size_t size(int group, const std::string& name);
+
+  void refuse(ErrorCode code, std::string text);
+  [[nodiscard]] bool ok() const { return status_.has_value(); }
+  [[nodiscard]] const Result<void>& status() const { return status_; }
+
+ private:
+  bool check(int status, std::string_view what);
+  int find_variable(int group, const std::string& name);
+  std::unique_lock<std::mutex> lock_;
+  std::string named_;
+  std::uint64_t file_size_ = 0;
+  int file_ = -1;
+  Result<void> status_;
+};
+
+}  // namespace sonar::netcdf

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <netcdf.h>
+
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "io/netcdf_file.h"
+
+namespace sonar::netcdf {
+namespace {
+
+/// Deflate never shrinks further than about 1030 to 1, so that an honest file cannot hold more values than this a byte.
+constexpr std::uint64_t kValuesPerByte = 1100;
+
+bool is_text(nc_type type) { return type == NC_STRING || type == NC_CHAR; }
+
+template <class T>
+int get(int group, int variable, T* values) {
+  if constexpr (std::is_same_v<T, double>) return nc_get_var_double(group, variable, values);
+  if constexpr (std::is_same_v<T, float>) return nc_get_var_float(group, variable, values);
+  if constexpr (std::is_same_v<T, std::int32_t>) return nc_get_var_int(group, variable, values);
+  if constexpr (std::is_same_v<T, std::uint8_t>) return nc_get_var_uchar(group, variable, values);
+}
+
+}  // namespace
+
+Reader::Reader(const std::filesystem::path& path, std::string named) : lock_(lock()), named_(std::move(named)) {
+  std::error_code error;
+  file_size_ = std::filesystem::file_size(path, error);
+  const int status = nc_open(path.c_str(), NC_NOWRITE, &file_);
+  if (status != NC_NOERR) {
+    file_ = -1;
+    refuse(ErrorCode::format, fmt::format("is no sound netCDF file ({})", nc_strerror(status)));
+  }
+}
+
+Reader::~Reader() {
+  if (file_ >= 0) nc_close(file_);
+}
+
+void Reader::refuse(ErrorCode code, std::string text) {
+  if (status_) status_ = fail(code, std::move(text), {.file = named_});
+}
+
+bool Reader::check(int status, std::string_view what) {
+  if (!status_) return false;
+  if (status != NC_NOERR) refuse(ErrorCode::format, fmt::format("'{}': {}", what, nc_strerror(status)));
+  return status_.has_value();
+}
+
+int Reader::find_group(int parent, const std::string& name) {
+  int id = -1;
+  if (!status_ || nc_inq_grp_ncid(parent, name.c_str(), &id) != NC_NOERR) return -1;
+  return id;
+}
+
+int Reader::group(int parent, const std::string& name) {
+  const int id = find_group(parent, name);
+  if (id < 0) refuse(ErrorCode::format, fmt::format("there is no group '/{}'", name));
+  return id;
+}
+
+bool Reader::has_variable(int group, const std::string& name) {
+  int id = -1;
+  return status_ && nc_inq_varid(group, name.c_str(), &id) == NC_NOERR;
+}
+
+bool Reader::has_attribute(int group, const std::string& name) {
+  return status_ && nc_inq_att(group, NC_GLOBAL, name.c_str(), nullptr, nullptr) == NC_NOERR;
+}
+
+std::size_t Reader::dimension(int group, const std::string& name) {
+  int id = -1;
+  std::size_t length = 0;
+  if (!status_ || !check(nc_inq_dimid(group, name.c_str(), &id), name)) return 0;
+  if (!check(nc_inq_dimlen(group, id, &length), name)) return 0;
+  if (length > file_size_ * kValuesPerByte) {
+    refuse(ErrorCode::format, fmt::format("dimension '{}' of {} is more than the file can hold", name, length));
+    return 0;
+  }
+  return length;
+}
+
+std::string Reader::text(int group, const std::string& name) {
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return {};
+  if (type == NC_STRING) {
+    const std::vector<std::string> all = texts(group, name);
+    return all.empty() ? std::string{} : all.front();
+  }
+  if (type != NC_CHAR || length > file_size_) {
+    refuse(ErrorCode::format, fmt::format("attribute '{}' is no text", name));
+    return {};
+  }
+  std::string value(length, '\0');
+  if (length > 0) check(nc_get_att_text(group, NC_GLOBAL, name.c_str(), value.data()), name);
+  return value;
+}
+
+std::int64_t Reader::whole(int group, const std::string& name) {
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return 0;
+  long long value = 0;
+  if (is_text(type) || length != 1) {
+    refuse(ErrorCode::format, fmt::format("attribute '{}' is no number", name));
+  } else {
+    check(nc_get_att_longlong(group, NC_GLOBAL, name.c_str(), &value), name);
+  }
+  return value;
+}
+
+std::vector<std::string> Reader::texts(int group, const std::string& name) {
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return {};
+  if (length == 0) return {};
+  if (type == NC_CHAR) return {text(group, name)};
+  if (type != NC_STRING || length > file_size_) {
+    refuse(ErrorCode::format, fmt::format("attribute '{}' is no text", name));
+    return {};
+  }
+  std::vector<char*> pointers(length, nullptr);
+  std::vector<std::string> values;
+  if (!check(nc_get_att_string(group, NC_GLOBAL, name.c_str(), pointers.data()), name)) return {};
+  for (const char* p : pointers) values.emplace_back(p != nullptr ? p : "");
+  nc_free_string(length, pointers.data());
+  return values;
+}
+
+int Reader::find_variable(int group, const std::string& name) {
+  int id = -1;
+  if (status_) check(nc_inq_varid(group, name.c_str(), &id), name);
+  return id;
+}
+
+std::size_t Reader::size(int group, const std::string& name) {
+  const int id = find_variable(group, name);
+  int count = 0;
+  std::array<int, NC_MAX_VAR_DIMS> ids{};
+  if (!status_ || !check(nc_inq_var(group, id, nullptr, nullptr, &count, ids.data(), nullptr), name)) return 0;
+  std::uint64_t product = 1;
+  for (int i = 0; i < count; ++i) {
+    std::size_t length = 0;
+    if (!check(nc_inq_dimlen(group, ids[static_cast<std::size_t>(i)], &length), name)) return 0;
+    if (length != 0 && product > file_size_ * kValuesPerByte / length) {
+      refuse(ErrorCode::format, fmt::format("'{}' has more values than the file can hold", name));
+      return 0;
+    }
+    product *= length;
+  }
+  return product;
+}
+
+template <class T>
+std::vector<T> Reader::values(int group, const std::string& name, std::size_t expected) {
+  const int id = find_variable(group, name);
+  const std::size_t found = size(group, name);
+  nc_type type = NC_NAT;
+  if (!status_ || !check(nc_inq_vartype(group, id, &type), name)) return {};
+  if (found != expected) {
+    refuse(ErrorCode::format, fmt::format("'{}' has {} values where {} were expected", name, found, expected));
+    return {};
+  }
+  constexpr bool kWantsText = std::is_same_v<T, std::string>;
+  if (type > NC_STRING || (type == NC_STRING) != kWantsText || type == NC_CHAR) {
+    refuse(ErrorCode::format, fmt::format("'{}' has another type than expected", name));
+    return {};
+  }
+  if (expected == 0) return {};
+  std::vector<T> out(expected);
+  if constexpr (kWantsText) {
+    std::vector<char*> pointers(expected, nullptr);
+    if (!check(nc_get_var_string(group, id, pointers.data()), name)) return {};
+    for (std::size_t i = 0; i < expected; ++i) out[i] = pointers[i] != nullptr ? pointers[i] : "";
+    nc_free_string(expected, pointers.data());
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    std::vector<long long> wide(expected);
+    if (!check(nc_get_var_longlong(group, id, wide.data()), name)) return {};
+    out.assign(wide.begin(), wide.end());
+  } else {
+    if (!check(get(group, id, out.data()), name)) return {};
+  }
+  return out;
+}
+
+template std::vector<double> Reader::values(int, const std::string&, std::size_t);
+template std::vector<float> Reader::values(int, const std::string&, std::size_t);
+template std::vector<std::int64_t> Reader::values(int, const std::string&, std::size_t);
+template std::vector<std::int32_t> Reader::values(int, const std::string&, std::size_t);
+template std::vector<std::uint8_t> Reader::values(int, const std::string&, std::size_t);
+template std::vector<std::string> Reader::values(int, const std::string&, std::size_t);
+
+}  // namespace sonar::netcdf

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+/// Arcs are drawn with chords of at most this angle: they leave the arc by 0.03 % of the range.
+constexpr double kChord_rad = 0.05;
+constexpr double kHair_rad = 0.002 * std::numbers::pi / 180.0;
+
+/// Level distances from the transducer, m.
+struct Interval {
+  double near_m;
+  double far_m;
+  friend auto operator<=>(const Interval&, const Interval&) = default;
+};
+
+/// x = bow, y = starboard becomes x = east, y = north.
+PlanePoint turned(double azimuth_rad, double distance_m, double heading_rad) {
+  const double bearing = azimuth_rad + heading_rad;
+  return {distance_m * std::sin(bearing), distance_m * std::cos(bearing)};
+}
+
+void append_arc(Ring& ring, double from_rad, double to_rad, double distance_m, double heading_rad) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_rad - from_rad) / kChord_rad)));
+  for (int i = 0; i <= steps; ++i) {
+    ring.push_back(turned(from_rad + (to_rad - from_rad) * i / steps, distance_m, heading_rad));
+  }
+}
+
+Ring annular_piece(const AngleBounds& azimuth, const Interval& interval, double heading_rad) {
+  Ring ring;
+  const double first = azimuth.lower - kHair_rad;
+  const double last = azimuth.upper + kHair_rad;
+  append_arc(ring, first, last, interval.far_m, heading_rad);
+  if (interval.near_m > 1e-3) {
+    append_arc(ring, last, first, interval.near_m, heading_rad);
+  } else {
+    ring.push_back({0.0, 0.0});
+  }
+  return ring;
+}
+
+/// Level interval of a run of one cell row; elevations beyond the vertical are none of a cell's.
+Interval level_interval(const Sector& sector, const Run& run, int fan) {
+  const AngleBounds e = sector.elevation_bounds(fan);
+  const RangeAxis& axis = sector.range();
+  const double r1 = std::max(0.0, axis.range_m(run.first_sample) - axis.spacing_m / 2);
+  const double r2 = std::max(0.0, axis.range_m(run.end() - 1) + axis.spacing_m / 2);
+  const bool level = e.lower < 0.0 && e.upper > 0.0;
+  const double steepest = std::min(std::cos(e.lower), std::cos(e.upper));
+  const double flattest = level ? 1.0 : std::max(std::cos(e.lower), std::cos(e.upper));
+  return {r1 * std::max(0.0, steepest), r2 * std::max(0.0, flattest)};
+}
+
+std::vector<Interval> joined(std::vector<Interval> intervals) {
+  std::sort(intervals.begin(), intervals.end());
+  std::vector<Interval> out;
+  for (const Interval& i : intervals) {
+    if (!out.empty() && i.near_m <= out.back().far_m + 1e-6) {
+      out.back().far_m = std::max(out.back().far_m, i.far_m);
+    } else {
+      out.push_back(i);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Ring footprint(const GridRecord& record, const Sector& sector, double heading_rad) {
+  double reach_m = 0.0;
+  for (int fan = 0; fan < sector.fans(); ++fan) {
+    const int samples = std::min(record.sample_count[static_cast<std::size_t>(fan)], record.range.count);
+    if (samples <= 0) continue;
+    reach_m = std::max(reach_m, level_interval(sector, {0, samples - 1, 1}, fan).far_m);
+  }
+  Ring ring;
+  if (reach_m <= 0.0) return ring;
+  const double first = sector.azimuth_bounds(0).lower;
+  const double last = sector.azimuth_bounds(sector.beams() - 1).upper;
+  if (last - first >= 2.0 * std::numbers::pi - 1e-6) {
+    append_arc(ring, 0.0, 2.0 * std::numbers::pi, reach_m, heading_rad);
+    ring.pop_back();
+    return ring;
+  }
+  append_arc(ring, first, last, reach_m, heading_rad);
+  ring.push_back({0.0, 0.0});
+  return ring;
+}
+
+std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad) {
+  const int beams = sector.beams();
+  std::vector<std::vector<Interval>> of_beam(static_cast<std::size_t>(beams));
+  for (const Run& run : mask.runs) {
+    const Interval interval = level_interval(sector, run, run.row / beams);
+    if (interval.far_m > interval.near_m) of_beam[static_cast<std::size_t>(run.row % beams)].push_back(interval);
+  }
+  std::vector<Ring> rings;
+  for (int beam = 0; beam < beams; ++beam) {
+    for (const Interval& interval : joined(std::move(of_beam[static_cast<std::size_t>(beam)]))) {
+      rings.push_back(annular_piece(sector.azimuth_bounds(beam), interval, heading_rad));
+    }
+  }
+  return rings;
+}
+
+PlaneShift::PlaneShift(const Geographic& ping, const Geographic& origin) {
+  const Point<Enu> here = to_enu(ping, origin);
+  shift_ = {here.x, here.y};
+  // A kilometre north of the ping, seen in the other plane, shows the turn.
+  const Point<Enu> north = to_enu(destination(ping, 1000.0, 0.0), origin);
+  const double length = std::hypot(north.x - here.x, north.y - here.y);
+  sine_ = (north.x - here.x) / length;
+  cosine_ = (north.y - here.y) / length;
+}
+
+PlanePoint PlaneShift::apply(const PlanePoint& p) const {
+  return {shift_.x + p.x * cosine_ + p.y * sine_, shift_.y - p.x * sine_ + p.y * cosine_};
+}
+
+}  // namespace sonar

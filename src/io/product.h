@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+#include "model/product.h"
+
+namespace sonar {
+
+/// Writes one observation's product as netCDF-4 (INTERFACES section 4), atomically. Equal products give equal bytes.
+/// product  masks sorted by school_id, ping_index with runs inside the grid; a mask without a grid is refused.
+///          Without a grid the group /grid stands empty; /mask then has zero runs.
+/// errors   io, no_space, bad_parameter (a mask that does not fit the grid)
+/// threads  any; calls into netCDF take turns
+Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path);
+
+/// Reads what write_product() writes. Anything else in the file is ignored.
+/// errors   not_found, io, format (damaged, or not a product), newer_version, older_version ("run again")
+/// threads  any; calls into netCDF take turns
+Result<ObservationProduct> read_product(const std::filesystem::path& path);
+
+/// What tells whether a product is still right, read without its arrays.
+struct ProductKey {
+  std::string observation;
+  std::string input_hash;
+  std::string recipe_hash;
+  std::string stage_versions;
+};
+/// errors   as read_product()
+Result<ProductKey> read_product_key(const std::filesystem::path& path);
+
+}  // namespace sonar

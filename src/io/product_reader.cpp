@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "io/netcdf_file.h"
+#include "io/product.h"
+#include "io/product_seal.h"
+#include "io/try_apart.h"
+
+namespace sonar {
+namespace {
+
+using netcdf::Reader;
+
+constexpr std::size_t kMostBeams = 1 << 16;
+constexpr int kMostSamples = 1 << 24;
+
+bool check_version(Reader& in) {
+  if (!in.ok()) return false;
+  if (!in.has_attribute(in.root(), "product_version")) {
+    in.refuse(ErrorCode::format, "is no product of this program: it has no product_version");
+    return false;
+  }
+  const std::int64_t version = in.whole(in.root(), "product_version");
+  if (version > kProductVersion) {
+    in.refuse(ErrorCode::newer_version,
+              fmt::format("product_version {} is newer than this program's {}", version, kProductVersion));
+  } else if (version < kProductVersion) {
+    in.refuse(ErrorCode::older_version,
+              fmt::format("product_version {} is older than this program's {}: run again", version, kProductVersion));
+  }
+  return in.ok();
+}
+
+/// "name size hash"; the name may hold blanks.
+bool parse_input_file(const std::string& text, InputFile& file) {
+  const std::size_t second = text.rfind(' ');
+  if (second == std::string::npos || second == 0) return false;
+  const std::size_t first = text.rfind(' ', second - 1);
+  if (first == std::string::npos) return false;
+  const auto [end, error] = std::from_chars(text.data() + first + 1, text.data() + second, file.size);
+  file.name = text.substr(0, first);
+  file.hash = text.substr(second + 1);
+  return error == std::errc{} && end == text.data() + second;
+}
+
+void read_attributes(Reader& in, ObservationProduct& product) {
+  const int root = in.root();
+  product.observation = in.text(root, "observation");
+  product.program_version = in.text(root, "sonar_explorer_version");
+  product.title = in.text(root, "title");
+  product.source = in.text(root, "source");
+  product.history = in.text(root, "history");
+  product.recipe_json = in.text(root, "recipe");
+  product.recipe_hash = in.text(root, "recipe_hash");
+  product.stage_versions = in.text(root, "stage_versions");
+  product.input_hash = in.text(root, "input_hash");
+  for (const std::string& text : in.texts(root, "input_files")) {
+    if (text.empty()) continue;
+    InputFile file;
+    if (!parse_input_file(text, file)) in.refuse(ErrorCode::format, "'input_files' is not 'name size hash'");
+    product.input_files.push_back(std::move(file));
+  }
+}
+
+void read_background(Reader& in, int group, ObservationProduct& product) {
+  if (!in.has_variable(group, "background_db") || !product.grid) return;
+  const std::vector<int>& channel = product.grid->grid.channel;
+  const std::size_t channels = channel.size();
+  const std::size_t pings = product.pings.size();
+  const auto levels = in.values<float>(group, "background_db", pings * channels);
+  if (!in.ok()) return;
+  product.background_db.assign(pings, {});
+  for (std::size_t p = 0; p < pings; ++p) {
+    const auto first = levels.begin() + static_cast<std::ptrdiff_t>(p * channels);
+    const auto last = first + static_cast<std::ptrdiff_t>(channels);
+    if (std::all_of(first, last, [](float v) { return std::isnan(v); })) continue;
+    std::vector<float>& of_ping = product.background_db[p];
+    of_ping.resize(channels);
+    for (std::size_t row = 0; row < channels; ++row) of_ping[row] = first[channel[row]];
+  }
+}
+
+void read_pings(Reader& in, ObservationProduct& product) {
+  const int group = in.group(in.root(), "pings");
+  const std::size_t n = in.dimension(group, "ping");
+  const auto time = in.values<std::int64_t>(group, "time", n);
+  if (!in.ok()) return;
+  product.pings.resize(n);
+  for (std::size_t i = 0; i < n; ++i) product.pings[i].time = time[i];
+  const auto fill = [&](const char* name, auto&& put) {
+    const auto values = in.values<double>(group, name, n);
+    for (std::size_t i = 0; i < values.size(); ++i) put(product.pings[i], values[i]);
+  };
+  using N = PingNavigation;
+  fill("latitude", [](N& p, double v) { p.transducer.latitude_deg = v; });
+  fill("longitude", [](N& p, double v) { p.transducer.longitude_deg = v; });
+  fill("heading", [](N& p, double v) { p.heading_deg = v; });
+  fill("speed", [](N& p, double v) { p.speed_mps = v; });
+  fill("course", [](N& p, double v) { p.course_deg = v; });
+  fill("distance", [](N& p, double v) { p.distance_nmi = v; });
+  fill("pitch", [](N& p, double v) { p.pitch_deg = v; });
+  fill("roll", [](N& p, double v) { p.roll_deg = v; });
+  fill("heave", [](N& p, double v) { p.heave_m = v; });
+  fill("transducer_depth", [](N& p, double v) { p.transducer_depth_m = v; });
+  fill("gps_minus_clock", [](N& p, double v) { p.gps_minus_clock_s = v; });
+  fill("bad", [](N& p, double v) { p.bad = v != 0.0; });
+  read_background(in, group, product);
+}
+
+double scalar(Reader& in, int group, const char* name) {
+  const auto value = in.values<double>(group, name, 1);
+  return value.empty() ? 0.0 : value.front();
+}
+
+bool rises(const std::vector<double>& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x) && std::abs(x) <= 720.0; }) &&
+         std::adjacent_find(v.begin(), v.end(), [](double a, double b) { return a >= b; }) == v.end();
+}
+
+/// What Sector and the voxel loops rely on.
+bool is_sound(const GridRecord& record) {
+  const std::vector<int>& channel = record.grid.channel;
+  std::vector<bool> seen(channel.size(), false);
+  for (const int c : channel) {
+    if (c < 0 || static_cast<std::size_t>(c) >= seen.size() || seen[static_cast<std::size_t>(c)]) return false;
+    seen[static_cast<std::size_t>(c)] = true;
+  }
+  const RangeAxis& range = record.range;
+  return rises(record.grid.elevation_deg) && rises(record.grid.azimuth_deg) && range.spacing_m > 0.0 &&
+         std::isfinite(range.spacing_m) && std::isfinite(range.first_m) && range.count >= 0 &&
+         range.count <= kMostSamples;
+}
+
+void read_grid(Reader& in, ObservationProduct& product) {
+  const int group = in.find_group(in.root(), "grid");
+  if (group < 0 || !in.has_variable(group, "elevation")) return;
+  const std::size_t fans = in.dimension(group, "fan");
+  const std::size_t beams = in.dimension(group, "beam");
+  if (in.ok() && (fans == 0 || beams == 0 || fans > kMostBeams || beams > kMostBeams || fans * beams > kMostBeams)) {
+    in.refuse(ErrorCode::format, fmt::format("a grid of {} fans x {} beams", fans, beams));
+  }
+  if (!in.ok()) return;
+  GridRecord record;
+  BeamGrid& grid = record.grid;
+  grid.elevation_deg = in.values<double>(group, "elevation", fans);
+  grid.azimuth_deg = in.values<double>(group, "azimuth", beams);
+  grid.mounting_azimuth_deg = scalar(in, group, "mounting_azimuth");
+  grid.frequency_hz = in.values<double>(group, "frequency", fans);
+  grid.channel = in.values<std::int32_t>(group, "channel", fans * beams);
+  grid.vertical_width_deg = in.values<double>(group, "vertical_width", fans * beams);
+  grid.horizontal_width_deg = in.values<double>(group, "horizontal_width", fans * beams);
+  record.sample_count = in.values<std::int32_t>(group, "sample_count", fans);
+  record.range = {scalar(in, group, "range_of_first_sample"), scalar(in, group, "sample_spacing"), 0};
+  const auto count = in.values<std::int32_t>(group, "sample_count_of_grid", 1);
+  record.range.count = count.empty() ? 0 : count.front();
+  record.sound_speed_mps = scalar(in, group, "sound_speed");
+  if (in.ok() && !is_sound(record)) in.refuse(ErrorCode::format, "the grid makes no sense");
+  if (in.ok()) product.grid = std::move(record);
+}
+
+/// Visitor that fills one column of all rows at each call.
+template <class Row>
+class RowFiller {
+ public:
+  RowFiller(Reader& in, int group, std::vector<Row>& rows) : in_(in), group_(group), rows_(rows) {}
+
+  /// Visits the columns once per row, but reads each only at the first row.
+  void fill() {
+    for (row_ = 0; row_ < rows_.size() && in_.ok(); ++row_) {
+      at_ = 0;
+      columns(*this, rows_[row_]);
+    }
+  }
+  void operator()(std::string_view name, std::string_view, std::string& v) { take(texts_, name, v); }
+  void operator()(std::string_view name, std::string_view, std::int64_t& v) { take(wholes_, name, v); }
+  void operator()(std::string_view name, std::string_view, double& v) { take(numbers_, name, v); }
+  void operator()(std::string_view name, std::string_view, DegreesColumn v) { take(numbers_, name, v.value); }
+  void operator()(std::string_view name, std::string_view, TimeColumn v) {
+    std::string text;
+    take(texts_, name, text);
+    if (text.empty()) return;
+    if (const auto time = time_from_iso(text)) {
+      v.value = *time;
+    } else {
+      in_.refuse(ErrorCode::format, fmt::format("'{}' row {}: '{}' is no time", name, row_, text.substr(0, 40)));
+    }
+  }
+
+ private:
+  template <class T>
+  void take(std::vector<std::vector<T>>& store, std::string_view name, T& value) {
+    if (store.size() <= at_) store.resize(at_ + 1);
+    if (row_ == 0) store[at_] = in_.values<T>(group_, std::string(name), rows_.size());
+    if (row_ < store[at_].size()) value = store[at_][row_];
+    ++at_;
+  }
+  Reader& in_;
+  int group_;
+  std::vector<Row>& rows_;
+  std::size_t row_ = 0;
+  std::size_t at_ = 0;
+  std::vector<std::vector<std::string>> texts_;
+  std::vector<std::vector<std::int64_t>> wholes_;
+  std::vector<std::vector<double>> numbers_;
+};
+
+template <class Row>
+void read_rows(Reader& in, const char* group_name, const char* dimension, std::vector<Row>& rows) {
+  const int group = in.group(in.root(), group_name);
+  const std::size_t n = in.dimension(group, dimension);
+  if (n > 0 && in.size(group, "school_id") != n) in.refuse(ErrorCode::format, "'school_id' has another length");
+  if (!in.ok()) return;
+  rows.resize(n);
+  RowFiller<Row>(in, group, rows).fill();
+}
+
+/// Text keeps milliseconds; the pings know the rest.
+void restore_nanoseconds(ObservationProduct& product) {
+  const auto exact = [&](std::int64_t ping, TimeNs& time) {
+    if (ping < 0 || ping >= static_cast<std::int64_t>(product.pings.size())) return;
+    const TimeNs of_ping = product.pings[static_cast<std::size_t>(ping)].time;
+    if (of_ping >= time && of_ping - time < 1'000'000) time = of_ping;
+  };
+  for (SchoolPingRow& row : product.school_pings) exact(row.ping_index, row.time_utc);
+  for (SchoolRow& school : product.schools) {
+    for (const SchoolPingRow& row : product.school_pings) {
+      if (row.school_id != school.school_id) continue;
+      exact(row.ping_index, school.first_time_utc);
+      exact(row.ping_index, school.last_time_utc);
+    }
+  }
+}
+
+struct RunTable {
+  std::vector<std::int64_t> school_id;
+  std::vector<std::int64_t> ping_index;
+  std::vector<std::int32_t> channel;
+  std::vector<std::int32_t> first_sample;
+  std::vector<std::int32_t> sample_count;
+  std::vector<std::uint8_t> confidence;
+  std::vector<std::size_t> first_voxel;
+};
+
+/// Names the first run that does not fit the pings and the grid.
+bool check_runs(Reader& in, const ObservationProduct& product, RunTable& table) {
+  const std::size_t channels = product.grid ? product.grid->grid.channel.size() : 0;
+  const int samples = product.grid ? product.grid->range.count : 0;
+  std::size_t voxels = 0;
+  for (std::size_t i = 0; i < table.school_id.size(); ++i) {
+    const std::int32_t count = table.sample_count[i];
+    const bool fits = table.ping_index[i] >= 0 &&
+                      table.ping_index[i] < static_cast<std::int64_t>(product.pings.size()) && table.channel[i] >= 0 &&
+                      static_cast<std::size_t>(table.channel[i]) < channels && table.first_sample[i] >= 0 &&
+                      count > 0 && count <= samples && table.first_sample[i] <= samples - count;
+    if (!fits || static_cast<std::size_t>(count) > table.confidence.size() - voxels) {
+      in.refuse(ErrorCode::format, fmt::format("run {} of the mask does not fit the pings and the grid", i));
+      return false;
+    }
+    table.first_voxel.push_back(voxels);
+    voxels += static_cast<std::size_t>(count);
+  }
+  if (voxels != table.confidence.size()) in.refuse(ErrorCode::format, "the mask has voxels without a run");
+  return in.ok();
+}
+
+void append_runs(const RunTable& table, const std::vector<std::size_t>& order, const std::vector<int>& row_of_channel,
+                 ObservationProduct& product) {
+  for (const std::size_t i : order) {
+    if (product.masks.empty() || product.masks.back().school_id != table.school_id[i] ||
+        product.masks.back().ping_index != table.ping_index[i]) {
+      product.masks.push_back({table.school_id[i], table.ping_index[i], {}});
+    }
+    PingMask& mask = product.masks.back().mask;
+    mask.runs.push_back(
+        {row_of_channel[static_cast<std::size_t>(table.channel[i])], table.first_sample[i], table.sample_count[i]});
+    const auto first = table.confidence.begin() + static_cast<std::ptrdiff_t>(table.first_voxel[i]);
+    mask.confidence.insert(mask.confidence.end(), first, first + table.sample_count[i]);
+  }
+}
+
+void read_mask(Reader& in, ObservationProduct& product) {
+  const int group = in.group(in.root(), "mask");
+  const std::size_t runs = in.dimension(group, "run");
+  RunTable table;
+  table.school_id = in.values<std::int64_t>(group, "school_id", runs);
+  table.ping_index = in.values<std::int64_t>(group, "ping_index", runs);
+  table.channel = in.values<std::int32_t>(group, "channel", runs);
+  table.first_sample = in.values<std::int32_t>(group, "first_sample", runs);
+  table.sample_count = in.values<std::int32_t>(group, "sample_count", runs);
+  table.confidence = in.values<std::uint8_t>(group, "confidence", in.dimension(group, "voxel"));
+  if (!in.ok() || runs == 0 || !check_runs(in, product, table)) return;
+  const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
+  std::vector<std::size_t> order(runs);
+  for (std::size_t i = 0; i < runs; ++i) order[i] = i;
+  const auto key = [&](std::size_t i) {
+    return std::tuple(table.school_id[i], table.ping_index[i],
+                      row_of_channel[static_cast<std::size_t>(table.channel[i])], table.first_sample[i]);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < runs; ++i) {
+    const auto [id, ping, row, first] = key(order[i - 1]);
+    const auto [id2, ping2, row2, first2] = key(order[i]);
+    if (std::tie(id, ping, row) == std::tie(id2, ping2, row2) && first2 - first < table.sample_count[order[i - 1]]) {
+      in.refuse(ErrorCode::format, fmt::format("runs of school {} overlap in ping {}", id, ping));
+      return;
+    }
+  }
+  append_runs(table, order, row_of_channel, product);
+}
+
+void read_diagnostics(Reader& in, ObservationProduct& product) {
+  const int group = in.find_group(in.root(), "diagnostics");
+  if (group < 0) return;
+  const std::size_t n = in.dimension(group, "note");
+  const auto code = in.values<std::string>(group, "code", n);
+  const auto file = in.values<std::string>(group, "file", n);
+  const auto offset = in.values<std::int64_t>(group, "offset", n);
+  const auto ping_index = in.values<std::int64_t>(group, "ping_index", n);
+  const auto text = in.values<std::string>(group, "text", n);
+  for (std::size_t i = 0; i < n && in.ok(); ++i) {
+    const auto table = diagnostic_table();
+    const auto entry = std::find_if(table.begin(), table.end(), [&](const auto& e) { return e.name == code[i]; });
+    if (entry == table.end()) {
+      in.refuse(ErrorCode::format, fmt::format("note {} has the unknown code '{}'", i, code[i].substr(0, 40)));
+      return;
+    }
+    product.diagnostics.push_back({entry->code, file[i], offset[i], ping_index[i], text[i]});
+  }
+}
+
+Result<ObservationProduct> read_whole(const std::filesystem::path& path) {
+  Reader in(path, path.string());
+  ObservationProduct product;
+  if (check_version(in)) {
+    read_attributes(in, product);
+    read_grid(in, product);
+    read_pings(in, product);
+    read_rows(in, "schools", "school", product.schools);
+    read_rows(in, "school_pings", "row", product.school_pings);
+    read_mask(in, product);
+    read_diagnostics(in, product);
+  }
+  if (!in.ok()) return pass_on(in.status());
+  restore_nanoseconds(product);
+  return product;
+}
+
+Result<ProductKey> read_key(const std::filesystem::path& path) {
+  Reader in(path, path.string());
+  ProductKey key;
+  if (check_version(in)) {
+    const int root = in.root();
+    key = {in.text(root, "observation"), in.text(root, "input_hash"), in.text(root, "recipe_hash"),
+           in.text(root, "stage_versions")};
+  }
+  if (!in.ok()) return pass_on(in.status());
+  return key;
+}
+
+/// Reads what our own seal vouches for at once; anything else in a process apart first, for HDF5 may break on it.
+template <class T>
+Result<T> read_safely(const std::filesystem::path& path, Result<T> (*read)(const std::filesystem::path&)) {
+  const auto sealed = check_seal(path, path.string());
+  if (!sealed) return pass_on(sealed);
+  if (!*sealed) {
+    // Held so that no other thread is inside netCDF when the process is doubled; the copy lets it go.
+    auto held = netcdf::lock();
+    const auto body = [&] {
+      held.unlock();
+      static_cast<void>(read(path));
+    };
+    if (auto survived = try_apart(body, path.string()); !survived) return pass_on(survived);
+  }
+  return read(path);
+}
+
+}  // namespace
+
+Result<ObservationProduct> read_product(const std::filesystem::path& path) { return read_safely(path, read_whole); }
+
+Result<ProductKey> read_product_key(const std::filesystem::path& path) { return read_safely(path, read_key); }
+
+}  // namespace sonar

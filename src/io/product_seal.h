@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+
+namespace sonar {
+
+// A product ends with a seal: one line of text with the XXH3-128 of all bytes before it. netCDF and HDF5 take no notice
+// of bytes behind the end that they know; our reader refuses a file whose seal is broken before HDF5, which is not
+// written to survive damaged metadata, sees it. A file that another program has changed has no seal; it is read in a process apart first.
+
+/// errors  io, no_space
+Result<void> append_seal(const std::filesystem::path& path);
+
+/// out     whether there is a seal (and it is whole)
+/// errors  not_found, io, format: no HDF5 file, or bytes changed since it was written
+/// named   stands in messages
+Result<bool> check_seal(const std::filesystem::path& path, const std::string& named);
+
+}  // namespace sonar

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "io/columns.h"
+#include "io/netcdf_file.h"
+#include "io/product.h"
+#include "io/product_seal.h"
+
+namespace sonar {
+namespace {
+
+using netcdf::Dimension;
+using netcdf::Storage;
+using netcdf::Writer;
+
+/// One member of every ping's navigation as an array.
+template <class Member>
+auto per_ping(const ObservationProduct& product, Member PingNavigation::*member) {
+  std::vector<Member> values;
+  for (const PingNavigation& ping : product.pings) values.push_back(ping.*member);
+  return values;
+}
+
+void write_attributes(Writer& out, const ObservationProduct& product) {
+  const int root = out.root();
+  const auto text = [&](const char* name, const std::string& value) {
+    out.attribute(root, Writer::kGlobal, name, std::string_view(value));
+  };
+  text("Conventions", "CF-1.8");
+  text("title", product.title);
+  text("source", product.source);
+  text("history", product.history);
+  out.attribute(root, Writer::kGlobal, "product_version", std::int64_t{kProductVersion});
+  text("sonar_explorer_version", product.program_version);
+  text("recipe", product.recipe_json);
+  text("recipe_hash", product.recipe_hash);
+  text("observation", product.observation);
+  text("stage_versions", product.stage_versions);
+  text("input_hash", product.input_hash);
+  std::vector<std::string> files;
+  for (const InputFile& f : product.input_files) files.push_back(fmt::format("{} {} {}", f.name, f.size, f.hash));
+  out.attribute(root, Writer::kGlobal, "input_files", files);
+  text("input_files_comment", "one text per file: name, size in bytes, hash");
+}
+
+void write_background(Writer& out, int group, const Dimension& ping, const ObservationProduct& product) {
+  if (product.background_db.empty() || !product.grid) return;
+  const std::vector<int>& channel = product.grid->grid.channel;
+  const std::size_t channels = channel.size();
+  std::vector<float> levels(product.pings.size() * channels, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t p = 0; p < product.background_db.size(); ++p) {
+    const std::vector<float>& of_ping = product.background_db[p];
+    for (std::size_t row = 0; row < of_ping.size(); ++row) {
+      levels[p * channels + static_cast<std::size_t>(channel[row])] = of_ping[row];
+    }
+  }
+  const Dimension width = out.dimension(group, "channel", channels);
+  const int id = out.variable(group, "background_db", "dB re 1 W", {ping, width}, levels, Storage::packed);
+  out.attribute(group, id, "long_name", "received background level that was subtracted, by 0-based channel");
+}
+
+void write_pings(Writer& out, const ObservationProduct& product) {
+  const int group = out.group(out.root(), "pings");
+  const Dimension ping = out.dimension(group, "ping", product.pings.size());
+  const int time = out.variable(group, "time", "nanoseconds since 1970-01-01T00:00:00Z", {ping},
+                                per_ping(product, &PingNavigation::time));
+  out.attribute(group, time, "standard_name", "time");
+  out.attribute(group, time, "calendar", "proleptic_gregorian");
+  std::vector<double> latitude;
+  std::vector<double> longitude;
+  for (const PingNavigation& p : product.pings) {
+    latitude.push_back(p.transducer.latitude_deg);
+    longitude.push_back(p.transducer.longitude_deg);
+  }
+  const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name) {
+    const int id = out.variable(group, name, unit, {ping}, values);
+    out.attribute(group, id, "long_name", long_name);
+    return id;
+  };
+  using N = PingNavigation;
+  out.attribute(group, put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84"),
+                "standard_name", "latitude");
+  out.attribute(group, put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84"),
+                "standard_name", "longitude");
+  put("heading", "degrees", per_ping(product, &N::heading_deg), "heading, clockwise from true north");
+  put("speed", "m s-1", per_ping(product, &N::speed_mps), "speed over ground");
+  put("course", "degrees", per_ping(product, &N::course_deg), "course over ground, clockwise from true north");
+  put("distance", "nmi", per_ping(product, &N::distance_nmi), "vessel's log");
+  put("pitch", "degrees", per_ping(product, &N::pitch_deg), "pitch, positive bow up");
+  put("roll", "degrees", per_ping(product, &N::roll_deg), "roll, positive port up");
+  put("heave", "m", per_ping(product, &N::heave_m), "heave, positive down");
+  put("transducer_depth", "m", per_ping(product, &N::transducer_depth_m), "depth of the transducer");
+  put("gps_minus_clock", "s", per_ping(product, &N::gps_minus_clock_s), "GPS time minus the datagrams' clock");
+  std::vector<std::uint8_t> bad;
+  for (const PingNavigation& p : product.pings) bad.push_back(p.bad ? 1 : 0);
+  out.attribute(group, out.variable(group, "bad", "1", {ping}, bad), "long_name", "1 = the ping was not used");
+  write_background(out, group, ping, product);
+}
+
+void write_grid(Writer& out, const ObservationProduct& product) {
+  const int group = out.group(out.root(), "grid");
+  if (!product.grid) return;
+  const GridRecord& record = *product.grid;
+  const BeamGrid& grid = record.grid;
+  const Dimension fan = out.dimension(group, "fan", grid.elevation_deg.size());
+  const Dimension beam = out.dimension(group, "beam", grid.azimuth_deg.size());
+  const auto scalar = [&](const char* name, const char* unit, double value) {
+    return out.variable(group, name, unit, {}, std::vector<double>{value});
+  };
+  const auto named = [&](int id, const char* long_name) { out.attribute(group, id, "long_name", long_name); };
+  named(out.variable(group, "elevation", "degrees", {fan}, grid.elevation_deg), "elevation of the fan, positive up");
+  named(out.variable(group, "azimuth", "degrees", {beam}, grid.azimuth_deg), "azimuth, clockwise from the bow");
+  named(scalar("mounting_azimuth", "degrees", grid.mounting_azimuth_deg), "where the sonar looks, from the bow");
+  out.variable(group, "frequency", "Hz", {fan}, grid.frequency_hz);
+  named(out.variable(group, "channel", "1", {fan, beam},
+                     std::vector<std::int32_t>(grid.channel.begin(), grid.channel.end())),
+        "0-based channel of each beam");
+  named(out.variable(group, "vertical_width", "degrees", {fan, beam}, grid.vertical_width_deg), "one-way -3 dB width");
+  named(out.variable(group, "horizontal_width", "degrees", {fan, beam}, grid.horizontal_width_deg),
+        "one-way -3 dB width");
+  named(out.variable(group, "sample_count", "1", {fan}, record.sample_count), "samples of the fan's longest beam");
+  named(out.variable(group, "sample_count_of_grid", "1", {}, std::vector<std::int32_t>{record.range.count}),
+        "samples of the longest fan");
+  scalar("sample_spacing", "m", record.range.spacing_m);
+  named(scalar("range_of_first_sample", "m", record.range.first_m), "slant range of sample 0; may be negative");
+  scalar("sound_speed", "m s-1", record.sound_speed_mps);
+}
+
+template <class Row>
+void write_rows(Writer& out, const char* group_name, const char* dimension, const std::vector<Row>& rows) {
+  const int group = out.group(out.root(), group_name);
+  const Dimension row = out.dimension(group, dimension, rows.size());
+  for (const Column& column : columns_of(rows)) {
+    std::visit([&](const auto& values) { out.variable(group, column.name, column.unit, {row}, values); },
+               column.values);
+  }
+}
+
+/// A run as it stands in the file.
+struct ChannelRun {
+  std::int64_t school_id;
+  std::int64_t ping_index;
+  std::int32_t channel;
+  std::int32_t first_sample;
+  std::int32_t count;
+  const std::uint8_t* confidence;
+  [[nodiscard]] auto key() const { return std::tuple(school_id, ping_index, channel, first_sample); }
+};
+
+Result<std::vector<ChannelRun>> channel_runs(const ObservationProduct& product, const Where& where) {
+  std::vector<ChannelRun> runs;
+  const auto wrong = [&](const SchoolMask& m, const char* what) {
+    return fail(ErrorCode::bad_parameter, fmt::format("mask of school {}: {}", m.school_id, what),
+                {.file = where.file, .ping = m.ping_index});
+  };
+  for (const SchoolMask& m : product.masks) {
+    if (!m.mask.empty() && !product.grid) return wrong(m, "there is no grid");
+    if (m.ping_index < 0 || m.ping_index >= static_cast<std::int64_t>(product.pings.size())) {
+      return wrong(m, "no such ping");
+    }
+    std::size_t voxel = 0;
+    for (const Run& run : m.mask.runs) {
+      const auto count = static_cast<std::size_t>(std::max(0, run.count));
+      const GridRecord& record = *product.grid;
+      if (run.count <= 0 || run.first_sample < 0 || run.first_sample > record.range.count - run.count) {
+        return wrong(m, "a run outside the samples");
+      }
+      if (run.row < 0 || run.row >= static_cast<std::int32_t>(record.grid.channel.size())) {
+        return wrong(m, "a run outside the beams");
+      }
+      if (count > m.mask.voxels() - voxel) return wrong(m, "fewer confidences than voxels");
+      runs.push_back({m.school_id, m.ping_index, record.grid.channel[static_cast<std::size_t>(run.row)],
+                      run.first_sample, run.count, m.mask.confidence.data() + voxel});
+      voxel += count;
+    }
+    if (voxel != m.mask.voxels()) return wrong(m, "more confidences than voxels");
+  }
+  std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
+  return runs;
+}
+
+void write_mask(Writer& out, const std::vector<ChannelRun>& runs) {
+  const int group = out.group(out.root(), "mask");
+  std::vector<std::int64_t> school_id;
+  std::vector<std::int64_t> ping_index;
+  std::vector<std::int32_t> channel;
+  std::vector<std::int32_t> first_sample;
+  std::vector<std::int32_t> sample_count;
+  std::vector<std::uint8_t> confidence;
+  for (const ChannelRun& run : runs) {
+    school_id.push_back(run.school_id);
+    ping_index.push_back(run.ping_index);
+    channel.push_back(run.channel);
+    first_sample.push_back(run.first_sample);
+    sample_count.push_back(run.count);
+    confidence.insert(confidence.end(), run.confidence, run.confidence + run.count);
+  }
+  const Dimension run = out.dimension(group, "run", runs.size());
+  const Dimension voxel = out.dimension(group, "voxel", confidence.size());
+  const auto named = [&](int id, const char* long_name) { out.attribute(group, id, "long_name", long_name); };
+  named(out.variable(group, "school_id", "1", {run}, school_id, Storage::packed), "school of the run");
+  named(out.variable(group, "ping_index", "1", {run}, ping_index, Storage::packed), "0-based ping of the run");
+  named(out.variable(group, "channel", "1", {run}, channel, Storage::packed), "0-based channel of the run");
+  named(out.variable(group, "first_sample", "1", {run}, first_sample, Storage::packed), "0-based first sample");
+  named(out.variable(group, "sample_count", "1", {run}, sample_count, Storage::packed), "length of the run");
+  const int id = out.variable(group, "confidence", "1", {voxel}, confidence, Storage::packed);
+  out.attribute(group, id, "scale_factor", 1.0 / 255.0);
+  named(id, "confidence of each voxel, in run order");
+}
+
+void write_diagnostics(Writer& out, const Diagnostics& notes) {
+  const int group = out.group(out.root(), "diagnostics");
+  std::vector<std::string> code;
+  std::vector<std::string> file;
+  std::vector<std::int64_t> offset;
+  std::vector<std::int64_t> ping_index;
+  std::vector<std::string> text;
+  for (const Diagnostic& note : notes) {
+    code.emplace_back(name(note.code));
+    file.push_back(note.file);
+    offset.push_back(note.offset);
+    ping_index.push_back(note.ping_index);
+    text.push_back(note.text);
+  }
+  const Dimension n = out.dimension(group, "note", notes.size());
+  out.variable(group, "code", "", {n}, code);
+  out.variable(group, "file", "", {n}, file);
+  out.attribute(group, out.variable(group, "offset", "byte", {n}, offset), "long_name", "byte offset; -1 = none");
+  out.attribute(group, out.variable(group, "ping_index", "1", {n}, ping_index), "long_name", "0-based; -1 = none");
+  out.variable(group, "text", "", {n}, text);
+}
+
+Result<void> check_shapes(const ObservationProduct& product, const Where& where) {
+  const auto wrong = [&](const char* what) { return fail(ErrorCode::bad_parameter, what, where); };
+  if (!product.background_db.empty() && product.background_db.size() != product.pings.size()) {
+    return wrong("background levels and pings differ in number");
+  }
+  if (!product.grid) return {};
+  const BeamGrid& grid = product.grid->grid;
+  const std::size_t cells = grid.elevation_deg.size() * grid.azimuth_deg.size();
+  const bool whole = cells > 0 && grid.frequency_hz.size() == grid.elevation_deg.size() &&
+                     grid.channel.size() == cells && grid.vertical_width_deg.size() == cells &&
+                     grid.horizontal_width_deg.size() == cells &&
+                     product.grid->sample_count.size() == grid.elevation_deg.size();
+  if (!whole) return wrong("the grid's arrays differ in size");
+  std::set<int> channels(grid.channel.begin(), grid.channel.end());
+  if (channels.size() != cells || *channels.begin() != 0 || *channels.rbegin() != static_cast<int>(cells) - 1) {
+    return wrong("the grid's channels are not 0, 1, ... each once");
+  }
+  for (const std::vector<float>& levels : product.background_db) {
+    if (!levels.empty() && levels.size() != cells) return wrong("background levels and beams differ in number");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path) {
+  const Where where{.file = path.string()};
+  if (auto checked = check_shapes(product, where); !checked) return checked;
+  const auto runs = channel_runs(product, where);
+  if (!runs) return pass_on(runs);
+  auto file = AtomicFile::create(path);
+  if (!file) return pass_on(file);
+  {
+    Writer out(file->temporary(), path.string());
+    write_attributes(out, product);
+    write_pings(out, product);
+    write_grid(out, product);
+    write_rows(out, "schools", "school", product.schools);
+    write_rows(out, "school_pings", "row", product.school_pings);
+    write_mask(out, *runs);
+    write_diagnostics(out, product.diagnostics);
+    if (auto closed = out.close(); !closed) return closed;
+  }
+  if (auto sealed = append_seal(file->temporary()); !sealed) return sealed;
+  return file->commit();
+}
+
+}  // namespace sonar

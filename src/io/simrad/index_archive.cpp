@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+
+#include "base/hash.h"
+#include "io/simrad/index_cache.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::string_view kMagic = "SONARIDX";
+
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+class Writer {
+ public:
+  template <Plain T>
+  void operator()(const T& value) {
+    put(&value, sizeof(T));
+  }
+  void operator()(const std::string& text) {
+    (*this)(static_cast<std::uint64_t>(text.size()));
+    put(text.data(), text.size());
+  }
+  template <class T, std::size_t N>
+  void operator()(const std::array<T, N>& values) {
+    for (const T& value : values) (*this)(value);
+  }
+  template <class T>
+  void operator()(const std::vector<T>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const T& value : values) (*this)(value);
+  }
+  void operator()(const std::map<std::string, std::int64_t>& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const auto& [key, value] : values) {
+      (*this)(key);
+      (*this)(value);
+    }
+  }
+  template <class T>
+    requires std::is_class_v<T>
+  void operator()(const T& value) {
+    fields(*this, value);
+  }
+  [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  void put(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    bytes_.insert(bytes_.end(), bytes, bytes + size);
+  }
+  std::vector<std::byte> bytes_;
+};
+
+/// Every read is checked against what is left; after a short one nothing is read any more. Vectors grow as their
+/// elements come, so that a wild count allocates nothing.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  template <Plain T>
+  void operator()(T& value) {
+    get(&value, sizeof(T));
+  }
+  void operator()(std::string& text) {
+    text.resize(count());
+    get(text.data(), text.size());
+  }
+  template <class T, std::size_t N>
+  void operator()(std::array<T, N>& values) {
+    for (T& value : values) (*this)(value);
+  }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    const std::size_t n = count();
+    for (std::size_t i = 0; i < n && sound_; ++i) {
+      values.emplace_back();
+      (*this)(values.back());
+    }
+  }
+  void operator()(std::map<std::string, std::int64_t>& values) {
+    const std::size_t n = count();
+    for (std::size_t i = 0; i < n && sound_; ++i) {
+      std::string key;
+      (*this)(key);
+      (*this)(values[key]);
+    }
+  }
+  template <class T>
+    requires std::is_class_v<T>
+  void operator()(T& value) {
+    fields(*this, value);
+  }
+  [[nodiscard]] bool sound_to_the_end() const { return sound_ && bytes_.empty(); }
+
+ private:
+  std::size_t count() {
+    std::uint64_t n = 0;
+    get(&n, sizeof(n));
+    if (n > bytes_.size()) sound_ = false;
+    return sound_ ? static_cast<std::size_t>(n) : 0;
+  }
+  void get(void* data, std::size_t size) {
+    if (!sound_ || size > bytes_.size()) {
+      sound_ = false;
+      return;
+    }
+    if (size > 0) std::memcpy(data, bytes_.data(), size);
+    bytes_ = bytes_.subspan(size);
+  }
+  std::span<const std::byte> bytes_;
+  bool sound_ = true;
+};
+
+template <class T, class U>
+concept Is = std::is_same_v<std::remove_const_t<T>, U>;
+
+void fields(auto& io, Is<NavSample> auto& s) {
+  io(s.time);
+  io(s.first);
+  io(s.second);
+}
+
+void fields(auto& io, Is<NavSeries> auto& s) {
+  io(s.quantity);
+  io(s.talker);
+  io(s.sentence);
+  io(s.samples);
+}
+
+void fields(auto& io, Is<Diagnostic> auto& d) {
+  io(d.code);
+  io(d.offset);
+  io(d.ping_index);
+  io(d.text);
+}
+
+void fields(auto& io, Is<ChannelTransmit> auto& t) {
+  io(t.frequency_hz);
+  io(t.transmit_power_w);
+  io(t.pulse_length_s);
+  io(t.sample_interval_s);
+  io(t.sound_speed_mps);
+  io(t.absorption_db_per_m);
+  io(t.max_samples);
+}
+
+void fields(auto& io, Is<PingEntry> auto& p) {
+  io(p.time);
+  io(p.offset);
+  io(p.end);
+  io(p.roll_deg);
+  io(p.pitch_deg);
+  io(p.heave_m);
+  io(p.heading_deg);
+  io(p.transducer_depth_m);
+  io(p.min_samples);
+  io(p.max_samples);
+  io(p.channels);
+  io(p.config);
+  io(p.transmit);
+}
+
+void fields(auto& io, Is<BeamConfig> auto& b) {
+  io(b.channel_id);
+  io(b.beam_type);
+  io(b.frequency_hz);
+  io(b.gain_db);
+  io(b.equivalent_beam_angle_db);
+  io(b.width_alongship_deg);
+  io(b.width_athwartship_deg);
+  io(b.sensitivity_alongship);
+  io(b.sensitivity_athwartship);
+  io(b.offset_alongship_deg);
+  io(b.offset_athwartship_deg);
+  io(b.position_m);
+  io(b.direction_deg);
+  io(b.pulse_length_s);
+  io(b.gain_table_db);
+  io(b.sa_correction_table_db);
+}
+
+void fields(auto& io, Is<SounderConfig> auto& c) {
+  io(c.survey_name);
+  io(c.transect_name);
+  io(c.sounder_name);
+  io(c.version);
+  io(c.kind);
+  io(c.sound_speed_average_mps);
+  io(c.sound_speed_transducer_mps);
+  io(c.mru_offset_m);
+  io(c.mru_angles_deg);
+  io(c.gps_offset_m);
+  io(c.beams);
+  io(c.con1_xml);
+}
+
+void fields(auto& io, Is<RawIndex> auto& r) {
+  io(r.size);
+  io(r.hash);
+  io(r.format);
+  io(r.datagrams);
+  io(r.first_datagram_time);
+  io(r.last_datagram_time);
+  io(r.configs);
+  io(r.transmits);
+  io(r.pings);
+  io(r.navigation);
+  io(r.diagnostics);
+}
+
+/// A checksum guards the bytes, so this is about programs that changed without raising the version.
+bool makes_sense(const RawIndex& index) {
+  if (index.format > RawFormat::unknown) return false;
+  for (const PingEntry& ping : index.pings) {
+    if (ping.config >= index.configs.size() || ping.transmit >= index.transmits.size()) return false;
+  }
+  for (const NavSeries& series : index.navigation) {
+    if (series.quantity > NavQuantity::clock) return false;
+  }
+  for (const Diagnostic& note : index.diagnostics) {
+    if (static_cast<std::size_t>(note.code) >= diagnostic_table().size()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_index(const RawIndex& index) {
+  Writer content;
+  content(index);
+  const std::vector<std::byte> body = content.take();
+  Writer out;
+  for (const char c : kMagic) out(c);
+  out(kIndexVersion);
+  const Hash128 hash = hash_bytes(body);
+  out(hash.high);
+  out(hash.low);
+  std::vector<std::byte> bytes = out.take();
+  bytes.insert(bytes.end(), body.begin(), body.end());
+  return bytes;
+}
+
+std::optional<RawIndex> decode_index(std::span<const std::byte> bytes) {
+  constexpr std::size_t kHeader = kMagic.size() + sizeof(kIndexVersion) + 16;
+  if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) return std::nullopt;
+  Reader header(bytes.subspan(kMagic.size()));
+  int version = 0;
+  Hash128 hash;
+  header(version);
+  header(hash.high);
+  header(hash.low);
+  const auto body = bytes.subspan(kHeader);
+  if (version != kIndexVersion || hash_bytes(body) != hash) return std::nullopt;
+  Reader reader(body);
+  RawIndex index;
+  reader(index);
+  if (!reader.sound_to_the_end() || !makes_sense(index)) return std::nullopt;
+  return index;
+}
+
+}  // namespace sonar

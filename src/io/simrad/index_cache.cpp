@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/simrad/index_cache.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "base/hash.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FileState {
+  std::string absolute;
+  std::uint64_t size = 0;
+  std::int64_t changed_ns = 0;
+
+  [[nodiscard]] std::string key() const {
+    return to_hex(hash_text(fmt::format("{}\n{}\n{}", absolute, size, changed_ns)));
+  }
+};
+
+std::optional<FileState> state_of(const fs::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return std::nullopt;
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error);
+  if (error) return std::nullopt;
+  return FileState{absolute.lexically_normal().string(), static_cast<std::uint64_t>(info.st_size),
+                   static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1'000'000'000 + info.st_mtim.tv_nsec};
+}
+
+fs::path entry_path(const IndexCache& cache, const FileState& state) {
+  return cache.folder / (to_hex(hash_text(state.absolute)) + ".index");
+}
+
+std::optional<RawIndex> load(const IndexCache& cache, const FileState& state) {
+  const auto source = open_file(entry_path(cache, state));
+  if (!source) return std::nullopt;
+  const auto size = (*source)->size();
+  const std::string key = state.key();
+  if (!size || *size < key.size() || *size > (std::uint64_t{4} << 30)) return std::nullopt;
+  std::vector<std::byte> bytes(static_cast<std::size_t>(*size));
+  const auto got = (*source)->read(0, bytes);
+  if (!got || *got != bytes.size() || std::memcmp(bytes.data(), key.data(), key.size()) != 0) return std::nullopt;
+  auto index = decode_index(std::span<const std::byte>(bytes).subspan(key.size()));
+  if (index && index->size != state.size) return std::nullopt;
+  return index;
+}
+
+/// Whole or not at all: others may read while this is written. Failure is no error, the next opening only takes longer.
+void store(const IndexCache& cache, const FileState& state, const RawIndex& index) {
+  std::error_code error;
+  fs::create_directories(cache.folder, error);
+  const fs::path path = entry_path(cache, state);
+  const fs::path temporary = fmt::format("{}.{}.tmp", path.string(), ::getpid());
+  const std::string key = state.key();
+  const std::vector<std::byte> bytes = encode_index(index);
+  bool written = false;
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(key.data(), static_cast<std::streamsize>(key.size()));
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    written = !out.fail();
+  }
+  if (written) fs::rename(temporary, path, error);
+  if (!written || error) fs::remove(temporary, error);
+}
+
+}  // namespace
+
+IndexCache IndexCache::of_user() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
+    return {fs::path(cache) / "sonar-explorer"};
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+    return {fs::path(home) / ".cache" / "sonar-explorer"};
+  }
+  return {};
+}
+
+Result<RawIndex> open_index(const fs::path& path, const IndexCache& cache) {
+  const auto state = cache.folder.empty() ? std::nullopt : state_of(path);
+  if (state) {
+    if (auto index = load(cache, *state)) {
+      index->name = path.string();
+      for (Diagnostic& note : index->diagnostics) note.file = index->name;
+      return std::move(*index);
+    }
+  }
+  const auto source = open_file(path);
+  if (!source) return pass_on(source);
+  auto index = index_raw(**source);
+  if (index && state) {
+    const auto after = state_of(path);
+    if (after && after->key() == state->key()) store(cache, *state, *index);
+  }
+  return index;
+}
+
+}  // namespace sonar

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "io/simrad/index.h"
+
+namespace sonar {
+
+/// Where indexes of raw files are kept between runs. Keyed by absolute path, size and time of change (ns). A broken,
+/// stale or foreign entry is made again without a word; a folder that cannot be written to is no error.
+struct IndexCache {
+  std::filesystem::path folder;  ///< empty = keep nothing
+
+  /// $XDG_CACHE_HOME/sonar-explorer, else $HOME/.cache/sonar-explorer, else none.
+  [[nodiscard]] static IndexCache of_user();
+};
+
+/// The file's index, from the cache where it holds a right one, else by reading the file.
+/// errors  not_found, io
+[[nodiscard]] Result<RawIndex> open_index(const std::filesystem::path& path, const IndexCache& cache);
+
+/// The cache's byte form: magic, version, checksum, content.
+[[nodiscard]] std::vector<std::byte> encode_index(const RawIndex& index);
+/// Empty where the bytes are not what encode_index() of this version writes.
+[[nodiscard]] std::optional<RawIndex> decode_index(std::span<const std::byte> bytes);
+
+}  // namespace sonar

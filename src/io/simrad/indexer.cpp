@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/simrad/indexer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include "base/hash.h"
+#include "io/nmea.h"
+#include "io/simrad/con0.h"
+#include "io/simrad/con1.h"
+#include "io/simrad/fields.h"
+
+namespace sonar {
+namespace simrad {
+namespace {
+
+constexpr std::size_t kMaxTypes = 64;
+constexpr std::size_t kMaxConfigs = 1000;
+constexpr int kMaxUndescribedChannels = 4096;
+// Settings that change at every ping would otherwise cost more than the samples.
+constexpr std::size_t kMaxTransmitEntries = std::size_t{1} << 18;
+
+bool is_netcdf(std::span<const std::byte> head) {
+  constexpr std::array<unsigned char, 4> hdf5{0x89, 'H', 'D', 'F'};
+  return head.size() >= 4 && (std::memcmp(head.data(), hdf5.data(), 4) == 0 ||
+                              (std::memcmp(head.data(), "CDF", 3) == 0 && number_at<std::uint8_t>(head, 3) <= 5));
+}
+
+double known(double value) { return std::isnan(value) ? 0.0 : value; }
+
+ChannelTransmit transmit_of(const Raw0& raw) {
+  const ChannelPing& head = raw.head;
+  return {known(head.frequency_hz),
+          known(head.transmit_power_w),
+          known(head.pulse_length_s),
+          known(head.sample_interval_s),
+          known(head.sound_speed_mps),
+          known(head.absorption_db_per_m),
+          raw.end()};
+}
+
+bool same_setting(const ChannelTransmit& a, const ChannelTransmit& b) {
+  return a.frequency_hz == b.frequency_hz && a.transmit_power_w == b.transmit_power_w &&
+         a.pulse_length_s == b.pulse_length_s && a.sample_interval_s == b.sample_interval_s &&
+         std::abs(a.sound_speed_mps - b.sound_speed_mps) <= 1e-4 * a.sound_speed_mps;
+}
+
+std::string_view text_of(std::span<const std::byte> body) {
+  const std::string_view text(reinterpret_cast<const char*>(body.data()), body.size());
+  return text.substr(0, text.find('\0'));
+}
+
+}  // namespace
+
+Result<RawFormat> detect_format(const ByteSource& source) {
+  std::array<std::byte, kHeadBytes> head{};
+  const auto got = source.read(0, head);
+  if (!got) return pass_on(got);
+  const auto bytes = std::span<const std::byte>(head).first(*got);
+  if (is_netcdf(bytes)) return RawFormat::sonar_netcdf4;
+  if (inspect_head(bytes) != Frame::sound) return RawFormat::unknown;
+  return std::memcmp(head.data() + 4, "XML0", 4) == 0 ? RawFormat::ek80 : RawFormat::simrad;
+}
+
+Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
+  if (!format_known_) {
+    const auto size = source.size();
+    if (!size) return pass_on(size);
+    if (*size < kHeadBytes && !final) return false;
+    const auto format = detect_format(source);
+    if (!format) return pass_on(format);
+    index_.format = *format;
+    index_.name = source.name();
+    notes_.set_file(source.name());
+    format_known_ = true;
+  }
+  return index_.format != RawFormat::sonar_netcdf4;
+}
+
+Result<void> Indexer::refresh(const ByteSource& source) {
+  const auto scan = worth_scanning(source, false);
+  if (!scan) return pass_on(scan);
+  if (!*scan) return {};
+  return scanner_.scan(
+      source, [this](const Datagram& d) { take_in(d); }, notes_);
+}
+
+Result<void> Indexer::finish(const ByteSource& source) {
+  const auto size = source.size();
+  if (!size) return pass_on(size);
+  const auto scan = worth_scanning(source, true);
+  if (!scan) return pass_on(scan);
+  index_.size = *size;
+  if (*scan) {
+    if (auto done = scanner_.finish(
+            source, [this](const Datagram& d) { take_in(d); }, notes_);
+        !done)
+      return done;
+  }
+  close_ping();
+  if (bad_sentences_ > 0) {
+    notes_.add(
+        DiagnosticCode::bad_nmea, first_bad_sentence_,
+        fmt::format("{} navigation sentences with a wrong checksum or none readable, the first here", bad_sentences_));
+  }
+  name_format();
+  const auto hash = identity_hash(source);
+  if (!hash) return pass_on(hash);
+  index_.hash = *hash;
+  index_.diagnostics = notes_.all();
+  return {};
+}
+
+void Indexer::name_format() {
+  if (index_.format == RawFormat::sonar_netcdf4) {
+    notes_.add(DiagnosticCode::format_not_read, 0, "a netCDF file (SONAR-netCDF4); this version does not read it");
+    return;
+  }
+  const auto count = [&](const char* type) {
+    const auto it = index_.datagrams.find(type);
+    return it == index_.datagrams.end() ? std::int64_t{0} : it->second;
+  };
+  const std::int64_t ek80 = count("XML0") + count("RAW3") + count("RAW4");
+  if (index_.datagrams.empty()) {
+    index_.format = RawFormat::unknown;
+    notes_.add(DiagnosticCode::not_recognised, 0,
+               index_.size == 0 ? "the file is empty" : "no datagram of a known format was found");
+  } else if (ek80 > 0 && count("CON0") + count("RAW0") == 0) {
+    index_.format = RawFormat::ek80;
+    notes_.add(DiagnosticCode::format_not_read, 0, "an EK80 file (XML0/RAW3); this version does not read its samples");
+  } else {
+    index_.format = RawFormat::simrad;
+  }
+}
+
+void Indexer::take_in(const Datagram& datagram) {
+  if (index_.datagrams.empty()) index_.first_datagram_time = datagram.time;
+  index_.last_datagram_time = datagram.time;
+  const bool room = index_.datagrams.size() < kMaxTypes || index_.datagrams.contains(datagram.type);
+  ++index_.datagrams[room ? datagram.type : "other"];
+  if (datagram.type == "RAW0") {
+    take_raw0(datagram);
+  } else if (datagram.type == "NME0") {
+    take_nme0(datagram);
+  } else if (datagram.type == "CON0") {
+    take_con0(datagram);
+  } else if (datagram.type == "CON1") {
+    take_con1(datagram);
+  }
+}
+
+void Indexer::take_con0(const Datagram& datagram) {
+  const bool first = last_con0_.empty();
+  if (!first && std::equal(last_con0_.begin(), last_con0_.end(), datagram.body.begin(), datagram.body.end())) return;
+  Con0 con0 = parse_con0(datagram.body);
+  if (!con0.problem.empty()) notes_.add(DiagnosticCode::bad_config, datagram.offset, con0.problem);
+  if (!con0.bad_numbers.empty()) notes_.add(DiagnosticCode::bad_value, datagram.offset, con0.bad_numbers);
+  if (con0.config.beams.empty() && !index_.configs.empty()) return;
+  if (index_.configs.size() >= kMaxConfigs) return;
+  close_ping();
+  if (config_used_) notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON0 differs from the one before");
+  last_con0_.assign(datagram.body.begin(), datagram.body.end());
+  index_.configs.push_back(std::move(con0.config));
+  config_used_ = false;
+}
+
+void Indexer::take_con1(const Datagram& datagram) {
+  const std::string_view xml = text_of(datagram.body);
+  if (index_.configs.empty()) {
+    notes_.add(DiagnosticCode::con1_unusable, datagram.offset, "CON1 before any CON0");
+    return;
+  }
+  if (index_.configs.back().con1_xml == xml || index_.configs.size() >= kMaxConfigs) return;
+  if (config_used_) {
+    close_ping();
+    notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON1 differs from the one before");
+    index_.configs.push_back(index_.configs.back());
+    config_used_ = false;
+  }
+  SounderConfig& config = index_.configs.back();
+  config.con1_xml = xml;
+  const Con1Outcome outcome = apply_con1(parse_con1(xml), config);
+  if (!outcome.problem.empty()) notes_.add(DiagnosticCode::con1_unusable, datagram.offset, outcome.problem);
+  if (outcome.largest_change > 0.1) {
+    notes_.add(DiagnosticCode::con1_differs, datagram.offset,
+               fmt::format("angles of CON1 differ from CON0 by up to {:.3f} degrees", outcome.largest_change));
+  }
+}
+
+void Indexer::take_nme0(const Datagram& datagram) {
+  const auto sentence = parse_nmea(text_of(datagram.body));
+  if (!sentence || sentence->checksum_wrong) {
+    if (bad_sentences_++ == 0) first_bad_sentence_ = datagram.offset;
+    return;
+  }
+  add_sentence(index_.navigation, *sentence, datagram.time);
+}
+
+bool Indexer::channel_exists(const Datagram& datagram, int channel) {
+  if (index_.configs.empty()) {
+    notes_.add(DiagnosticCode::no_config, datagram.offset, "RAW0 before any CON0; its beams are not described");
+    index_.configs.emplace_back();
+  }
+  const auto& beams = index_.configs.back().beams;
+  const int limit =
+      beams.empty() ? kMaxUndescribedChannels : static_cast<int>(std::min<std::size_t>(beams.size(), 32767));
+  if (channel >= 0 && channel < limit) return true;
+  notes_.add(DiagnosticCode::bad_channel, datagram.offset,
+             fmt::format("channel {}, expected 1 to {}", channel + 1, limit));
+  return false;
+}
+
+bool Indexer::join_ping(const Datagram& datagram, const ChannelPing& head) {
+  const auto channel = static_cast<std::size_t>(head.channel);
+  if (seen_in_ping_.size() <= channel) seen_in_ping_.resize(channel + 1, 0);
+  if (!ping_open_ || datagram.time != ping_.time) {
+    close_ping();
+    open_ping(datagram, head);
+  } else if (seen_in_ping_[channel] == ping_number_) {
+    notes_.add(DiagnosticCode::repeated_channel, datagram.offset,
+               fmt::format("channel {} came before with the same time stamp", head.channel + 1));
+    return false;
+  } else if (datagram.end() - ping_.offset > kMaxPingBytes) {
+    notes_.add(DiagnosticCode::ping_too_long, datagram.offset,
+               fmt::format("the ping begins at byte {}; channel {} was dropped", ping_.offset, head.channel + 1));
+    return false;
+  }
+  seen_in_ping_[channel] = ping_number_;
+  return true;
+}
+
+void Indexer::open_ping(const Datagram& datagram, const ChannelPing& head) {
+  ping_ = {};
+  ping_.time = datagram.time;
+  ping_.offset = datagram.offset;
+  ping_.roll_deg = static_cast<float>(head.roll_deg);
+  ping_.pitch_deg = static_cast<float>(head.pitch_deg);
+  ping_.heave_m = static_cast<float>(head.heave_m);
+  ping_.heading_deg = static_cast<float>(head.heading_deg);
+  ping_.transducer_depth_m = static_cast<float>(head.transducer_depth_m);
+  ping_.config = static_cast<std::uint16_t>(index_.configs.size() - 1);
+  ping_.min_samples = kMaxSamples;
+  ping_transmit_.clear();
+  ping_open_ = true;
+  config_used_ = true;
+  ++ping_number_;
+}
+
+void Indexer::take_raw0(const Datagram& datagram) {
+  const Raw0 raw = parse_raw0(datagram.body);
+  if (raw.problem != nullptr) {
+    notes_.add(raw.code, datagram.offset, fmt::format("channel {}: {}", raw.head.channel + 1, raw.problem));
+    return;
+  }
+  if (!channel_exists(datagram, raw.head.channel) || !join_ping(datagram, raw.head)) return;
+  if (raw.bad_attitude && !bad_attitude_noted_) {
+    bad_attitude_noted_ = true;
+    notes_.add(DiagnosticCode::bad_value, datagram.offset, "roll, pitch, heave or depth is impossible; 0 is taken");
+  }
+  ping_.end = datagram.end();
+  ping_.min_samples = std::min(ping_.min_samples, raw.count());
+  ping_.max_samples = std::max(ping_.max_samples, raw.count());
+  ++ping_.channels;
+  ping_transmit_.emplace_back(raw.head.channel, transmit_of(raw));
+}
+
+void Indexer::close_ping() {
+  if (!ping_open_) return;
+  ping_open_ = false;
+  ping_.transmit = transmit_of_open_ping();
+  index_.pings.push_back(ping_);
+}
+
+std::uint16_t Indexer::transmit_of_open_ping() {
+  const auto fits = [&](const TransmitSet& set) {
+    return std::all_of(ping_transmit_.begin(), ping_transmit_.end(), [&](const auto& entry) {
+      const auto channel = static_cast<std::size_t>(entry.first);
+      return channel >= set.size() || !set[channel].seen() || same_setting(set[channel], entry.second);
+    });
+  };
+  // Two settings may alternate from ping to ping.
+  auto& sets = index_.transmits;
+  std::size_t chosen = sets.size();
+  for (std::size_t back = 1; back <= std::min<std::size_t>(4, sets.size()) && chosen == sets.size(); ++back) {
+    if (fits(sets[sets.size() - back])) chosen = sets.size() - back;
+  }
+  if (chosen == sets.size()) {
+    if (transmit_entries_ > kMaxTransmitEntries || sets.size() >= 65535) {
+      if (!transmit_overflow_) {
+        notes_.add(DiagnosticCode::settings_changed, ping_.offset, "settings change too often to be kept apart");
+      }
+      transmit_overflow_ = true;
+      --chosen;
+    } else {
+      sets.emplace_back();
+    }
+  }
+  TransmitSet& set = sets[chosen];
+  for (const auto& [channel, transmit] : ping_transmit_) {
+    const auto c = static_cast<std::size_t>(channel);
+    if (c >= set.size()) {
+      transmit_entries_ += c + 1 - set.size();
+      set.resize(c + 1);
+    }
+    const std::int32_t longest = std::max(set[c].max_samples, transmit.max_samples);
+    if (!set[c].seen()) set[c] = transmit;
+    set[c].max_samples = longest;
+  }
+  return static_cast<std::uint16_t>(chosen);
+}
+
+}  // namespace simrad
+
+Result<std::string> identity_hash(const ByteSource& source) {
+  constexpr std::uint64_t kEnd = 64 << 10;
+  const auto size = source.size();
+  if (!size) return pass_on(size);
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(&*size, 1)));
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(*size, kEnd)));
+  for (const std::uint64_t offset : {std::uint64_t{0}, *size - bytes.size()}) {
+    const auto got = source.read(offset, bytes);
+    if (!got) return pass_on(got);
+    hasher.add(std::span<const std::byte>(bytes).first(*got));
+  }
+  return to_hex(hasher.value());
+}
+
+Result<RawIndex> index_raw(const ByteSource& source) {
+  simrad::Indexer indexer;
+  if (auto done = indexer.finish(source); !done) return pass_on(done);
+  return indexer.take();
+}
+
+}  // namespace sonar

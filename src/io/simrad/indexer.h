@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "io/byte_source.h"
+#include "io/simrad/index.h"
+#include "io/simrad/raw0.h"
+#include "io/simrad/scanner.h"
+
+namespace sonar::simrad {
+
+/// Channels of one ping never lie farther apart than this in the file.
+inline constexpr std::uint64_t kMaxPingBytes = std::uint64_t{256} << 20;
+
+/// Builds the index of a file that may still grow. A ping is published when a later one starts or at finish();
+/// published, it never changes. The result does not depend on how the bytes arrived.
+class Indexer {
+ public:
+  /// Takes in what is whole; index().pings only grows.
+  /// errors  io
+  Result<void> refresh(const ByteSource& source);
+  /// Takes in the rest, knowing that no more will come, and completes size, hash and diagnostics. Called once.
+  /// errors  io
+  Result<void> finish(const ByteSource& source);
+  [[nodiscard]] const RawIndex& index() const { return index_; }
+  [[nodiscard]] RawIndex take() { return std::move(index_); }
+
+ private:
+  Result<bool> worth_scanning(const ByteSource& source, bool final);
+  void take_in(const Datagram& datagram);
+  void take_con0(const Datagram& datagram);
+  void take_con1(const Datagram& datagram);
+  void take_raw0(const Datagram& datagram);
+  void take_nme0(const Datagram& datagram);
+  [[nodiscard]] bool channel_exists(const Datagram& datagram, int channel);
+  [[nodiscard]] bool join_ping(const Datagram& datagram, const ChannelPing& head);
+  void open_ping(const Datagram& datagram, const ChannelPing& head);
+  void close_ping();
+  [[nodiscard]] std::uint16_t transmit_of_open_ping();
+  void name_format();
+
+  Scanner scanner_;
+  Notes notes_;
+  RawIndex index_;
+  bool format_known_ = false;
+  bool config_used_ = false;  ///< by some ping
+  std::vector<std::byte> last_con0_;
+
+  bool ping_open_ = false;
+  PingEntry ping_;
+  std::uint64_t ping_number_ = 0;
+  std::vector<std::uint64_t> seen_in_ping_;                     ///< [channel] number of the ping it was last seen in
+  std::vector<std::pair<int, ChannelTransmit>> ping_transmit_;  ///< channels of the open ping
+  std::size_t transmit_entries_ = 0;                            ///< over all sets
+  bool transmit_overflow_ = false;
+
+  std::int64_t bad_sentences_ = 0;
+  std::uint64_t first_bad_sentence_ = 0;
+  bool bad_attitude_noted_ = false;
+};
+
+/// By the first bytes; unknown for what is none of the formats, and for fewer than 16 bytes.
+/// errors  io
+[[nodiscard]] Result<RawFormat> detect_format(const ByteSource& source);
+
+}  // namespace sonar::simrad

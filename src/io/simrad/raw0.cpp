@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/simrad/raw0.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+
+#include "io/simrad/fields.h"
+
+namespace sonar::simrad {
+namespace {
+
+Raw0 unusable(Raw0 raw, const char* problem, DiagnosticCode code) {
+  raw.problem = problem;
+  raw.code = code;
+  raw.power = {};
+  return raw;
+}
+
+/// Bytes that mode and count promise after the header.
+std::int64_t promised_bytes(int mode, std::int64_t count) {
+  std::int64_t bytes = 0;
+  if ((mode & 1) != 0) bytes += 2 * count;
+  if ((mode & 2) != 0) bytes += 2 * count;
+  if ((mode & 8) != 0) bytes += 8 * count * ((mode >> 8) & 7);
+  return bytes;
+}
+
+/// The extension of reduced files, where there is one.
+std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
+  if (rest.size() < kReducedBytes) return std::nullopt;
+  const std::span mark = std::as_bytes(std::span(kReducedMark));
+  if (!std::equal(mark.begin(), mark.end(), rest.begin())) return std::nullopt;
+  ReducedRow row;
+  row.background_db = number_at<float>(rest, 4);
+  row.seabed_sample = std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples);
+  row.recorded_samples = std::clamp(number_at<std::int32_t>(rest, 12), 0, kMaxSamples);
+  return row;
+}
+
+}  // namespace
+
+Raw0 parse_raw0(std::span<const std::byte> body) {
+  Raw0 raw;
+  if (body.size() < kRaw0HeadBytes) {
+    return unusable(raw, "RAW0 body is shorter than its 72-byte header", DiagnosticCode::bad_sample_counts);
+  }
+  ChannelPing& head = raw.head;
+  head.channel = number_at<std::int16_t>(body, 0) - 1;
+  head.mode = number_at<std::int16_t>(body, 2);
+  head.transducer_depth_m = float_at(body, 4);
+  head.frequency_hz = float_at(body, 8);
+  head.transmit_power_w = float_at(body, 12);
+  head.pulse_length_s = float_at(body, 16);
+  head.bandwidth_hz = float_at(body, 20);
+  head.sample_interval_s = float_at(body, 24);
+  head.sound_speed_mps = float_at(body, 28);
+  head.absorption_db_per_m = float_at(body, 32);
+  head.heave_m = float_at(body, 36);
+  head.roll_deg = float_at(body, 40);
+  head.pitch_deg = float_at(body, 44);
+  head.temperature_c = float_at(body, 48);
+  head.heading_deg = float_at(body, 52);
+  const auto transmit_mode = number_at<std::int16_t>(body, 56);
+  head.offset = number_at<std::int32_t>(body, 64);
+  const auto count = number_at<std::int32_t>(body, 68);
+  // Old files have trawl data in these bytes.
+  if (!(head.heading_deg >= 0.0 && head.heading_deg < 360.0) || transmit_mode < -1 || transmit_mode > 2) {
+    head.heading_deg = 0.0;
+  }
+  for (double* value : {&head.heave_m, &head.roll_deg, &head.pitch_deg, &head.transducer_depth_m}) {
+    if (std::isnan(*value) || std::abs(*value) > 1000.0) {
+      *value = 0.0;
+      raw.bad_attitude = true;
+    }
+  }
+  if (head.offset < 0 || count < 0 || head.offset > kMaxSamples || count > kMaxSamples - head.offset ||
+      promised_bytes(head.mode, count) > static_cast<std::int64_t>(body.size() - kRaw0HeadBytes)) {
+    return unusable(raw, "offset and count do not fit the body", DiagnosticCode::bad_sample_counts);
+  }
+  if (!(head.sample_interval_s > 0.0) || !(head.sound_speed_mps > 0.0) || head.sample_interval_s > 1.0 ||
+      head.sound_speed_mps > 1e4 || head.sound_speed_mps < 1e2 || head.sample_interval_s < 1e-7) {
+    return unusable(raw, "sample interval or sound speed is impossible", DiagnosticCode::bad_value);
+  }
+  if ((head.mode & 1) == 0) return unusable(raw, "no power samples in this mode", DiagnosticCode::no_power);
+  raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
+  head.reduced =
+      parse_reduced(body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count))));
+  return raw;
+}
+
+}  // namespace sonar::simrad

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "base/diagnostics.h"
+#include "model/ping.h"
+
+namespace sonar::simrad {
+
+inline constexpr std::size_t kRaw0HeadBytes = 72;
+/// No channel has more samples, offset included; an allocation per sample stays bounded.
+inline constexpr int kMaxSamples = 1 << 20;
+
+/// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's three members, little-endian.
+inline constexpr std::string_view kReducedMark = "SXR1";
+inline constexpr std::size_t kReducedBytes = 16;
+
+struct Raw0 {
+  ChannelPing head;                  ///< power_count is left empty: the bytes need not be aligned
+  std::span<const std::byte> power;  ///< 2 bytes a sample
+  const char* problem = nullptr;     ///< why the channel is not usable; nullptr = sound
+  DiagnosticCode code = DiagnosticCode::bad_sample_counts;  ///< of the problem
+  bool bad_attitude = false;                                ///< a motion value was not finite; it is 0 now
+
+  [[nodiscard]] int count() const { return static_cast<int>(power.size() / 2); }
+  /// Offset and stored samples: where the row ends.
+  [[nodiscard]] int end() const { return head.offset + count(); }
+};
+
+/// Reads a RAW0 body (formats.md 4): header, and where the power counts lie. Angles and complex samples are skipped.
+[[nodiscard]] Raw0 parse_raw0(std::span<const std::byte> body);
+
+}  // namespace sonar::simrad
