@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+#include "model/mask.h"
+#include "school/background.h"
+#include "school/runs.h"
+
+namespace sonar {
+
+/// Thresholds a ping's filtered Sv row by row, with the background of each beam taken into account.
+class Thresholder {
+ public:
+  Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
+              const PingMask* taken);
+
+  /// Runs of the whole ping with Sv >= max(floor, background + margin).
+  [[nodiscard]] std::vector<Run> candidates(double floor_db, double margin_db) const;
+
+  /// Runs inside a box where the echo without its background reaches level_db, and the whole stands rest_db above the
+  /// background. The filtered background lies ln 2 below its mean, as every median of Rayleigh-fading echo does.
+  [[nodiscard]] std::vector<Run> above(const IndexBox& box, double level_db, double rest_db) const;
+
+ private:
+  void cut(int row, int first, int end, std::vector<Run>& runs) const;
+
+  View3<const std::int16_t> sv_;
+  View3<const SampleFlags> flags_;
+  const Background& background_;
+  const PingMask* taken_;
+  std::vector<int> taken_rows_;
+};
+
+}  // namespace sonar

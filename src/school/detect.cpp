@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/detect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/check.h"
+#include "base/units.h"
+#include "model/school.h"
+#include "school/candidates.h"
+#include "school/edges.h"
+
+namespace sonar {
+namespace {
+
+using Runs = std::vector<Run>;
+
+/// The median of Rayleigh-fading echo lies ln 2 below its mean; thresholds are meant for the mean.
+constexpr double kMedianOfMean_db = -1.5917;
+
+std::vector<Runs> split(const Runs& runs, const Shape3& shape, Connectivity connectivity) {
+  const Components components = label_runs(runs, shape, connectivity);
+  std::vector<Runs> parts(static_cast<std::size_t>(components.count));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    parts[static_cast<std::size_t>(components.label[i])].push_back(runs[i]);
+  }
+  return parts;
+}
+
+IndexBox box_of_runs(const Runs& runs, int beams) {
+  PingMask mask;
+  mask.runs = runs;
+  return box_of(mask, beams);
+}
+
+class PingDetector {
+ public:
+  PingDetector(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+               const Background& background, const DetectParams& params, const PingMask* taken)
+      : sv_(sv),
+        flags_(flags),
+        sector_(sector),
+        params_(params),
+        thresholder_(sv, flags, background, taken),
+        claimed_(sv.shape()) {}
+
+  std::vector<Detection> run() {
+    const Runs candidates = thresholder_.candidates(floor_db(), params_.background_margin_db + kMedianOfMean_db);
+    std::vector<std::pair<double, Runs>> components;
+    for (Runs& part : split(candidates, sv_.shape(), params_.connectivity)) {
+      if (!worth_a_look(part)) continue;
+      const double reference_db = reference(part);
+      components.emplace_back(reference_db, std::move(part));
+    }
+    // strongest first: where two reach for the same voxel it is the skirt of the stronger
+    std::stable_sort(components.begin(), components.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [reference_db, component] : components) refine(component, reference_db);
+    std::sort(found_.begin(), found_.end(),
+              [](const Detection& a, const Detection& b) { return a.mask.runs.front() < b.mask.runs.front(); });
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] double floor_db() const { return params_.floor_db + kMedianOfMean_db; }
+
+  /// The heart that stands above the candidates' threshold may be much smaller than the school.
+  [[nodiscard]] bool worth_a_look(const Runs& runs) const {
+    int voxels = 0;
+    for (const Run& run : runs) voxels += run.count;
+    return voxels >= params_.min_samples;
+  }
+
+  [[nodiscard]] bool large_enough(const Runs& runs) const {
+    if (runs.empty()) return false;
+    const IndexBox box = box_of_runs(runs, sv_.shape().beams);
+    const double range_m = box.samples() * sector_.range().spacing_m;
+    return box.fans() >= params_.min_fans && box.beams() >= params_.min_beams && box.samples() >= params_.min_samples &&
+           range_m >= params_.min_range_m;
+  }
+
+  /// The percentile of the values within the tolerance of itself: what the candidate threshold let in does not count.
+  [[nodiscard]] double reference(const Runs& runs) const {
+    PingMask mask;
+    mask.runs = runs;
+    for (const Run& run : runs) mask.confidence.resize(mask.confidence.size() + static_cast<std::size_t>(run.count), 1);
+    const std::int16_t first = percentile(sv_, mask, params_.reference_percentile / 100.0);
+    if (first == kNoData) return -1000.0;
+    const double lowest = first - counts_from_db(params_.tolerance_db);
+    std::vector<std::int16_t> values;
+    for (const Run& run : runs) {
+      const auto counts = sv_.row(run.row);
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        const std::int16_t count = counts[static_cast<std::size_t>(s)];
+        if (count >= lowest) values.push_back(count);
+      }
+    }
+    const double rank = std::ceil(params_.reference_percentile / 100.0 * static_cast<double>(values.size()));
+    const auto k = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+    std::nth_element(values.begin(), values.begin() + k, values.end());
+    return db_from_counts(values[static_cast<std::size_t>(k)]);
+  }
+
+  /// Finds the component's own school, then steps down: what hangs together and holds no school yet may be one.
+  void refine(const Runs& component, double reference_db) {
+    const IndexBox box = box_of_runs(component, sv_.shape().beams).enlarged(2, 3, 40).clipped(sv_.shape());
+    const double own_level_db = reference_db - params_.tolerance_db - params_.link_db;
+    // a stronger neighbour's skirt may reach this far down: then the school is what stands out of it
+    for (double level_db = own_level_db; level_db <= reference_db - params_.min_prominence_db;
+         level_db += params_.step_db) {
+      if (search(component, box, level_db)) break;
+    }
+    const double lowest_db = lowest(component);
+    for (double level_db = own_level_db - params_.step_db; level_db > lowest_db - params_.step_db;
+         level_db -= params_.step_db) {
+      search(component, box, level_db);
+    }
+  }
+
+  bool search(const Runs& component, const IndexBox& box, double level_db) {
+    bool found = false;
+    for (const Runs& part :
+         split(thresholder_.above(box, level_db, params_.background_rest_db), sv_.shape(), params_.connectivity)) {
+      if (large_enough(part) && share_a_voxel(part, component)) found = consider(part, level_db) || found;
+    }
+    return found;
+  }
+
+  [[nodiscard]] static bool share_a_voxel(const Runs& a, const Runs& b) {
+    auto i = a.begin();
+    auto j = b.begin();
+    while (i != a.end() && j != b.end()) {
+      if (i->row == j->row && i->first_sample < j->end() && j->first_sample < i->end()) return true;
+      const bool a_first = i->row != j->row ? i->row < j->row : i->end() < j->end();
+      (a_first ? i : j)++;
+    }
+    return false;
+  }
+
+  [[nodiscard]] double lowest(const Runs& runs) const {
+    int count = kMaxCount;
+    for (const Run& run : runs) {
+      const auto counts = sv_.row(run.row);
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        count = std::min(count, int{counts[static_cast<std::size_t>(s)]});
+      }
+    }
+    return db_from_counts(count);
+  }
+
+  /// Takes a part for a school where it holds none yet and stands out; whether it was taken.
+  bool consider(const Runs& part, double level_db) {
+    for (const Run& run : part) {
+      const auto claimed = claimed_.view().row(run.row);
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        if (claimed[static_cast<std::size_t>(s)] != 0) return false;
+      }
+    }
+    const double reference_db = reference(part);
+    if (reference_db < std::max(level_db + params_.min_prominence_db, floor_db())) return false;
+    const double threshold_db = std::max(reference_db - params_.tolerance_db, level_db);
+    Detection detection = describe_mask(members(part, reference_db, threshold_db), flags_, sector_);
+    detection.reference_db = reference_db;
+    detection.threshold_db = threshold_db;
+    for (const Run& run : part) {
+      const auto claimed = claimed_.view().row(run.row).subspan(static_cast<std::size_t>(run.first_sample),
+                                                                static_cast<std::size_t>(run.count));
+      std::fill(claimed.begin(), claimed.end(), std::uint8_t{1});
+    }
+    if (believable(detection)) found_.push_back(std::move(detection));
+    return true;
+  }
+
+  [[nodiscard]] PingMask members(const Runs& part, double reference_db, double threshold_db) const {
+    const MemberTable table = MemberTable::one_sided(reference_db, params_.tolerance_db);
+    const double lowest = counts_from_db(threshold_db) - 1e-9;
+    PingMask mask;
+    for (const Run& run : part) {
+      const auto counts = sv_.row(run.row);
+      bool open = false;
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        const std::int16_t count = counts[static_cast<std::size_t>(s)];
+        const bool inside = count >= lowest && table(count) != 0;
+        if (inside) {
+          if (!open) mask.runs.push_back({run.row, s, 0});
+          ++mask.runs.back().count;
+          mask.confidence.push_back(table(count));
+        }
+        open = inside;
+      }
+    }
+    return mask;
+  }
+
+  [[nodiscard]] bool believable(const Detection& detection) const {
+    if (detection.mask.empty() || !large_enough(detection.mask.runs)) return false;
+    if (!(detection.volume_m3 > 0.0)) return false;
+    std::size_t faulty = 0;
+    for (const Run& run : detection.mask.runs) {
+      const auto flags = flags_.row(run.row);
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        if (any(flags[static_cast<std::size_t>(s)] & kFault)) ++faulty;
+      }
+    }
+    const auto voxels = static_cast<double>(detection.mask.voxels());
+    if (static_cast<double>(faulty) > params_.max_flagged_members * voxels) return false;
+    if (mask_edges(detection.mask, flags_, sector_).boundary_fraction > params_.max_boundary_faces) return false;
+    return !is_shell(detection);
+  }
+
+  /// A wall at constant range: all beams, thin, and flat.
+  [[nodiscard]] bool is_shell(const Detection& detection) const {
+    const double spacing_m = sector_.range().spacing_m;
+    const double mean_run_m =
+        static_cast<double>(detection.mask.voxels()) / static_cast<double>(detection.mask.runs.size()) * spacing_m;
+    return detection.box.beams() >= params_.shell_share * sector_.beams() &&
+           mean_run_m < params_.max_shell_thickness_m &&
+           detection.box.samples() * spacing_m < 2.0 * params_.max_shell_thickness_m;
+  }
+
+  View3<const std::int16_t> sv_;
+  View3<const SampleFlags> flags_;
+  const Sector& sector_;
+  const DetectParams& params_;
+  Thresholder thresholder_;
+  Array3<std::uint8_t> claimed_;  ///< voxels of components that have had their school
+  std::vector<Detection> found_;
+};
+
+}  // namespace
+
+std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+                              const Background& background, const DetectParams& params, const PingMask* taken) {
+  SONAR_CHECK(sv.shape() == flags.shape());
+  SONAR_CHECK(sv.shape().fans == sector.fans() && sv.shape().beams == sector.beams() &&
+              sv.shape().samples == sector.range().count);
+  return PingDetector(sv, flags, sector, background, params, taken).run();
+}
+
+Detection describe_mask(PingMask mask, View3<const SampleFlags> flags, const Sector& sector) {
+  Detection d;
+  d.box = box_of(mask, sector.beams());
+  const MaskShape shape = shape_of(mask, sector);
+  d.centre = shape.centre;
+  d.covariance = shape.covariance;
+  d.volume_m3 = shape.volume_m3;
+  d.edge_flags = mask_edges(mask, flags, sector).flags;
+  d.mask = std::move(mask);
+  return d;
+}
+
+}  // namespace sonar

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "model/mask.h"
+
+namespace sonar {
+
+/// Symmetric 3 x 3: xx, xy, xz, yy, yz, zz.
+using Covariance3 = std::array<double, 6>;
+
+/// A mask as a body, weighted by confidence x volume.
+struct MaskShape {
+  Point<Sonar> centre;       ///< m
+  Covariance3 covariance{};  ///< of the members round the centre, m^2
+  double weight = 0.0;       ///< sum of confidence (0..1) x volume; 0 = centre and covariance mean nothing
+  double volume_m3 = 0.0;    ///< sum of member cells
+};
+[[nodiscard]] MaskShape shape_of(const PingMask& mask, const Sector& sector);
+
+/// The horizontal part of a covariance of the sonar frame, turned to east and north.
+struct HorizontalAxes {
+  double major_variance = 0.0;
+  double minor_variance = 0.0;
+  double major_bearing_rad = 0.0;  ///< clockwise from north, 0..pi
+};
+[[nodiscard]] HorizontalAxes horizontal_axes(const Covariance3& covariance, double heading_rad);
+
+}  // namespace sonar

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/array.h"
+#include "base/describe.h"
+#include "base/sample_flags.h"
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "model/beam_grid.h"
+#include "model/mask.h"
+#include "model/school.h"
+#include "school/background.h"
+#include "school/seabed.h"
+
+namespace sonar {
+
+struct MeasureParams {
+  double shape_variance = 5.0;
+  int reach_fans = 2;
+  int reach_beams = 1;
+  int reach_samples = 6;
+  double floor_extent_m = 1.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, MeasureParams& p) {
+  v.field("shape_variance", p.shape_variance,
+          {.unit = "1",
+           .min = 1,
+           .max = 12,
+           .text = "extent = 2 sqrt(this x variance): 5 for a uniform ellipsoid, 3 for a box"});
+  v.field("reach_fans", p.reach_fans,
+          {.unit = "fans", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
+  v.field("reach_beams", p.reach_beams,
+          {.unit = "beams", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
+  v.field("reach_samples", p.reach_samples,
+          {.unit = "samples", .min = 0, .max = 1000, .text = "corrected sizes use echo so far beyond the mask"});
+  v.field("floor_extent_m", p.floor_extent_m,
+          {.unit = "m", .min = 0.01, .max = 100, .text = "least corrected extent: what the beam cannot resolve"});
+}
+
+/// What one ping offers for measuring; borrowed.
+struct MeasureInput {
+  View3<const std::int16_t> sv;        ///< unfiltered Sv counts
+  View3<const std::int16_t> filtered;  ///< median-filtered Sv counts: stands in at faulty samples for sizes only
+  View3<const SampleFlags> flags;      ///< seabed included
+  const Sector* sector = nullptr;
+  const BeamGrid* grid = nullptr;
+  Background background;
+  Placement placement;
+  double pulse_m = 0.0;              ///< extent of the pulse along range, c tau / 2
+  const Seabed* seabed = nullptr;    ///< null = none seen
+  const PingMask* others = nullptr;  ///< voxels of all other schools of the ping; null = none
+  double threshold_db = kUnknown;    ///< the mask's, for the record
+};
+
+/// A school's row of school_pings.csv; observation, school_id, ping_index, time and provisional are left to the caller.
+/// mask     not empty; one without a voxel of known volume gives a row of unknowns
+/// threads  pure; fixed order of sums
+/// cost     linear in the mask's voxels and their surroundings
+[[nodiscard]] SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params);
+
+}  // namespace sonar

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "school/test_water.h"
+
+namespace sonar {
+namespace {
+
+struct Ping {
+  explicit Ping(double mounting_deg = 270.0)
+      : grid(test::grid(mounting_deg)),
+        sector(grid.sector(test::range_axis())),
+        expected(Shape3{20, 25, 900}),
+        flags(test::cropped_flags(expected.shape(), sector)),
+        flat(expected.shape()) {
+    placement.transducer = {60.0, 4.0};
+    placement.transducer_depth_m = 7.0;
+  }
+
+  void add(const test::Ellipsoid& e) {
+    test::add_ellipsoid(expected, sector, e);
+    mask = test::truth_of(expected);
+  }
+
+  SchoolPingRow measured(std::uint64_t seed, bool speckle = true) {
+    counts = test::counts_of(expected, seed, speckle);
+    filtered = test::filtered(counts, flags);
+    MeasureInput in;
+    in.sv = counts.view();
+    in.filtered = filtered.view();
+    in.flags = flags.view();
+    in.sector = &sector;
+    in.grid = &grid;
+    in.background = {flat.power_db, flat.calibration.view()};
+    in.placement = placement;
+    return measure(in, mask, {});
+  }
+
+  BeamGrid grid;
+  Sector sector;
+  Array3<double> expected;
+  Array3<SampleFlags> flags;
+  test::FlatBackground flat;
+  Placement placement;
+  PingMask mask;
+  Array3<std::int16_t> counts;
+  Array3<std::int16_t> filtered;
+};
+
+test::Ellipsoid ellipsoid(double range_m, double elevation_deg, double azimuth_deg) {
+  test::Ellipsoid e;
+  e.centre = Sector::direction(rad_from_deg(elevation_deg), rad_from_deg(azimuth_deg)) * range_m;
+  e.half_x = 20.0;
+  e.half_y = 12.0;
+  e.half_z = 6.0;
+  e.sv = 1e-4;
+  return e;
+}
+
+TEST(Measure, OneVoxelByHand) {
+  Ping ping;
+  // fan 0 at -45 degrees, beam 12 straight to port, sample 300: r = -0.75 + 300 x 0.3776 = 112.53 m
+  ping.mask.runs = {{12, 300, 1}};
+  ping.mask.confidence = {255};
+  for (double& sv : ping.expected.all()) sv = 1e-5;
+  const SchoolPingRow row = ping.measured(1, false);
+  const double r = 112.53;
+  EXPECT_NEAR(row.range_m, r, 1e-9);
+  EXPECT_NEAR(row.bearing_deg, 270.0, 1e-9);
+  EXPECT_NEAR(row.depth_m, 7.0 + r * std::sqrt(0.5), 1e-9);
+  // cell: 2.5 degrees by sin(-43.8158) - sin(-46.1842) times r^2 dr (+ dr^3/12)
+  const double sr =
+      rad_from_deg(2.5) * (std::sin(rad_from_deg(-43.815789473684211)) - std::sin(rad_from_deg(-46.184210526315789)));
+  EXPECT_NEAR(row.volume_m3, sr * (r * r * 0.3776 + 0.3776 * 0.3776 * 0.3776 / 12.0), 1e-6);
+  // 1e-5 + 1e-9 less 1e-9, to the step of a count
+  EXPECT_NEAR(row.sv_mean_db, -50.0, kDbPerCount);
+  EXPECT_NEAR(row.backscatter_m2 / row.volume_m3, 1e-5, 3e-8);
+  EXPECT_NEAR(row.snr_db, 40.0, 0.02);
+  EXPECT_DOUBLE_EQ(row.valid_fraction, 1.0);
+  EXPECT_EQ(row.n_voxels, 1);
+  EXPECT_EQ(row.n_beams, 1);
+  EXPECT_EQ(row.n_fans, 1);
+  EXPECT_EQ(row.edge_flags, kEdgeBottomFan);
+  EXPECT_NEAR(row.edge_fraction, 1.0 / 6.0, 1e-12);
+  // corners: elevations -46.184.. and -43.816.., r -+ dr/2
+  EXPECT_NEAR(row.depth_max_m, 7.0 + (r + 0.1888) * std::sin(rad_from_deg(46.184210526315789)), 1e-9);
+  EXPECT_NEAR(row.depth_min_m, 7.0 + (r - 0.1888) * std::sin(rad_from_deg(43.815789473684211)), 1e-9);
+  EXPECT_NEAR(row.height_m, row.depth_max_m - row.depth_min_m, 1e-12);
+}
+
+TEST(Measure, CorrectedSizesAreTheBodys) {
+  for (const double range_m : {100.0, 200.0, 300.0}) {
+    for (const double elevation_deg : {-25.0, -12.0}) {
+      Ping ping;
+      ping.add(ellipsoid(range_m, elevation_deg, 268.0));
+      const SchoolPingRow row = ping.measured(1, false);
+      EXPECT_NEAR(row.length_corrected_m / 40.0, 1.0, 0.06) << range_m;
+      EXPECT_NEAR(row.width_corrected_m / 24.0, 1.0, 0.06) << range_m;
+      EXPECT_NEAR(row.height_corrected_m / 12.0, 1.0, 0.10) << range_m << " " << elevation_deg;
+      // backscatter within 1 dB of sv V of the body: the mask leaves out what is 10 dB down
+      const double body_m2 = 1e-4 * 4.0 / 3.0 * std::numbers::pi * 20.0 * 12.0 * 6.0;
+      EXPECT_NEAR(db_from_linear(row.backscatter_m2 / body_m2), -0.4, 0.6) << range_m;
+    }
+  }
+}
+
+TEST(Measure, CutByTheSurfaceTheHeightIsStillTheBodys) {
+  Ping ping;
+  ping.add(ellipsoid(250.0, -6.0, 268.0));
+  for (int row = 19 * 25; row < 20 * 25; ++row) {
+    for (SampleFlags& flag : ping.flags.view().row(row)) flag |= SampleFlags::surface;
+  }
+  PingMask top;
+  for (int row = 19 * 25; row < 20 * 25; ++row) top.runs.push_back({row, 0, 900});
+  top.confidence.assign(25 * 900, 1);
+  ping.mask = subtract(ping.mask, top);
+  EXPECT_NEAR(ping.measured(1, false).height_corrected_m / 12.0, 1.0, 0.15);
+}
+
+TEST(Measure, SpeckledSizesAreRight) {
+  std::vector<double> volumes;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    Ping ping;
+    ping.add(ellipsoid(200.0, -15.0, 268.0));
+    volumes.push_back(ping.measured(seed).volume_corrected_m3);
+  }
+  std::nth_element(volumes.begin(), volumes.begin() + 4, volumes.end());
+  EXPECT_NEAR(volumes[4] / (4.0 / 3.0 * std::numbers::pi * 20.0 * 12.0 * 6.0), 1.0, 0.25);
+}
+
+TEST(Measure, UnderAHotBeamTheMeanStays) {
+  Ping clean;
+  clean.add(ellipsoid(150.0, -18.0, 265.0));
+  const SchoolPingRow expected = clean.measured(2);
+  Ping hot = clean;
+  const int row = 11 * 25 + 10;
+  for (int s = 300; s < 600; ++s) hot.flags.view().row(row)[static_cast<std::size_t>(s)] |= SampleFlags::hot_beam;
+  hot.counts = test::counts_of(hot.expected, 2);
+  const SchoolPingRow got = hot.measured(2);
+  EXPECT_NEAR(got.sv_mean_db, expected.sv_mean_db, 1.0);
+  EXPECT_NEAR(db_from_linear(got.backscatter_m2 / expected.backscatter_m2), 0.0, 1.0);
+  EXPECT_LT(got.valid_fraction, 1.0);
+  EXPECT_GT(got.valid_fraction, 0.7);
+  EXPECT_NEAR(got.volume_corrected_m3 / expected.volume_corrected_m3, 1.0, 0.15);
+}
+
+/// Everything that must not change when the ship turns or sails elsewhere.
+void expect_same_body(const SchoolPingRow& a, const SchoolPingRow& b) {
+  EXPECT_NEAR(a.range_m, b.range_m, 1e-9);
+  EXPECT_NEAR(a.depth_m, b.depth_m, 1e-9);
+  EXPECT_NEAR(a.length_m, b.length_m, 1e-6);
+  EXPECT_NEAR(a.width_m, b.width_m, 1e-6);
+  EXPECT_NEAR(a.height_m, b.height_m, 1e-9);
+  EXPECT_NEAR(a.volume_corrected_m3, b.volume_corrected_m3, 1e-6 * a.volume_corrected_m3);
+  EXPECT_DOUBLE_EQ(a.sv_mean_db, b.sv_mean_db);
+}
+
+TEST(Measure, TurnsWithTheShip) {
+  Ping ping;
+  ping.add(ellipsoid(200.0, -15.0, 262.0));
+  const SchoolPingRow north = ping.measured(1);
+  for (const Geographic place :
+       {Geographic{60, 4}, Geographic{70, 20}, Geographic{-30, 179.9995}, Geographic{5, -180}}) {
+    for (const double heading_deg : {0.0, 90.0, 213.0}) {
+      ping.placement.transducer = place;
+      ping.placement.heading_rad = rad_from_deg(heading_deg);
+      const SchoolPingRow turned = ping.measured(1);
+      expect_same_body(north, turned);
+      EXPECT_NEAR(wrap_180(turned.bearing_deg - north.bearing_deg - heading_deg), 0.0, 1e-6);
+      EXPECT_NEAR(std::abs(std::remainder(turned.axis_deg - north.axis_deg - heading_deg, 180.0)), 0.0, 1e-6);
+      const GeodesicStep step = geodesic(place, {turned.latitude, turned.longitude});
+      EXPECT_NEAR(wrap_180(step.bearing_deg - turned.bearing_deg), 0.0, 1e-6);
+      EXPECT_NEAR(step.distance_m, std::sqrt(north.range_m * north.range_m - std::pow(north.depth_m - 7.0, 2)), 1e-4);
+    }
+  }
+}
+
+TEST(Measure, MirroredMountingMirrorsTheSchool) {
+  Ping port;
+  port.add(ellipsoid(200.0, -15.0, 260.0));
+  Ping starboard(90.0);
+  starboard.mask = port.mask;
+  for (sonar::Run& run : starboard.mask.runs) run.row = run.row / 25 * 25 + (24 - run.row % 25);
+  std::sort(starboard.mask.runs.begin(), starboard.mask.runs.end());
+  for (int f = 0; f < 20; ++f) {
+    for (int b = 0; b < 25; ++b) {
+      for (int s = 0; s < 900; ++s) starboard.expected(f, 24 - b, s) = port.expected(f, b, s);
+    }
+  }
+  const SchoolPingRow a = port.measured(1, false);
+  const SchoolPingRow b = starboard.measured(1, false);
+  EXPECT_NEAR(a.range_m, b.range_m, 1e-6);
+  EXPECT_NEAR(a.bearing_deg, 360.0 - b.bearing_deg, 1e-6);
+  EXPECT_NEAR(a.depth_m, b.depth_m, 1e-9);
+  EXPECT_NEAR(a.length_m, b.length_m, 1e-6);
+  EXPECT_NEAR(std::remainder(a.axis_deg + b.axis_deg, 180.0), 0.0, 1e-6);
+  EXPECT_NEAR(a.volume_corrected_m3 / b.volume_corrected_m3, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "model/school.h"
+#include "school/edges.h"
+#include "school/grow.h"
+#include "school/propagate_paper.h"
+#include "school/propagate_tracked.h"
+#include "school/test_water.h"
+
+namespace sonar {
+namespace {
+
+/// A ship that sails north past a school to port.
+struct Passage {
+  explicit Passage(double ship_mps = 3.0) : sector(test::grid().sector(test::range_axis(700))), speed(ship_mps) {}
+
+  Result<FilteredPing> ping(std::int64_t i) const {
+    if (i < 0 || i >= pings) return fail(ErrorCode::not_found, "there is no such ping");
+    FilteredPing out;
+    out.time = i * 5 * kSecondNs;
+    const double north = speed * 5.0 * static_cast<double>(i);
+    out.placement.transducer = to_geographic(Point<Enu>{0.0, north, 0.0}, Geographic{60.0, 4.0});
+    auto volume = std::make_shared<Volume>();
+    volume->flags = test::cropped_flags({20, 25, 700}, sector);
+    Array3<double> expected(Shape3{20, 25, 700});
+    if (i != hidden) {
+      test::Ellipsoid e;
+      e.centre = {school_north - north + 0.4 * 5.0 * static_cast<double>(i), -160.0, 50.0};
+      e.half_x = 16.0;
+      e.half_z = 6.0;
+      test::add_ellipsoid(expected, sector, e, 700);
+    }
+    volume->counts = test::filtered(test::counts_of(expected, static_cast<std::uint64_t>(i) + 1), volume->flags);
+    out.volume = std::move(volume);
+    return out;
+  }
+  PingProvider provider() const {
+    return [this](std::int64_t i) { return ping(i); };
+  }
+  /// One click on the brightest voxel.
+  PingMask click(std::int64_t i, const GrowParams& params) const {
+    const FilteredPing at = *ping(i);
+    VoxelIndex brightest;
+    std::int16_t most = kNoData;
+    for (int row = 0; row < 500; ++row) {
+      for (int s = 0; s < 700; ++s) {
+        const std::int16_t count = at.volume->counts.view().row(row)[static_cast<std::size_t>(s)];
+        if (count <= most) continue;
+        most = count;
+        brightest = {row, s};
+      }
+    }
+    return *grow_from_click(at.volume->counts.view(), at.volume->flags.view(), brightest, TransferFunction(), params);
+  }
+
+  Sector sector;
+  double speed;
+  double school_north = 75.0;
+  int pings = 16;
+  int hidden = -1;
+};
+
+TEST(Tracked, FollowsASchoolThroughItsWholePassage) {
+  const Passage passage;
+  const PingMask selection = passage.click(5, {});
+  const auto result = propagate_tracked(passage.provider(), passage.sector, 5, selection, {0, 14}, {});
+  ASSERT_TRUE(result);
+  // 13 m per ping from 75 m ahead to 107 m astern: the sector's borders lie at 96 m there
+  EXPECT_EQ(result->pings.size(), 15U);
+  int cut = 0;
+  for (const PropagatedPing& p : result->pings) {
+    const FilteredPing ping = *passage.ping(p.ping_index);
+    if ((mask_edges(p.mask, ping.volume->flags.view(), passage.sector).flags & kTouchesEdge) != 0) ++cut;
+  }
+  EXPECT_GT(cut, 0);
+  EXPECT_TRUE(result->note_backward.empty());
+}
+
+TEST(Tracked, FindsALostSchoolAgain) {
+  Passage passage;
+  passage.hidden = 7;
+  const auto result = propagate_tracked(passage.provider(), passage.sector, 5, passage.click(5, {}), {0, 11}, {});
+  ASSERT_TRUE(result);
+  std::vector<std::int64_t> seen;
+  for (const PropagatedPing& p : result->pings) seen.push_back(p.ping_index);
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11}));
+}
+
+TEST(Tracked, EndsWithANoteWhenTheSchoolIsGone) {
+  Passage passage(12.0);
+  passage.pings = 40;
+  const auto result = propagate_tracked(passage.provider(), passage.sector, 1, passage.click(1, {}), {0, 30}, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->note_forward.empty());
+  EXPECT_LT(result->pings.back().ping_index, 10);
+}
+
+TEST(Tracked, DoesNotTakeOthersVoxels) {
+  const Passage passage;
+  const PingMask selection = passage.click(5, {});
+  const PingMask other = passage.click(6, {});
+  const auto result = propagate_tracked(
+      [&](std::int64_t i) {
+        auto ping = passage.ping(i);
+        if (i == 6) ping->taken = other;
+        return ping;
+      },
+      passage.sector, 5, selection, {5, 6}, {});
+  ASSERT_TRUE(result);
+  for (const PropagatedPing& p : result->pings) {
+    EXPECT_TRUE(p.ping_index != 6 || overlap(p.mask, other) == 0U);
+  }
+}
+
+TEST(Paper, RangeIsComputedOnceFromTheSelection) {
+  Array3<std::int16_t> sv({1, 1, 3});
+  const auto count = [](double db) { return static_cast<std::int16_t>(std::lround(counts_from_db(db))); };
+  sv.all()[0] = count(-50.0);  // opacity 0.5
+  sv.all()[1] = count(-40.0);  // 0.75
+  sv.all()[2] = count(-46.0);
+  PingMask mask;
+  mask.runs = {{0, 0, 3}};
+  mask.confidence = {255, 255, 255};
+  const PaperRange range = paper_range(sv.view(), mask, TransferFunction().table_i16());
+  EXPECT_NEAR(range.centre_opacity, 0.625, 1e-3);
+  EXPECT_NEAR(range.tolerance, 0.125, 1e-3);
+}
+
+TEST(Paper, StopsAtTheBorderWithANote) {
+  const Passage passage;
+  GrowParams params;
+  params.mode = GrowMode::paper;
+  params.tolerance_opacity = 0.25;
+  const auto result = propagate_paper(passage.provider(), 5, passage.click(5, params), {0, 15}, TransferFunction(), {});
+  ASSERT_TRUE(result);
+  ASSERT_FALSE(result->note_forward.empty());
+  EXPECT_NE(result->note_forward.find("stopped at ping"), std::string::npos);
+  EXPECT_LT(result->pings.size(), 16U);
+  for (std::size_t i = 1; i < result->pings.size(); ++i) {
+    EXPECT_EQ(result->pings[i].ping_index, result->pings[i - 1].ping_index + 1);
+  }
+}
+
+TEST(Paper, StopsWhereTheCentreIsOutOfRange) {
+  Passage passage(0.5);
+  passage.school_north = 0.0;
+  passage.hidden = 7;
+  GrowParams params;
+  params.mode = GrowMode::paper;
+  params.tolerance_opacity = 0.25;
+  PaperPropagationParams narrow;
+  narrow.enlarge_fans = 1;
+  narrow.enlarge_beams = 1;
+  const auto result =
+      propagate_paper(passage.provider(), 5, passage.click(5, params), {5, 9}, TransferFunction(), narrow);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->pings.back().ping_index, 6);
+  EXPECT_NE(result->note_forward.find("stopped at ping 7: the centre's voxel"), std::string::npos);
+}
+
+TEST(Propagate, RefusesAnEmptySelection) {
+  const Passage passage;
+  EXPECT_FALSE(propagate_paper(passage.provider(), 5, {}, {0, 15}, TransferFunction(), {}));
+  EXPECT_FALSE(propagate_tracked(passage.provider(), passage.sector, 5, {}, {0, 15}, {}));
+  EXPECT_FALSE(propagate_tracked(passage.provider(), passage.sector, 50, passage.click(5, {}), {0, 60}, {}));
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/describe.h"
+#include "base/result.h"
+#include "geo/sector.h"
+#include "model/mask.h"
+#include "school/filtered_ping.h"
+#include "school/grow.h"
+#include "school/propagate_paper.h"
+#include "school/runs.h"
+
+namespace sonar {
+
+struct TrackedPropagationParams {
+  double tolerance_db = 10.0;
+  double reference_percentile = 90.0;
+  double max_reference_step_db = 3.0;
+  double max_growth = 2.0;
+  double gate_m = 15.0;
+  double gate_speed_mps = 2.0;
+  int gate_fans = 1;
+  int gate_beams = 2;
+  int max_lost_pings = 3;
+  Connectivity connectivity = Connectivity::faces;
+};
+
+template <class Visitor>
+void describe(Visitor& v, TrackedPropagationParams& p) {
+  v.field("tolerance_db", p.tolerance_db,
+          {.unit = "dB", .min = 0.1, .max = 60, .text = "members lie no deeper below the school's reference level"});
+  v.field("reference_percentile", p.reference_percentile,
+          {.unit = "%", .min = 1, .max = 100, .text = "share of the school's voxels below its reference level"});
+  v.field("max_reference_step_db", p.max_reference_step_db,
+          {.unit = "dB", .min = 0, .max = 60, .text = "largest change of the reference from ping to ping"});
+  v.field("max_growth", p.max_growth,
+          {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of volumes from ping to ping; more is a leak"});
+  v.field("gate_m", p.gate_m,
+          {.unit = "m", .min = 0, .max = 1000, .text = "growth stays this near to the predicted school"});
+  v.field("gate_speed_mps", p.gate_speed_mps,
+          {.unit = "m s-1", .min = 0, .max = 20, .text = "the gate widens by this for each second since last seen"});
+  v.field("gate_fans", p.gate_fans, {.unit = "fans", .min = 0, .max = 100, .text = "the gate's least reach"});
+  v.field("gate_beams", p.gate_beams, {.unit = "beams", .min = 0, .max = 100, .text = "the gate's least reach"});
+  v.field("max_lost_pings", p.max_lost_pings,
+          {.unit = "pings", .min = 0, .max = 100, .text = "a school lost for so many pings may be found again"});
+  v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
+}
+
+/// Carries a school through time without the paper's limits: the whole previous mask, moved over ground by the ship's
+/// and the school's movement, seeds the next ping; one-sided threshold below a reference that follows the school; a
+/// school partly outside stays in the track, coordinates cut by the sector's borders do not move its velocity.
+/// sector     of the observation (one grid and range axis for all pings)
+/// selection  the mask in ping `clicked`, not empty; kept as it is
+/// errors     as propagate_paper
+[[nodiscard]] Result<Propagation> propagate_tracked(const PingProvider& pings, const Sector& sector,
+                                                    std::int64_t clicked, const PingMask& selection, PingReach reach,
+                                                    const TrackedPropagationParams& params);
+
+}  // namespace sonar

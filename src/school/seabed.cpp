@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/seabed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/check.h"
+#include "base/units.h"
+#include "model/school.h"
+
+namespace sonar {
+namespace {
+
+/// The seabed lies on the beam's axis where its echo is strongest; its onset comes much earlier.
+constexpr double kNearPeak_db = 2.0;
+constexpr int kBlock = 16;
+constexpr SampleFlags kUnusable = SampleFlags::near_field | SampleFlags::surface;
+
+/// A long strong echo along one beam.
+struct Echo {
+  int row = 0;
+  double range_m = 0.0;  ///< of its strongest part
+  Point<Sonar> place;
+};
+
+struct Plane {
+  double offset = 0.0;
+  double slope_x = 0.0;
+  double slope_y = 0.0;
+  [[nodiscard]] double z(double x, double y) const { return offset + slope_x * x + slope_y * y; }
+  [[nodiscard]] double slope() const { return std::hypot(slope_x, slope_y); }
+  /// Range where a direction meets it; infinite where it never does.
+  [[nodiscard]] double range(const Point<Sonar>& u) const {
+    const double approach = u.z - slope_x * u.x - slope_y * u.y;
+    return approach > 1e-6 && offset > 0.0 ? offset / approach : std::numeric_limits<double>::infinity();
+  }
+};
+
+class SeabedFinder {
+ public:
+  SeabedFinder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+               const std::vector<double>& vertical_width_deg, const SeabedParams& params)
+      : sv_(sv), flags_(flags), sector_(sector), width_deg_(vertical_width_deg), params_(params) {}
+
+  Seabed find() {
+    Seabed seabed;
+    seabed.first_sample.assign(sv_.shape().rows(), sv_.shape().samples);
+    if (!params_.enabled) return seabed;
+    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) echoes_of(row);
+    const std::optional<Plane> plane = robust_plane();
+    if (!plane) return seabed;
+    const double seen = coverage(*plane);
+    if (seen < params_.min_coverage) return seabed;
+    seabed.found = true;
+    seabed.offset_m = plane->offset;
+    seabed.slope_x = plane->slope_x;
+    seabed.slope_y = plane->slope_y;
+    seabed.confidence = seen;
+    bounds(*plane, seabed);
+    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
+      seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, row);
+    }
+    return seabed;
+  }
+
+ private:
+  [[nodiscard]] Point<Sonar> axis(int row, double lower_by_rad = 0.0) const {
+    const double elevation = sector_.elevation_rad(row / sector_.beams()) - lower_by_rad;
+    return Sector::direction(std::max(elevation, -1.57), sector_.azimuth_rad(row % sector_.beams()));
+  }
+  [[nodiscard]] double inlier_m(double range_m) const {
+    return std::max(params_.inlier_m, params_.inlier_share * range_m);
+  }
+
+  void echoes_of(int row) {
+    const auto counts = sv_.row(row);
+    const auto flags = flags_.row(row);
+    const int level = static_cast<int>(std::lround(counts_from_db(params_.level_db)));
+    const int least = std::max(1, static_cast<int>(params_.min_echo_m / sector_.range().spacing_m));
+    const int samples = sv_.shape().samples;
+    int start = -1;
+    for (int s = 0; s <= samples; ++s) {
+      if (start < 0 && s + kBlock <= samples && quiet(&counts[static_cast<std::size_t>(s)], level)) {
+        s += kBlock - 1;
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(s);
+      const bool strong = s < samples && counts[i] >= level && !any(flags[i] & kUnusable);
+      if (strong && start < 0) start = s;
+      if (strong || start < 0) continue;
+      if (s - start >= least) add_echo(row, start, s);
+      start = -1;
+    }
+  }
+
+  /// Most of a ping is: a fixed number of samples at a time is quickly looked through.
+  static bool quiet(const std::int16_t* counts, int level) {
+    int loud = 0;
+    for (int j = 0; j < kBlock; ++j) loud |= counts[j] >= level ? 1 : 0;
+    return loud == 0;
+  }
+
+  void add_echo(int row, int first, int end) {
+    const auto counts = sv_.row(row);
+    int at = first;
+    for (int s = first; s < end; ++s) {
+      if (counts[static_cast<std::size_t>(s)] > counts[static_cast<std::size_t>(at)]) at = s;
+    }
+    // an echo still rising where the beam ends says nothing about where its middle would be
+    if (at >= sv_.shape().samples - std::max(2, sv_.shape().samples / 40)) return;
+    const int before = first - std::max(4, (end - first) / 4);
+    if (before < 0) return;
+    const std::int16_t peak = counts[static_cast<std::size_t>(at)];
+    if (peak - counts[static_cast<std::size_t>(before)] < counts_from_db(params_.rise_db)) return;
+    double weight = 0.0;
+    double sum = 0.0;
+    for (int s = first; s < end; ++s) {
+      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(kNearPeak_db)) continue;
+      weight += 1.0;
+      sum += sector_.range().range_m(s);
+    }
+    const double range_m = sum / weight;
+    echoes_.push_back({row, range_m, axis(row) * range_m});
+  }
+
+  [[nodiscard]] int support(const Plane& plane) const {
+    int beams = 0;
+    int last_row = -1;
+    for (const Echo& echo : echoes_) {
+      if (echo.row == last_row) continue;
+      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) > inlier_m(echo.range_m)) continue;
+      ++beams;
+      last_row = echo.row;
+    }
+    return beams;
+  }
+
+  [[nodiscard]] static std::optional<Plane> through(const std::array<Point<Sonar>, 3>& p) {
+    const double x1 = p[1].x - p[0].x;
+    const double y1 = p[1].y - p[0].y;
+    const double x2 = p[2].x - p[0].x;
+    const double y2 = p[2].y - p[0].y;
+    const double area = x1 * y2 - x2 * y1;
+    if (std::abs(area) < 25.0) return std::nullopt;
+    Plane plane;
+    plane.slope_x = ((p[1].z - p[0].z) * y2 - (p[2].z - p[0].z) * y1) / area;
+    plane.slope_y = (x1 * (p[2].z - p[0].z) - x2 * (p[1].z - p[0].z)) / area;
+    plane.offset = p[0].z - plane.slope_x * p[0].x - plane.slope_y * p[0].y;
+    return plane;
+  }
+
+  /// The plane that most beams support, among planes through triples drawn by a fixed sequence; then least squares.
+  [[nodiscard]] std::optional<Plane> robust_plane() const {
+    const std::size_t n = echoes_.size();
+    if (n < static_cast<std::size_t>(std::max(params_.min_inliers, 3))) return std::nullopt;
+    const double steepest = std::tan(rad_from_deg(params_.max_slope_deg));
+    std::uint64_t state = 0x9e3779b97f4a7c15ULL;
+    const auto draw = [&] {
+      state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+      return static_cast<std::size_t>((state >> 33) % n);
+    };
+    std::optional<Plane> best;
+    int most = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      const std::array<Point<Sonar>, 3> p{echoes_[draw()].place, echoes_[draw()].place, echoes_[draw()].place};
+      std::optional<Plane> plane = through(p);
+      // every third trial a level plane: enough where few beams see the bottom
+      if (trial % 3 == 0) plane = Plane{p[0].z, 0.0, 0.0};
+      if (!plane || plane->slope() > steepest || plane->offset <= 0.0) continue;
+      const int beams = support(*plane);
+      if (beams > most) {
+        most = beams;
+        best = plane;
+      }
+    }
+    if (most < params_.min_inliers) return std::nullopt;
+    for (int round = 0; round < 5; ++round) {
+      const std::optional<Plane> better = least_squares(*best);
+      if (!better || better->slope() > steepest || better->offset <= 0.0) break;
+      if (support(*better) < most) break;
+      best = better;
+    }
+    return best;
+  }
+
+  /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth.
+  [[nodiscard]] std::optional<Plane> least_squares(const Plane& start) const {
+    std::array<std::array<double, 4>, 3> m{};
+    for (const Echo& echo : echoes_) {
+      const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / inlier_m(echo.range_m);
+      if (std::abs(off) >= 1.0) continue;
+      const double w = (1.0 - off * off) * (1.0 - off * off) / inlier_m(echo.range_m);
+      const std::array<double, 4> v{1.0, echo.place.x, echo.place.y, echo.place.z};
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) m[i][j] += w * v[i] * v[j];
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {  // elimination; the matrix is positive definite or refused
+      if (!(m[i][i] > 1e-9)) return std::nullopt;
+      for (std::size_t k = i + 1; k < 3; ++k) {
+        const double factor = m[k][i] / m[i][i];
+        for (std::size_t j = i; j < 4; ++j) m[k][j] -= factor * m[i][j];
+      }
+    }
+    Plane plane;
+    plane.slope_y = m[2][3] / m[2][2];
+    plane.slope_x = (m[1][3] - m[1][2] * plane.slope_y) / m[1][1];
+    plane.offset = (m[0][3] - m[0][1] * plane.slope_x - m[0][2] * plane.slope_y) / m[0][0];
+    return plane;
+  }
+
+  /// Share of the beams whose axis meets the plane well inside their range that have an echo there.
+  [[nodiscard]] double coverage(const Plane& plane) const {
+    std::vector<bool> sees(sv_.shape().rows(), false);
+    for (const Echo& echo : echoes_) {
+      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) <= inlier_m(echo.range_m)) {
+        sees[static_cast<std::size_t>(echo.row)] = true;
+      }
+    }
+    const double reach = 0.9 * sector_.range().range_m(sv_.shape().samples - 1);
+    int expected = 0;
+    int seen = 0;
+    for (int row = 0; row < static_cast<int>(sees.size()); ++row) {
+      // grazing beams see the bottom as a faint ramp: they need not agree
+      const Point<Sonar> u = axis(row);
+      if (u.z < 0.3 || plane.range(u) > reach) continue;
+      ++expected;
+      if (sees[static_cast<std::size_t>(row)]) ++seen;
+    }
+    return expected >= params_.min_inliers ? static_cast<double>(seen) / expected : 0.0;
+  }
+
+  void bounds(const Plane& plane, Seabed& seabed) const {
+    seabed.min_x = seabed.min_y = std::numeric_limits<double>::infinity();
+    seabed.max_x = seabed.max_y = -std::numeric_limits<double>::infinity();
+    for (const Echo& echo : echoes_) {
+      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) > inlier_m(echo.range_m)) continue;
+      seabed.min_x = std::min(seabed.min_x, echo.place.x);
+      seabed.max_x = std::max(seabed.max_x, echo.place.x);
+      seabed.min_y = std::min(seabed.min_y, echo.place.y);
+      seabed.max_y = std::max(seabed.max_y, echo.place.y);
+    }
+  }
+
+  /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
+  /// beam's lower flank could see it, and the margin before that.
+  [[nodiscard]] int onset(const Plane& plane, int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    const int samples = sv_.shape().samples;
+    const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : 0.1;
+    const RangeAxis& axis_m = sector_.range();
+    const double nearest_m = plane.range(axis(row, params_.edge_widths * width));
+    const double on_axis_m = plane.range(axis(row));
+    if (!(nearest_m <= axis_m.range_m(samples - 1))) return samples;
+    const double last_m = axis_m.range_m(samples - 1);
+    const int from = static_cast<int>(axis_m.sample_at(std::min(on_axis_m, last_m)));
+    const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
+    const auto counts = sv_.row(row);
+    const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
+    const int gap = std::max(1, static_cast<int>(2.0 / axis_m.spacing_m));
+    int first = on_axis_m <= last_m ? from : samples;
+    for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
+      const bool loud = counts[static_cast<std::size_t>(s)] >= level;
+      if (loud) first = s;
+      quiet = loud ? 0 : quiet + 1;
+    }
+    if (first >= samples) return samples;
+    return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
+  }
+
+  View3<const std::int16_t> sv_;
+  View3<const SampleFlags> flags_;
+  const Sector& sector_;
+  const std::vector<double>& width_deg_;
+  const SeabedParams& params_;
+  std::vector<Echo> echoes_;
+};
+
+}  // namespace
+
+Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+                   const std::vector<double>& vertical_width_deg, const SeabedParams& params) {
+  SONAR_CHECK(sv.shape() == flags.shape());
+  return SeabedFinder(sv, flags, sector, vertical_width_deg, params).find();
+}
+
+void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
+  if (!seabed.found) return;
+  SONAR_CHECK(seabed.first_sample.size() == flags.shape().rows());
+  for (int row = 0; row < static_cast<int>(flags.shape().rows()); ++row) {
+    const auto samples = flags.row(row);
+    for (auto s = static_cast<std::size_t>(seabed.first_sample[static_cast<std::size_t>(row)]); s < samples.size();
+         ++s) {
+      samples[s] |= SampleFlags::seabed;
+    }
+  }
+}
+
+double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement) {
+  if (!seabed.found) return kUnknown;
+  const double beyond_x = 0.3 * (seabed.max_x - seabed.min_x) + 20.0;
+  const double beyond_y = 0.3 * (seabed.max_y - seabed.min_y) + 20.0;
+  if (place.x < seabed.min_x - beyond_x || place.x > seabed.max_x + beyond_x) return kUnknown;
+  if (place.y < seabed.min_y - beyond_y || place.y > seabed.max_y + beyond_y) return kUnknown;
+  return placement.transducer_depth_m + seabed.offset_m + seabed.slope_x * place.x + seabed.slope_y * place.y;
+}
+
+}  // namespace sonar

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/array.h"
+#include "base/describe.h"
+#include "base/sample_flags.h"
+#include "geo/frames.h"
+#include "geo/sector.h"
+
+namespace sonar {
+
+struct SeabedParams {
+  bool enabled = true;
+  double level_db = -50.0;
+  double min_echo_m = 10.0;
+  double rise_db = 10.0;
+  double max_slope_deg = 20.0;
+  double inlier_m = 6.0;
+  double inlier_share = 0.06;
+  double min_coverage = 0.6;
+  int min_inliers = 20;
+  double onset_db = -60.0;
+  double edge_widths = 1.4;
+  double margin_m = 5.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SeabedParams& p) {
+  v.field("enabled", p.enabled, {.text = "look for the seabed at all"});
+  v.field("level_db", p.level_db, {.unit = "dB re 1 m-1", .min = -100, .max = 0, .text = "lowest Sv of a seabed echo"});
+  v.field("min_echo_m", p.min_echo_m, {.unit = "m", .min = 0, .max = 500, .text = "its least extent along range"});
+  v.field("rise_db", p.rise_db,
+          {.unit = "dB", .min = 0, .max = 60, .text = "its peak stands so far above what lies before it"});
+  v.field("max_slope_deg", p.max_slope_deg, {.unit = "deg", .min = 0, .max = 60, .text = "steepest seabed believed"});
+  v.field("inlier_m", p.inlier_m,
+          {.unit = "m", .min = 0, .max = 100, .text = "an echo this near to the plane in depth belongs to it"});
+  v.field("inlier_share", p.inlier_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "the same, as a share of the slant range"});
+  v.field("min_coverage", p.min_coverage,
+          {.unit = "1", .min = 0, .max = 1, .text = "share of the beams that should see the plane and do"});
+  v.field("min_inliers", p.min_inliers, {.unit = "beams", .min = 3, .max = 100000, .text = "least number of beams"});
+  v.field(
+      "onset_db", p.onset_db,
+      {.unit = "dB re 1 m-1", .min = -120, .max = 0, .text = "the echo is followed towards the sonar down to this"});
+  v.field("edge_widths", p.edge_widths,
+          {.unit = "1",
+           .min = 0,
+           .max = 5,
+           .text = "beams see the seabed this many vertical beam widths below their axis, not more"});
+  v.field("margin_m", p.margin_m, {.unit = "m", .min = 0, .max = 200, .text = "water above the seabed left out"});
+}
+
+/// The seabed of one ping: a plane in the sonar frame, z = offset_m + slope_x x + slope_y y (z down).
+struct Seabed {
+  bool found = false;
+  double offset_m = 0.0;
+  double slope_x = 0.0;
+  double slope_y = 0.0;
+  double confidence = 0.0;  ///< share of the beams that should see it and do
+  double min_x = 0.0;       ///< where it was seen, m
+  double max_x = 0.0;
+  double min_y = 0.0;
+  double max_y = 0.0;
+  std::vector<std::int32_t> first_sample;  ///< [row] first sample beyond seabed - margin; the sample count = none
+};
+
+/// Finds the seabed from this ping alone: echoes per beam, a robust plane in metres, its onset along each beam.
+/// sv        [fan][beam][sample], median-filtered Sv counts
+/// vertical_width_deg  [fan][beam] one-way -3 dB, BeamGrid's
+/// out       found = false where the beams that would see a plane do not agree on one
+/// threads   pure
+/// source    reference: robust plane over per-beam candidates
+[[nodiscard]] Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+                                 const std::vector<double>& vertical_width_deg, const SeabedParams& params);
+
+/// Sets SampleFlags::seabed from first_sample to the end of each row.
+void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags);
+
+/// Depth of the seabed under a place, below the water line; NaN where none was seen near there.
+[[nodiscard]] double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement);
+
+}  // namespace sonar

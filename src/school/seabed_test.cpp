@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/seabed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "school/test_water.h"
+
+namespace sonar {
+namespace {
+
+struct BottomScene {
+  BottomScene() : sector(test::grid().sector(test::range_axis())), expected(Shape3{20, 25, 900}) {}
+
+  /// A plane z = depth + slope_y y, seen through the beam's vertical pattern.
+  void add_bottom(double depth_m, double slope_y = 0.0) {
+    const double sigma = rad_from_deg(test::kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+    for (int f = 0; f < 20; ++f) {
+      for (int b = 0; b < 25; ++b) {
+        for (int s = 40; s < 900; ++s) {
+          const double r = sector.range().range_m(s);
+          // the elevation where this range meets the plane, by a few steps of a fixed point
+          double e = sector.elevation_rad(f);
+          bool meets = true;
+          for (int k = 0; k < 8 && meets; ++k) {
+            const double z = depth_m + slope_y * r * std::cos(e) * std::sin(sector.azimuth_rad(b));
+            meets = z > 0.0 && z < r;
+            if (meets) e = -std::asin(z / r);
+          }
+          if (!meets) continue;
+          const double off = (e - sector.elevation_rad(f)) / sigma;
+          expected(f, b, s) += 3e-3 * std::exp(-0.5 * off * off);
+        }
+      }
+    }
+  }
+
+  Seabed look(std::uint64_t seed) {
+    flags = test::cropped_flags(expected.shape(), sector);
+    const Array3<std::int16_t> sv = test::filtered(test::counts_of(expected, seed), flags);
+    return find_seabed(sv.view(), flags.view(), sector, test::grid().vertical_width_deg, {});
+  }
+
+  Sector sector;
+  Array3<double> expected;
+  Array3<SampleFlags> flags;
+};
+
+TEST(Seabed, FindsALevelBottom) {
+  BottomScene scene;
+  scene.add_bottom(150.0);
+  const Seabed seabed = scene.look(1);
+  ASSERT_TRUE(seabed.found);
+  Placement placement;
+  placement.transducer_depth_m = 7.0;
+  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -200.0, 50.0}, placement), 157.0, 5.0);
+  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {5000.0, 0.0, 0.0}, placement)));
+  flag_seabed(seabed, scene.flags.view());
+  int left = 0;
+  for (std::size_t i = 0; i < scene.expected.shape().size(); ++i) {
+    if (scene.expected.all()[i] > 1e-6 && !any(scene.flags.all()[i] & SampleFlags::seabed)) ++left;  // above -60 dB
+  }
+  EXPECT_EQ(left, 0);
+}
+
+TEST(Seabed, FollowsASlope) {
+  BottomScene scene;
+  scene.add_bottom(120.0, -0.1);  // deeper to port
+  const Seabed seabed = scene.look(2);
+  ASSERT_TRUE(seabed.found);
+  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -150.0, 0.0}, {}), 135.0, 6.0);
+}
+
+TEST(Seabed, NoBottomNoSeabed) {
+  const Seabed seabed = BottomScene().look(3);
+  EXPECT_FALSE(seabed.found);
+  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {0.0, -100.0, 0.0}, {})));
+  for (const int first : seabed.first_sample) EXPECT_EQ(first, 900);
+}
+
+TEST(Seabed, ADenseSchoolIsNone) {
+  for (const double elevation_deg : {-40.0, -30.0, -15.0}) {
+    BottomScene scene;
+    test::Ellipsoid e;
+    e.centre = Sector::direction(rad_from_deg(elevation_deg), rad_from_deg(270.0)) * 150.0;
+    e.half_x = 40.0;
+    e.half_y = 25.0;
+    e.half_z = 10.0;
+    e.sv = linear_from_db(-28.0);
+    test::add_ellipsoid(scene.expected, scene.sector, e);
+    EXPECT_FALSE(scene.look(4).found) << elevation_deg;
+  }
+}
+
+TEST(Seabed, ASchoolAboveTheBottomStays) {
+  BottomScene scene;
+  scene.add_bottom(150.0);
+  Array3<double> alone(scene.expected.shape());
+  test::Ellipsoid e;
+  e.centre = Sector::direction(rad_from_deg(-25.0), rad_from_deg(270.0)) * 150.0;
+  e.sv = linear_from_db(-35.0);
+  test::add_ellipsoid(alone, scene.sector, e);
+  const PingMask truth = test::truth_of(alone);
+  for (std::size_t i = 0; i < alone.shape().size(); ++i) scene.expected.all()[i] += alone.all()[i];
+  const Seabed seabed = scene.look(5);
+  ASSERT_TRUE(seabed.found);
+  for (const sonar::Run& run : truth.runs) {
+    EXPECT_LE(run.end(), seabed.first_sample[static_cast<std::size_t>(run.row)]);
+  }
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/describe.h"
+#include "model/school.h"
+
+namespace sonar {
+
+struct SummariseParams {
+  int min_speed_pings = 4;
+  double min_speed_span_s = 15.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SummariseParams& p) {
+  v.field("min_speed_pings", p.min_speed_pings,
+          {.unit = "pings", .min = 3, .max = 1000, .text = "no speed from fewer pings"});
+  v.field("min_speed_span_s", p.min_speed_span_s,
+          {.unit = "s", .min = 0, .max = 100000, .text = "no speed from a shorter time"});
+}
+
+/// A school's row of schools.csv from its rows of school_pings.csv: pings that touch no edge where there are any, else
+/// all; linear means of sv and backscatter, medians of sizes; speed over ground by a least-squares line through the
+/// centres of pings whose centre is not cut. Unknown values in a column are left out.
+/// rows  of one school, rising time; not empty
+[[nodiscard]] SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& params);
+
+}  // namespace sonar

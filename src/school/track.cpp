@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/track.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "base/check.h"
+#include "school/assign.h"
+#include "school/motion.h"
+#include "school/moved_mask.h"
+#include "school/runs.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kThinning = 8;
+constexpr double kForbidden = 1e6;
+/// A piece that stays apart for so many pings is a school of its own.
+constexpr int kSplitPings = 3;
+constexpr double kPieceVolume = 0.5;
+
+double seconds_between(TimeNs from, TimeNs to) {
+  return static_cast<double>(to - from) / static_cast<double>(kSecondNs);
+}
+
+/// Which detection of a ping holds a voxel.
+class Owners {
+ public:
+  Owners(const DetectedPing& ping, const Sector& sector) : beams_(sector.beams()) {
+    for (std::size_t d = 0; d < ping.detections.size(); ++d) {
+      for (const Run& run : ping.detections[d].mask.runs) owned_.emplace_back(run, static_cast<int>(d));
+    }
+    std::sort(owned_.begin(), owned_.end());
+    std::vector<Run> runs;
+    for (const auto& [run, detection] : owned_) runs.push_back(run);
+    rows_ = index_rows(runs, static_cast<std::size_t>(sector.fans()) * static_cast<std::size_t>(beams_));
+  }
+
+  /// -1 = none.
+  [[nodiscard]] int at(const SectorIndex& index) const {
+    const int row = static_cast<int>(std::lround(index.fan)) * beams_ + static_cast<int>(std::lround(index.beam));
+    if (row < 0 || row + 1 >= static_cast<int>(rows_.size())) return -1;
+    const auto r = static_cast<std::size_t>(row);
+    const auto sample = static_cast<std::int32_t>(std::lround(index.sample));
+    const auto begin = owned_.begin() + rows_[r];
+    const auto end = owned_.begin() + rows_[r + 1];
+    auto it =
+        std::upper_bound(begin, end, sample, [](std::int32_t s, const auto& o) { return s < o.first.first_sample; });
+    if (it == begin) return -1;
+    --it;
+    return sample < it->first.end() ? it->second : -1;
+  }
+
+ private:
+  int beams_;
+  std::vector<std::pair<Run, int>> owned_;
+  std::vector<int> rows_;
+};
+
+struct OpenTrack {
+  int number = 0;  ///< order of birth
+  Motion motion;
+  std::vector<TrackedDetection> pings;
+  std::size_t last_ping = 0;  ///< position in the list of pings
+  double volume_m3 = 0.0;
+  double reference_db = 0.0;
+  int pieces_streak = 0;  ///< pings in a row with more than one detection
+  bool merged = false;
+};
+
+struct RawEvent {
+  TrackEventKind kind;
+  std::int64_t ping_index;
+  int track;
+  int other;  ///< -1 = none
+};
+
+class Tracker {
+ public:
+  Tracker(std::span<const DetectedPing> pings, const Sector& sector, std::span<const int> channel,
+          const TrackParams& params)
+      : pings_(pings), sector_(sector), channel_(channel), params_(params) {
+    for (const DetectedPing& ping : pings) frames_.emplace_back(ping.placement, pings.front().placement.transducer);
+  }
+
+  Tracks run() {
+    for (std::size_t p = 0; p < pings_.size(); ++p) step(p);
+    for (OpenTrack& track : open_) close(std::move(track));
+    open_.clear();
+    return publish();
+  }
+
+ private:
+  void step(std::size_t p) {
+    retire(p);
+    const DetectedPing& ping = pings_[p];
+    const Owners owners(ping, sector_);
+    std::vector<std::vector<double>> shared;  // [track][detection] m^3 of the moved mask inside the detection
+    std::vector<double> moved_m3;
+    std::vector<std::vector<double>> cost;
+    for (OpenTrack& track : open_) {
+      const double dt = seconds_between(pings_[p - 1].time, ping.time);
+      track.motion.predict(dt, params_.acceleration_mps2);
+      moved_m3.push_back(0.0);
+      shared.push_back(overlaps(track, p, owners, moved_m3.back()));
+      cost.emplace_back();
+      for (std::size_t d = 0; d < ping.detections.size(); ++d) {
+        cost.back().push_back(price(track, p, ping.detections[d], shared.back()[d]));
+      }
+    }
+    const std::vector<int> choice = assign(cost, alone());
+    std::vector<int> taken_by(ping.detections.size(), -1);
+    for (std::size_t t = 0; t < open_.size(); ++t) {
+      if (choice[t] >= 0 && cost[t][static_cast<std::size_t>(choice[t])] < alone()) {
+        taken_by[static_cast<std::size_t>(choice[t])] = static_cast<int>(t);
+      }
+    }
+    note_merges(p, taken_by, shared, moved_m3);
+    const std::vector<std::vector<int>> pieces = gather_pieces(p, taken_by, shared);
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      if (taken_by[d] >= 0)
+        extend(open_[static_cast<std::size_t>(taken_by[d])], p, static_cast<int>(d),
+               pieces[static_cast<std::size_t>(taken_by[d])]);
+    }
+    const std::size_t known = shared.size();
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      if (taken_by[d] != -1) continue;
+      begin(p, static_cast<int>(d));
+      for (std::size_t t = 0; t < known; ++t) {
+        if (shared[t][d] < params_.fragment_overlap * ping.detections[d].volume_m3) continue;
+        events_.push_back({TrackEventKind::split, ping.ping_index, open_.back().number, open_[t].number});
+        break;
+      }
+    }
+  }
+
+  /// Closes tracks that have been lost too long.
+  void retire(std::size_t p) {
+    for (std::size_t t = 0; t < open_.size();) {
+      const std::int64_t lost = pings_[p].ping_index - pings_[open_[t].last_ping].ping_index - 1;
+      if (lost <= params_.max_lost_pings) {
+        ++t;
+        continue;
+      }
+      close(std::move(open_[t]));
+      open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(t));
+    }
+  }
+
+  void close(OpenTrack track) {
+    const std::int64_t ping = pings_[track.last_ping].ping_index;
+    if (track.last_ping + 1 < pings_.size()) events_.push_back({TrackEventKind::death, ping, track.number, -1});
+    closed_.push_back(std::move(track));
+  }
+
+  [[nodiscard]] std::vector<double> overlaps(const OpenTrack& track, std::size_t p, const Owners& owners,
+                                             double& moved_m3) const {
+    std::vector<double> shared(pings_[p].detections.size(), 0.0);
+    const double dt = seconds_between(pings_[track.last_ping].time, pings_[p].time);
+    const Point<Enu> shift = track.motion.velocity() * dt;
+    for (const int piece : track.pings.back().detections) {
+      const PingMask& mask = pings_[track.last_ping].detections[static_cast<std::size_t>(piece)].mask;
+      for (const MovedPoint& point :
+           moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, kThinning)) {
+        moved_m3 += point.volume_m3;
+        const int owner = owners.at(point.index);
+        if (owner >= 0) shared[static_cast<std::size_t>(owner)] += point.volume_m3;
+      }
+    }
+    return shared;
+  }
+
+  [[nodiscard]] Covariance3 spread(std::size_t p, const Detection& d, bool censored) const {
+    return centre_covariance(d.centre, d.covariance, frames_[p].heading_rad(), params_.position_share,
+                             params_.min_position_m, censored ? d.edge_flags : 0);
+  }
+
+  [[nodiscard]] double alone() const { return params_.gate_sigmas * params_.gate_sigmas + params_.overlap_weight; }
+
+  [[nodiscard]] double price(const OpenTrack& track, std::size_t p, const Detection& d, double shared_m3) const {
+    const Point<Enu> place = frames_[p].to_world(d.centre);
+    const double gate = params_.gate_sigmas * params_.gate_sigmas;
+    const double distance2 = track.motion.distance2(place, spread(p, d, true));
+    if (!(distance2 <= gate)) return kForbidden;
+    // a cut coordinate lets everything through the gate: then only touching or a near centre will do
+    if (shared_m3 <= 0.0 && !(track.motion.distance2(place, spread(p, d, false)) <= gate)) return kForbidden;
+    const double overlap = std::min(1.0, shared_m3 / std::max(1e-9, std::min(track.volume_m3, d.volume_m3)));
+    const double missed = static_cast<double>(pings_[p].ping_index - pings_[track.last_ping].ping_index - 1);
+    return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) +
+           params_.size_weight * std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
+           params_.level_weight * std::abs(d.reference_db - track.reference_db) + missed;
+  }
+
+  /// A school without a detection whose moved mask lies in another's has gone into it.
+  void note_merges(std::size_t p, const std::vector<int>& taken_by, const std::vector<std::vector<double>>& shared,
+                   const std::vector<double>& moved_m3) {
+    for (std::size_t t = 0; t < shared.size(); ++t) {
+      if (open_[t].merged || std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) > 0) continue;
+      for (std::size_t d = 0; d < taken_by.size(); ++d) {
+        if (taken_by[d] < 0 || !(shared[t][d] > params_.fragment_overlap * moved_m3[t])) continue;
+        open_[t].merged = true;
+        events_.push_back({TrackEventKind::merge, pings_[p].ping_index, open_[t].number,
+                           open_[static_cast<std::size_t>(taken_by[d])].number});
+        break;
+      }
+    }
+  }
+
+  /// Stray detections inside the moved mask of a school that was found: pieces of it, until they stay apart.
+  /// Marks them in taken_by with -2.
+  std::vector<std::vector<int>> gather_pieces(std::size_t p, std::vector<int>& taken_by,
+                                              const std::vector<std::vector<double>>& shared) {
+    std::vector<std::vector<int>> pieces(open_.size());
+    std::vector<int> main_of(open_.size(), -1);
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      if (taken_by[d] >= 0) main_of[static_cast<std::size_t>(taken_by[d])] = static_cast<int>(d);
+    }
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      if (taken_by[d] >= 0) continue;
+      const double volume = pings_[p].detections[d].volume_m3;
+      int parent = -1;
+      for (std::size_t t = 0; t < shared.size(); ++t) {
+        if (main_of[t] < 0 || open_[t].pieces_streak >= kSplitPings) continue;
+        const double main_m3 = pings_[p].detections[static_cast<std::size_t>(main_of[t])].volume_m3;
+        if (volume > kPieceVolume * main_m3 || shared[t][d] < params_.fragment_overlap * volume) continue;
+        if (parent < 0 || shared[t][d] > shared[static_cast<std::size_t>(parent)][d]) parent = static_cast<int>(t);
+      }
+      if (parent < 0) continue;
+      pieces[static_cast<std::size_t>(parent)].push_back(static_cast<int>(d));
+      taken_by[d] = -2;
+    }
+    for (std::size_t t = 0; t < pieces.size(); ++t) {
+      open_[t].pieces_streak = pieces[t].empty() ? 0 : open_[t].pieces_streak + 1;
+    }
+    return pieces;
+  }
+
+  void extend(OpenTrack& track, std::size_t p, int main, const std::vector<int>& pieces) {
+    const DetectedPing& ping = pings_[p];
+    const Detection& d = ping.detections[static_cast<std::size_t>(main)];
+    TrackedDetection tracked{ping.ping_index, {main}};
+    tracked.detections.insert(tracked.detections.end(), pieces.begin(), pieces.end());
+    double volume = 0.0;
+    Point<Sonar> centre;
+    for (const int i : tracked.detections) {
+      const Detection& piece = ping.detections[static_cast<std::size_t>(i)];
+      volume += piece.volume_m3;
+      centre = centre + piece.centre * piece.volume_m3;
+    }
+    if (volume > 0.0) centre = centre * (1.0 / volume);
+    track.motion.update(frames_[p].to_world(volume > 0.0 ? centre : d.centre), spread(p, d, true));
+    track.volume_m3 = volume;
+    track.reference_db = d.reference_db;
+    track.last_ping = p;
+    track.merged = false;
+    track.pings.push_back(std::move(tracked));
+  }
+
+  void begin(std::size_t p, int detection) {
+    const Detection& d = pings_[p].detections[static_cast<std::size_t>(detection)];
+    OpenTrack track{next_number_++,
+                    Motion(frames_[p].to_world(d.centre), spread(p, d, true), params_.initial_speed_mps),
+                    {{pings_[p].ping_index, {detection}}},
+                    p,
+                    d.volume_m3,
+                    d.reference_db,
+                    0,
+                    false};
+    open_.push_back(std::move(track));
+    events_.push_back({TrackEventKind::birth, pings_[p].ping_index, open_.back().number, -1});
+  }
+
+  [[nodiscard]] bool confirmed(const OpenTrack& track) const {
+    const auto wanted = static_cast<std::size_t>(params_.confirm_pings);
+    for (std::size_t i = 0; i + wanted <= track.pings.size(); ++i) {
+      if (track.pings[i + wanted - 1].ping_index - track.pings[i].ping_index < params_.confirm_window) return true;
+    }
+    return false;
+  }
+
+  /// (first ping, channel, sample) of the first mask's first voxel.
+  [[nodiscard]] std::array<std::int64_t, 3> order_key(const OpenTrack& track) const {
+    const auto at = std::lower_bound(pings_.begin(), pings_.end(), track.pings.front().ping_index,
+                                     [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
+    std::array<std::int64_t, 3> key{track.pings.front().ping_index, INT64_MAX, INT64_MAX};
+    for (const int d : track.pings.front().detections) {
+      for (const Run& run : at->detections[static_cast<std::size_t>(d)].mask.runs) {
+        const auto row = static_cast<std::size_t>(run.row);
+        const std::int64_t channel = row < channel_.size() ? channel_[row] : run.row;
+        if (std::pair(channel, std::int64_t{run.first_sample}) < std::pair(key[1], key[2])) {
+          key[1] = channel;
+          key[2] = run.first_sample;
+        }
+      }
+    }
+    return key;
+  }
+
+  Tracks publish() {
+    std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
+    for (const OpenTrack& track : closed_) {
+      if (confirmed(track)) order.emplace_back(order_key(track), &track);
+    }
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Tracks tracks;
+    std::vector<std::int64_t> id_of(static_cast<std::size_t>(next_number_), 0);
+    for (const auto& [key, track] : order) {
+      const auto id = static_cast<std::int64_t>(tracks.schools.size()) + 1;
+      id_of[static_cast<std::size_t>(track->number)] = id;
+      tracks.schools.push_back({id, track->pings});
+    }
+    for (const RawEvent& raw : events_) {
+      const std::int64_t id = id_of[static_cast<std::size_t>(raw.track)];
+      const std::int64_t other = raw.other >= 0 ? id_of[static_cast<std::size_t>(raw.other)] : 0;
+      if (id == 0 || (raw.other >= 0 && other == 0)) continue;
+      tracks.events.push_back({raw.kind, raw.ping_index, id, other});
+    }
+    std::sort(tracks.events.begin(), tracks.events.end(), [](const TrackEvent& a, const TrackEvent& b) {
+      return std::tuple(a.ping_index, static_cast<int>(a.kind), a.school_id, a.other_id) <
+             std::tuple(b.ping_index, static_cast<int>(b.kind), b.school_id, b.other_id);
+    });
+    return tracks;
+  }
+
+  std::span<const DetectedPing> pings_;
+  const Sector& sector_;
+  std::span<const int> channel_;
+  const TrackParams& params_;
+  std::vector<PingFrame> frames_;
+  std::vector<OpenTrack> open_;
+  std::vector<OpenTrack> closed_;
+  std::vector<RawEvent> events_;
+  int next_number_ = 0;
+};
+
+}  // namespace
+
+std::string_view name(TrackEventKind kind) {
+  switch (kind) {
+    case TrackEventKind::birth:
+      return "birth";
+    case TrackEventKind::death:
+      return "death";
+    case TrackEventKind::split:
+      return "split";
+    case TrackEventKind::merge:
+      return "merge";
+  }
+  return "";
+}
+
+std::string to_text(const TrackEvent& event) {
+  switch (event.kind) {
+    case TrackEventKind::birth:
+      return fmt::format("ping {}: school {} first seen", event.ping_index, event.school_id);
+    case TrackEventKind::death:
+      return fmt::format("ping {}: school {} last seen", event.ping_index, event.school_id);
+    case TrackEventKind::split:
+      return fmt::format("ping {}: school {} split from school {}", event.ping_index, event.school_id, event.other_id);
+    case TrackEventKind::merge:
+      return fmt::format("ping {}: school {} merged into school {}", event.ping_index, event.school_id, event.other_id);
+  }
+  return {};
+}
+
+Tracks track(std::span<const DetectedPing> pings, const Sector& sector, std::span<const int> channel,
+             const TrackParams& params) {
+  if (pings.empty()) return {};
+  return Tracker(pings, sector, channel, params).run();
+}
+
+PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping) {
+  PingMask mask;
+  for (const int d : tracked.detections) {
+    const PingMask& piece = ping.detections[static_cast<std::size_t>(d)].mask;
+    mask = mask.empty() ? piece : unite(mask, piece);
+  }
+  return mask;
+}
+
+}  // namespace sonar

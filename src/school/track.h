@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/time.h"
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "school/detect.h"
+
+namespace sonar {
+
+struct TrackParams {
+  double acceleration_mps2 = 0.05;
+  double initial_speed_mps = 2.0;
+  double position_share = 0.08;
+  double min_position_m = 2.0;
+  double gate_sigmas = 4.0;
+  double overlap_weight = 4.0;
+  double size_weight = 1.0;
+  double level_weight = 0.1;
+  int max_lost_pings = 3;
+  int confirm_pings = 3;
+  int confirm_window = 5;
+  double fragment_overlap = 0.5;
+};
+
+template <class Visitor>
+void describe(Visitor& v, TrackParams& p) {
+  v.field("acceleration_mps2", p.acceleration_mps2,
+          {.unit = "m s-2", .min = 0.0001, .max = 10, .text = "how strongly schools change their velocity"});
+  v.field("initial_speed_mps", p.initial_speed_mps,
+          {.unit = "m s-1", .min = 0, .max = 20, .text = "spread of a new school's velocity, per axis"});
+  v.field("position_share", p.position_share,
+          {.unit = "1", .min = 0.001, .max = 2, .text = "uncertainty of a centre as a share of the school's extent"});
+  v.field("min_position_m", p.min_position_m, {.unit = "m", .min = 0.01, .max = 100, .text = "its least value"});
+  v.field("gate_sigmas", p.gate_sigmas,
+          {.unit = "1", .min = 0.1, .max = 20, .text = "detections farther from the prediction are other schools"});
+  v.field("overlap_weight", p.overlap_weight,
+          {.unit = "1", .min = 0, .max = 100, .text = "cost of no overlap with the moved mask"});
+  v.field("size_weight", p.size_weight, {.unit = "1", .min = 0, .max = 100, .text = "cost of one e-fold of volume"});
+  v.field("level_weight", p.level_weight, {.unit = "1/dB", .min = 0, .max = 10, .text = "cost of one dB of level"});
+  v.field("max_lost_pings", p.max_lost_pings,
+          {.unit = "pings", .min = 0, .max = 100, .text = "a school unseen for so many pings may be found again"});
+  v.field("confirm_pings", p.confirm_pings,
+          {.unit = "pings", .min = 1, .max = 100, .text = "a school is seen at least so often ..."});
+  v.field("confirm_window", p.confirm_window,
+          {.unit = "pings", .min = 1, .max = 100, .text = "... in so many neighbouring pings"});
+  v.field("fragment_overlap", p.fragment_overlap,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "a stray detection with this share inside a school's moved mask is a piece of that school"});
+}
+
+/// The detections of one ping, for association.
+struct DetectedPing {
+  std::int64_t ping_index = 0;
+  TimeNs time = 0;
+  Placement placement;
+  std::vector<Detection> detections;
+};
+
+/// One school in one ping: which of the ping's detections it is (several where it is torn).
+struct TrackedDetection {
+  std::int64_t ping_index = 0;
+  std::vector<int> detections;  ///< indices into DetectedPing::detections, rising; the main one first
+};
+
+struct SchoolTrack {
+  std::int64_t school_id = 0;  ///< 1.. by (first ping, channel, sample)
+  std::vector<TrackedDetection> pings;
+};
+
+enum class TrackEventKind { birth, death, split, merge };
+[[nodiscard]] std::string_view name(TrackEventKind kind);
+
+struct TrackEvent {
+  TrackEventKind kind = TrackEventKind::birth;
+  std::int64_t ping_index = 0;
+  std::int64_t school_id = 0;
+  std::int64_t other_id = 0;  ///< split: the school it came from; merge: the school it went into; else 0
+};
+/// "ping 12: school 4 split from school 2".
+[[nodiscard]] std::string to_text(const TrackEvent& event);
+
+struct Tracks {
+  std::vector<SchoolTrack> schools;  ///< by school_id
+  std::vector<TrackEvent> events;    ///< by ping, kind, school_id; confirmed schools only
+};
+
+/// Joins the detections of an observation to schools: constant velocity over ground, gate, overlap of the moved mask,
+/// assignment at least cost; coordinates that a border cuts off do not move the estimate.
+/// pings    rising ping_index and time; gaps allowed
+/// sector   of the observation
+/// channel  [row] for the order of ids, BeamGrid::channel
+/// threads  sequential, deterministic
+[[nodiscard]] Tracks track(std::span<const DetectedPing> pings, const Sector& sector, std::span<const int> channel,
+                           const TrackParams& params);
+
+/// A tracked school's whole mask in one ping.
+[[nodiscard]] PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping);
+
+}  // namespace sonar

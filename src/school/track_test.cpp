@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/track.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "model/school.h"
+#include "school/motion.h"
+#include "school/test_water.h"
+
+namespace sonar {
+namespace {
+
+/// A ball of fish over ground: what a perfect sonar without beam width would mark.
+struct Ball {
+  Point<Enu> start;
+  Point<Enu> velocity;
+  double radius_m = 12.0;
+  double reference_db = -40.0;
+};
+
+constexpr double kInterval_s = 5.0;
+
+Placement ship_at(int ping, double speed_mps = 3.0, Geographic start = {60.0, 4.0}, double heading_deg = 0.0) {
+  Placement p;
+  p.heading_rad = rad_from_deg(heading_deg);
+  const double way = speed_mps * kInterval_s * ping;
+  p.transducer = to_geographic(Point<Enu>{way * std::sin(p.heading_rad), way * std::cos(p.heading_rad), 0.0}, start);
+  return p;
+}
+
+PingMask ball_mask(const Ball& ball, const Sector& sector, const Placement& placement, Geographic origin, double t) {
+  const PingFrame frame(placement, origin);
+  const Point<Sonar> centre = frame.from_world(ball.start + ball.velocity * t);
+  PingMask mask;
+  for (int row = 0; row < 500; ++row) {
+    for (int s = 0; s < sector.range().count; ++s) {
+      if (std::abs(sector.range().range_m(s) - norm(centre)) > ball.radius_m) continue;
+      if (norm(sector.centre(row / 25, row % 25, s) - centre) > ball.radius_m) continue;
+      if (mask.runs.empty() || mask.runs.back().row != row || mask.runs.back().end() != s)
+        mask.runs.push_back({row, s, 0});
+      ++mask.runs.back().count;
+      mask.confidence.push_back(255);
+    }
+  }
+  return mask;
+}
+
+struct Voyage {
+  Voyage() : sector(test::grid().sector(test::range_axis())), flags({20, 25, 900}) {}
+
+  void sail(const std::vector<Ball>& balls, int pings, const std::set<std::pair<int, int>>& unseen = {},
+            Geographic start = {60.0, 4.0}, double heading_deg = 0.0) {
+    const std::vector<int> channel = test::grid().channel;
+    for (int p = 0; p < pings; ++p) {
+      DetectedPing ping{p, p * 5 * kSecondNs, ship_at(p, 3.0, start, heading_deg), {}};
+      std::vector<int> who;
+      for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (unseen.contains({p, static_cast<int>(i)})) continue;
+        PingMask mask = ball_mask(balls[i], sector, ping.placement, start, p * kInterval_s);
+        if (mask.voxels() < 20) continue;
+        ping.detections.push_back(describe_mask(std::move(mask), flags.view(), sector));
+        ping.detections.back().reference_db = balls[i].reference_db;
+        who.push_back(static_cast<int>(i));
+      }
+      pings_.push_back(std::move(ping));
+      owner.push_back(std::move(who));
+    }
+    tracks = track(pings_, sector, channel, {});
+  }
+
+  /// The balls that a track was made of.
+  std::set<int> balls_of(const SchoolTrack& school) const {
+    std::set<int> balls;
+    for (const TrackedDetection& t : school.pings) {
+      for (const int d : t.detections) {
+        balls.insert(owner[static_cast<std::size_t>(t.ping_index)][static_cast<std::size_t>(d)]);
+      }
+    }
+    return balls;
+  }
+
+  Sector sector;
+  Array3<SampleFlags> flags;
+  std::vector<DetectedPing> pings_;
+  std::vector<std::vector<int>> owner;
+  Tracks tracks;
+};
+
+// ship sails north, looks to port: schools lie west
+const Ball kNear{{-150.0, 40.0, -40.0}, {0.3, 0.2, 0.0}};
+const Ball kFar{{-230.0, 60.0, -60.0}, {-0.2, -0.4, 0.0}};
+
+TEST(Track, KeepsTwoSchoolsApart) {
+  for (const double heading_deg : {0.0, 90.0}) {
+    Voyage voyage;
+    std::vector<Ball> balls{kNear, kFar};
+    for (Ball& ball : balls) {  // the whole scene turned with the ship
+      const double h = rad_from_deg(heading_deg);
+      const auto turn = [&](Point<Enu> p) {
+        return Point<Enu>{p.x * std::cos(h) + p.y * std::sin(h), -p.x * std::sin(h) + p.y * std::cos(h), p.z};
+      };
+      ball.start = turn(ball.start);
+      ball.velocity = turn(ball.velocity);
+    }
+    voyage.sail(balls, 14, {}, {60.0, 4.0}, heading_deg);
+    ASSERT_EQ(voyage.tracks.schools.size(), 2U);
+    for (const SchoolTrack& school : voyage.tracks.schools) EXPECT_EQ(voyage.balls_of(school).size(), 1U);
+    EXPECT_EQ(voyage.tracks.schools[0].school_id, 1);
+    EXPECT_EQ(voyage.tracks.schools[1].school_id, 2);
+  }
+}
+
+TEST(Track, IsTheSameAcrossTheDateLineAndFarNorth) {
+  Voyage usual;
+  usual.sail({kNear, kFar}, 12);
+  for (const Geographic start : {Geographic{60.0, 179.9995}, Geographic{70.0, -10.0}}) {
+    Voyage voyage;
+    voyage.sail({kNear, kFar}, 12, {}, start);
+    ASSERT_EQ(voyage.tracks.schools.size(), usual.tracks.schools.size());
+    for (std::size_t i = 0; i < usual.tracks.schools.size(); ++i) {
+      EXPECT_EQ(voyage.tracks.schools[i].pings.size(), usual.tracks.schools[i].pings.size());
+    }
+  }
+}
+
+TEST(Track, FindsALostSchoolAgain) {
+  const Ball ahead{{-150.0, 80.0, -40.0}, {0.3, 0.2, 0.0}};  // in view for 12 pings
+  Voyage voyage;
+  voyage.sail({ahead}, 14, {{4, 0}, {5, 0}, {6, 0}});
+  ASSERT_EQ(voyage.tracks.schools.size(), 1U);
+  for (const TrackedDetection& t : voyage.tracks.schools[0].pings) {
+    EXPECT_TRUE(t.ping_index < 4 || t.ping_index > 6);  // gaps stay gaps
+  }
+  Voyage longer;
+  longer.sail({ahead}, 14, {{4, 0}, {5, 0}, {6, 0}, {7, 0}});
+  EXPECT_EQ(longer.tracks.schools.size(), 2U);
+}
+
+TEST(Track, DropsWhatIsSeenTwice) {
+  Voyage voyage;
+  std::set<std::pair<int, int>> unseen;
+  for (int p = 2; p < 10; ++p) unseen.insert({p, 0});
+  voyage.sail({kNear}, 10, unseen);
+  EXPECT_TRUE(voyage.tracks.schools.empty());
+  EXPECT_TRUE(voyage.tracks.events.empty());
+}
+
+TEST(Track, CrossingSchoolsOfDifferentRangeDoNotSwap) {
+  // one overtakes the other 60 m farther out, with opposite course
+  Voyage voyage;
+  voyage.sail({Ball{{-150.0, 80.0, -40.0}, {0.0, 1.0, 0.0}}, Ball{{-210.0, 110.0, -40.0}, {0.0, -1.0, 0.0}}}, 16);
+  ASSERT_EQ(voyage.tracks.schools.size(), 2U);
+  for (const SchoolTrack& school : voyage.tracks.schools) EXPECT_EQ(voyage.balls_of(school).size(), 1U);
+}
+
+TEST(Track, RecordsASplit) {
+  // two balls that move as one at first, then part
+  Voyage voyage;
+  const Array3<SampleFlags>& flags = voyage.flags;
+  const Geographic start{60.0, 4.0};
+  for (int p = 0; p < 14; ++p) {
+    DetectedPing ping{p, p * 5 * kSecondNs, ship_at(p), {}};
+    const double apart = p < 5 ? 0.0 : 5.0 * (p - 4);
+    const PingMask a = ball_mask({{-150.0, 80.0 - apart, -40.0}, {}}, voyage.sector, ping.placement, start, 0.0);
+    const PingMask b = ball_mask({{-150.0, 95.0 + apart, -40.0}, {}, 10.0}, voyage.sector, ping.placement, start, 0.0);
+    if (p < 5) {
+      ping.detections.push_back(describe_mask(unite(a, b), flags.view(), voyage.sector));
+    } else {
+      ping.detections.push_back(describe_mask(a, flags.view(), voyage.sector));
+      ping.detections.push_back(describe_mask(subtract(b, a), flags.view(), voyage.sector));
+    }
+    voyage.pings_.push_back(std::move(ping));
+  }
+  const Tracks tracks = track(voyage.pings_, voyage.sector, test::grid().channel, {});
+  ASSERT_EQ(tracks.schools.size(), 2U);
+  const auto split = std::find_if(tracks.events.begin(), tracks.events.end(),
+                                  [](const TrackEvent& e) { return e.kind == TrackEventKind::split; });
+  ASSERT_NE(split, tracks.events.end());
+  EXPECT_EQ(split->school_id, 2);
+  EXPECT_EQ(split->other_id, 1);
+  EXPECT_EQ(to_text(*split), "ping " + std::to_string(split->ping_index) + ": school 2 split from school 1");
+}
+
+TEST(Track, NoPingsNoTracks) { EXPECT_TRUE(track({}, Sector(), {}, {}).schools.empty()); }
+
+TEST(Motion, FollowsASteadyTarget) {
+  Motion motion({0, 0, 0}, {4, 0, 0, 4, 0, 4}, 2.0);
+  for (int i = 1; i <= 30; ++i) {
+    motion.predict(5.0, 0.01);
+    motion.update({5.0 * i, -2.5 * i, 0.5 * i}, {1, 0, 0, 1, 0, 1});
+  }
+  EXPECT_NEAR(motion.velocity().x, 1.0, 1e-2);
+  EXPECT_NEAR(motion.velocity().y, -0.5, 1e-2);
+  EXPECT_NEAR(motion.velocity().z, 0.1, 1e-2);
+}
+
+TEST(Motion, CutCoordinatesDoNotMoveIt) {
+  // a school at range 100 straight to port of a ship heading north, cut off forward: its centre seems to move north
+  const Point<Sonar> centre{0.0, -100.0, 10.0};
+  Motion motion({-100.0, 0.0, -10.0}, {4, 0, 0, 4, 0, 4}, 0.5);
+  for (int i = 1; i <= 10; ++i) {
+    motion.predict(5.0, 0.01);
+    motion.update({-100.0 + 1.0 * i, 10.0 * i, -10.0},
+                  centre_covariance(centre, {9, 0, 0, 9, 0, 9}, 0.0, 0.1, 1.0, kEdgeFore));
+  }
+  EXPECT_LT(std::abs(motion.velocity().y), 0.15);
+  EXPECT_NEAR(motion.velocity().x, 0.2, 0.1);
+}
+
+TEST(Motion, FrameGoesThereAndBack) {
+  Placement placement;
+  placement.transducer = {60.01, 4.01};
+  placement.heading_rad = 1.0;
+  placement.transducer_depth_m = 7.0;
+  const PingFrame frame(placement, {60.0, 4.0});
+  const Point<Sonar> p{10.0, -20.0, 30.0};
+  const Point<Sonar> back = frame.from_world(frame.to_world(p));
+  EXPECT_NEAR(norm(back - p), 0.0, 1e-9);
+  EXPECT_NEAR(frame.to_world(p).z, -37.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/vertical_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sonar {
+namespace {
+
+constexpr int kNodes = 9;
+constexpr double kMarginalVariance = 0.2;  ///< of an ellipsoid's marginal 1 - u^2 on -1..1
+/// Share of the strongest fan below which a beam is no Gaussian any more: added to echo and model alike, it keeps the
+/// far flanks from deciding.
+constexpr double kPedestal = 0.02;
+constexpr int kScoringSteps = 6;
+constexpr int kGoldenSteps = 22;
+
+/// Quadrature of the marginal 3/4 (1 - u^2): u and weight, scaled so that the variance is exact.
+struct Marginal {
+  std::array<double, kNodes> u{};
+  std::array<double, kNodes> weight{};
+  Marginal() {
+    double sum = 0.0;
+    double square = 0.0;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      u[k] = (2.0 * static_cast<double>(k) + 1.0) / kNodes - 1.0;
+      weight[k] = 1.0 - u[k] * u[k];
+      sum += weight[k];
+      square += weight[k] * u[k] * u[k];
+    }
+    const double scale = std::sqrt(kMarginalVariance * sum / square);
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      weight[k] /= sum;
+      u[k] *= scale;
+    }
+  }
+};
+
+class Likelihood {
+ public:
+  explicit Likelihood(const std::vector<FanEcho>& fans) : fans_(fans) {
+    double sum = 0.0;
+    double moment = 0.0;
+    for (const FanEcho& fan : fans) {
+      const double body = std::max(fan.echo - fan.background, 0.0);
+      sum += body;
+      moment += body * fan.elevation_rad;
+      strongest_ = std::max(strongest_, body);
+    }
+    centre_ = sum > 0.0 ? moment / sum : 0.0;
+    amplitude_ = strongest_ * fans.front().sigma_rad;
+  }
+
+  /// Best log-likelihood for a half height (rad); moves centre and amplitude there.
+  double best(double half_height) {
+    for (int step = 0; step < kScoringSteps; ++step) score(half_height);
+    return value(half_height);
+  }
+  [[nodiscard]] double centre() const { return centre_; }
+  [[nodiscard]] bool sound() const { return strongest_ > 0.0 && std::isfinite(centre_) && std::isfinite(amplitude_); }
+
+ private:
+  /// Beam-blurred marginal at a fan and its derivative by the centre.
+  void model(const FanEcho& fan, double half_height, double& m, double& dm) const {
+    m = 0.0;
+    dm = 0.0;
+    const double inverse = 1.0 / fan.sigma_rad;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double z = (fan.elevation_rad - centre_ - half_height * marginal_.u[k]) * inverse;
+      const double g = marginal_.weight[k] * std::exp(-0.5 * z * z) * inverse;
+      m += g;
+      dm += g * z * inverse;
+    }
+  }
+
+  /// One step of Fisher scoring in (ln amplitude, centre).
+  void score(double half_height) {
+    double i_aa = 0.0;
+    double i_ac = 0.0;
+    double i_cc = 0.0;
+    double s_a = 0.0;
+    double s_c = 0.0;
+    for (const FanEcho& fan : fans_) {
+      double m = 0.0;
+      double dm = 0.0;
+      model(fan, half_height, m, dm);
+      const double expected = amplitude_ * m + fan.background + kPedestal * strongest_;
+      const double da = amplitude_ * m / expected;
+      const double dc = amplitude_ * dm / expected;
+      const double off = (fan.echo + kPedestal * strongest_) / expected - 1.0;
+      s_a += fan.looks * off * da;
+      s_c += fan.looks * off * dc;
+      i_aa += fan.looks * da * da;
+      i_ac += fan.looks * da * dc;
+      i_cc += fan.looks * dc * dc;
+    }
+    const double determinant = i_aa * i_cc - i_ac * i_ac;
+    if (!(determinant > 0.0)) return;
+    const double a = (i_cc * s_a - i_ac * s_c) / determinant;
+    const double c = (i_aa * s_c - i_ac * s_a) / determinant;
+    const double widest = fans_.front().sigma_rad;
+    amplitude_ *= std::exp(std::clamp(a, -1.0, 1.0));
+    centre_ += std::clamp(c, -widest, widest);
+  }
+
+  [[nodiscard]] double value(double half_height) const {
+    double sum = 0.0;
+    for (const FanEcho& fan : fans_) {
+      double m = 0.0;
+      double dm = 0.0;
+      model(fan, half_height, m, dm);
+      const double expected = amplitude_ * m + fan.background + kPedestal * strongest_;
+      sum -= fan.looks * ((fan.echo + kPedestal * strongest_) / expected + std::log(expected));
+    }
+    return sum;
+  }
+
+  const std::vector<FanEcho>& fans_;
+  Marginal marginal_;
+  double centre_ = 0.0;
+  double amplitude_ = 0.0;
+  double strongest_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans) {
+  if (fans.size() < 3) return std::nullopt;
+  Likelihood likelihood(fans);
+  if (!likelihood.sound()) return std::nullopt;
+  constexpr double kGolden = 0.6180339887498949;
+  double low = 0.0;
+  double high = fans.back().elevation_rad - fans.front().elevation_rad;
+  double a = high - kGolden * (high - low);
+  double b = low + kGolden * (high - low);
+  double at_a = likelihood.best(a);
+  double at_b = likelihood.best(b);
+  for (int step = 0; step < kGoldenSteps; ++step) {
+    if (at_a >= at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = likelihood.best(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = likelihood.best(b);
+    }
+  }
+  const double half_height = (low + high) / 2.0;
+  static_cast<void>(likelihood.best(half_height));
+  if (!likelihood.sound()) return std::nullopt;
+  return VerticalFit{likelihood.centre(), half_height * half_height * kMarginalVariance};
+}
+
+}  // namespace sonar
