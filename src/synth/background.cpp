@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/units.h"
+#include "synth/random.h"
+
+namespace sonar::synth {
+namespace {
+
+constexpr double kNothing_db = -200.0;
+constexpr double kPatternCut = 10.0;
+
+double strength(double db) { return db > kNothing_db ? linear_from_db(db) : 0.0; }
+
+/// Vertical two-way pattern as a density over elevation, rad^-1.
+double vertical_density(const RowBeam& row, double elevation_rad) {
+  const double x = (elevation_rad - row.elevation_rad) / row.sigma_v_rad;
+  if (x * x > 2.0 * kPatternCut) return 0.0;
+  return std::exp(-x * x / 2.0) / (std::sqrt(2.0 * std::numbers::pi) * row.sigma_v_rad);
+}
+
+/// The sonar equation the other way: received power in dB re 1 W for Sv = 0 dB at range r.
+double power_db_at_zero_sv(const Beam& beam, double range_m) {
+  const double wavelength_m = kSoundSpeed_mps / beam.frequency_hz;
+  const double pi2 = std::numbers::pi * std::numbers::pi;
+  const double transmitted =
+      beam.power_w * wavelength_m * wavelength_m * kSoundSpeed_mps * kPulseLength_s / (32.0 * pi2);
+  return db_from_linear(transmitted) + 2.0 * beam.gain_db + beam.psi_db + 2.0 * beam.sa_correction_db -
+         20.0 * std::log10(range_m) - 2.0 * beam.absorption_db_per_m * range_m;
+}
+
+/// sv of the sea surface at range r: a patch r dphi dr of it, over the volume r^2 dOmega dr that the beam looks into.
+double surface_sv(const RowBeam& row, double range_m, double depth_m, double strength_per_m2) {
+  if (strength_per_m2 <= 0.0 || range_m <= depth_m) return 0.0;
+  const double elevation = std::asin(depth_m / range_m);
+  return strength_per_m2 * vertical_density(row, elevation) / (range_m * std::cos(elevation));
+}
+
+RowLimits limits(const Layout& layout, const RowBeam& row, double depth_m) {
+  RowLimits l;
+  l.near_end = std::clamp(static_cast<int>(std::ceil(layout.range.sample_at(kTruthNear_m))), 0, row.count);
+  l.count = row.count;
+  l.surface_begin = row.count;
+  l.seabed_begin = row.count;
+  const double upper_edge = row.elevation_rad + row.vertical_width_rad / 2.0;
+  if (upper_edge > 0.0) {
+    const double reaches_m = std::max(0.0, depth_m - kTruthSurfaceMargin_m) / std::sin(upper_edge);
+    const double sample = std::ceil(layout.range.sample_at(reaches_m));
+    l.surface_begin = sample < row.count ? std::max(0, static_cast<int>(sample)) : row.count;
+  }
+  return l;
+}
+
+}  // namespace
+
+Background make_background(const Layout& layout, const Scene& scene) {
+  Background b{Array3<float>(layout.shape), Array3<float>(layout.shape), {}};
+  const Noise& noise = scene.noise;
+  const double reverberation = noise.scale * linear_from_db(scene.water.reverberation_sv_db);
+  const double surface = noise.scale * strength(scene.water.surface_db);
+  const double ringing = noise.scale * strength(noise.ringing_power_db);
+  for (int r = 0; r < static_cast<int>(layout.rows.size()); ++r) {
+    const RowBeam& row = layout.rows[static_cast<std::size_t>(r)];
+    RandomStream random(scene.seed, Purpose::beam_noise, 0, 0, static_cast<std::uint32_t>(row.channel));
+    const double spread_db = noise.background_spread_db * std::clamp(random.normal(), -3.0, 3.0);
+    const double floor_w = noise.scale * linear_from_db(noise.background_power_db + spread_db);
+    const auto per_sv = b.power_per_sv.view().row(r);
+    const auto power = b.power_w.view().row(r);
+    for (int s = 0; s < layout.shape.samples; ++s) {
+      const double range_m = std::max(layout.range.spacing_m, layout.range.range_m(s));
+      const double factor = linear_from_db(power_db_at_zero_sv(layout.beam(r), range_m));
+      const double sv = reverberation + surface_sv(row, range_m, scene.ship.transducer_depth_m, surface);
+      const auto i = static_cast<std::size_t>(s);
+      per_sv[i] = static_cast<float>(factor);
+      power[i] =
+          static_cast<float>(floor_w + ringing * linear_from_db(-noise.ringing_decay_db_per_m * range_m) + factor * sv);
+    }
+    b.limits.push_back(limits(layout, row, scene.ship.transducer_depth_m));
+  }
+  return b;
+}
+
+Seabed::Seabed(const Layout& layout, const Scene& scene, const Point<Enu>& ship, double heading_rad)
+    : layout_(layout), strength_(strength(scene.water.seabed_db)) {
+  const Water& w = scene.water;
+  depth_m_ = w.seabed_depth_m + w.seabed_slope_east * ship.x + w.seabed_slope_north * ship.y;
+  const double below_m = std::max(1.0, depth_m_ - scene.ship.transducer_depth_m);
+  const auto sample_of = [&](double range_m, int count) {
+    const double sample = layout.range.sample_at(range_m);
+    return sample < count ? std::max(0, static_cast<int>(std::ceil(sample))) : count;
+  };
+  for (const RowBeam& row : layout.rows) {
+    Row& out = rows_.emplace_back();
+    out.first = out.last = out.limit = row.count;
+    if (strength_ <= 0.0) continue;
+    const double bearing = heading_rad + row.azimuth_rad;
+    const double slope = w.seabed_slope_east * std::sin(bearing) + w.seabed_slope_north * std::cos(bearing);
+    out.slope_rad = std::atan(slope);
+    out.distance_m = below_m * std::cos(out.slope_rad);
+    // A ray that points `down` below the horizon meets the plane at distance / sin(down - slope).
+    const auto meets = [&](double down) {
+      const double grazing = std::min(down - out.slope_rad, std::numbers::pi / 2.0);
+      return grazing > 0.0 ? sample_of(out.distance_m / std::sin(grazing), row.count) : row.count;
+    };
+    const double reach = std::sqrt(2.0 * kPatternCut) * row.sigma_v_rad;
+    out.first = meets(-row.elevation_rad + reach);
+    out.last = std::max(out.first, meets(-row.elevation_rad - reach));
+    const double edge =
+        std::min(-row.elevation_rad + row.vertical_width_rad / 2.0 - out.slope_rad, std::numbers::pi / 2.0);
+    if (edge > 0.0) {
+      out.limit = sample_of(out.distance_m / std::sin(edge) - kSoundSpeed_mps * kPulseLength_s / 2.0, row.count);
+    }
+  }
+}
+
+double Seabed::sv(int row, int sample) const {
+  const Row& plane = rows_[static_cast<std::size_t>(row)];
+  if (sample < plane.first || sample >= plane.last) return 0.0;
+  const double range_m = layout_.range.range_m(sample);
+  if (range_m <= plane.distance_m) return 0.0;
+  const double sine = plane.distance_m / range_m;  // of the grazing angle; Lambert's law squares it
+  const double down = std::asin(sine) + plane.slope_rad;
+  return strength_ * sine * sine * vertical_density(layout_.rows[static_cast<std::size_t>(row)], -down) /
+         (range_m * std::max(0.1, std::cos(down)));
+}
+
+}  // namespace sonar::synth

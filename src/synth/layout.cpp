@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/units.h"
+
+namespace sonar::synth {
+namespace {
+
+RowBeam row_beam(const Beam& beam, int channel, double mounting_azimuth_deg) {
+  const double two_way = 1.0 / (4.0 * std::sqrt(std::numbers::ln2));
+  RowBeam row;
+  row.channel = channel;
+  row.count = beam.count;
+  row.elevation_rad = rad_from_deg(beam.elevation_deg);
+  row.azimuth_rad = rad_from_deg(mounting_azimuth_deg + beam.azimuth_deg);
+  row.vertical_width_rad = rad_from_deg(beam.vertical_width_deg);
+  row.sigma_v_rad = two_way * row.vertical_width_rad;
+  row.sigma_h_rad = two_way * rad_from_deg(beam.horizontal_width_deg);
+  return row;
+}
+
+void record_grid(Layout& layout, BeamGrid grid) {
+  layout.shape.fans = grid.fans();
+  layout.shape.beams = grid.beams();
+  GridRecord record;
+  for (int fan = 0; fan < grid.fans(); ++fan) {
+    int count = 0;
+    for (int beam = 0; beam < grid.beams(); ++beam) {
+      const auto row = static_cast<std::size_t>(fan * grid.beams() + beam);
+      count = std::max(count, layout.beams[static_cast<std::size_t>(grid.channel[row])].count);
+    }
+    record.sample_count.push_back(count);
+  }
+  record.grid = std::move(grid);
+  record.range = layout.range;
+  record.sound_speed_mps = kSoundSpeed_mps;
+  layout.grid = std::move(record);
+}
+
+}  // namespace
+
+Layout make_layout(std::vector<Beam> beams) {
+  Layout layout;
+  layout.beams = std::move(beams);
+  int samples = 0;
+  for (const Beam& beam : layout.beams) samples = std::max(samples, beam.count);
+  layout.range = {-kSoundSpeed_mps * kPulseLength_s / 4.0, kSoundSpeed_mps * kSampleInterval_s / 2.0, samples};
+  layout.shape = {1, static_cast<int>(layout.beams.size()), samples};
+  auto grid = derive_beam_grid(sounder_config(layout.beams, ""), layout.mounting_azimuth_deg);
+  if (grid) record_grid(layout, std::move(*grid));
+  for (std::size_t row = 0; row < layout.beams.size(); ++row) {
+    const int channel = layout.grid ? layout.grid->grid.channel[row] : static_cast<int>(row);
+    layout.rows.push_back(
+        row_beam(layout.beams[static_cast<std::size_t>(channel)], channel, layout.mounting_azimuth_deg));
+    layout.max_sigma_v_rad = std::max(layout.max_sigma_v_rad, layout.rows.back().sigma_v_rad);
+    layout.max_sigma_h_rad = std::max(layout.max_sigma_h_rad, layout.rows.back().sigma_h_rad);
+  }
+  return layout;
+}
+
+}  // namespace sonar::synth

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/presets.h"
+
+#include <cmath>
+
+#include "geo/geodesic.h"
+#include "synth/demo.h"
+#include "synth/placement.h"
+#include "synth/random.h"
+
+namespace sonar::synth {
+namespace {
+
+constexpr Geographic kArea{60.5, 3.5};
+constexpr double kBetweenObservations_m = 15'000.0;
+
+void easy(SurveyParams& p) {
+  p.observations = 1;
+  p.schools = 4;
+  p.length_min_m = 30.0;
+  p.range_max_m = 250.0;
+  p.sv_min_db = -42.0;
+  p.own_speed_max_mps = 0.5;
+  p.raggedness = 0.0;
+  p.nuclei = 0;
+  p.vacuoles = 0;
+  p.motion_deg = 0.0;
+  p.noise.background_power_db = -178.0;
+  p.noise.background_spread_db = 1.0;
+}
+
+void faults(Noise& n, double much) {
+  n.hot_beams = 0.3 * much;
+  n.walls = 0.15 * much;
+  n.impulses = 150.0 * much;
+  n.lost_channels = 0.05 * much;
+}
+
+void hard(SurveyParams& p) {
+  p.schools = 8;
+  p.speed_knots = 10.0;
+  p.pings = 150;
+  p.sv_min_db = -55.0;
+  p.above_background_db = 6.0;
+  p.raggedness = 0.3;
+  p.vacuoles = 3;
+  p.crossings = 1;
+  p.splits = 1;
+  p.motion_deg = 2.5;
+  p.new_file_per_observation = false;
+  p.water.surface_db = -40.0;
+  p.water.seabed_depth_m = 180.0;
+  p.water.seabed_slope_east = 0.02;
+  p.water.seabed_slope_north = -0.01;
+  p.water.reverberation_sv_db = -80.0;
+  p.noise.background_power_db = -165.0;
+  p.noise.background_spread_db = 3.0;
+  p.noise.side_lobe_db = -25.0;
+  faults(p.noise, 3.0);
+}
+
+void demo(SurveyParams& p) {
+  p.schools = 12;
+  p.pings = 160;
+  p.own_speed_min_mps = 0.05;
+  p.own_speed_max_mps = 0.2;
+  p.sv_min_db = -46.0;
+  p.noise.background_power_db = -172.0;
+  faults(p.noise, 0.3);
+}
+
+Result<void> check(const SurveyParams& p) {
+  if (auto ok = validate(p); !ok) return ok;
+  const auto rising = [](double a, double b) { return a <= b; };
+  if (!rising(p.length_min_m, p.length_max_m) || !rising(p.height_min_m, p.height_max_m) ||
+      !rising(p.range_min_m, p.range_max_m) || !rising(p.sv_min_db, p.sv_max_db) ||
+      !rising(p.own_speed_min_mps, p.own_speed_max_mps)) {
+    return fail(ErrorCode::bad_parameter, "a range of the survey's parameters is upside down");
+  }
+  return {};
+}
+
+/// Each seed has a day of its own, so that surveys can be told apart.
+TimeNs start_of(int seed) {
+  constexpr TimeNs kDay = 86'400 * kSecondNs;
+  return time_from_calendar(2020, 1, 1, 8.0 * 3600.0 + 0.35) + (seed % 3000) * kDay;
+}
+
+}  // namespace
+
+SurveyParams survey_params(Preset preset) {
+  SurveyParams p;
+  p.preset = preset;
+  switch (preset) {
+    case Preset::easy:
+      easy(p);
+      break;
+    case Preset::standard:
+      faults(p.noise, 1.0);
+      break;
+    case Preset::hard:
+      hard(p);
+      break;
+    case Preset::demo:
+      demo(p);
+      break;
+  }
+  return p;
+}
+
+Scene scene_base(const SurveyParams& params, const std::vector<Beam>& beams, int observation) {
+  Scene scene;
+  scene.beams = beams;
+  scene.water = params.water;
+  scene.noise = params.noise;
+  scene.seed = static_cast<std::uint64_t>(params.seed);
+  scene.observation = static_cast<std::uint32_t>(observation);
+  scene.ping_interval_s = params.ping_interval_s;
+  scene.pings = params.pings;
+  scene.ship.speed_mps = params.speed_knots * kKnot_mps;
+  scene.ship.yaw_deg = params.motion_deg;
+  scene.ship.roll_deg = 3.0 * params.motion_deg;
+  scene.ship.pitch_deg = params.motion_deg;
+  scene.ship.origin = kArea;
+  scene.first_ping = start_of(params.seed);
+  scene.ship.log_start_nmi = 1000.0;
+  return scene;
+}
+
+void follow_on(const Scene& before, double gap_s, Scene& next) {
+  const double lasts_s = before.seconds_of(before.pings) + gap_s;
+  next.first_ping = before.time_at(std::ceil(lasts_s));
+  next.ship.log_start_nmi = before.ship.log_start_nmi + before.ship.speed_mps * lasts_s / kMetresPerNauticalMile;
+}
+
+Result<std::vector<Scene>> survey_scenes(const SurveyParams& params, const std::vector<Beam>& beams) {
+  if (auto ok = check(params); !ok) return pass_on(ok);
+  if (beams.empty()) return fail(ErrorCode::bad_parameter, "there are no beams");
+  if (params.preset == Preset::demo) return demo_scenes(params, beams);
+  std::vector<Scene> scenes;
+  RandomStream random(static_cast<std::uint64_t>(params.seed), Purpose::placement, 0xFFFFFFFFU);
+  const double towards_deg = random.uniform(0.0, 360.0);
+  for (int i = 0; i < params.observations; ++i) {
+    Scene scene = scene_base(params, beams, i);
+    scene.ship.origin = destination(kArea, kBetweenObservations_m * i, towards_deg);
+    scene.ship.course_deg = random.uniform(0.0, 360.0);
+    if (i > 0) follow_on(scenes.back(), params.gap_s, scene);
+    if (params.schools > 0) place_schools(params, scene);
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+}  // namespace sonar::synth

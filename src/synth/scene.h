@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/time.h"
+#include "base/units.h"
+#include "geo/frames.h"
+#include "model/navigation.h"
+#include "synth/beam_table.h"
+#include "synth/body.h"
+
+namespace sonar::synth {
+
+/// What is in the water besides fish.
+struct Water {
+  double reverberation_sv_db = -85.0;  ///< everywhere
+  double surface_db = -45.0;           ///< backscatter of the sea surface per m^2; below -200 = none
+  double seabed_db = -5.0;             ///< Lambert constant of the seabed; below -200 = none
+  double seabed_depth_m = 260.0;       ///< at the scene's origin
+  double seabed_slope_east = 0.0;      ///< metres deeper per metre
+  double seabed_slope_north = 0.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, Water& p) {
+  v.field("reverberation_sv_db", p.reverberation_sv_db,
+          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself"});
+  v.field("surface_db", p.surface_db,
+          {.unit = "dB", .min = -400, .max = 0, .text = "backscatter of the sea surface per m2; below -200 none"});
+  v.field("seabed_db", p.seabed_db,
+          {.unit = "dB", .min = -400, .max = 0, .text = "Lambert constant of the seabed; below -200 none"});
+  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 20, .max = 12000, .text = "depth at the start"});
+  v.field("seabed_slope_east", p.seabed_slope_east,
+          {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the east"});
+  v.field("seabed_slope_north", p.seabed_slope_north,
+          {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the north"});
+}
+
+/// What the sonar adds. Levels are powers, rates are mean numbers of events in a ping.
+struct Noise {
+  bool speckle = true;               ///< false: every sample is its expected value
+  double speckle_correlation = 0.5;  ///< of the amplitude from sample to sample; the filter is as long as the pulse
+  double background_power_db = -170.0;
+  double background_spread_db = 2.0;  ///< standard deviation over the beams
+  double ringing_power_db = -80.0;    ///< at range 0; below -200 none
+  double ringing_decay_db_per_m = 6.5;
+  double hot_beams = 0.0;
+  double walls = 0.0;
+  double impulses = 0.0;
+  double lost_channels = 0.0;
+  double side_lobe_db = -400.0;  ///< energy of the side lobes (four times the main lobe's width); below -200 none
+  double scale = 1.0;            ///< multiplies every noise's power and every rate
+};
+
+template <class Visitor>
+void describe(Visitor& v, Noise& p) {
+  v.field("speckle", p.speckle, {.text = "exponential speckle; without it every sample is its expected value"});
+  v.field("speckle_correlation", p.speckle_correlation,
+          {.unit = "1", .min = 0, .max = 0.95, .text = "amplitude correlation of neighbouring samples"});
+  v.field("background_power_db", p.background_power_db,
+          {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "noise in every sample"});
+  v.field("background_spread_db", p.background_spread_db,
+          {.unit = "dB", .min = 0, .max = 10, .text = "how much the beams' noise differs"});
+  v.field("ringing_power_db", p.ringing_power_db,
+          {.unit = "dB re 1 W", .min = -400, .max = 0, .text = "transducer ringing at range 0; below -200 none"});
+  v.field("ringing_decay_db_per_m", p.ringing_decay_db_per_m,
+          {.unit = "dB/m", .min = 0.1, .max = 100, .text = "decay of the ringing"});
+  v.field("hot_beams", p.hot_beams, {.unit = "1/ping", .min = 0, .max = 100, .text = "beams with lost packets"});
+  v.field("walls", p.walls, {.unit = "1/ping", .min = 0, .max = 20, .text = "walls at constant range"});
+  v.field("impulses", p.impulses,
+          {.unit = "1/ping", .min = 0, .max = 600, .text = "impulses of 1 to 3 samples in one beam"});
+  v.field("lost_channels", p.lost_channels,
+          {.unit = "1/ping", .min = 0, .max = 100, .text = "channels that were not recorded"});
+  v.field("side_lobe_db", p.side_lobe_db,
+          {.unit = "dB", .min = -400, .max = -10, .text = "energy of the side lobes; below -200 none"});
+  v.field("scale", p.scale, {.unit = "1", .min = 0, .max = 10, .text = "multiplies every noise's power and rate"});
+}
+
+/// The ship: a straight course at constant speed over ground, yawing, rolling and pitching a little.
+struct Ship {
+  Geographic origin{60.0, 4.0};  ///< of the scene's east, north, up
+  Point<Enu> start_m;            ///< at the first ping; z is not used
+  double course_deg = 0.0;       ///< over ground, true, at the start
+  double speed_mps = 6.0 * kKnot_mps;
+  double yaw_deg = 0.0;  ///< amplitudes
+  double roll_deg = 0.0;
+  double pitch_deg = 0.0;
+  double transducer_depth_m = 7.0;
+  double log_start_nmi = 0.0;
+};
+
+/// A fault placed on purpose.
+struct HotBeam {
+  int ping = 0;
+  int channel = 0;
+  int first_sample = 0;
+  int count = 0;
+  double power_db = -110.0;
+};
+struct Wall {
+  int ping = 0;
+  int first_sample = 0;
+  int count = 3;
+  double power_db = -115.0;
+  int fan = -1;  ///< -1 = all beams (without a grid always all)
+};
+/// One voxel lit, without beam pattern, pulse or speckle.
+struct VoxelTarget {
+  int ping = 0;
+  int channel = 0;
+  int sample = 0;
+  double sv_db = -20.0;
+};
+
+/// Everything that one synthetic observation is made of. Plain values; SyntheticSonar (synth/sonar.h) renders it.
+struct Scene {
+  std::vector<Beam> beams = ms70_beams();
+  Water water;
+  Noise noise;
+  Ship ship;
+  std::vector<Body> bodies;
+  std::vector<HotBeam> hot_beams;
+  std::vector<Wall> walls;
+  std::vector<VoxelTarget> voxel_targets;
+  TimeNs first_ping = 1'600'000'000 * kSecondNs;
+  double ping_interval_s = 5.0;
+  int pings = 1;
+  std::uint64_t seed = 1;
+  std::uint32_t observation = 0;  ///< part of every random stream's key
+
+  [[nodiscard]] double seconds_of(int ping) const { return ping_interval_s * ping; }
+  [[nodiscard]] TimeNs time_of(int ping) const;
+  [[nodiscard]] TimeNs time_at(double seconds) const;
+};
+
+/// The ship at some time, in the scene's frame (z = 0).
+[[nodiscard]] Point<Enu> ship_at(const Scene& scene, double seconds);
+/// The ship at some time as the instruments see it; transducer_depth_m is the true one.
+[[nodiscard]] PingNavigation navigation_at(const Scene& scene, double seconds);
+
+/// A scene without any noise, speckle, surface, seabed or reverberation, to place bodies or voxels in exactly.
+[[nodiscard]] Scene empty_scene(int pings = 1);
+/// The centre of a body that the ship sees, at time 0, at this range, elevation and azimuth clockwise from the bow.
+[[nodiscard]] Point<Enu> place_seen(const Scene& scene, double range_m, double elevation_deg, double azimuth_deg);
+
+}  // namespace sonar::synth

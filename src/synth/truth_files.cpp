@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/truth_files.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "io/csv.h"
+#include "io/product.h"
+
+namespace sonar::synth {
+namespace {
+
+bool by_school_and_ping(std::int64_t id_a, std::int64_t ping_a, std::int64_t id_b, std::int64_t ping_b) {
+  return std::tie(id_a, ping_a) < std::tie(id_b, ping_b);
+}
+
+template <class Row>
+void append(std::vector<Row>& all, std::vector<Row> more) {
+  for (Row& row : more) all.push_back(std::move(row));
+}
+
+template <class Row>
+void sort_rows(std::vector<Row>& rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return by_school_and_ping(a.school_id, a.ping_index, b.school_id, b.ping_index);
+  });
+}
+
+}  // namespace
+
+void ObservationTruth::add(const Scene& scene, int ping, SyntheticPing made) {
+  product_.pings.push_back(navigation_at(scene, scene.seconds_of(ping)));
+  for (SchoolTruth& school : made.schools) {
+    school.row.observation = product_.observation;
+    product_.masks.push_back({school.row.school_id, school.row.ping_index, std::move(school.mask)});
+    product_.school_pings.push_back(std::move(school.row));
+  }
+  for (BodyTruth& body : made.bodies) {
+    body.observation = product_.observation;
+    bodies_.push_back(std::move(body));
+  }
+}
+
+SurveyTruth::SurveyTruth(std::filesystem::path folder, std::string title, std::string program_version)
+    : folder_(std::move(folder)), title_(std::move(title)), program_version_(std::move(program_version)) {}
+
+Result<void> SurveyTruth::add(ObservationTruth observation, const SyntheticSonar& sonar) {
+  ObservationProduct& product = observation.product_;
+  product.program_version = program_version_;
+  product.title = title_ + ": truth";
+  product.source = "MS70 SYNTHETIC";
+  product.history = "what the synthetic sonar knows of its own schools";
+  product.recipe_json = "{}";
+  product.grid = sonar.grid();
+  sort_rows(product.school_pings);
+  sort_rows(product.masks);
+  sort_rows(observation.bodies_);
+  product.schools = school_rows(product.school_pings, observation.bodies_);
+  if (auto written = write_product(product, folder_ / (product.observation + ".nc")); !written) return written;
+  append(schools_, std::move(product.schools));
+  append(school_pings_, std::move(product.school_pings));
+  append(bodies_, std::move(observation.bodies_));
+  return {};
+}
+
+Result<void> SurveyTruth::finish() {
+  if (auto written = write_csv_rows(folder_ / "schools.csv", schools_); !written) return written;
+  if (auto written = write_csv_rows(folder_ / "school_pings.csv", school_pings_); !written) return written;
+  return write_csv_rows(folder_ / "bodies.csv", bodies_);
+}
+
+}  // namespace sonar::synth
