@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace sonar {
+namespace {
+
+/// More sets than this in use at once means that every ping has its own: older tables are made again when needed.
+constexpr std::size_t kMaxTables = 8;
+
+struct GainPair {
+  double gain_db;
+  double sa_correction_db;
+};
+
+GainPair gain_of(const BeamConfig& beam, double pulse_length_s, double tolerance) {
+  for (std::size_t i = 0; i < beam.pulse_length_s.size(); ++i) {
+    const double tabled = beam.pulse_length_s[i];
+    if (tabled > 0.0 && std::abs(tabled - pulse_length_s) <= tolerance * tabled) {
+      return {beam.gain_table_db[i], beam.sa_correction_table_db[i]};
+    }
+  }
+  return {beam.gain_db, 0.0};
+}
+
+double absorption_of(const ChannelPing& head, const CalibrationParams& params) {
+  switch (params.absorption) {
+    case AbsorptionSource::file:
+      if (head.absorption_db_per_m > 0.0 && std::isfinite(head.absorption_db_per_m)) return head.absorption_db_per_m;
+      break;
+    case AbsorptionSource::ainslie_mccolm:
+      return absorption_ainslie_mccolm(head.frequency_hz, params.water);
+    case AbsorptionSource::francois_garrison:
+      break;
+  }
+  return absorption_francois_garrison(head.frequency_hz, params.water);
+}
+
+Hash128 settings_hash(std::span<const ChannelPing> heads) {
+  Hasher hasher;
+  for (const ChannelPing& head : heads) {
+    const std::array<double, 6> numbers{static_cast<double>(head.channel),
+                                        head.frequency_hz,
+                                        head.transmit_power_w,
+                                        head.pulse_length_s,
+                                        head.sound_speed_mps,
+                                        head.absorption_db_per_m};
+    hasher.add(std::as_bytes(std::span(numbers)));
+  }
+  return hasher.value();
+}
+
+}  // namespace
+
+ChannelCalibration channel_calibration(const BeamConfig& beam, const ChannelPing& head, const CalibrationParams& params,
+                                       const BeamCalibration* beam_calibration) {
+  const GainPair gain = gain_of(beam, head.pulse_length_s, params.pulse_tolerance);
+  ChannelCalibration calibration;
+  calibration.frequency_hz = head.frequency_hz;
+  calibration.absorption_db_per_m = absorption_of(head, params);
+  calibration.transmit_power_w = head.transmit_power_w;
+  calibration.pulse_length_s = head.pulse_length_s;
+  calibration.sound_speed_mps = head.sound_speed_mps;
+  calibration.gain_db = gain.gain_db;
+  calibration.sa_correction_db = gain.sa_correction_db;
+  calibration.equivalent_beam_angle_db = beam.equivalent_beam_angle_db;
+  if (beam_calibration != nullptr) {
+    const auto take = [](double& value, double from) {
+      if (std::isfinite(from)) value = from;
+    };
+    take(calibration.gain_db, beam_calibration->gain_db);
+    take(calibration.sa_correction_db, beam_calibration->sa_correction_db);
+    take(calibration.extra_factor_db, beam_calibration->extra_factor_db);
+  }
+  return calibration;
+}
+
+CalibrationTables::CalibrationTables(const ObservationFiles& observation, const CalibrationParams& params)
+    : observation_(observation), params_(params), row_of_channel_(observation.grid->row_of_channel()) {
+  std::sort(params_.beams.begin(), params_.beams.end(),
+            [](const BeamCalibration& a, const BeamCalibration& b) { return a.channel < b.channel; });
+}
+
+const BeamCalibration* CalibrationTables::user_values(int channel) const {
+  const auto found = std::lower_bound(params_.beams.begin(), params_.beams.end(), channel,
+                                      [](const BeamCalibration& beam, int wanted) { return beam.channel < wanted; });
+  return found != params_.beams.end() && found->channel == channel ? &*found : nullptr;
+}
+
+CalibrationTables::Table CalibrationTables::of(std::span<const ChannelPing> heads) {
+  const Hash128 key = settings_hash(heads);
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = tables_.find(key); found != tables_.end()) return found->second;
+  }
+  Table table = make(heads);
+  const std::scoped_lock lock(mutex_);
+  if (tables_.size() >= kMaxTables) tables_.clear();
+  return tables_.emplace(key, std::move(table)).first->second;
+}
+
+CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> heads) const {
+  const RangeAxis& range = observation_.range;
+  auto table = std::make_shared<Array3<std::int16_t>>(
+      Shape3{observation_.grid->fans(), observation_.grid->beams(), range.count}, kNoData);
+  for (const ChannelPing& head : heads) {
+    const auto channel = static_cast<std::size_t>(head.channel);
+    if (channel >= row_of_channel_.size() || row_of_channel_[channel] < 0) continue;
+    const ChannelCalibration calibration =
+        channel_calibration(observation_.config.beams[channel], head, params_, user_values(head.channel));
+    const auto row = sv_table(calibration, range.first_m, range.spacing_m, range.count);
+    std::copy(row.begin(), row.end(), table->view().row(row_of_channel_[channel]).begin());
+  }
+  return table;
+}
+
+Diagnostics CalibrationTables::diagnostics() const {
+  Diagnostics notes;
+  for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
+    const ChannelTransmit& sent = observation_.transmit[channel];
+    if (!sent.seen() || channel >= observation_.config.beams.size()) continue;
+    ChannelPing head;
+    head.channel = static_cast<int>(channel);
+    head.frequency_hz = sent.frequency_hz;
+    head.transmit_power_w = sent.transmit_power_w;
+    head.pulse_length_s = sent.pulse_length_s;
+    head.sound_speed_mps = sent.sound_speed_mps;
+    head.absorption_db_per_m = sent.absorption_db_per_m;
+    if (is_sound(channel_calibration(observation_.config.beams[channel], head, params_, user_values(head.channel)))) {
+      continue;
+    }
+    notes.push_back(
+        {DiagnosticCode::not_calibrated, "", -1, -1,
+         fmt::format("channel {}: gain, power, pulse, frequency or beam angle is missing; not used", channel)});
+  }
+  return notes;
+}
+
+}  // namespace sonar

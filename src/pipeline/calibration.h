@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "base/array.h"
+#include "base/diagnostics.h"
+#include "base/hash.h"
+#include "model/ping.h"
+#include "pipeline/recipe.h"
+#include "pipeline/survey.h"
+#include "signal/calibrate.h"
+
+namespace sonar {
+
+/// What a beam's Sv is worked out with: gain and sa correction by pulse length from the sounder's tables, absorption by
+/// the recipe, a user's calibration file over both.
+/// head  of the ping's channel
+[[nodiscard]] ChannelCalibration channel_calibration(const BeamConfig& beam, const ChannelPing& head,
+                                                     const CalibrationParams& params,
+                                                     const BeamCalibration* beam_calibration);
+
+/// Tables [fan][beam][sample] that turn power counts into Sv counts, one for each set of transmit settings that occurs.
+/// threads  any
+class CalibrationTables {
+ public:
+  using Table = std::shared_ptr<const Array3<std::int16_t>>;
+
+  CalibrationTables(const ObservationFiles& observation, const CalibrationParams& params);
+
+  /// heads  RAW0 heads of a ping; a channel without one, or whose calibration is not sound, has kNoData in its row
+  [[nodiscard]] Table of(std::span<const ChannelPing> heads);
+  /// Channels that cannot be calibrated, from the observation's first settings; each named once.
+  [[nodiscard]] Diagnostics diagnostics() const;
+
+ private:
+  [[nodiscard]] Table make(std::span<const ChannelPing> heads) const;
+  [[nodiscard]] const BeamCalibration* user_values(int channel) const;
+
+  const ObservationFiles& observation_;
+  CalibrationParams params_;
+  std::vector<int> row_of_channel_;
+  std::mutex mutex_;
+  std::map<Hash128, Table> tables_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/units.h"
+#include "pipeline/reduced_ping.h"
+#include "signal/calibrate.h"
+#include "signal/median.h"
+
+namespace sonar {
+namespace {
+
+/// Power volumes of neighbouring pings that are kept: enough for a few threads and both neighbours of each.
+constexpr std::size_t kKeptBytes = 96U << 20U;
+constexpr std::size_t kLeastKept = 3;
+
+/// A sonar whose rows are not calibrated has no Sv there.
+void apply_tables(const Array3<std::int16_t>& table, Volume& volume) {
+  const int rows = static_cast<int>(volume.counts.shape().rows());
+  for (int row = 0; row < rows; ++row) apply_sv_table(volume.counts.view().row(row), table.view().row(row));
+}
+
+/// A channel that the sonar equation cannot be worked out for says nothing: its samples count as lost.
+void flag_uncalibrated(const Array3<std::int16_t>& table, Volume& volume) {
+  const int rows = static_cast<int>(volume.flags.shape().rows());
+  for (int row = 0; row < rows; ++row) {
+    const auto calibration = table.view().row(row);
+    if (calibration.empty() || calibration.back() != kNoData) continue;
+    for (SampleFlags& flags : volume.flags.view().row(row)) flags |= SampleFlags::lost;
+  }
+}
+
+}  // namespace
+
+Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe)
+    : survey_(survey),
+      observation_(observation),
+      recipe_(recipe),
+      sector_(observation.sector()),
+      tables_(observation, recipe.calibration),
+      estimates_(observation.pings.size()),
+      given_(observation.pings.size()) {
+  const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
+                      static_cast<std::size_t>(std::max(1, observation.range.count));
+  kept_limit_ = std::clamp(kKeptBytes / (voxels * 3), kLeastKept, std::size_t{64});
+}
+
+Placement Engine::placement(std::int64_t ping_index) const {
+  return observation_.navigation[static_cast<std::size_t>(ping_index)].placement();
+}
+
+Result<Engine::Power> Engine::power(std::int64_t ping_index) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = kept_.find(ping_index); found != kept_.end()) return found->second;
+  }
+  auto loaded = load_volume(survey_, observation_, static_cast<std::size_t>(ping_index));
+  if (!loaded) return pass_on(loaded);
+  auto made = std::make_shared<const PowerVolume>(std::move(*loaded));
+  const std::scoped_lock lock(mutex_);
+  if (kept_.emplace(ping_index, made).second) kept_order_.push_back(ping_index);
+  if (kept_order_.size() > kept_limit_) {
+    kept_.erase(kept_order_.front());
+    kept_order_.erase(kept_order_.begin());
+  }
+  return made;
+}
+
+PingGeometry Engine::ping_geometry(std::int64_t ping_index) const {
+  PingGeometry geometry;
+  geometry.first_range_m = observation_.range.first_m;
+  geometry.spacing_m = observation_.range.spacing_m;
+  geometry.transducer_depth_m = placement(ping_index).transducer_depth_m;
+  geometry.elevation_deg = grid().elevation_deg;
+  geometry.vertical_width_deg = grid().vertical_width_deg;
+  return geometry;
+}
+
+std::vector<double> Engine::estimate(const PowerVolume& power) const {
+  // Crops alone: walls, hot beams and schools are a minority of a beam's far samples, and the median over pings sees to
+  // the rest.
+  Array3<SampleFlags> flags = power.volume.flags;
+  flag_near_field(ping_geometry(0), recipe_.flags.near_field, flags.view());
+  return background_power_db(power.volume.counts.view(), flags.view(), recipe_.background);
+}
+
+Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, Work& work) {
+  if (!recipe_.background_window.enabled) return {};
+  const std::int64_t from = std::max<std::int64_t>(0, first - recipe_.background_window.pings_each_side);
+  const std::int64_t to = std::min(pings() - 1, last + recipe_.background_window.pings_each_side);
+  std::atomic<std::int64_t> done{0};
+  work.for_each(to - from + 1, [&](std::int64_t i) {
+    auto& estimated = estimates_[static_cast<std::size_t>(from + i)];
+    auto& given = given_[static_cast<std::size_t>(from + i)];
+    if (estimated.empty() && given.empty()) {
+      const auto loaded = power(from + i);
+      if (loaded && is_reduced((*loaded)->heads)) {
+        given = reduced_background_db((*loaded)->heads, grid().row_of_channel());
+      } else if (loaded) {
+        estimated = estimate(**loaded);
+      }
+    }
+    work.progress("background", ++done, to - from + 1);
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  return {};
+}
+
+std::vector<float> Engine::background_db(std::int64_t ping_index) const {
+  if (!recipe_.background_window.enabled) return {};
+  if (const auto& given = given_[static_cast<std::size_t>(ping_index)]; !given.empty()) return given;
+  const std::int64_t side = recipe_.background_window.pings_each_side;
+  std::vector<std::vector<double>> window;
+  for (std::int64_t i = std::max<std::int64_t>(0, ping_index - side); i <= std::min(pings() - 1, ping_index + side);
+       ++i) {
+    const auto& estimated = estimates_[static_cast<std::size_t>(i)];
+    if (!estimated.empty()) window.push_back(estimated);
+  }
+  if (window.empty()) return {};
+  const std::vector<double> combined = combine_background(window);
+  std::vector<float> rounded(combined.size());
+  std::transform(combined.begin(), combined.end(), rounded.begin(), [](double v) { return static_cast<float>(v); });
+  return rounded;
+}
+
+void Engine::flag(std::int64_t ping_index, const PowerVolume& power, Volume& volume) {
+  if (is_reduced(power.heads)) {
+    open_reduced(power.heads, grid().row_of_channel(), volume);
+    flag_near_field(ping_geometry(ping_index), recipe_.flags.near_field, volume.flags.view());
+    flag_surface(ping_geometry(ping_index), recipe_.flags.surface, volume.flags.view());
+    return;
+  }
+  NeighbourPings neighbours;
+  Power before;
+  Power after;
+  if (recipe_.flags.impulse.enabled && ping_index > 0) {
+    if (auto loaded = this->power(ping_index - 1)) before = *loaded;
+  }
+  if (recipe_.flags.impulse.enabled && ping_index + 1 < pings()) {
+    if (auto loaded = this->power(ping_index + 1)) after = *loaded;
+  }
+  if (before) neighbours.before = before->volume.counts.view();
+  if (after) neighbours.after = after->volume.counts.view();
+  flag_ping(power.volume.counts.view(), ping_geometry(ping_index), recipe_.flags, neighbours, volume.flags.view());
+}
+
+Volume Engine::calibrated(std::int64_t ping_index, const PowerVolume& power, const Array3<std::int16_t>& table) {
+  Volume volume = power.volume;
+  flag(ping_index, power, volume);
+  apply_tables(table, volume);
+  if (is_reduced(power.heads)) {
+    fill_reduced(volume);
+  } else {
+    flag_uncalibrated(table, volume);
+  }
+  return volume;
+}
+
+Result<StagedPing> Engine::staged(std::int64_t ping_index) {
+  const auto loaded = power(ping_index);
+  if (!loaded) return pass_on(loaded);
+  StagedPing ping;
+  ping.ping_index = ping_index;
+  ping.calibration = tables_.of((*loaded)->heads);
+  ping.sv = calibrated(ping_index, **loaded, *ping.calibration);
+  ping.filtered = std::make_shared<Volume>(Volume{Array3<std::int16_t>(ping.sv.counts.shape()), ping.sv.flags});
+  median_into(ping.sv.counts.view(), ping.sv.flags.view(), recipe_.median, ping.filtered->counts.view());
+  if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
+    flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->flags.view());
+  } else if (recipe_.seabed.enabled) {
+    ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), sector_,
+                              grid().vertical_width_deg, recipe_.seabed);
+    if (ping.seabed.found) flag_seabed(ping.seabed, ping.filtered->flags.view());
+  }
+  for (const float level_db : background_db(ping_index)) {
+    ping.background_db.push_back(static_cast<double>(level_db));
+  }
+  return ping;
+}
+
+Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {
+  auto ping = staged(ping_index);
+  if (!ping) return pass_on(ping);
+  FilteredPing out;
+  out.volume = std::move(ping->filtered);
+  out.placement = placement(ping_index);
+  out.time = observation_.navigation[static_cast<std::size_t>(ping_index)].time;
+  return out;
+}
+
+}  // namespace sonar

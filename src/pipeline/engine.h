@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "pipeline/calibration.h"
+#include "pipeline/load_volume.h"
+#include "pipeline/recipe.h"
+#include "pipeline/survey.h"
+#include "school/background.h"
+#include "school/filtered_ping.h"
+#include "school/seabed.h"
+#include "signal/flags.h"
+
+namespace sonar {
+
+/// Everything the stages after the raw file know of one ping. Values, never changed once handed out.
+struct StagedPing {
+  std::int64_t ping_index = 0;
+  Volume sv;                         ///< unfiltered Sv counts; flags without the seabed
+  std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the seabed
+  Seabed seabed;
+  CalibrationTables::Table calibration;
+  std::vector<double> background_db;      ///< [row] power, dB re 1 W; NaN = none known
+
+  [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
+};
+
+/// "Stage S of ping i, please" for one observation under one recipe. Nothing is kept but what neighbouring pings share
+/// (power volumes, calibration tables, background estimates), so that memory does not grow with the observation.
+/// threads  staged() may be called from any thread once estimate_background() is done
+class Engine {
+ public:
+  /// The observation has a grid; survey and observation outlive the engine.
+  Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe);
+
+  [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(observation_.pings.size()); }
+  [[nodiscard]] const Sector& sector() const { return sector_; }
+  [[nodiscard]] const BeamGrid& grid() const { return *observation_.grid; }
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+  [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
+  [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
+  [[nodiscard]] Placement placement(std::int64_t ping_index) const;
+  [[nodiscard]] Diagnostics calibration_notes() const { return tables_.diagnostics(); }
+
+  /// Estimates the background of pings first .. last (inclusive) and their neighbours; other calls need it.
+  /// A ping that cannot be read has none. errors: cancelled
+  [[nodiscard]] Result<void> estimate_background(std::int64_t first, std::int64_t last, Work& work);
+  /// Background of a ping by row, dB re 1 W, rounded to float as it is stored; empty where it is not subtracted.
+  [[nodiscard]] std::vector<float> background_db(std::int64_t ping_index) const;
+
+  /// All stages up to the seabed. errors: as load_volume()
+  [[nodiscard]] Result<StagedPing> staged(std::int64_t ping_index);
+  /// The same for growing and propagating.
+  [[nodiscard]] Result<FilteredPing> filtered(std::int64_t ping_index);
+
+ private:
+  using Power = std::shared_ptr<const PowerVolume>;
+  [[nodiscard]] Result<Power> power(std::int64_t ping_index);
+  [[nodiscard]] std::vector<double> estimate(const PowerVolume& power) const;
+  [[nodiscard]] PingGeometry ping_geometry(std::int64_t ping_index) const;
+  [[nodiscard]] Volume calibrated(std::int64_t ping_index, const PowerVolume& power, const Array3<std::int16_t>& table);
+  void flag(std::int64_t ping_index, const PowerVolume& power, Volume& volume);
+
+  const SurveyFiles& survey_;
+  const ObservationFiles& observation_;
+  const Recipe recipe_;
+  Sector sector_;
+  CalibrationTables tables_;
+  std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
+  std::vector<std::vector<float>> given_;       ///< [ping] background that a reduced file brings along; else empty
+  std::mutex mutex_;
+  std::size_t kept_limit_;
+  std::vector<std::int64_t> kept_order_;
+  std::unordered_map<std::int64_t, Power> kept_;
+};
+
+}  // namespace sonar

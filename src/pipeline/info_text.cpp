@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/info.h"
+
+namespace sonar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json time_json(const std::optional<TimeNs>& time) { return time ? Json(iso_time(*time)) : Json(nullptr); }
+
+Json notes_json(const Diagnostics& notes) {
+  Json list = Json::array();
+  for (const Diagnostic& note : notes) {
+    Json entry{{"code", name(note.code)},
+               {"offset", note.offset >= 0 ? Json(note.offset) : Json(nullptr)},
+               {"text", note.text}};
+    if (note.ping_index >= 0) entry["ping_index"] = note.ping_index;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json file_json(const FileInfo& file) {
+  Json position = nullptr;
+  if (file.first_position) {
+    position = {{"latitude", file.first_position->latitude_deg}, {"longitude", file.first_position->longitude_deg}};
+  }
+  Json json{{"path", file.path},
+            {"format", file.format},
+            {"sounder", file.sounder},
+            {"size", file.size},
+            {"datagrams", file.datagrams},
+            {"channels", file.channels},
+            {"pings", file.pings},
+            {"samples", {{"min", file.min_samples}, {"max", file.max_samples}}},
+            {"first_time_utc", time_json(file.first_time)},
+            {"last_time_utc", time_json(file.last_time)},
+            {"first_position", std::move(position)},
+            {"talkers", file.talkers},
+            {"gps_minus_clock_s", std::isnan(file.gps_minus_clock_s) ? Json(nullptr) : Json(file.gps_minus_clock_s)},
+            {"notes", notes_json(file.notes)}};
+  if (file.power_count_sum) json["power_count_sum"] = *file.power_count_sum;
+  return json;
+}
+
+Json observation_json(const SurveyInfo::Observation& observation) {
+  Json grid = nullptr;
+  if (observation.grid) grid = {{"fans", observation.grid->first}, {"beams", observation.grid->second}};
+  return {{"name", observation.name},
+          {"files", observation.files},
+          {"sounder", observation.sounder},
+          {"pings", observation.pings},
+          {"first_time_utc", iso_time(observation.first_time)},
+          {"last_time_utc", iso_time(observation.last_time)},
+          {"grid", std::move(grid)},
+          {"continues_cut", observation.continues_cut},
+          {"talkers", observation.talkers},
+          {"notes", notes_json(observation.notes)}};
+}
+
+std::string talkers_text(const Talkers& talkers) {
+  std::string text;
+  for (const auto& [quantity, talker] : talkers) text += fmt::format(" {} {}", quantity, talker);
+  return text;
+}
+
+std::string notes_text(const Diagnostics& notes) {
+  std::string text;
+  for (const Diagnostic& note : notes) {
+    const std::string place = note.offset >= 0 ? fmt::format("byte {}: ", note.offset) : std::string();
+    text += fmt::format("  note {}: {}{}\n", name(note.code), place, note.text);
+  }
+  return text;
+}
+
+std::string file_text(const FileInfo& file) {
+  std::string text = fmt::format("{}\n  {}{}{}, {} bytes\n", file.path, file.format, file.sounder.empty() ? "" : ", ",
+                                 file.sounder, file.size);
+  if (!file.datagrams.empty()) {
+    text += "  datagrams:";
+    for (const auto& [type, count] : file.datagrams) text += fmt::format(" {} {}", type, count);
+    text += '\n';
+  }
+  if (file.pings > 0) {
+    text += fmt::format("  {} pings, {} channels, {} to {} samples\n", file.pings, file.channels, file.min_samples,
+                        file.max_samples);
+  }
+  if (file.first_time) text += fmt::format("  {} to {}\n", iso_time(*file.first_time), iso_time(*file.last_time));
+  if (file.first_position) {
+    text += fmt::format("  first position {:.6f}, {:.6f}\n", file.first_position->latitude_deg,
+                        file.first_position->longitude_deg);
+  }
+  if (!file.talkers.empty()) text += fmt::format("  talkers:{}\n", talkers_text(file.talkers));
+  if (!std::isnan(file.gps_minus_clock_s)) {
+    text += fmt::format("  GPS minus clock {:.3f} s\n", file.gps_minus_clock_s);
+  }
+  if (file.power_count_sum) text += fmt::format("  sum of power counts {}\n", *file.power_count_sum);
+  return text + notes_text(file.notes);
+}
+
+std::string observation_text(const SurveyInfo::Observation& o) {
+  const std::string grid =
+      o.grid ? fmt::format("{} fans x {} beams", o.grid->first, o.grid->second) : std::string("no grid");
+  std::string text =
+      fmt::format("{}: {}, {} pings, {}, {} to {}{}\n", o.name, o.sounder, o.pings, grid, iso_time(o.first_time),
+                  iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
+  for (const std::string& file : o.files) text += fmt::format("  {}\n", file);
+  return text + notes_text(o.notes);
+}
+
+}  // namespace
+
+std::string info_json(const SurveyInfo& info) {
+  Json json{{"files", Json::array()}, {"observations", Json::array()}};
+  for (const FileInfo& file : info.files) json["files"].push_back(file_json(file));
+  for (const auto& observation : info.observations) json["observations"].push_back(observation_json(observation));
+  // Names of files need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string info_text(const SurveyInfo& info) {
+  std::string text;
+  for (const FileInfo& file : info.files) text += file_text(file);
+  for (const auto& observation : info.observations) text += observation_text(observation);
+  return text;
+}
+
+}  // namespace sonar

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "base/hash.h"
+#include "io/atomic_file.h"
+#include "pipeline/json_file.h"
+
+namespace sonar {
+namespace {
+
+std::string checksum(const nlohmann::json& json) {
+  return fmt::format("{:08x}", static_cast<std::uint32_t>(hash_text(json.dump()).low));
+}
+
+std::string sealed(nlohmann::json json) {
+  json["crc"] = checksum(json);
+  return json.dump();
+}
+
+/// Takes the check sum off; empty where it is missing or wrong.
+std::optional<nlohmann::json> unsealed(const nlohmann::json& json) {
+  if (!json.is_object() || !json.contains("crc") || !json["crc"].is_string()) return std::nullopt;
+  nlohmann::json rest = json;
+  rest.erase("crc");
+  if (checksum(rest) != json["crc"].get<std::string>()) return std::nullopt;
+  return rest;
+}
+
+std::optional<JournalLine> line_from_json(const nlohmann::json& json) {
+  const auto has = [&](const char* member, bool (nlohmann::json::*test)() const noexcept) {
+    return json.contains(member) && (json[member].*test)();
+  };
+  if (!has("n", &nlohmann::json::is_number_integer) || !has("cmd", &nlohmann::json::is_string) ||
+      !has("ping_time", &nlohmann::json::is_number_integer) || !has("args", &nlohmann::json::is_object)) {
+    return std::nullopt;
+  }
+  JournalLine line;
+  line.n = json["n"].get<std::int64_t>();
+  line.command = json["cmd"].get<std::string>();
+  line.ping_time = json["ping_time"].get<TimeNs>();
+  line.args = json["args"];
+  if (has("operator", &nlohmann::json::is_string)) line.operator_name = json["operator"].get<std::string>();
+  if (has("t", &nlohmann::json::is_string)) line.decided = time_from_iso(json["t"].get<std::string>()).value_or(0);
+  return line;
+}
+
+Result<Journal> head_from_json(const nlohmann::json& json) {
+  if (!json.is_object()) return fail(ErrorCode::format, "line 1: expected a JSON object with journal_version");
+  if (auto version = check_version(json, "journal_version", kJournalVersion); !version) return pass_on(version);
+  Journal journal;
+  if (json.contains("recipe_hash") && json["recipe_hash"].is_string()) {
+    journal.recipe_hash = json["recipe_hash"].get<std::string>();
+  }
+  if (!json.contains("files") || !json["files"].is_array()) return journal;
+  for (const auto& file : json["files"]) {
+    const bool whole = file.is_object() && file.contains("name") && file["name"].is_string() && file.contains("size") &&
+                       file["size"].is_number_unsigned() && file.contains("hash") && file["hash"].is_string();
+    if (!whole) continue;
+    journal.files.push_back(
+        {file["name"].get<std::string>(), file["size"].get<std::uint64_t>(), file["hash"].get<std::string>()});
+  }
+  return journal;
+}
+
+}  // namespace
+
+std::string journal_text(const JournalLine& line) {
+  return sealed({{"n", line.n},
+                 {"t", line.decided == 0 ? std::string{} : iso_time(line.decided)},
+                 {"operator", line.operator_name},
+                 {"cmd", line.command},
+                 {"ping_time", line.ping_time},
+                 {"args", line.args}});
+}
+
+std::string journal_head_text(const Journal& journal) {
+  nlohmann::json files = nlohmann::json::array();
+  for (const InputFile& file : journal.files) {
+    files.push_back({{"name", file.name}, {"size", file.size}, {"hash", file.hash}});
+  }
+  return sealed({{"journal_version", kJournalVersion}, {"recipe_hash", journal.recipe_hash}, {"files", files}});
+}
+
+Result<Journal> read_journal(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return pass_on(text);
+  Journal journal;
+  std::size_t begin = 0;
+  for (int number = 1; begin < text->size(); ++number) {
+    const std::size_t end = std::min(text->find('\n', begin), text->size());
+    const auto json = parse_json(std::string_view(*text).substr(begin, end - begin));
+    if (number == 1) {
+      auto head = json ? head_from_json(*json) : Result<Journal>(pass_on(json));
+      if (!head) return fail(head.error().code, head.error().text, {path, 0});
+      journal = std::move(*head);
+    } else {
+      const auto whole = json ? unsealed(*json) : std::nullopt;
+      auto line = whole ? line_from_json(*whole) : std::nullopt;
+      if (line) {
+        journal.lines.push_back(std::move(*line));
+      } else {
+        journal.diagnostics.push_back({DiagnosticCode::journal_line, path, static_cast<std::int64_t>(begin), -1,
+                                       fmt::format("line {} is broken and was left out", number)});
+      }
+    }
+    begin = end + 1;
+  }
+  if (text->empty()) return fail(ErrorCode::format, "is empty, expected a journal", {path, 0});
+  return journal;
+}
+
+Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (file < 0) return fail(ErrorCode::io, std::strerror(errno), {path});
+  const bool fresh = ::lseek(file, 0, SEEK_END) == 0;
+  const std::string text = (fresh ? journal_head_text(head) + "\n" : "") + journal_text(line) + "\n";
+  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const bool flushed = written && ::fsync(file) == 0;
+  const std::string why = std::strerror(errno);
+  ::close(file);
+  if (!flushed) return fail(ErrorCode::io, "could not be written: " + why, {path});
+  return {};
+}
+
+std::vector<JournalLine> effective_lines(const std::vector<JournalLine>& lines) {
+  std::map<std::int64_t, bool> undone;
+  for (const JournalLine& line : lines) {
+    if (line.command != "undo" && line.command != "redo") continue;
+    if (line.args.contains("target") && line.args["target"].is_number_integer()) {
+      undone[line.args["target"].get<std::int64_t>()] = line.command == "undo";
+    }
+  }
+  std::vector<JournalLine> kept;
+  for (const JournalLine& line : lines) {
+    if (line.command == "undo" || line.command == "redo") continue;
+    const auto found = undone.find(line.n);
+    if (found == undone.end() || !found->second) kept.push_back(line);
+  }
+  return kept;
+}
+
+}  // namespace sonar

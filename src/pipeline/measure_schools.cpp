@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/measure_schools.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "school/measure.h"
+#include "school/summarise.h"
+
+namespace sonar {
+namespace {
+
+/// Sorting key of a school: ping, channel and sample of its first voxel by channel.
+auto first_voxel(const SchoolMasks& school, const std::vector<int>& channel_of_row) {
+  const PingMask& mask = school.pings.front().mask;
+  std::pair<int, int> first{channel_of_row[static_cast<std::size_t>(mask.runs.front().row)],
+                            mask.runs.front().first_sample};
+  for (const Run& run : mask.runs) {
+    first = std::min(first, {channel_of_row[static_cast<std::size_t>(run.row)], run.first_sample});
+  }
+  return std::tuple(school.pings.front().ping_index, first.first, first.second);
+}
+
+struct InPingRef {
+  const SchoolMasks* school;
+  const SchoolMasks::InPing* in_ping;
+};
+
+PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
+  PingMask others;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i != index) others = unite(others, all[i].in_ping->mask);
+  }
+  return others;
+}
+
+SchoolPingRow measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all,
+                          std::size_t index) {
+  const ObservationFiles& observation = engine.observation();
+  const PingMask others = others_than(all, index);
+  MeasureInput input;
+  input.sv = ping.sv.counts.view();
+  input.filtered = ping.filtered->counts.view();
+  input.flags = ping.filtered->flags.view();
+  input.sector = &engine.sector();
+  input.grid = &engine.grid();
+  input.background = ping.background();
+  input.placement = engine.placement(ping.ping_index);
+  input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
+  input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
+  input.others = &others;
+  input.threshold_db = all[index].in_ping->threshold_db;
+  SchoolPingRow row = measure(input, all[index].in_ping->mask, engine.recipe().measure);
+  row.observation = observation.name;
+  row.school_id = all[index].school->decided.school_id;
+  row.ping_index = ping.ping_index;
+  row.time_utc = observation.navigation[static_cast<std::size_t>(ping.ping_index)].time;
+  return row;
+}
+
+std::vector<SchoolPingRow> measure_ping(const StagedPing& ping, const Engine& engine,
+                                        const std::vector<InPingRef>& schools) {
+  std::vector<SchoolPingRow> rows;
+  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i));
+  return rows;
+}
+
+std::vector<SchoolPingRow> rows_of(const ObservationProduct& product, std::int64_t school_id) {
+  std::vector<SchoolPingRow> rows;
+  for (const SchoolPingRow& row : product.school_pings) {
+    if (row.school_id == school_id) rows.push_back(row);
+  }
+  return rows;
+}
+
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
+  for (const SchoolMasks& school : schools) {
+    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
+    if (rows.empty()) continue;
+    SchoolRow row = summarise(rows, recipe.summarise);
+    row.observation = product.observation;
+    row.school_id = school.decided.school_id;
+    row.origin = school.decided.origin;
+    row.status = school.decided.status;
+    row.operator_name = school.decided.operator_name;
+    row.decided_utc = school.decided.decided_utc;
+    row.species = school.decided.species;
+    row.comment = school.decided.comment;
+    row.continues = school.decided.continues;
+    product.schools.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product,
+                             Work& work) {
+  std::erase_if(schools, [](const SchoolMasks& school) { return school.pings.empty(); });
+  const std::vector<int>& channel = engine.grid().channel;
+  std::stable_sort(schools.begin(), schools.end(), [&](const SchoolMasks& a, const SchoolMasks& b) {
+    return first_voxel(a, channel) < first_voxel(b, channel);
+  });
+  for (std::size_t i = 0; i < schools.size(); ++i) schools[i].decided.school_id = static_cast<std::int64_t>(i) + 1;
+  return measure_numbered(engine, std::move(schools), product, work);
+}
+
+Result<void> measure_numbered(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product,
+                              Work& work) {
+  std::map<std::int64_t, std::vector<InPingRef>> by_ping;
+  for (const SchoolMasks& school : schools) {
+    for (const SchoolMasks::InPing& in_ping : school.pings) by_ping[in_ping.ping_index].push_back({&school, &in_ping});
+  }
+  std::vector<std::pair<std::int64_t, const std::vector<InPingRef>*>> pings;
+  for (const auto& [ping_index, refs] : by_ping) pings.emplace_back(ping_index, &refs);
+  std::vector<std::vector<SchoolPingRow>> rows(pings.size());
+  std::atomic<std::int64_t> done{0};
+  work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
+    const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
+    if (const auto ping = engine.staged(ping_index))
+      rows[static_cast<std::size_t>(i)] = measure_ping(*ping, engine, *refs);
+    work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  for (auto& of_ping : rows) std::move(of_ping.begin(), of_ping.end(), std::back_inserter(product.school_pings));
+  std::sort(product.school_pings.begin(), product.school_pings.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.school_id, a.ping_index) < std::pair(b.school_id, b.ping_index);
+  });
+  summarise_schools(schools, engine.recipe(), product);
+  std::sort(schools.begin(), schools.end(),
+            [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
+  for (SchoolMasks& school : schools) {
+    for (SchoolMasks::InPing& in_ping : school.pings) {
+      product.masks.push_back({school.decided.school_id, in_ping.ping_index, std::move(in_ping.mask)});
+    }
+  }
+  return {};
+}
+
+}  // namespace sonar

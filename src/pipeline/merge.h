@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/result.h"
+#include "base/work.h"
+#include "model/product.h"
+#include "pipeline/run.h"
+
+namespace sonar {
+
+/// How a school is followed over a cut made by observation_max_s. Depends on products alone.
+struct MergeParams {
+  double cut_gap_s = 120.0;  ///< observations of one sounder and grid no further apart than this were one
+  double gate_m = 20.0;      ///< plus half the mean length of the two: the predicted place may miss by this much
+  double depth_gate_m = 10.0;
+  int edge_pings = 3;  ///< pings a school may be missing before or after the cut
+};
+
+/// All observations of a survey without their voxels: rows, tracks, grids, notes. What the survey map shows.
+struct Survey {
+  std::vector<ObservationProduct> observations;  ///< by name; masks and background levels are empty
+  std::vector<SchoolRow> schools;                ///< of all, `continues` filled in
+  std::vector<SchoolPingRow> school_pings;
+};
+
+/// Order of display names: obs-0002 before obs-0010 before obs-10000.
+[[nodiscard]] bool name_less(const std::string& a, const std::string& b);
+
+/// Puts products together; any order of products gives the same survey.
+/// errors  mismatch: two recipes, two sets of stage versions, one observation twice (each named)
+[[nodiscard]] Result<Survey> merge(std::vector<ObservationProduct> products, const MergeParams& params = {});
+
+/// What stands in survey.json under `failures`.
+struct MergeFailure {
+  std::string observation;
+  std::string text;  ///< one line
+};
+
+struct MergeReport {
+  Survey survey;
+  std::vector<MergeFailure> failures;  ///< those handed in, and products that could not be read
+  std::vector<std::string> missing;    ///< in plan.json, but without a product
+  std::vector<std::string> unplanned;  ///< products that plan.json does not know; left out
+  [[nodiscard]] bool complete() const { return failures.empty() && missing.empty(); }
+};
+
+/// Product files of a result: OUT/products/obs-*.nc, or OUT/obs-*.nc where there is no such folder; by name.
+/// errors  not_found: no such folder
+[[nodiscard]] Result<std::vector<std::filesystem::path>> product_files(const std::filesystem::path& out);
+
+/// Reads OUT/products and OUT/plan.json (where there is one) and writes schools.csv, school_pings.csv, survey.gpkg and
+/// survey.json into OUT, each whole or not at all. Raw data are not needed.
+/// failures  of the observations that were just run
+/// errors    not_found: neither products nor plan; mismatch; io; no_space; cancelled
+/// memory    masks of one observation at a time
+Result<MergeReport> merge_folder(const std::filesystem::path& out, std::vector<MergeFailure> failures, Work& work);
+
+/// What a merge made, for people: counts, what is missing or failed, where the files lie. Ends with a line break.
+[[nodiscard]] std::string merge_text(const MergeReport& report, const std::filesystem::path& out);
+
+/// Merges after a run; its failures come along. Gives merge_text().
+Result<std::string> merge_folder(const std::filesystem::path& out, const RunReport& run);
+
+}  // namespace sonar

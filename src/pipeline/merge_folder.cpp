@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "io/product.h"
+#include "io/survey_map.h"
+#include "pipeline/merge.h"
+#include "pipeline/plan.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Room for tables and map; the products, which are larger, are already there.
+constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
+
+json observation_json(const ObservationProduct& product) {
+  json files = json::array();
+  for (const InputFile& f : product.input_files)
+    files.push_back({{"name", f.name}, {"size", f.size}, {"hash", f.hash}});
+  std::map<std::string, std::int64_t> notes;
+  for (const Diagnostic& note : product.diagnostics) ++notes[std::string(name(note.code))];
+  const auto bad = std::count_if(product.pings.begin(), product.pings.end(), [](const auto& p) { return p.bad; });
+  json out = {{"name", product.observation},
+              {"product", "products/" + product.observation + ".nc"},
+              {"title", product.title},
+              {"source", product.source},
+              {"history", product.history},
+              {"pings", product.pings.size()},
+              {"bad_pings", bad},
+              {"schools", product.schools.size()},
+              {"input_hash", product.input_hash},
+              {"input_files", files},
+              {"notes", notes},
+              {"grid", nullptr},
+              {"first_time_utc", nullptr},
+              {"last_time_utc", nullptr}};
+  if (product.grid) {
+    out["grid"] = {{"fans", product.grid->grid.fans()}, {"beams", product.grid->grid.beams()}};
+  }
+  if (!product.pings.empty()) {
+    out["first_time_utc"] = iso_time(product.pings.front().time);
+    out["last_time_utc"] = iso_time(product.pings.back().time);
+  }
+  return out;
+}
+
+std::string survey_json(const MergeReport& report) {
+  json observations = json::array();
+  std::size_t pings = 0;
+  for (const ObservationProduct& product : report.survey.observations) {
+    observations.push_back(observation_json(product));
+    pings += product.pings.size();
+  }
+  json failures = json::array();
+  for (const MergeFailure& f : report.failures) {
+    failures.push_back({{"observation", f.observation}, {"error", f.text}});
+  }
+  const auto continued = std::count_if(report.survey.schools.begin(), report.survey.schools.end(),
+                                       [](const SchoolRow& s) { return !s.continues.empty(); });
+  json provenance = nullptr;
+  if (!report.survey.observations.empty()) {
+    const ObservationProduct& first = report.survey.observations.front();
+    json recipe = json::parse(first.recipe_json, nullptr, false);
+    if (recipe.is_discarded()) recipe = first.recipe_json;
+    provenance = {{"sonar_explorer_version", first.program_version},
+                  {"stage_versions", first.stage_versions},
+                  {"recipe_hash", first.recipe_hash},
+                  {"recipe", recipe}};
+  }
+  const json out = {{"summary",
+                     {{"observations", report.survey.observations.size()},
+                      {"pings", pings},
+                      {"schools", report.survey.schools.size()},
+                      {"schools_continued_over_a_cut", continued},
+                      {"school_pings", report.survey.school_pings.size()},
+                      {"complete", report.complete()}}},
+                    {"provenance", provenance},
+                    {"observations", observations},
+                    {"failures", failures},
+                    {"missing", report.missing},
+                    {"unplanned", report.unplanned}};
+  // Texts may come from damaged files: what is no UTF-8 is replaced, never thrown over.
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+/// Finds what the plan has and the folder has not, and drops products that the plan does not know.
+Result<void> hold_against_plan(const fs::path& out, std::vector<fs::path>& files, MergeReport& report) {
+  const fs::path path = out / "plan.json";
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  const auto plan = read_plan(path);
+  if (!plan) return pass_on(plan);
+  const auto planned = [&](const fs::path& file) {
+    return std::any_of(plan->tasks.begin(), plan->tasks.end(),
+                       [&](const PlanTask& task) { return task.observation == file.stem().string(); });
+  };
+  for (const fs::path& file : files) {
+    if (!planned(file)) report.unplanned.push_back(file.stem().string());
+  }
+  std::erase_if(files, [&](const fs::path& file) { return !planned(file); });
+  for (const PlanTask& task : plan->tasks) {
+    const bool there = std::any_of(files.begin(), files.end(),
+                                   [&](const fs::path& file) { return file.stem().string() == task.observation; });
+    const bool failed = std::any_of(report.failures.begin(), report.failures.end(),
+                                    [&](const MergeFailure& f) { return f.observation == task.observation; });
+    if (!there && !failed) report.missing.push_back(task.observation);
+  }
+  return {};
+}
+
+Result<void> write_map(const fs::path& out, const Survey& survey, const std::vector<fs::path>& files, Work& work) {
+  TimeNs last = 0;
+  for (const ObservationProduct& product : survey.observations) {
+    if (!product.pings.empty()) last = std::max(last, product.pings.back().time);
+  }
+  auto map = SurveyMapWriter::create(out / "survey.gpkg", MapFormat::geopackage, last);
+  if (!map) return pass_on(map);
+  for (std::size_t i = 0; i < survey.observations.size(); ++i) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    auto product = read_product(files[i]);
+    if (!product) return pass_on(product);
+    // Rows come from the merge, which knows what continues what; masks from the file.
+    ObservationProduct shown = survey.observations[i];
+    shown.masks = std::move(product->masks);
+    if (auto added = map->add(shown); !added) return added;
+    work.progress("map", static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(files.size()));
+  }
+  return map->finish();
+}
+
+}  // namespace
+
+Result<std::vector<fs::path>> product_files(const fs::path& out) {
+  std::error_code error;
+  const fs::path inner = out / "products";
+  const fs::path folder = fs::is_directory(inner, error) ? inner : out;
+  if (!fs::is_directory(folder, error)) return fail(ErrorCode::not_found, "no such folder", {.file = out.string()});
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string file_name = it->path().filename().string();
+    if (file_name.starts_with("obs-") && file_name.ends_with(".nc")) files.push_back(it->path());
+  }
+  if (error) return fail(ErrorCode::io, error.message(), {.file = folder.string()});
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return name_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> failures, Work& work) {
+  MergeReport report;
+  report.failures = std::move(failures);
+  auto files = product_files(out);
+  if (!files) return pass_on(files);
+  std::error_code error;
+  if (files->empty() && !fs::exists(out / "plan.json", error)) {
+    return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
+  }
+  if (auto held = hold_against_plan(out, *files, report); !held) return pass_on(held);
+  std::vector<ObservationProduct> products;
+  std::vector<std::pair<std::string, fs::path>> sound;
+  for (const fs::path& file : *files) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    auto product = read_product(file);
+    if (!product) {
+      report.failures.push_back({file.stem().string(), to_line(product.error())});
+      continue;
+    }
+    product->masks = {};
+    product->background_db = {};
+    sound.emplace_back(product->observation, file);
+    products.push_back(std::move(*product));
+    work.progress("merge", static_cast<std::int64_t>(products.size()), static_cast<std::int64_t>(files->size()));
+  }
+  auto survey = merge(std::move(products));
+  if (!survey) return fail(survey.error().code, survey.error().text, {.file = out.string()});
+  report.survey = std::move(*survey);
+  std::sort(sound.begin(), sound.end(), [](const auto& a, const auto& b) { return name_less(a.first, b.first); });
+  std::vector<fs::path> in_order;
+  for (const auto& [observation, file] : sound) in_order.push_back(file);
+
+  auto written = require_free_space(out, kLeastFreeBytes);
+  if (written) written = write_csv_rows(out / "schools.csv", report.survey.schools);
+  if (written) written = write_csv_rows(out / "school_pings.csv", report.survey.school_pings);
+  if (written) written = write_map(out, report.survey, in_order, work);
+  if (written) written = write_file(out / "survey.json", survey_json(report));
+  if (!written) return pass_on(written);
+  remove_leftovers(out);
+  remove_leftovers(out / "products");
+  return report;
+}
+
+std::string merge_text(const MergeReport& report, const fs::path& out) {
+  std::size_t pings = 0;
+  for (const ObservationProduct& product : report.survey.observations) pings += product.pings.size();
+  std::string text = fmt::format("{} observations, {} pings, {} schools\n", report.survey.observations.size(), pings,
+                                 report.survey.schools.size());
+  const auto list = [&](const char* what, const std::vector<std::string>& names) {
+    if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
+  };
+  list("missing", report.missing);
+  list("left out, not in plan.json", report.unplanned);
+  for (const char* name : {"schools.csv", "school_pings.csv", "survey.gpkg", "survey.json"}) {
+    text += (out / name).string() + "\n";
+  }
+  return text;
+}
+
+Result<std::string> merge_folder(const fs::path& out, const RunReport& run) {
+  std::vector<MergeFailure> failures;
+  for (const RunFailure& failure : run.failures) failures.push_back({failure.observation, to_line(failure.error)});
+  Work work(1);
+  const auto report = merge_folder(out, std::move(failures), work);
+  if (!report) return pass_on(report);
+  return merge_text(*report, out);
+}
+
+}  // namespace sonar

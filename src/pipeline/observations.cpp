@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/observations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/check.h"
+#include "base/hash.h"
+
+namespace sonar {
+namespace {
+
+// One ping on its grid may take this many samples; a hostile channel must not ask for more.
+constexpr std::int64_t kMaxVolumeSamples = std::int64_t{1} << 27;
+
+TimeNs ns_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
+
+template <class T>
+void add(Hasher& hasher, const T& value) {
+  hasher.add(std::as_bytes(std::span(&value, 1)));
+}
+
+/// What of a configuration geometry, calibration and navigation depend on; names of survey and transect are not in it.
+Hash128 identity(const SounderConfig& config) {
+  Hasher hasher;
+  add(hasher, config.gps_offset_m);
+  for (const BeamConfig& b : config.beams) {
+    hasher.add(b.channel_id);
+    add(hasher, b.beam_type);
+    for (const double v :
+         {b.frequency_hz, b.gain_db, b.equivalent_beam_angle_db, b.width_alongship_deg, b.width_athwartship_deg,
+          b.sensitivity_alongship, b.sensitivity_athwartship, b.offset_alongship_deg, b.offset_athwartship_deg}) {
+      add(hasher, v);
+    }
+    add(hasher, b.position_m);
+    add(hasher, b.direction_deg);
+    add(hasher, b.pulse_length_s);
+    add(hasher, b.gain_table_db);
+    add(hasher, b.sa_correction_table_db);
+  }
+  return hasher.value();
+}
+
+/// What changed between two settings that may not change inside an observation; empty = nothing.
+std::string setting_change(const TransmitSet& a, const TransmitSet& b) {
+  for (std::size_t c = 0; c < std::min(a.size(), b.size()); ++c) {
+    if (!a[c].seen() || !b[c].seen()) continue;
+    const auto changed = [&](const char* what, double from, double to, const char* unit) {
+      return fmt::format("channel {}: {} {} -> {} {}", c + 1, what, from, to, unit);
+    };
+    if (a[c].sample_interval_s != b[c].sample_interval_s) {
+      return changed("sample interval", a[c].sample_interval_s, b[c].sample_interval_s, "s");
+    }
+    if (a[c].pulse_length_s != b[c].pulse_length_s) {
+      return changed("pulse length", a[c].pulse_length_s, b[c].pulse_length_s, "s");
+    }
+    if (a[c].frequency_hz != b[c].frequency_hz) {
+      return changed("frequency", a[c].frequency_hz, b[c].frequency_hz, "Hz");
+    }
+    if (std::abs(a[c].sound_speed_mps - b[c].sound_speed_mps) > 1e-4 * a[c].sound_speed_mps) {
+      return changed("sound speed", a[c].sound_speed_mps, b[c].sound_speed_mps, "m/s");
+    }
+  }
+  return {};
+}
+
+/// Why a ping cannot go on the observation that began with another.
+class Cutter {
+ public:
+  Cutter(const SurveyFiles& survey, const SurveyParams& params)
+      : survey_(survey), gap_(ns_of(params.observation_gap_s)), longest_(ns_of(params.observation_max_s)) {
+    for (const SurveyFile& file : survey.files) {
+      configs_.emplace_back();
+      for (const SounderConfig& config : file.index.configs) configs_.back().push_back(identity(config));
+    }
+  }
+
+  /// first, before: pings of the running observation; next: the one in question. True = a new one begins.
+  bool cut(const SurveyPing& first, const SurveyPing& before, const SurveyPing& next, ObservationFiles& fresh) {
+    const PingEntry& f = survey_.entry(first);
+    const PingEntry& b = survey_.entry(before);
+    const PingEntry& n = survey_.entry(next);
+    const auto note = [&](DiagnosticCode code, std::string text) {
+      fresh.diagnostics.push_back(
+          {code, survey_.files[next.file].index.name, static_cast<std::int64_t>(n.offset), 0, std::move(text)});
+    };
+    bool cut = false;
+    if (n.time < b.time) {
+      note(DiagnosticCode::time_back, fmt::format("{} after {}", iso_time(n.time), iso_time(b.time)));
+      cut = true;
+    }
+    if (configs_[first.file][f.config] != configs_[next.file][n.config]) {
+      note(DiagnosticCode::grid_changed, "the beams' configuration differs from the observation before");
+      cut = true;
+    } else if (const std::string& change = change_between(first, next); !change.empty()) {
+      note(DiagnosticCode::settings_changed, change);
+      cut = true;
+    }
+    if (n.time - b.time > gap_) cut = true;
+    if (cut) return true;
+    fresh.continues_cut = longest_ > 0 && n.time - f.time > longest_;
+    return fresh.continues_cut;
+  }
+
+ private:
+  const std::string& change_between(const SurveyPing& first, const SurveyPing& next) {
+    const auto key = [&](const SurveyPing& ping) { return std::pair(ping.file, survey_.entry(ping).transmit); };
+    if (compared_ != std::optional(std::pair(key(first), key(next)))) {
+      compared_ = std::pair(key(first), key(next));
+      change_ = setting_change(survey_.files[first.file].index.transmits[survey_.entry(first).transmit],
+                               survey_.files[next.file].index.transmits[survey_.entry(next).transmit]);
+    }
+    return change_;
+  }
+
+  using SetKey = std::pair<std::uint32_t, std::uint16_t>;
+  const SurveyFiles& survey_;
+  TimeNs gap_;
+  TimeNs longest_;
+  std::vector<std::vector<Hash128>> configs_;  // [file][config]
+  std::optional<std::pair<SetKey, SetKey>> compared_;
+  std::string change_;
+};
+
+/// Longest rows of each channel over the settings that the observation's pings were made with.
+std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const ObservationFiles& observation) {
+  std::set<std::pair<std::uint32_t, std::uint16_t>> sets;
+  for (const SurveyPing& ping : observation.pings) sets.insert({ping.file, survey.entry(ping).transmit});
+  std::vector<std::int32_t> longest;
+  for (const auto& [file, transmit] : sets) {
+    const TransmitSet& set = survey.files[file].index.transmits[transmit];
+    longest.resize(std::max(longest.size(), set.size()), 0);
+    for (std::size_t c = 0; c < set.size(); ++c) longest[c] = std::max(longest[c], set[c].max_samples);
+  }
+  return longest;
+}
+
+/// Why rows of these channels cannot share one range axis; empty = they can.
+std::string no_common_range(const TransmitSet& set, const ChannelTransmit& reference) {
+  for (std::size_t c = 0; c < set.size(); ++c) {
+    if (!set[c].seen()) continue;
+    const double spacing = set[c].sound_speed_mps * set[c].sample_interval_s;
+    const double expected = reference.sound_speed_mps * reference.sample_interval_s;
+    if (std::abs(spacing - expected) > 1e-6 * expected || set[c].pulse_length_s != reference.pulse_length_s) {
+      return fmt::format("channel {} has another sample spacing or pulse than the first", c + 1);
+    }
+  }
+  return {};
+}
+
+void complete_range(const SurveyFiles& survey, ObservationFiles& observation, const SurveyParams& params) {
+  const auto reference = std::find_if(observation.transmit.begin(), observation.transmit.end(),
+                                      [](const ChannelTransmit& t) { return t.seen(); });
+  // Every ping has a channel, and its setting is in the set.
+  SONAR_CHECK(reference != observation.transmit.end());
+  observation.sound_speed_mps = reference->sound_speed_mps;
+  observation.sample_interval_s = reference->sample_interval_s;
+  observation.pulse_length_s = reference->pulse_length_s;
+  const std::vector<std::int32_t> longest = channel_samples(survey, observation);
+  const double spacing = reference->sound_speed_mps * reference->sample_interval_s / 2.0;
+  const double zero = params.range_zero_pulses * reference->sound_speed_mps * reference->pulse_length_s;
+  observation.range = {-zero, spacing, *std::max_element(longest.begin(), longest.end())};
+  if (!observation.grid) return;
+  const BeamGrid& grid = *observation.grid;
+  std::string problem = no_common_range(observation.transmit, *reference);
+  const auto rows = static_cast<std::int64_t>(grid.channel.size());
+  if (problem.empty() && rows * observation.range.count > kMaxVolumeSamples) {
+    problem = fmt::format("{} beams of {} samples are too many", rows, observation.range.count);
+  }
+  if (!problem.empty()) {
+    observation.grid.reset();
+    observation.diagnostics.push_back({DiagnosticCode::no_grid, "", -1, -1, problem});
+    return;
+  }
+  observation.sample_count.assign(static_cast<std::size_t>(grid.fans()), 0);
+  for (std::size_t row = 0; row < grid.channel.size(); ++row) {
+    const auto c = static_cast<std::size_t>(grid.channel[row]);
+    auto& count = observation.sample_count[row / static_cast<std::size_t>(grid.beams())];
+    if (c < longest.size()) count = std::max(count, longest[c]);
+  }
+}
+
+}  // namespace
+
+std::vector<ObservationFiles> cut_sequence(const SurveyFiles& survey, const SounderSequence& sequence,
+                                           const SurveyParams& params) {
+  std::vector<ObservationFiles> observations;
+  Cutter cutter(survey, params);
+  for (const SurveyPing& ping : sequence.pings) {
+    ObservationFiles fresh;
+    const bool first = observations.empty();
+    if (first || cutter.cut(observations.back().pings.front(), observations.back().pings.back(), ping, fresh)) {
+      observations.push_back(std::move(fresh));
+    }
+    observations.back().pings.push_back(ping);
+  }
+  return observations;
+}
+
+void complete_observation(const SurveyFiles& survey, ObservationFiles& observation, const SurveyParams& params,
+                          const NavigationParams& navigation) {
+  const SurveyPing& first = observation.pings.front();
+  const RawIndex& first_index = survey.files[first.file].index;
+  observation.config = first_index.configs[survey.entry(first).config];
+  observation.transmit = first_index.transmits[survey.entry(first).transmit];
+  auto grid = derive_beam_grid(observation.config, navigation.mounting_azimuth_deg, params.grid_tolerance_deg);
+  if (grid) {
+    observation.grid = std::move(*grid);
+  } else {
+    observation.diagnostics.push_back({DiagnosticCode::no_grid, "", -1, -1, grid.error().text});
+  }
+  complete_range(survey, observation, params);
+
+  std::vector<PingMotion> motions;
+  std::vector<const NavSeries*> series;
+  for (const SurveyPing& ping : observation.pings) {
+    motions.push_back(ping_attitude(survey.entry(ping)));
+    auto& files = observation.files;
+    if (std::find(files.rbegin(), files.rend(), ping.file) == files.rend()) files.push_back(ping.file);
+  }
+  for (const std::uint32_t file : observation.files) {
+    for (const NavSeries& s : survey.files[file].index.navigation) series.push_back(&s);
+  }
+  Navigation placed = navigate(series, motions, observation.config, navigation);
+  observation.navigation = std::move(placed.pings);
+  observation.talkers = std::move(placed.talkers);
+  observation.gps_minus_clock_s = placed.gps_minus_clock_s;
+  for (Diagnostic& note : placed.diagnostics) observation.diagnostics.push_back(std::move(note));
+}
+
+}  // namespace sonar

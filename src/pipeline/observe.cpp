@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/observe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <utility>
+
+#include "base/hash.h"
+#include "pipeline/engine.h"
+#include "pipeline/manual.h"
+#include "pipeline/measure_schools.h"
+#include "school/detect.h"
+#include "school/track.h"
+
+namespace sonar {
+namespace {
+
+PingReach selected(const ObservationFiles& observation, const ObserveOptions& options) {
+  const auto last = static_cast<std::int64_t>(observation.pings.size()) - 1;
+  if (!options.pings) return {0, last};
+  return {std::max<std::int64_t>(0, options.pings->first), std::min(last, options.pings->last)};
+}
+
+void add_number(Hasher& hasher, double value) { hasher.add(std::as_bytes(std::span(&value, 1))); }
+
+void add_navigation(Hasher& hasher, const PingNavigation& at) {
+  add_number(hasher, static_cast<double>(at.time));
+  for (const double value :
+       {at.transducer.latitude_deg, at.transducer.longitude_deg, at.heading_deg, at.speed_mps, at.course_deg,
+        at.distance_nmi, at.pitch_deg, at.roll_deg, at.heave_m, at.transducer_depth_m}) {
+    add_number(hasher, value);
+  }
+}
+
+std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<const SchoolMasks> taken,
+                                     ObservationProduct& product, Work& work) {
+  std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
+  std::vector<std::string> problems(pings.size());
+  std::atomic<std::int64_t> done{0};
+  work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
+    const std::int64_t ping_index = reach.first + i;
+    DetectedPing& detected = pings[static_cast<std::size_t>(i)];
+    detected.ping_index = ping_index;
+    detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
+    detected.placement = engine.placement(ping_index);
+    const auto ping = engine.staged(ping_index);
+    if (!ping) {
+      problems[static_cast<std::size_t>(i)] = ping.error().text;
+    } else {
+      const PingMask humans = voxels_in_ping(taken, ping_index);
+      detected.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
+                                   ping->background(), engine.recipe().detect, &humans);
+    }
+    work.progress("detecting", ++done, static_cast<std::int64_t>(pings.size()));
+  });
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (problems[i].empty()) continue;
+    product.pings[static_cast<std::size_t>(pings[i].ping_index)].bad = true;
+    product.diagnostics.push_back({DiagnosticCode::unreadable, "", -1, pings[i].ping_index, problems[i]});
+  }
+  return pings;
+}
+
+std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const DetectedPing> pings,
+                                         ObservationProduct& product) {
+  const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, engine.recipe().track);
+  std::vector<SchoolMasks> schools;
+  for (const SchoolTrack& of_school : tracks.schools) {
+    SchoolMasks school;
+    for (const TrackedDetection& in_ping : of_school.pings) {
+      const auto ping =
+          std::lower_bound(pings.begin(), pings.end(), in_ping.ping_index,
+                           [](const DetectedPing& a, std::int64_t wanted) { return a.ping_index < wanted; });
+      const double threshold_db = ping->detections[static_cast<std::size_t>(in_ping.detections.front())].threshold_db;
+      school.pings.push_back({in_ping.ping_index, mask_of(in_ping, *ping), threshold_db});
+    }
+    schools.push_back(std::move(school));
+  }
+  for (const TrackEvent& event : tracks.events) {
+    product.diagnostics.push_back({DiagnosticCode::track_event, "", -1, event.ping_index, to_text(event)});
+  }
+  return schools;
+}
+
+void note_schools_without_place(ObservationProduct& product) {
+  const auto lost = std::count_if(product.pings.begin(), product.pings.end(),
+                                  [](const PingNavigation& ping) { return !ping.has_position(); });
+  if (lost == 0 || product.schools.empty()) return;
+  product.diagnostics.push_back({DiagnosticCode::no_position, "", -1, -1,
+                                 fmt::format("{} pings have no position; their schools have no place", lost)});
+}
+
+Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
+  for (Diagnostic& note : engine.calibration_notes()) product.diagnostics.push_back(std::move(note));
+  if (auto done = engine.estimate_background(reach.first, reach.last, work); !done) return done;
+  product.background_db.resize(product.pings.size());
+  for (std::int64_t i = reach.first; i <= reach.last; ++i) {
+    product.background_db[static_cast<std::size_t>(i)] = engine.background_db(i);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string observation_key(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                            const ObserveOptions& options) {
+  Hasher hasher;
+  hasher.add(observation.name);
+  hasher.add(options.program_version);
+  hasher.add(kStageVersions);
+  hasher.add(recipe_hash(recipe));
+  for (const InputFile& file : input_files(survey, observation)) {
+    hasher.add(file.name);
+    hasher.add(file.hash);
+    add_number(hasher, static_cast<double>(file.size));
+  }
+  for (const PingNavigation& at : observation.navigation) add_navigation(hasher, at);
+  const PingReach reach = selected(observation, options);
+  add_number(hasher, static_cast<double>(reach.first));
+  add_number(hasher, static_cast<double>(reach.last));
+  for (const JournalLine& line : options.journal) {
+    if (ping_at(survey, observation, line.ping_time)) hasher.add(journal_text(line));
+  }
+  return to_hex(hasher.value());
+}
+
+ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                                 const ObserveOptions& options) {
+  ObservationProduct product;
+  product.observation = observation.name;
+  product.program_version = options.program_version;
+  product.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
+  product.source = fmt::format("{} {}", observation.config.sounder_name, observation.config.version);
+  product.history = fmt::format("sonar-explorer {}: raw files to schools", options.program_version);
+  product.recipe_json = recipe_text(recipe);
+  product.recipe_hash = recipe_hash(recipe);
+  product.stage_versions = std::string(kStageVersions);
+  product.input_hash = observation_key(survey, observation, recipe, options);
+  product.input_files = input_files(survey, observation);
+  product.pings = observation.navigation;
+  product.diagnostics = observation.diagnostics;
+  for (const std::uint32_t file : observation.files) {
+    const Diagnostics& of_file = survey.files[file].index.diagnostics;
+    product.diagnostics.insert(product.diagnostics.end(), of_file.begin(), of_file.end());
+  }
+  // A product must not change with the folder that the survey happens to lie in.
+  for (Diagnostic& note : product.diagnostics) note.file = std::filesystem::path(note.file).filename().string();
+  if (observation.grid) {
+    product.grid =
+        GridRecord{*observation.grid, observation.sample_count, observation.range, observation.sound_speed_mps};
+  }
+  return product;
+}
+
+Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                                   const ObserveOptions& options, Work& work) {
+  ObservationProduct product = empty_product(survey, observation, recipe, options);
+  const PingReach reach = selected(observation, options);
+  if (!observation.grid || reach.last < reach.first) return product;
+  Engine engine(survey, observation, recipe);
+  if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
+  std::vector<SchoolMasks> schools = replay(engine, options.journal, reach, product.diagnostics);
+  if (recipe.automatic) {
+    const std::vector<DetectedPing> detected = detect_all(engine, reach, schools, product, work);
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    for (SchoolMasks& school : tracked_schools(engine, detected, product)) schools.push_back(std::move(school));
+  }
+  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
+  note_schools_without_place(product);
+  return product;
+}
+
+Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,
+                                     const ObservationProduct& before, const Recipe& recipe,
+                                     const ObserveOptions& options, Work& work) {
+  ObservationProduct product = empty_product(survey, observation, recipe, options);
+  const bool same_pings =
+      before.pings.size() == product.pings.size() && before.grid.has_value() == product.grid.has_value();
+  if (!same_pings) {
+    return fail(ErrorCode::mismatch,
+                fmt::format("{}: the pings are not those of the product: run again", product.observation));
+  }
+  if (!observation.grid) return product;
+  Engine engine(survey, observation, recipe);
+  const PingReach reach = selected(observation, options);
+  if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
+  std::vector<SchoolMasks> schools;
+  for (const SchoolRow& row : before.schools) {
+    SchoolMasks school;
+    school.decided = row;
+    for (const SchoolMask& mask : before.masks) {
+      if (mask.school_id != row.school_id) continue;
+      const auto old = std::find_if(before.school_pings.begin(), before.school_pings.end(), [&](const auto& r) {
+        return r.school_id == row.school_id && r.ping_index == mask.ping_index;
+      });
+      school.pings.push_back(
+          {mask.ping_index, mask.mask, old == before.school_pings.end() ? kUnknown : old->threshold_db});
+    }
+    schools.push_back(std::move(school));
+  }
+  if (auto done = measure_numbered(engine, std::move(schools), product, work); !done) return pass_on(done);
+  note_schools_without_place(product);
+  return product;
+}
+
+}  // namespace sonar

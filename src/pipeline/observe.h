@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "model/product.h"
+#include "pipeline/journal.h"
+#include "pipeline/recipe.h"
+#include "pipeline/survey.h"
+
+namespace sonar {
+
+/// Which results each stage's code gives; a number is raised when its results change. Products of different versions
+/// are not merged.
+inline constexpr std::string_view kStageVersions =
+    "decode 1, flags 1, calibrate 1, background 1, median 1, seabed 1, detect 1, track 1, propagate 1, measure 1, "
+    "summarise 1";
+
+/// Inclusive range of ping indices.
+struct PingSelection {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+};
+
+/// What an observation is processed with, beside its files.
+struct ObserveOptions {
+  std::optional<PingSelection> pings;    ///< empty = all
+  std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
+  std::string program_version;
+};
+
+/// Key of everything that an observation's product depends on; equal key, equal product.
+[[nodiscard]] std::string observation_key(const SurveyFiles& survey, const ObservationFiles& observation,
+                                          const Recipe& recipe, const ObserveOptions& options);
+
+/// One observation from raw files to its product: detected or replayed schools, tracked, measured, summarised.
+/// Pings that cannot be read are marked bad and noted. Without a grid: track and notes only.
+/// errors   cancelled
+/// memory   a few pings per thread, masks and rows; no volume outlives its ping
+[[nodiscard]] Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationFiles& observation,
+                                                 const Recipe& recipe, const ObserveOptions& options, Work& work);
+
+/// The same masks and decisions with every number worked out anew under this recipe's calibration.
+/// before   the product whose masks are kept; must be of the same pings
+/// errors   mismatch: other pings or another grid; cancelled
+[[nodiscard]] Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,
+                                                   const ObservationProduct& before, const Recipe& recipe,
+                                                   const ObserveOptions& options, Work& work);
+
+/// Product without schools: what stands in every product whatever is found.
+[[nodiscard]] ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFiles& observation,
+                                               const Recipe& recipe, const ObserveOptions& options);
+
+}  // namespace sonar

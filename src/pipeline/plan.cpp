@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/plan.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "pipeline/json_file.h"
+
+namespace sonar {
+namespace {
+
+nlohmann::json to_json(const PlanTask& task, std::size_t number) {
+  return {{"task", number},
+          {"observation", task.observation},
+          {"files", task.files},
+          {"pings", task.pings},
+          {"first_time_utc", iso_time(task.first_time)},
+          {"last_time_utc", iso_time(task.last_time)},
+          {"continues_cut", task.continues_cut},
+          {"key", task.key}};
+}
+
+bool is_text_array(const nlohmann::json& json) {
+  if (!json.is_array()) return false;
+  for (const auto& entry : json) {
+    if (!entry.is_string()) return false;
+  }
+  return true;
+}
+
+Result<PlanTask> task_from_json(const nlohmann::json& json, std::size_t number) {
+  const auto wrong = [&](const char* expected) {
+    return fail(ErrorCode::format, fmt::format("tasks[{}]: expected {}", number, expected));
+  };
+  const auto text = [&](const char* member) {
+    return json.contains(member) && json[member].is_string() ? json[member].get<std::string>() : std::string{};
+  };
+  if (!json.is_object()) return wrong("an object");
+  PlanTask task;
+  task.observation = text("observation");
+  if (task.observation.empty()) return wrong("the name of an observation");
+  if (!json.contains("files") || !is_text_array(json["files"])) return wrong("an array files");
+  task.files = json["files"].get<std::vector<std::string>>();
+  if (!json.contains("pings") || !json["pings"].is_number_integer()) return wrong("a whole number pings");
+  task.pings = json["pings"].get<std::int64_t>();
+  task.first_time = time_from_iso(text("first_time_utc")).value_or(0);
+  task.last_time = time_from_iso(text("last_time_utc")).value_or(0);
+  task.continues_cut = json.contains("continues_cut") && json["continues_cut"] == true;
+  task.key = text("key");
+  return task;
+}
+
+Result<Plan> plan_from_json(const nlohmann::json& json) {
+  if (!json.is_object()) return fail(ErrorCode::format, "a plan is a JSON object");
+  if (auto version = check_version(json, "plan_version", kPlanVersion); !version) return pass_on(version);
+  Plan plan;
+  if (!json.contains("survey") || !is_text_array(json["survey"])) {
+    return fail(ErrorCode::format, "survey: expected an array of paths");
+  }
+  plan.survey = json["survey"].get<std::vector<std::string>>();
+  if (json.contains("session") && json["session"].is_string()) plan.session = json["session"].get<std::string>();
+  if (!json.contains("recipe")) return fail(ErrorCode::format, "recipe: expected an object");
+  auto recipe = recipe_from_text(json["recipe"].dump());
+  if (!recipe) return pass_on(recipe);
+  plan.recipe = std::move(*recipe);
+  if (!json.contains("tasks") || !json["tasks"].is_array()) return fail(ErrorCode::format, "tasks: expected an array");
+  for (const auto& entry : json["tasks"]) {
+    auto task = task_from_json(entry, plan.tasks.size());
+    if (!task) return pass_on(task);
+    plan.tasks.push_back(std::move(*task));
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
+               const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
+  Plan plan;
+  for (const std::filesystem::path& path : paths) {
+    plan.survey.push_back(std::filesystem::absolute(path).lexically_normal().string());
+  }
+  if (!session.empty()) plan.session = std::filesystem::absolute(session).lexically_normal().string();
+  plan.recipe = recipe;
+  for (const ObservationFiles& observation : survey.observations) {
+    PlanTask task;
+    task.observation = observation.name;
+    for (const InputFile& file : input_files(survey, observation)) task.files.push_back(file.name);
+    task.pings = static_cast<std::int64_t>(observation.pings.size());
+    task.first_time = observation.navigation.front().time;
+    task.last_time = observation.navigation.back().time;
+    task.continues_cut = observation.continues_cut;
+    task.key = observation_key(survey, observation, recipe, options);
+    plan.tasks.push_back(std::move(task));
+  }
+  return plan;
+}
+
+std::string plan_text(const Plan& plan) {
+  nlohmann::json tasks = nlohmann::json::array();
+  for (const PlanTask& task : plan.tasks) tasks.push_back(to_json(task, tasks.size()));
+  const nlohmann::json json = {{"plan_version", kPlanVersion},
+                               {"survey", plan.survey},
+                               {"session", plan.session},
+                               {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
+                               {"tasks", std::move(tasks)}};
+  return json.dump(2) + "\n";
+}
+
+Result<Plan> read_plan(const std::filesystem::path& path) {
+  const auto json = read_json_file(path.string());
+  if (!json) return pass_on(json);
+  auto plan = plan_from_json(*json);
+  if (!plan) return fail(plan.error().code, plan.error().text, {path.string()});
+  return plan;
+}
+
+}  // namespace sonar

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/time.h"
+#include "pipeline/observe.h"
+#include "pipeline/recipe.h"
+#include "pipeline/survey.h"
+
+namespace sonar {
+
+inline constexpr int kPlanVersion = 1;
+
+/// One observation to be worked on; its number is its place in the plan, from 0.
+struct PlanTask {
+  std::string observation;
+  std::vector<std::string> files;  ///< names without folder
+  std::int64_t pings = 0;
+  TimeNs first_time = 0;
+  TimeNs last_time = 0;
+  bool continues_cut = false;  ///< begun only because the one before reached observation_max_s
+  std::string key;             ///< observation_key(): the product that is right has this input_hash
+};
+
+/// The same work cut into independent tasks; OUT/plan.json.
+struct Plan {
+  std::vector<std::string> survey;  ///< absolute paths of what was given as the survey
+  std::string session;              ///< absolute path of the journal; empty = none
+  Recipe recipe;
+  std::vector<PlanTask> tasks;
+};
+
+/// From headers only.
+[[nodiscard]] Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
+                             const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options);
+[[nodiscard]] std::string plan_text(const Plan& plan);
+/// errors  not_found, io, format, newer_version
+[[nodiscard]] Result<Plan> read_plan(const std::filesystem::path& path);
+
+}  // namespace sonar

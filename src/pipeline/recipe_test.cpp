@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/recipe.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Recipe, TextReadsBackEqual) {
+  for (const char* preset : {"default", "paper"}) {
+    const auto recipe = recipe_preset(preset);
+    ASSERT_TRUE(recipe);
+    const std::string text = recipe_text(*recipe);
+    const auto again = recipe_from_text(text);
+    ASSERT_TRUE(again) << again.error().text;
+    EXPECT_EQ(recipe_text(*again), text);
+    EXPECT_EQ(recipe_hash(*again), recipe_hash(*recipe));
+  }
+  EXPECT_NE(recipe_hash(*recipe_preset("default")), recipe_hash(*recipe_preset("paper")));
+}
+
+TEST(Recipe, PresetsAreWithinTheirOwnRanges) {
+  for (const char* preset : {"default", "paper"}) EXPECT_TRUE(validate(*recipe_preset(preset)));
+  EXPECT_FALSE(recipe_preset("papers"));
+}
+
+TEST(Recipe, PaperKeepsToThePaper) {
+  const Recipe paper = *recipe_preset("paper");
+  EXPECT_EQ(paper.flags.near_field.range_m, 15.0);
+  EXPECT_EQ(paper.flags.surface.mode, SurfaceMode::fan);
+  EXPECT_EQ(paper.median.kernel_samples, 23);
+  EXPECT_EQ(paper.propagate_paper.enlarge_fans, 2);
+  EXPECT_EQ(paper.propagate_paper.enlarge_beams, 4);
+  EXPECT_EQ(paper.propagate_paper.enlarge_samples, 40);
+  EXPECT_FALSE(paper.automatic);
+}
+
+TEST(Recipe, PartOfARecipeKeepsTheOtherDefaults) {
+  const auto recipe = recipe_from_text(R"({"recipe_version":1,"detect":{"floor_db":-55}})");
+  ASSERT_TRUE(recipe) << recipe.error().text;
+  EXPECT_EQ(recipe->detect.floor_db, -55.0);
+  EXPECT_EQ(recipe->detect.tolerance_db, Recipe{}.detect.tolerance_db);
+}
+
+struct Refusal {
+  const char* text;
+  ErrorCode code;
+  const char* names;
+};
+
+TEST(Recipe, RefusesByName) {
+  for (const Refusal& refusal : {
+           Refusal{"{", ErrorCode::format, "JSON"},
+           Refusal{"[]", ErrorCode::format, "object"},
+           Refusal{R"({"detect":{}})", ErrorCode::format, "recipe_version"},
+           Refusal{R"({"recipe_version":99})", ErrorCode::newer_version, "99"},
+           Refusal{R"({"recipe_version":1,"detect":{"flor_db":-55}})", ErrorCode::format, "detect.flor_db"},
+           Refusal{R"({"recipe_version":1,"detect":{"floor_db":"low"}})", ErrorCode::format, "detect.floor_db"},
+           Refusal{R"({"recipe_version":1,"median":{"kernel_fans":65}})", ErrorCode::bad_parameter,
+                   "median.kernel_fans"},
+           Refusal{R"({"recipe_version":1,"grow":{"mode":"fast"}})", ErrorCode::format, "tracked, paper"},
+           Refusal{R"({"recipe_version":1,"growth_curve":{"tf_version":1,"points":[]}})", ErrorCode::bad_parameter,
+                   "growth_curve"},
+       }) {
+    const auto recipe = recipe_from_text(refusal.text);
+    ASSERT_FALSE(recipe) << refusal.text;
+    EXPECT_EQ(recipe.error().code, refusal.code) << refusal.text;
+    EXPECT_THAT(recipe.error().text, HasSubstr(refusal.names));
+  }
+}
+
+TEST(Recipe, CalibrationStandsInsideByContent) {
+  Recipe recipe;
+  recipe.calibration.beams = {{3, 20.5, -1.25, 0.5}, {4, kUnknown, 0.0, 0.0}};
+  const auto again = recipe_from_text(recipe_text(recipe));
+  ASSERT_TRUE(again) << again.error().text;
+  ASSERT_EQ(again->calibration.beams.size(), 2U);
+  EXPECT_EQ(again->calibration.beams[0], recipe.calibration.beams[0]);
+  EXPECT_TRUE(std::isnan(again->calibration.beams[1].gain_db));
+  EXPECT_NE(recipe_hash(recipe), recipe_hash(Recipe{}));
+}
+
+}  // namespace
+}  // namespace sonar

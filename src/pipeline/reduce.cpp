@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/reduce.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "base/units.h"
+#include "io/atomic_file.h"
+#include "io/simrad/raw0.h"
+#include "io/simrad/scanner.h"
+#include "io/simrad/writer.h"
+#include "pipeline/engine.h"
+#include "pipeline/reduce_ping.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int16_t kMissing = -20000;
+constexpr std::size_t kFlushBytes = 4U << 20U;
+
+/// A ping that stays.
+struct KeptPing {
+  std::size_t observation = 0;  ///< in the list of observations
+  std::size_t ping_index = 0;
+  std::vector<const PingMask*> masks;  ///< empty: no samples stay
+  bool keeps_ends = false;             ///< the first after a gap shows how far the beams reach
+};
+
+/// An observation being reduced, with the stages that tell faulty samples.
+struct Reduced {
+  const ObservationFiles* files = nullptr;
+  const ObservationProduct* product = nullptr;
+  std::unique_ptr<Engine> engine;
+  std::map<std::size_t, KeptPing> pings;  ///< by ping index
+};
+
+/// Kept pings of one file by time stamp.
+using KeptOfFile = std::map<TimeNs, const KeptPing*>;
+
+Result<void> same_pings(const ObservationFiles& files, const ObservationProduct& product) {
+  const auto wrong = [&](std::string text) {
+    return fail(ErrorCode::mismatch, fmt::format("{}: {}", product.observation, std::move(text)));
+  };
+  if (!files.grid || !product.grid || files.grid->channel != product.grid->grid.channel) {
+    return wrong("the raw files have another beam grid than the product");
+  }
+  if (files.pings.size() != product.pings.size()) {
+    return wrong(fmt::format("{} pings in the raw files, {} in the product", files.pings.size(), product.pings.size()));
+  }
+  for (std::size_t i = 0; i < product.pings.size(); ++i) {
+    if (files.navigation[i].time != product.pings[i].time) return wrong("the pings have other times");
+  }
+  return {};
+}
+
+/// Which pings stay: all of a school from its first to its last, and some beside them.
+void choose_pings(const ObservationProduct& product, std::size_t observation, const ReduceParams& params,
+                  Reduced& out) {
+  const auto last_ping = static_cast<std::int64_t>(product.pings.size()) - 1;
+  std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> spans;
+  for (const SchoolMask& m : product.masks) {
+    if (m.mask.empty()) continue;
+    const auto [span, is_new] = spans.try_emplace(m.school_id, m.ping_index, m.ping_index);
+    span->second.first = std::min(span->second.first, m.ping_index);
+    span->second.second = std::max(span->second.second, m.ping_index);
+    out.pings[static_cast<std::size_t>(m.ping_index)].masks.push_back(&m.mask);
+  }
+  for (const auto& [school, span] : spans) {
+    for (std::int64_t i = span.first - params.margin_pings; i <= span.second + params.margin_pings; ++i) {
+      if (i >= 0 && i <= last_ping) out.pings.try_emplace(static_cast<std::size_t>(i));
+    }
+  }
+  std::size_t expected = 0;
+  for (auto& [index, ping] : out.pings) {
+    ping.observation = observation;
+    ping.ping_index = index;
+    ping.keeps_ends = index == 0 || index != expected;
+    expected = index + 1;
+  }
+}
+
+/// The channel with what is left of its row; nothing where nothing is.
+Result<void> append_channel(RawBytes& bytes, TimeNs time, ChannelPing head, std::span<const std::int16_t> row,
+                            const ReducedRow& record, bool even_if_empty) {
+  std::size_t first = 0;
+  std::size_t end = row.size();
+  while (end > 0 && row[end - 1] == kNoData) --end;
+  while (first < end && row[first] == kNoData) ++first;
+  if (first == end && !even_if_empty) return {};
+  std::vector<std::int16_t> counts(row.begin() + static_cast<std::ptrdiff_t>(first),
+                                   row.begin() + static_cast<std::ptrdiff_t>(end));
+  std::replace(counts.begin(), counts.end(), kNoData, kMissing);
+  if (counts.empty()) counts.push_back(kMissing);
+  head.offset = static_cast<int>(first);
+  head.power_count = counts;
+  head.reduced = record;
+  return append_raw0(bytes, time, head);
+}
+
+/// Copies one file, datagram by datagram.
+class FileReducer {
+ public:
+  FileReducer(std::vector<Reduced>& observations, const ReduceParams& params, const KeptOfFile& kept,
+              RawFileWriter& out)
+      : observations_(observations), params_(params), kept_(kept), out_(out) {}
+
+  void visit(const simrad::Datagram& datagram) {
+    if (!status_) return;
+    if (datagram.type != "RAW0") {
+      status_ = append_datagram(bytes_, datagram.time, datagram.type, datagram.body);
+    } else {
+      status_ = channel(datagram);
+    }
+    if (status_ && bytes_.size() >= kFlushBytes) flush();
+  }
+
+  Result<void> finish() {
+    if (status_) flush();
+    if (!status_) return status_;
+    return out_.finish();
+  }
+
+ private:
+  void flush() {
+    status_ = out_.write(bytes_);
+    bytes_.clear();
+  }
+
+  Result<void> channel(const simrad::Datagram& datagram) {
+    const auto kept = kept_.find(datagram.time);
+    if (kept == kept_.end()) return {};
+    const simrad::Raw0 raw = simrad::parse_raw0(datagram.body);
+    if (raw.problem != nullptr) return {};
+    Reduced& observation = observations_[kept->second->observation];
+    const bool is_first = ping_ != kept->second;
+    if (is_first) {
+      const KeptPing& ping = *kept->second;
+      const std::vector<float> none;
+      const auto& levels = observation.product->background_db;
+      auto reduced = reduce_ping(*observation.engine, static_cast<std::int64_t>(ping.ping_index), ping.masks,
+                                 levels.empty() ? none : levels[ping.ping_index], ping.keeps_ends, params_);
+      if (!reduced) return pass_on(reduced);
+      ping_rows_ = std::move(*reduced);
+      row_of_channel_ = observation.files->grid->row_of_channel();
+      ping_ = kept->second;
+    }
+    if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
+    const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
+    // A ping's first channel tells of roll, heave and heading: it stays in any case.
+    return append_channel(bytes_, datagram.time, raw.head, std::as_const(ping_rows_.counts).view().row(row),
+                          ping_rows_.record[static_cast<std::size_t>(row)], is_first);
+  }
+
+  std::vector<Reduced>& observations_;
+  const ReduceParams& params_;
+  const KeptOfFile& kept_;
+  RawFileWriter& out_;
+  RawBytes bytes_;
+  ReducedPing ping_rows_;
+  std::vector<int> row_of_channel_;
+  const KeptPing* ping_ = nullptr;
+  Result<void> status_;
+};
+
+Result<void> check_destination(const SurveyFiles& survey, const fs::path& dest) {
+  std::error_code error;
+  const fs::path there = fs::weakly_canonical(dest, error);
+  for (const SurveyFile& file : survey.files) {
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file.path, error).parent_path(), error);
+    const auto [at, ignored] = std::mismatch(folder.begin(), folder.end(), there.begin(), there.end());
+    if (at == folder.end()) {
+      return fail(ErrorCode::usage, "reduced files do not go into the folder of the raw files",
+                  {.file = dest.string()});
+    }
+  }
+  return {};
+}
+
+Result<std::vector<Reduced>> choose(const SurveyFiles& survey, std::span<const ObservationProduct> products,
+                                    const Recipe& recipe, const ReduceParams& params) {
+  std::vector<Reduced> observations;
+  for (const ObservationProduct& product : products) {
+    if (product.masks.empty()) continue;
+    const ObservationFiles* files = survey.find(product.observation);
+    if (files == nullptr) {
+      return fail(ErrorCode::mismatch, fmt::format("{}: the raw files have no such observation", product.observation));
+    }
+    if (auto same = same_pings(*files, product); !same) return pass_on(same);
+    Reduced reduced;
+    reduced.files = files;
+    reduced.product = &product;
+    reduced.engine = std::make_unique<Engine>(survey, *files, recipe);
+    choose_pings(product, observations.size(), params, reduced);
+    observations.push_back(std::move(reduced));
+  }
+  return observations;
+}
+
+std::map<std::uint32_t, KeptOfFile> by_file(const SurveyFiles& survey, const std::vector<Reduced>& observations) {
+  std::map<std::uint32_t, KeptOfFile> kept;
+  for (const Reduced& observation : observations) {
+    for (const auto& [index, ping] : observation.pings) {
+      const SurveyPing& at = observation.files->pings[index];
+      kept[at.file][survey.entry(at).time] = &ping;
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const ObservationProduct> products,
+                                   const Recipe& recipe, const fs::path& dest, const ReduceParams& params, Work& work) {
+  if (auto checked = check_destination(survey, dest); !checked) return pass_on(checked);
+  auto observations = choose(survey, products, recipe, params);
+  if (!observations) return pass_on(observations);
+  const auto kept = by_file(survey, *observations);
+  std::error_code error;
+  fs::create_directories(dest, error);
+  if (error) return fail(ErrorCode::io, error.message(), {.file = dest.string()});
+  ReduceReport report;
+  for (std::uint32_t f = 0; f < survey.files.size(); ++f) {
+    const SurveyFile& file = survey.files[f];
+    if (file.error || file.index.format != RawFormat::simrad) continue;
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto source = open_file(file.path);
+    if (!source) return pass_on(source);
+    auto out = RawFileWriter::create(dest / file.path.filename());
+    if (!out) return pass_on(out);
+    const auto of_file = kept.find(f);
+    const KeptOfFile none;
+    FileReducer copy(*observations, params, of_file == kept.end() ? none : of_file->second, *out);
+    simrad::Scanner scanner;
+    simrad::Notes notes;
+    auto scanned = scanner.finish(
+        **source, [&](const simrad::Datagram& d) { copy.visit(d); }, notes);
+    if (scanned) scanned = copy.finish();
+    if (!scanned) return pass_on(scanned);
+    report.files.push_back(out->path());
+    report.pings_before += std::ssize(file.index.pings);
+    report.pings_kept += of_file == kept.end() ? 0 : std::ssize(of_file->second);
+    report.bytes_before += file.index.size;
+    report.bytes_kept += out->size();
+    work.progress("reduce", static_cast<std::int64_t>(f) + 1, static_cast<std::int64_t>(survey.files.size()));
+  }
+  return report;
+}
+
+}  // namespace sonar

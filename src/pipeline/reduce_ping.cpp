@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/reduce_ping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+
+#include "base/units.h"
+#include "pipeline/reduced_ping.h"
+#include "school/candidates.h"
+#include "school/runs.h"
+
+namespace sonar {
+namespace {
+
+/// How far a box is enlarged on each side.
+struct Reach {
+  int fans = 0;
+  int beams = 0;
+  int samples = 0;
+};
+
+/// Detection looks no further round a candidate than this (PingDetector), and takes candidates from no lower than this
+/// below its thresholds.
+constexpr Reach kDetectionReach{2, 3, 40};
+constexpr double kCandidateSlack_db = 2.0;
+
+bool meet(const IndexBox& a, const IndexBox& b) {
+  return a.first_fan <= b.last_fan && b.first_fan <= a.last_fan && a.first_beam <= b.last_beam &&
+         b.first_beam <= a.last_beam && a.first_sample <= b.last_sample && b.first_sample <= a.last_sample;
+}
+
+IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
+  return box.enlarged(by.fans, by.beams, by.samples).clipped(shape);
+}
+
+/// Boxes in which detection looked for what it found, round each candidate of the ping.
+std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams& params) {
+  const Shape3 shape = ping.filtered->counts.shape();
+  const Background background = ping.background();
+  const Thresholder thresholder(ping.filtered->counts.view(), ping.filtered->flags.view(), background, nullptr);
+  const std::vector<Run> runs =
+      thresholder.candidates(params.floor_db - kCandidateSlack_db, params.background_margin_db - kCandidateSlack_db);
+  const Components parts = label_runs(runs, shape, params.connectivity);
+  std::vector<PingMask> masks(static_cast<std::size_t>(parts.count));
+  std::vector<int> voxels(masks.size(), 0);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto part = static_cast<std::size_t>(parts.label[i]);
+    masks[part].runs.push_back(runs[i]);
+    voxels[part] += runs[i].count;
+  }
+  std::vector<IndexBox> boxes;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    if (voxels[i] >= params.min_samples)
+      boxes.push_back(enlarged(box_of(masks[i], shape.beams), kDetectionReach, shape));
+  }
+  return boxes;
+}
+
+/// The boxes that meet a mask, and those that meet one of these: stronger neighbours take their voxels first.
+std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const DetectParams& params,
+                                     const std::vector<const PingMask*>& masks) {
+  const Shape3 shape = ping.filtered->counts.shape();
+  const std::vector<IndexBox> all = candidate_boxes(ping, params);
+  std::vector<IndexBox> of_masks;
+  for (const PingMask* mask : masks) of_masks.push_back(enlarged(box_of(*mask, shape.beams), kDetectionReach, shape));
+  const auto those_that_meet = [&](const std::vector<IndexBox>& wanted) {
+    std::vector<IndexBox> out;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out), [&](const IndexBox& box) {
+      return std::any_of(wanted.begin(), wanted.end(), [&](const IndexBox& w) { return meet(box, w); });
+    });
+    return out;
+  };
+  std::vector<IndexBox> boxes = those_that_meet(those_that_meet(of_masks));
+  boxes.insert(boxes.end(), of_masks.begin(), of_masks.end());
+  return boxes;
+}
+
+class Keeper {
+ public:
+  Keeper(const PowerVolume& whole, const StagedPing& ping, ReducedPing& out)
+      : whole_(whole), ping_(ping), shape_(whole.volume.counts.shape()), out_(out) {}
+
+  void keep_box(const IndexBox& box) {
+    for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
+      for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
+        keep(fan, beam, box.first_sample, box.last_sample + 1);
+      }
+    }
+  }
+
+  /// The corrected sizes look at a mask's beams through all its fans and some more.
+  void keep_surroundings(const PingMask& mask, const MeasureParams& params) {
+    const IndexBox box = box_of(mask, shape_.beams);
+    const int first_fan = std::max(0, box.first_fan - params.reach_fans);
+    const int last_fan = std::min(shape_.fans - 1, box.last_fan + params.reach_fans);
+    for (const Run& run : mask.runs) {
+      const int beam = run.row % shape_.beams;
+      for (int b = std::max(0, beam - params.reach_beams); b <= std::min(shape_.beams - 1, beam + params.reach_beams);
+           ++b) {
+        for (int f = first_fan; f <= last_fan; ++f) {
+          keep(f, b, run.first_sample - params.reach_samples, run.end() + params.reach_samples);
+        }
+      }
+    }
+  }
+
+ private:
+  void keep(int fan, int beam, int first, int end) {
+    const auto from = whole_.volume.counts.row(fan, beam);
+    const auto flags = std::as_const(ping_.sv.flags).row(fan, beam);
+    const auto to = out_.counts.row(fan, beam);
+    for (int s = std::max(0, first); s < std::min(shape_.samples, end); ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      to[i] = any(flags[i] & kFault) ? kReducedFault : from[i];
+    }
+  }
+
+  const PowerVolume& whole_;
+  const StagedPing& ping_;
+  Shape3 shape_;
+  ReducedPing& out_;
+};
+
+int recorded_end(std::span<const std::int16_t> row) {
+  auto end = static_cast<int>(row.size());
+  while (end > 0 && row[static_cast<std::size_t>(end - 1)] == kNoData) --end;
+  return end;
+}
+
+/// In each fan the last sample of its longest beam.
+void keep_last_samples(const Array3<std::int16_t>& counts, Array3<std::int16_t>& out) {
+  for (int fan = 0; fan < counts.shape().fans; ++fan) {
+    int longest = 0;
+    int end = 0;
+    for (int beam = 0; beam < counts.shape().beams; ++beam) {
+      const int here = recorded_end(counts.row(fan, beam));
+      if (here <= end) continue;
+      end = here;
+      longest = beam;
+    }
+    if (end > 0) out(fan, longest, end - 1) = counts(fan, longest, end - 1);
+  }
+}
+
+/// The mean of each block of which nothing is kept stands for it, at its first sample.
+void keep_coarse(const Array3<std::int16_t>& counts, int block, Array3<std::int16_t>& out) {
+  const auto step = static_cast<std::size_t>(block);
+  for (int row = 0; row < static_cast<int>(counts.shape().rows()); ++row) {
+    const auto from = counts.view().row(row);
+    const auto to = out.view().row(row);
+    for (std::size_t first = 0; first < from.size(); first += step) {
+      const std::size_t end = std::min(from.size(), first + step);
+      double sum = 0.0;
+      int data = 0;
+      bool untouched = true;
+      for (std::size_t i = first; i < end; ++i) {
+        untouched = untouched && to[i] == kNoData;
+        if (from[i] == kNoData) continue;
+        sum += linear_from_count(from[i]);
+        ++data;
+      }
+      if (!untouched || data == 0) continue;
+      const double mean = std::clamp<double>(counts_from_db(db_from_linear(sum / data)), kMinCount + 1, kMaxCount);
+      to[first] = static_cast<std::int16_t>(std::lround(mean));
+    }
+  }
+}
+
+void fill_record(const PowerVolume& whole, const Seabed& seabed, const std::vector<float>& background_db,
+                 ReducedPing& out) {
+  out.record.resize(whole.volume.counts.shape().rows());
+  for (std::size_t row = 0; row < out.record.size(); ++row) {
+    ReducedRow& record = out.record[row];
+    record.background_db = background_db.empty() ? std::numeric_limits<float>::quiet_NaN() : background_db[row];
+    record.recorded_samples = recorded_end(whole.volume.counts.view().row(static_cast<int>(row)));
+    record.seabed_sample = seabed.found ? seabed.first_sample[row] : whole.volume.counts.shape().samples;
+  }
+}
+
+}  // namespace
+
+Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const std::vector<const PingMask*>& masks,
+                                const std::vector<float>& background_db, bool keeps_ends, const ReduceParams& params) {
+  const auto whole = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(ping_index));
+  if (!whole) return pass_on(whole);
+  ReducedPing out;
+  out.counts = Array3<std::int16_t>(whole->volume.counts.shape(), kNoData);
+  Seabed seabed;
+  if (!masks.empty()) {
+    auto staged = engine.staged(ping_index);
+    if (!staged) return pass_on(staged);
+    staged->background_db.clear();
+    for (const float level_db : background_db) {
+      staged->background_db.push_back(static_cast<double>(level_db));
+    }
+    seabed = staged->seabed;
+    const Recipe& recipe = engine.recipe();
+    const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,
+                      recipe.median.kernel_beams / 2 + params.margin_beams,
+                      recipe.median.kernel_samples / 2 + params.margin_samples};
+    Keeper keeper(*whole, *staged, out);
+    for (const IndexBox& box : deciding_boxes(*staged, recipe.detect, masks)) {
+      keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
+    }
+    for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
+  }
+  if (keeps_ends) keep_last_samples(whole->volume.counts, out.counts);
+  if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
+  fill_record(*whole, seabed, background_db, out);
+  return out;
+}
+
+}  // namespace sonar

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/array.h"
+#include "base/result.h"
+#include "model/mask.h"
+#include "model/ping.h"
+#include "pipeline/engine.h"
+#include "pipeline/reduce.h"
+
+namespace sonar {
+
+/// What stays of one ping.
+struct ReducedPing {
+  Array3<std::int16_t> counts;     ///< power counts; kNoData = left out, kReducedFault = was faulty
+  std::vector<ReducedRow> record;  ///< [row]
+};
+
+/// Picks the samples that decide about the masks of one ping.
+/// background_db  of the product, by row; empty = none
+/// keeps_ends     keep the last sample of each fan's longest beam, which tells how far the beams reached
+/// errors         as load_volume()
+[[nodiscard]] Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index,
+                                              const std::vector<const PingMask*>& masks,
+                                              const std::vector<float>& background_db, bool keeps_ends,
+                                              const ReduceParams& params);
+
+}  // namespace sonar

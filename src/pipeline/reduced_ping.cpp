@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/reduced_ping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+/// Calls body(row, record) for every beam of the grid that has a record.
+template <class Body>
+void for_each_record(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, const Body& body) {
+  for (const ChannelPing& head : heads) {
+    if (!head.reduced || head.channel < 0 || static_cast<std::size_t>(head.channel) >= row_of_channel.size()) continue;
+    const int row = row_of_channel[static_cast<std::size_t>(head.channel)];
+    if (row >= 0) body(row, *head.reduced);
+  }
+}
+
+}  // namespace
+
+bool is_reduced(std::span<const ChannelPing> heads) {
+  return std::any_of(heads.begin(), heads.end(), [](const ChannelPing& head) { return head.reduced.has_value(); });
+}
+
+void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, Volume& volume) {
+  const auto counts = volume.counts.all();
+  const auto flags = volume.flags.all();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    // Reading clamps kReducedFault to the least count there is.
+    const bool faulty = counts[i] == kMinCount;
+    if (counts[i] == kNoData) counts[i] = kMinCount;
+    if (faulty) counts[i] = kNoData;
+    flags[i] = faulty ? SampleFlags::lost : SampleFlags::none;
+  }
+  for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    const auto in_row = volume.counts.view().row(row);
+    const auto row_flags = volume.flags.view().row(row);
+    for (auto s = static_cast<std::size_t>(record.recorded_samples); s < in_row.size(); ++s) {
+      in_row[s] = kNoData;
+      row_flags[s] = SampleFlags::lost;
+    }
+  });
+}
+
+void fill_reduced(Volume& volume) {
+  const auto counts = volume.counts.all();
+  const auto flags = volume.flags.all();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == kNoData && !any(flags[i] & SampleFlags::lost)) counts[i] = kMinCount;
+  }
+}
+
+std::vector<float> reduced_background_db(std::span<const ChannelPing> heads, std::span<const int> row_of_channel) {
+  std::vector<float> levels(row_of_channel.size(), std::numeric_limits<float>::quiet_NaN());
+  for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    if (std::isfinite(record.background_db)) levels[static_cast<std::size_t>(row)] = record.background_db;
+  });
+  return levels;
+}
+
+void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
+                         View3<SampleFlags> flags) {
+  for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    const auto row_flags = flags.row(row);
+    const auto end = std::min(row_flags.size(), static_cast<std::size_t>(record.recorded_samples));
+    for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) row_flags[s] |= SampleFlags::seabed;
+  });
+}
+
+}  // namespace sonar

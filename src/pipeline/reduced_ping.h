@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/ping.h"
+#include "model/volume.h"
+#include "pipeline/load_volume.h"
+#include "school/seabed.h"
+
+namespace sonar {
+
+// A reduced raw file holds what decides about its schools, and for each stored beam what was worked out from the whole
+// ping: background, seabed, recorded length (ReducedRow). What of a beam was left out counts as water without echo,
+// never as faulty; a sample that was faulty in the whole ping holds kReducedFault.
+
+/// Power count of a sample that was flagged as faulty before the file was reduced.
+inline constexpr std::int16_t kReducedFault = -32767;
+
+/// Whether a ping comes from a reduced file.
+[[nodiscard]] bool is_reduced(std::span<const ChannelPing> heads);
+
+/// Puts a reduced ping's volume in the place of the whole one: what was left out becomes the weakest power there is,
+/// without flags; faulty samples and those beyond a beam's recorded end become kNoData and lost.
+/// volume  as load_volume() gave it: power counts and flags
+void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, Volume& volume);
+
+/// After calibration: beams that were left out have no calibration, but are water without echo as well.
+void fill_reduced(Volume& volume);
+
+/// Background of the whole ping by row; NaN where the ping has no such beam.
+[[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
+                                                       std::span<const int> row_of_channel);
+
+/// Flags seabed from where it began in the whole ping on. (The plane itself is not known any more.)
+void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
+                         View3<SampleFlags> flags);
+
+}  // namespace sonar

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/reduced_ping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/units.h"
+#include "io/simrad/raw0.h"
+#include "io/simrad/writer_datagrams.h"
+
+namespace sonar {
+namespace {
+
+ChannelPing head(int channel, ReducedRow record) {
+  ChannelPing p;
+  p.channel = channel;
+  p.sample_interval_s = 0.000512;
+  p.sound_speed_mps = 1490.0;
+  p.reduced = record;
+  return p;
+}
+
+TEST(ReducedPing, record_survives_the_file) {
+  const std::vector<std::int16_t> counts = {-12000, kReducedFault, -20000};
+  ChannelPing p = head(4, {-151.25F, 700, 1324});
+  p.offset = 77;
+  p.power_count = counts;
+  RawBytes bytes;
+  ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
+  const std::span<const std::byte> body = std::span(bytes).subspan(16, bytes.size() - 20);
+  const simrad::Raw0 back = simrad::parse_raw0(body);
+  ASSERT_EQ(back.problem, nullptr);
+  EXPECT_EQ(back.head.reduced, p.reduced);
+  EXPECT_EQ(back.count(), 3);
+  EXPECT_EQ(back.head.offset, 77);
+  p.reduced.reset();
+  bytes.clear();
+  ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
+  EXPECT_FALSE(simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20)).head.reduced);
+}
+
+TEST(ReducedPing, what_was_left_out_is_water_and_what_was_faulty_is_lost) {
+  // Row 0 has a record: five samples recorded, the third left out, the fourth faulty. Row 1 is not in the file.
+  Volume volume{Array3<std::int16_t>({1, 2, 6}, kNoData), Array3<SampleFlags>({1, 2, 6}, SampleFlags::lost)};
+  volume.counts(0, 0, 0) = -12000;
+  volume.counts(0, 0, 1) = -12001;
+  volume.counts(0, 0, 3) = kMinCount;  // kReducedFault as it is read
+  volume.counts(0, 0, 4) = -12002;
+  const std::vector<ChannelPing> heads = {head(1, {-150.0F, 4, 5})};
+  const std::vector<int> row_of_channel = {1, 0};
+  EXPECT_TRUE(is_reduced(heads));
+  open_reduced(heads, row_of_channel, volume);
+  const std::vector<std::int16_t> wanted = {-12000, -12001, kMinCount, kNoData, -12002, kNoData};
+  const auto row = volume.counts.row(0, 0);
+  EXPECT_EQ(std::vector<std::int16_t>(row.begin(), row.end()), wanted);
+  EXPECT_EQ(volume.flags(0, 0, 2), SampleFlags::none);
+  EXPECT_EQ(volume.flags(0, 0, 3), SampleFlags::lost);
+  EXPECT_EQ(volume.flags(0, 0, 5), SampleFlags::lost);
+  EXPECT_EQ(volume.counts(0, 1, 3), kMinCount);
+  EXPECT_EQ(volume.flags(0, 1, 3), SampleFlags::none);
+
+  const std::vector<float> levels = reduced_background_db(heads, row_of_channel);
+  EXPECT_EQ(levels[0], -150.0F);
+  EXPECT_TRUE(std::isnan(levels[1]));
+  flag_reduced_seabed(heads, row_of_channel, volume.flags.view());
+  EXPECT_EQ(volume.flags(0, 0, 3), SampleFlags::lost);
+  EXPECT_EQ(volume.flags(0, 0, 4), SampleFlags::seabed);
+  EXPECT_FALSE(any(volume.flags(0, 1, 4) & SampleFlags::seabed));
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+
+namespace sonar {
+namespace {
+
+constexpr TimeNs kSamePing_ns = 1'000'000;
+
+using SchoolKey = std::pair<std::size_t, std::int64_t>;               ///< observation, school
+using PingKey = std::tuple<std::size_t, std::int64_t, std::int64_t>;  ///< observation, school, ping
+
+/// One side with its masks by channel (grids may number rows differently) and its rows at hand.
+struct Indexed {
+  std::map<PingKey, const SchoolPingRow*> rows;
+  std::map<PingKey, PingMask> masks;
+  std::map<SchoolKey, const SchoolRow*> schools;
+  std::map<std::pair<std::size_t, std::int64_t>, std::vector<std::int64_t>> in_ping;  ///< (observation, ping): schools
+  std::map<TimeNs, std::pair<std::size_t, std::int64_t>> pings;
+};
+
+PingMask by_channel(const PingMask& mask, const std::vector<int>& channel) {
+  struct Piece {
+    Run run;
+    std::size_t first;
+  };
+  std::vector<Piece> pieces;
+  std::size_t voxel = 0;
+  for (const Run& run : mask.runs) {
+    pieces.push_back({{channel[static_cast<std::size_t>(run.row)], run.first_sample, run.count}, voxel});
+    voxel += static_cast<std::size_t>(run.count);
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.run < b.run; });
+  PingMask out;
+  for (const Piece& piece : pieces) {
+    out.runs.push_back(piece.run);
+    const auto first = mask.confidence.begin() + static_cast<std::ptrdiff_t>(piece.first);
+    out.confidence.insert(out.confidence.end(), first, first + piece.run.count);
+  }
+  return out;
+}
+
+Indexed index_side(const ScoreSide& side) {
+  Indexed out;
+  for (std::size_t o = 0; o < side.observations.size(); ++o) {
+    const ObservationProduct& product = side.observations[o];
+    std::set<std::int64_t> rejected;
+    for (const SchoolRow& school : product.schools) {
+      if (school.status == "rejected") {
+        rejected.insert(school.school_id);
+      } else {
+        out.schools[{o, school.school_id}] = &school;
+      }
+    }
+    for (const SchoolPingRow& row : product.school_pings) {
+      if (!rejected.contains(row.school_id)) out.rows[{o, row.school_id, row.ping_index}] = &row;
+    }
+    if (!product.grid) continue;
+    for (const SchoolMask& m : product.masks) {
+      if (m.mask.empty() || rejected.contains(m.school_id)) continue;
+      out.masks[{o, m.school_id, m.ping_index}] = by_channel(m.mask, product.grid->grid.channel);
+      out.in_ping[{o, m.ping_index}].push_back(m.school_id);
+    }
+    for (std::size_t p = 0; p < product.pings.size(); ++p) {
+      out.pings[product.pings[p].time] = {o, static_cast<std::int64_t>(p)};
+    }
+  }
+  return out;
+}
+
+std::optional<std::pair<std::size_t, std::int64_t>> ping_at(const Indexed& side, TimeNs time) {
+  const auto found = side.pings.lower_bound(time - kSamePing_ns);
+  if (found == side.pings.end() || found->first > time + kSamePing_ns) return std::nullopt;
+  return found->second;
+}
+
+/// A true school in one ping and what was found there.
+struct PingPair {
+  std::int64_t ping_index = 0;  ///< of the truth
+  const PingMask* truth = nullptr;
+  const SchoolPingRow* truth_row = nullptr;
+  bool unclipped = false;
+  std::size_t found_observation = 0;
+  std::int64_t found_ping = -1;      ///< -1 = this ping is not in the result
+  std::optional<SchoolKey> partner;  ///< largest overlap
+  std::size_t overlap = 0;
+};
+
+bool is_unclipped(const SchoolPingRow* row) { return row == nullptr || row->touches_edge == 0; }
+
+PingPair pair_ping(const Indexed& found, const Indexed& truth, const ScoreSide& truth_side, const PingKey& key) {
+  PingPair pair;
+  const auto& [observation, school_id, ping_index] = key;
+  pair.ping_index = ping_index;
+  pair.truth = &truth.masks.at(key);
+  const auto row = truth.rows.find(key);
+  pair.truth_row = row == truth.rows.end() ? nullptr : row->second;
+  pair.unclipped = is_unclipped(pair.truth_row);
+  const TimeNs time = truth_side.observations[observation].pings[static_cast<std::size_t>(ping_index)].time;
+  const auto there = ping_at(found, time);
+  if (!there) return pair;
+  pair.found_observation = there->first;
+  pair.found_ping = there->second;
+  const auto schools = found.in_ping.find(*there);
+  if (schools == found.in_ping.end()) return pair;
+  for (const std::int64_t id : schools->second) {
+    const PingMask& mask = found.masks.at({there->first, id, there->second});
+    const std::size_t shared = overlap(mask, *pair.truth);
+    if (shared <= pair.overlap || dice(mask, *pair.truth) < kPairDice) continue;
+    pair.overlap = shared;
+    pair.partner = SchoolKey{there->first, id};
+  }
+  return pair;
+}
+
+/// The track that is the partner in most pings; among equals the larger overlap, then the lower number.
+std::optional<SchoolKey> track_partner(const std::vector<PingPair>& pairs) {
+  std::map<SchoolKey, std::pair<std::size_t, std::size_t>> votes;
+  for (const PingPair& pair : pairs) {
+    if (!pair.partner) continue;
+    auto& [pings, voxels] = votes[*pair.partner];
+    ++pings;
+    voxels += pair.overlap;
+  }
+  std::optional<SchoolKey> best;
+  for (const auto& [key, vote] : votes) {
+    if (!best || vote > votes[*best]) best = key;
+  }
+  return best;
+}
+
+bool spans_enough(const PingMask& mask, const std::vector<int>& row_of_channel, int beams_of_grid) {
+  std::set<int> beams;
+  std::set<int> fans;
+  std::int32_t first = mask.runs.front().first_sample;
+  std::int32_t last = first;
+  for (const Run& run : mask.runs) {
+    const int row = row_of_channel[static_cast<std::size_t>(run.row)];
+    beams.insert(row % beams_of_grid);
+    fans.insert(row / beams_of_grid);
+    first = std::min(first, run.first_sample);
+    last = std::max(last, run.end());
+  }
+  return std::ssize(beams) >= kCountedBeams && std::ssize(fans) >= kCountedFans && last - first >= kCountedSamples;
+}
+
+double median_of(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return kUnknown;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+/// Sums of one figure over the pings that have it on both sides.
+class PairedMeans {
+ public:
+  void add(double found, double truth) {
+    if (!std::isfinite(found) || !std::isfinite(truth)) return;
+    found_ += found;
+    truth_ += truth;
+  }
+  [[nodiscard]] double ratio() const { return truth_ > 0.0 ? found_ / truth_ : kUnknown; }
+  [[nodiscard]] double error_db() const {
+    return truth_ > 0.0 && found_ > 0.0 ? db_from_linear(found_ / truth_) : kUnknown;
+  }
+
+ private:
+  double found_ = 0.0;
+  double truth_ = 0.0;
+};
+
+double distance_m(const SchoolPingRow& a, const SchoolPingRow& b) {
+  const bool known = std::isfinite(a.latitude) && std::isfinite(b.latitude);
+  const double level = known ? geodesic({a.latitude, a.longitude}, {b.latitude, b.longitude}).distance_m : kUnknown;
+  return std::hypot(level, a.depth_m - b.depth_m);
+}
+
+/// Errors over the unclipped pings in which both have a row.
+void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, const SchoolKey& partner,
+                  const std::map<std::int64_t, BodyInPing>& bodies, SchoolScore& out) {
+  PairedMeans volume, corrected, backscatter, sv, body_volume, body_backscatter;
+  double cog_m = 0.0;
+  int cogs = 0;
+  for (const PingPair& pair : pairs) {
+    if (!pair.unclipped || pair.truth_row == nullptr || pair.found_ping < 0) continue;
+    const auto found_row = found.rows.find({partner.first, partner.second, pair.found_ping});
+    if (found_row == found.rows.end() || pair.found_observation != partner.first) continue;
+    const SchoolPingRow& f = *found_row->second;
+    const SchoolPingRow& t = *pair.truth_row;
+    volume.add(f.volume_m3, t.volume_m3);
+    corrected.add(f.volume_corrected_m3, t.volume_corrected_m3);
+    backscatter.add(f.backscatter_m2, t.backscatter_m2);
+    sv.add(linear_from_db(f.sv_mean_db), linear_from_db(t.sv_mean_db));
+    if (const double d = distance_m(f, t); std::isfinite(d)) {
+      cog_m += d;
+      ++cogs;
+    }
+    if (const auto body = bodies.find(pair.ping_index); body != bodies.end()) {
+      body_volume.add(f.volume_corrected_m3, body->second.volume_m3);
+      body_backscatter.add(f.backscatter_m2, body->second.backscatter_m2);
+    }
+  }
+  if (cogs > 0) out.cog_error_m = cog_m / cogs;
+  out.volume_ratio = volume.ratio();
+  out.volume_corrected_ratio = corrected.ratio();
+  out.backscatter_error_db = backscatter.error_db();
+  out.sv_error_db = sv.error_db();
+  out.body_volume_corrected_ratio = body_volume.ratio();
+  out.body_backscatter_error_db = body_backscatter.error_db();
+}
+
+double mean_dice(const std::vector<PingPair>& pairs, const Indexed& found, const std::optional<SchoolKey>& partner) {
+  double sum = 0.0;
+  int pings = 0;
+  for (const PingPair& pair : pairs) {
+    if (!pair.unclipped) continue;
+    ++pings;
+    if (!partner || pair.found_ping < 0 || pair.found_observation != partner->first) continue;
+    const auto mask = found.masks.find({partner->first, partner->second, pair.found_ping});
+    if (mask != found.masks.end()) sum += dice(mask->second, *pair.truth);
+  }
+  return pings > 0 ? sum / pings : kUnknown;
+}
+
+/// For every found mask the true school that it overlaps most.
+struct FoundLooksLike {
+  std::map<SchoolKey, std::map<SchoolKey, int>> pings;  ///< found track -> true school -> pings
+};
+
+FoundLooksLike look_back(const Indexed& found, const ScoreSide& found_side, const Indexed& truth) {
+  FoundLooksLike out;
+  for (const auto& [key, mask] : found.masks) {
+    const auto& [observation, school_id, ping_index] = key;
+    const TimeNs time = found_side.observations[observation].pings[static_cast<std::size_t>(ping_index)].time;
+    const auto there = ping_at(truth, time);
+    if (!there) continue;
+    const auto schools = truth.in_ping.find(*there);
+    if (schools == truth.in_ping.end()) continue;
+    std::size_t most = 0;
+    std::optional<SchoolKey> like;
+    for (const std::int64_t id : schools->second) {
+      const std::size_t shared = overlap(mask, truth.masks.at({there->first, id, there->second}));
+      if (shared > most) {
+        most = shared;
+        like = SchoolKey{there->first, id};
+      }
+    }
+    if (like) ++out.pings[{observation, school_id}][*like];
+  }
+  return out;
+}
+
+double purity(const FoundLooksLike& looks, const SchoolKey& found, const SchoolKey& truth) {
+  const auto track = looks.pings.find(found);
+  if (track == looks.pings.end()) return kUnknown;
+  int all = 0;
+  int own = 0;
+  for (const auto& [school, pings] : track->second) {
+    all += pings;
+    if (school == truth) own += pings;
+  }
+  return static_cast<double>(own) / all;
+}
+
+std::map<std::int64_t, BodyInPing> bodies_of(const ScoreSide& truth, const std::string& observation,
+                                             std::int64_t school_id) {
+  std::map<std::int64_t, BodyInPing> out;
+  for (auto it = truth.bodies.lower_bound({observation, school_id, 0});
+       it != truth.bodies.end() && it->first.observation == observation && it->first.school_id == school_id; ++it) {
+    out[it->first.ping_index] = it->second;
+  }
+  return out;
+}
+
+double inside(const std::vector<PingPair>& pairs, const std::map<std::int64_t, BodyInPing>& bodies,
+              std::int64_t unclipped) {
+  double sum = 0.0;
+  int known = 0;
+  for (const PingPair& pair : pairs) {
+    const auto body = bodies.find(pair.ping_index);
+    if (body == bodies.end() || !std::isfinite(body->second.fraction_inside)) continue;
+    sum += body->second.fraction_inside;
+    ++known;
+  }
+  return known > 0 ? sum / known : static_cast<double>(unclipped) / static_cast<double>(pairs.size());
+}
+
+std::string id_text(const ScoreSide& side, const SchoolKey& key) {
+  return fmt::format("{}/{}", side.observations[key.first].observation, key.second);
+}
+
+SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pairs, const ScoreSide& found_side,
+                         const Indexed& found, const ScoreSide& truth_side, const Indexed& truth,
+                         const FoundLooksLike& looks) {
+  SchoolScore out;
+  const ObservationProduct& product = truth_side.observations[key.first];
+  out.truth_id = id_text(truth_side, key);
+  out.n_pings = std::ssize(pairs);
+  std::vector<double> ranges;
+  int enough = 0;
+  const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
+  for (const PingPair& pair : pairs) {
+    if (pair.truth_row != nullptr) ranges.push_back(pair.truth_row->range_m);
+    if (!pair.unclipped) continue;
+    ++out.n_unclipped;
+    if (spans_enough(*pair.truth, row_of_channel, product.grid->grid.beams())) ++enough;
+  }
+  out.counted = enough >= kCountedPings;
+  out.range_m = median_of(ranges);
+  const auto bodies = bodies_of(truth_side, product.observation, key.second);
+  out.inside = inside(pairs, bodies, out.n_unclipped);
+  const std::optional<SchoolKey> partner = track_partner(pairs);
+  out.dice = mean_dice(pairs, found, partner);
+  if (!partner) return out;
+  out.found_id = id_text(found_side, *partner);
+  compare_rows(pairs, found, *partner, bodies, out);
+  out.purity = purity(looks, *partner, key);
+  const auto truth_school = truth.schools.find(key);
+  const auto found_school = found.schools.find(*partner);
+  if (truth_school != truth.schools.end() && found_school != found.schools.end()) {
+    out.speed_error_mps = found_school->second->speed_mps - truth_school->second->speed_mps;
+  }
+  return out;
+}
+
+}  // namespace
+
+Score score(const ScoreSide& found_side, const ScoreSide& truth_side) {
+  const Indexed found = index_side(found_side);
+  const Indexed truth = index_side(truth_side);
+  const FoundLooksLike looks = look_back(found, found_side, truth);
+  std::map<SchoolKey, std::vector<PingPair>> pairs;
+  for (const auto& [key, mask] : truth.masks) {
+    pairs[{std::get<0>(key), std::get<1>(key)}].push_back(pair_ping(found, truth, truth_side, key));
+  }
+  Score out;
+  for (const auto& [key, of_school] : pairs) {
+    out.schools.push_back(score_school(key, of_school, found_side, found, truth_side, truth, looks));
+  }
+  std::map<SchoolKey, std::int64_t> tracks;
+  for (const auto& [key, mask] : found.masks) ++tracks[{std::get<0>(key), std::get<1>(key)}];
+  for (const auto& [key, pings] : tracks) {
+    if (looks.pings.contains(key)) continue;
+    FalseSchool school{id_text(found_side, key), pings, kUnknown, kUnknown};
+    if (const auto row = found.schools.find(key); row != found.schools.end()) {
+      school.volume_m3 = row->second->volume_m3;
+      school.sv_mean_db = row->second->sv_mean_db;
+    }
+    out.false_schools.push_back(school);
+  }
+  return out;
+}
+
+}  // namespace sonar

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "model/product.h"
+#include "model/school.h"
+
+namespace sonar {
+
+/// Two masks of a ping with a smaller Dice than this have nothing to do with each other: a mask that fills the sea
+/// overlaps every school and has found none.
+inline constexpr double kPairDice = 0.1;
+
+/// A school counts when its mask spans so much in at least kCountedPings pings that touch no edge.
+inline constexpr int kCountedBeams = 3;
+inline constexpr int kCountedFans = 2;
+inline constexpr int kCountedSamples = 10;
+inline constexpr int kCountedPings = 3;
+/// Speeds are judged where so many pings touch no edge.
+inline constexpr int kSpeedPings = 8;
+
+/// The body of a school in one ping (truth/bodies.csv), summed where a school has several.
+struct BodyInPing {
+  double volume_m3 = kUnknown;
+  double backscatter_m2 = kUnknown;
+  double fraction_inside = kUnknown;
+};
+struct BodyKey {
+  std::string observation;
+  std::int64_t school_id = 0;
+  std::int64_t ping_index = 0;
+  friend auto operator<=>(const BodyKey&, const BodyKey&) = default;
+};
+
+/// Everything on one side of a comparison; masks, rows and pings are the products'.
+struct ScoreSide {
+  std::vector<ObservationProduct> observations;
+  std::map<BodyKey, BodyInPing> bodies;  ///< truth only
+};
+
+/// How one true school was found. NaN = cannot be told. Errors compare means over the unclipped pings that both have.
+struct SchoolScore {
+  std::string truth_id;      ///< observation/school
+  std::string found_id;      ///< empty = not found
+  double inside = kUnknown;  ///< mean share of the body inside the sector; without bodies the share of unclipped pings
+  std::int64_t n_pings = 0;
+  std::int64_t n_unclipped = 0;  ///< of the truth
+  bool counted = false;
+  double range_m = kUnknown;  ///< median over its pings
+  double dice = kUnknown;     ///< mean over the unclipped pings; 0 where not found
+  double cog_error_m = kUnknown;
+  double volume_ratio = kUnknown;
+  double volume_corrected_ratio = kUnknown;
+  double backscatter_error_db = kUnknown;
+  double sv_error_db = kUnknown;
+  double speed_error_mps = kUnknown;
+  double purity = kUnknown;
+  double body_volume_corrected_ratio = kUnknown;
+  double body_backscatter_error_db = kUnknown;
+};
+
+/// A found track that overlaps no true school in any ping.
+struct FalseSchool {
+  std::string found_id;
+  std::int64_t n_pings = 0;
+  double volume_m3 = kUnknown;
+  double sv_mean_db = kUnknown;
+};
+
+struct Score {
+  std::vector<SchoolScore> schools;
+  std::vector<FalseSchool> false_schools;
+};
+
+/// Holds a result against the truth. Pings match by time (within 1 ms), whatever the observations are called; schools
+/// marked as rejected are not there.
+[[nodiscard]] Score score(const ScoreSide& found, const ScoreSide& truth);
+
+/// The object of INTERFACES section 7. `summary` has, over the schools that count: counted, found, found_fraction,
+/// mean_dice, and the members `median`, `p90` (of the error's size) and `bias` (median with its sign) of each error.
+[[nodiscard]] std::string score_json(const Score& score);
+/// The same for people.
+[[nodiscard]] std::string score_text(const Score& score);
+
+/// Reads products and, where there are any, schools.csv and school_pings.csv of a result.
+/// errors  not_found, format
+[[nodiscard]] Result<ScoreSide> read_result_side(const std::filesystem::path& out);
+/// Reads a truth folder: obs-*.nc, schools.csv, school_pings.csv, bodies.csv.
+/// errors  not_found, format
+[[nodiscard]] Result<ScoreSide> read_truth_side(const std::filesystem::path& truth);
+
+}  // namespace sonar

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <system_error>
+#include <utility>
+
+#include "io/csv.h"
+#include "io/product.h"
+#include "pipeline/merge.h"
+#include "pipeline/score.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the score needs of bodies.csv.
+struct BodyRow {
+  std::string observation;
+  std::int64_t school_id = 0;
+  std::int64_t ping_index = 0;
+  double volume_m3 = kUnknown;
+  double backscatter_m2 = kUnknown;
+  double fraction_inside = kUnknown;
+};
+
+template <class Visitor>
+void columns(Visitor& v, BodyRow& r) {
+  v("observation", "", r.observation);
+  v("school_id", "", r.school_id);
+  v("ping_index", "", r.ping_index);
+  v("volume_m3", "m3", r.volume_m3);
+  v("backscatter_m2", "m2", r.backscatter_m2);
+  v("fraction_inside", "1", r.fraction_inside);
+}
+
+double sum_known(double a, double b) {
+  if (std::isnan(a)) return b;
+  return std::isnan(b) ? a : a + b;
+}
+
+/// Rows of a table go to the observation of their name; those of products stay where there is no table.
+template <class Row>
+Result<void> take_table(const fs::path& path, std::vector<ObservationProduct>& products,
+                        std::vector<Row> ObservationProduct::*member) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  auto rows = read_csv_rows<Row>(path);
+  if (!rows) return pass_on(rows);
+  for (ObservationProduct& product : products) (product.*member).clear();
+  for (Row& row : *rows) {
+    const auto product =
+        std::find_if(products.begin(), products.end(), [&](const auto& p) { return p.observation == row.observation; });
+    if (product != products.end()) (*product.*member).push_back(std::move(row));
+  }
+  return {};
+}
+
+Result<ScoreSide> read_side(const fs::path& folder) {
+  const auto files = product_files(folder);
+  if (!files) return pass_on(files);
+  ScoreSide side;
+  for (const fs::path& file : *files) {
+    auto product = read_product(file);
+    if (!product) return pass_on(product);
+    product->background_db = {};
+    side.observations.push_back(std::move(*product));
+  }
+  if (auto taken = take_table(folder / "schools.csv", side.observations, &ObservationProduct::schools); !taken) {
+    return pass_on(taken);
+  }
+  if (auto taken = take_table(folder / "school_pings.csv", side.observations, &ObservationProduct::school_pings);
+      !taken) {
+    return pass_on(taken);
+  }
+  return side;
+}
+
+}  // namespace
+
+Result<ScoreSide> read_result_side(const fs::path& out) { return read_side(out); }
+
+Result<ScoreSide> read_truth_side(const fs::path& truth) {
+  auto side = read_side(truth);
+  if (!side) return side;
+  if (side->observations.empty()) {
+    return fail(ErrorCode::not_found, "holds no truth (obs-0001.nc, ...)", {.file = truth.string()});
+  }
+  std::error_code error;
+  if (!fs::exists(truth / "bodies.csv", error)) return side;
+  const auto bodies = read_csv_rows<BodyRow>(truth / "bodies.csv");
+  if (!bodies) return pass_on(bodies);
+  for (const BodyRow& row : *bodies) {
+    BodyInPing& body = side->bodies[{row.observation, row.school_id, row.ping_index}];
+    body.volume_m3 = sum_known(body.volume_m3, row.volume_m3);
+    body.backscatter_m2 = sum_known(body.backscatter_m2, row.backscatter_m2);
+    // Of two parts the one that is less inside tells.
+    body.fraction_inside = std::fmin(body.fraction_inside, row.fraction_inside);
+  }
+  return side;
+}
+
+}  // namespace sonar

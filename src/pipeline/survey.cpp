@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <set>
+#include <system_error>
+#include <tuple>
+
+#include "pipeline/observations.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_raw_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".raw";
+}
+
+Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (has_raw_extension(it->path()) && !it->is_directory(ignored)) found.push_back(it->path());
+  }
+  if (error) return fail(ErrorCode::io, error.message(), {.file = folder.string()});
+  std::sort(found.begin(), found.end());
+  files.insert(files.end(), found.begin(), found.end());
+  return {};
+}
+
+std::tuple<bool, TimeNs, std::string, std::string> file_order(const SurveyFile& file) {
+  const bool empty = file.index.pings.empty();
+  return {empty, empty ? 0 : file.index.pings.front().time, file.path.filename().string(), file.path.string()};
+}
+
+}  // namespace
+
+const ObservationFiles* SurveyFiles::find(std::string_view observation) const {
+  const auto it = std::find_if(observations.begin(), observations.end(),
+                               [&](const ObservationFiles& o) { return o.name == observation; });
+  return it == observations.end() ? nullptr : &*it;
+}
+
+std::vector<InputFile> input_files(const SurveyFiles& survey, const ObservationFiles& observation) {
+  std::vector<InputFile> files;
+  for (const std::uint32_t f : observation.files) {
+    const SurveyFile& file = survey.files[f];
+    files.push_back({file.path.filename().string(), file.index.size, file.index.hash});
+  }
+  return files;
+}
+
+Result<std::vector<fs::path>> list_survey(std::span<const fs::path> paths) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) {
+      return fail(ErrorCode::not_found, "no such file or folder", {.file = path.string()});
+    }
+    if (fs::is_directory(status)) {
+      if (auto listed = list_folder(path, files); !listed) return pass_on(listed);
+    } else {
+      files.push_back(path);
+    }
+  }
+  std::set<fs::path> seen;
+  std::erase_if(files, [&](const fs::path& path) { return !seen.insert(path.lexically_normal()).second; });
+  return files;
+}
+
+Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyParams& survey,
+                                const NavigationParams& navigation, const IndexCache& cache, Work& work) {
+  if (auto valid = validate(survey); !valid) return pass_on(valid);
+  if (auto valid = validate(navigation); !valid) return pass_on(valid);
+  const auto listed = list_survey(paths);
+  if (!listed) return pass_on(listed);
+  std::vector<SurveyFile> files(listed->size());
+  std::atomic<std::int64_t> done{0};
+  work.for_each(static_cast<std::int64_t>(files.size()), [&](std::int64_t i) {
+    SurveyFile& file = files[static_cast<std::size_t>(i)];
+    file.path = (*listed)[static_cast<std::size_t>(i)];
+    file.index.name = file.path.string();
+    auto index = open_index(file.path, cache);
+    if (index) {
+      file.index = std::move(*index);
+    } else {
+      file.error = index.error();
+    }
+    work.progress("indexing", ++done, static_cast<std::int64_t>(files.size()));
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while indexing");
+  return arrange_survey(std::move(files), survey, navigation);
+}
+
+SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& params,
+                           const NavigationParams& navigation) {
+  SurveyFiles survey;
+  survey.files = std::move(files);
+  std::sort(survey.files.begin(), survey.files.end(),
+            [](const SurveyFile& a, const SurveyFile& b) { return file_order(a) < file_order(b); });
+  for (const SurveyFile& file : survey.files) {
+    if (!file.error) continue;
+    survey.diagnostics.push_back(
+        {DiagnosticCode::unreadable, file.index.name, file.error->where.offset, -1, file.error->text});
+  }
+  for (const SounderSequence& sequence : sequences_of(survey)) {
+    auto cut = cut_sequence(survey, sequence, params);
+    std::stable_sort(cut.begin(), cut.end(), [&](const ObservationFiles& a, const ObservationFiles& b) {
+      return survey.ping_time(a, 0) < survey.ping_time(b, 0);
+    });
+    for (ObservationFiles& observation : cut) {
+      observation.name = fmt::format("obs-{:04}", survey.observations.size() + 1);
+      complete_observation(survey, observation, params, navigation);
+      survey.observations.push_back(std::move(observation));
+    }
+  }
+  return survey;
+}
+
+}  // namespace sonar

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/diagnostics.h"
+#include "base/result.h"
+#include "base/work.h"
+#include "geo/sector.h"
+#include "io/block_pool.h"
+#include "io/navigation.h"
+#include "io/simrad/index.h"
+#include "io/simrad/index_cache.h"
+#include "model/beam_grid.h"
+#include "model/navigation.h"
+#include "model/ping.h"
+#include "model/product.h"
+#include "model/sounder.h"
+
+namespace sonar {
+
+/// How files become observations.
+struct SurveyParams {
+  double observation_gap_s = 120.0;
+  double observation_max_s = 3600.0;
+  double range_zero_pulses = 0.25;
+  double grid_tolerance_deg = 0.05;
+  friend bool operator==(const SurveyParams&, const SurveyParams&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SurveyParams& p) {
+  v.field("observation_gap_s", p.observation_gap_s,
+          {.unit = "s", .min = 0, .max = 1e9, .text = "A longer gap between pings begins a new observation."});
+  v.field("observation_max_s", p.observation_max_s,
+          {.unit = "s", .min = 0, .max = 1e9, .text = "Longest observation; 0 = no limit."});
+  v.field("range_zero_pulses", p.range_zero_pulses,
+          {.unit = "pulse lengths",
+           .min = 0,
+           .max = 1,
+           .text = "How much of the pulse's length in water is taken off every range; 0.25 = c tau / 4."});
+  v.field("grid_tolerance_deg", p.grid_tolerance_deg,
+          {.unit = "deg", .min = 0, .max = 5, .text = "Beam directions closer than this are one fan or one azimuth."});
+}
+
+/// One file of the survey. The name may be that of a file that could not be opened; then error says why.
+struct SurveyFile {
+  std::filesystem::path path;
+  RawIndex index;
+  std::optional<Error> error;
+};
+
+/// Where a ping of an observation lies.
+struct SurveyPing {
+  std::uint32_t file = 0;   ///< in SurveyFiles::files
+  std::uint32_t entry = 0;  ///< in that file's index.pings
+};
+
+/// A run of pings of one sounder on one grid (INTERFACES section 1), with everything but the samples.
+struct ObservationFiles {
+  std::string name;                  ///< "obs-0001"
+  std::vector<SurveyPing> pings;     ///< in time order; the index in here is ping_index
+  std::vector<std::uint32_t> files;  ///< those that pings come from, in order
+  SounderConfig config;
+  std::optional<BeamGrid> grid;            ///< empty where the beams make none; a diagnostic says why
+  RangeAxis range;                         ///< of every row; count = the longest channel, first_m = -range_zero
+  std::vector<std::int32_t> sample_count;  ///< [fan], longest channel of the fan, offset included; empty without grid
+  TransmitSet transmit;                    ///< [channel] of the first ping; frequency NaN where not seen
+  double sound_speed_mps = 0.0;            ///< of the first ping's first channel, and so are the next two
+  double sample_interval_s = 0.0;
+  double pulse_length_s = 0.0;
+  std::vector<PingNavigation> navigation;  ///< [ping_index]
+  Talkers talkers;
+  double gps_minus_clock_s = 0.0;  ///< median; NaN = unknown
+  bool continues_cut = false;      ///< begun only because the one before reached observation_max_s
+  Diagnostics diagnostics;         ///< of the observation; those of its files are in their indexes
+
+  [[nodiscard]] Sector sector() const { return grid->sector(range); }  ///< only with a grid
+};
+
+/// A survey: every file, and the observations they make.
+struct SurveyFiles {
+  std::vector<SurveyFile> files;               ///< those with pings by first ping's time, then name; then the others
+  std::vector<ObservationFiles> observations;  ///< MS70 first, then each other sounder, each in time order
+  Diagnostics diagnostics;                     ///< duplicate files, repeated pings, unreadable files
+  std::shared_ptr<BlockPool> blocks = std::make_shared<BlockPool>();
+
+  [[nodiscard]] const PingEntry& entry(const SurveyPing& ping) const {
+    return files[ping.file].index.pings[ping.entry];
+  }
+  /// Datagram time of a ping, the lasting key of human decisions.
+  [[nodiscard]] TimeNs ping_time(const ObservationFiles& observation, std::size_t ping_index) const {
+    return entry(observation.pings[ping_index]).time;
+  }
+  /// Null where there is none of that name.
+  [[nodiscard]] const ObservationFiles* find(std::string_view observation) const;
+};
+
+/// What a product remembers of the files that an observation came from.
+[[nodiscard]] std::vector<InputFile> input_files(const SurveyFiles& survey, const ObservationFiles& observation);
+
+/// Files that a list of paths stands for: of a folder every *.raw in it (any case, not deeper), sorted by name; a file
+/// as it is.
+/// errors  not_found, io
+[[nodiscard]] Result<std::vector<std::filesystem::path>> list_survey(std::span<const std::filesystem::path> paths);
+
+/// Indexes the files (from the cache where it can) and cuts them into observations. A file that cannot be read is
+/// listed with its error and stops nothing. Nothing is written but the cache.
+/// errors   not_found, io (a path or folder that is not there); bad_parameter; cancelled
+/// threads  files are indexed in parallel; the result does not depend on it
+[[nodiscard]] Result<SurveyFiles> open_survey(std::span<const std::filesystem::path> paths, const SurveyParams& survey,
+                                              const NavigationParams& navigation, const IndexCache& cache, Work& work);
+
+/// The second half of open_survey: from indexed files to observations. Pure.
+[[nodiscard]] SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& survey,
+                                         const NavigationParams& navigation);
+
+}  // namespace sonar

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/survey.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/simrad/test_bytes.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Bytes;
+using test::kStart;
+
+SurveyFiles opened(const std::vector<fs::path>& paths, const SurveyParams& params = {}, int threads = 2) {
+  Work work(threads);
+  auto survey = open_survey(paths, params, {}, IndexCache{}, work);
+  EXPECT_TRUE(survey);
+  return survey ? std::move(*survey) : SurveyFiles{};
+}
+
+SurveyFiles opened(const test::TemporaryFolder& folder, const SurveyParams& params = {}) {
+  return opened({folder.path()}, params);
+}
+
+std::int64_t count(const Diagnostics& notes, DiagnosticCode code) {
+  return std::count_if(notes.begin(), notes.end(), [&](const Diagnostic& note) { return note.code == code; });
+}
+
+std::vector<TimeNs> times(const SurveyFiles& survey) {
+  std::vector<TimeNs> list;
+  for (const ObservationFiles& o : survey.observations) {
+    for (std::size_t i = 0; i < o.pings.size(); ++i) list.push_back(survey.ping_time(o, i));
+  }
+  return list;
+}
+
+Bytes er60(int pings, TimeNs start, float gain_db = 20.0F) {
+  Bytes bytes = test::con0({.sounder = "ER60", .beams = {{38'000.0F, 0.0F, 0.0F, gain_db}}}, start);
+  for (int i = 0; i < pings; ++i) bytes.add(test::raw0(start + i * kSecondNs, {.frequency_hz = 38'000.0F}, {1, 2, 3}));
+  return bytes;
+}
+
+TEST(Survey, FolderHoldsRawFilesOfAnyCase) {
+  const test::TemporaryFolder folder;
+  folder.write("b.RAW", test::small_file(1));
+  folder.write("a.raw", test::small_file(1));
+  folder.write("c.txt", test::small_file(1));
+  fs::create_directory(folder.path() / "deeper.raw");
+  const std::vector<fs::path> folder_only{folder.path()};
+  EXPECT_EQ(list_survey(folder_only).value(),
+            (std::vector<fs::path>{folder.path() / "a.raw", folder.path() / "b.RAW"}));
+  const std::vector<fs::path> named{folder.path() / "c.txt", folder.path(), folder.path() / "a.raw"};
+  EXPECT_EQ(list_survey(named).value().size(), 3U);
+  const std::vector<fs::path> missing{folder.path() / "none"};
+  EXPECT_EQ(list_survey(missing).error().code, ErrorCode::not_found);
+}
+
+TEST(Survey, OneObservationOverFilesInOrderOfTime) {
+  const test::TemporaryFolder folder;
+  folder.write("z-first.raw", test::small_file(3));
+  folder.write("a-second.raw", test::small_file(2, kStart + 100 * kSecondNs));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  const ObservationFiles& o = survey.observations[0];
+  EXPECT_EQ(o.name, "obs-0001");
+  EXPECT_EQ(o.pings.size(), 5U);
+  EXPECT_EQ(o.files.size(), 2U);
+  EXPECT_EQ(input_files(survey, o).at(0).name, "z-first.raw");
+  EXPECT_TRUE(o.diagnostics.empty());
+  EXPECT_EQ(o.navigation.size(), 5U);
+  EXPECT_NEAR(o.navigation[0].transducer.latitude_deg, 60.0, 1e-9);
+  EXPECT_EQ(o.navigation[0].heading_deg, 90.0);
+  EXPECT_EQ(o.navigation[0].transducer_depth_m, 7.0);
+  EXPECT_EQ(o.talkers.at("heading"), "IN");
+}
+
+TEST(Survey, GridRangeAndSettings) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(1));
+  const SurveyFiles survey = opened(folder);
+  const ObservationFiles& o = survey.observations.at(0);
+  ASSERT_TRUE(o.grid);
+  EXPECT_EQ(o.grid->fans(), 2);
+  EXPECT_EQ(o.grid->beams(), 3);
+  EXPECT_EQ(o.grid->azimuth_deg, (std::vector<double>{267.5, 270.0, 272.5}));
+  // dr = 1500 * 0.0005 / 2; range zero = c tau / 4 = 1500 * 0.002 / 4.
+  EXPECT_NEAR(o.range.spacing_m, 0.375, 1e-7);
+  EXPECT_NEAR(o.range.first_m, -0.75, 1e-6);
+  EXPECT_EQ(o.range.count, 4);
+  EXPECT_EQ(o.sample_count, (std::vector<std::int32_t>{4, 4}));
+  EXPECT_EQ(o.transmit.size(), 6U);
+  EXPECT_EQ(o.sound_speed_mps, 1500.0);
+  EXPECT_EQ(opened({folder.path()}, {.range_zero_pulses = 0.0}).observations.at(0).range.first_m, 0.0);
+}
+
+TEST(Survey, GapBeginsAnObservation) {
+  const auto observations = [](TimeNs gap) {
+    const test::TemporaryFolder folder;
+    folder.write("a.raw", test::small_file(1).add(test::small_ping(kStart + gap)));
+    return opened(folder).observations.size();
+  };
+  EXPECT_EQ(observations(120 * kSecondNs), 1U);
+  EXPECT_EQ(observations(121 * kSecondNs), 2U);
+}
+
+TEST(Survey, LongestDurationCutsAndSaysSo) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(25));
+  const SurveyFiles survey = opened(folder, {.observation_max_s = 10.0});
+  ASSERT_EQ(survey.observations.size(), 3U);
+  EXPECT_EQ(survey.observations[0].pings.size(), 11U);  // 0 .. 10 s
+  EXPECT_EQ(survey.observations[1].pings.size(), 11U);
+  EXPECT_EQ(survey.observations[2].pings.size(), 3U);
+  EXPECT_FALSE(survey.observations[0].continues_cut);
+  EXPECT_TRUE(survey.observations[1].continues_cut);
+  EXPECT_TRUE(survey.observations[1].diagnostics.empty());
+  EXPECT_EQ(opened(folder, {.observation_max_s = 0.0}).observations.size(), 1U);
+}
+
+TEST(Survey, OtherSoundersAreNumberedAfterTheMs70) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", er60(3, kStart - 10 * kSecondNs));
+  folder.write("b.raw", test::small_file(2));
+  folder.write("c.raw", er60(3, kStart + kSecondNs));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 2U);
+  EXPECT_EQ(survey.observations[0].config.kind, SounderKind::ms70);
+  EXPECT_EQ(survey.observations[0].pings.size(), 2U);
+  EXPECT_EQ(survey.observations[1].name, "obs-0002");
+  EXPECT_EQ(survey.observations[1].pings.size(), 6U);
+  EXPECT_FALSE(survey.observations[1].grid);
+  EXPECT_EQ(count(survey.observations[1].diagnostics, DiagnosticCode::no_grid), 1);
+}
+
+TEST(Survey, CopiesChangeNothing) {
+  const test::TemporaryFolder folder;
+  folder.write("line.raw", test::small_file(3));
+  folder.write("line2.raw", test::small_file(3, kStart + 10 * kSecondNs));
+  const SurveyFiles before = opened(folder);
+  folder.write("a copy of line.raw", test::small_file(3));
+  const SurveyFiles after = opened(folder);
+  EXPECT_EQ(times(after), times(before));
+  ASSERT_EQ(after.observations.size(), 1U);
+  EXPECT_EQ(input_files(after, after.observations[0]), input_files(before, before.observations[0]));
+  EXPECT_EQ(count(after.diagnostics, DiagnosticCode::duplicate_file), 1);
+  EXPECT_TRUE(after.observations[0].diagnostics.empty());
+}
+
+TEST(Survey, PingsInTwoFilesAreTakenOnce) {
+  const test::TemporaryFolder folder;
+  Bytes cut = test::small_file(5);
+  // The copy ends inside its third ping.
+  cut.data.resize(test::small_file(2).size() + test::small_ping(kStart).size() - 100);
+  folder.write("a.raw", cut);
+  folder.write("b.raw", test::small_file(5));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  const auto all = times(survey);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+  EXPECT_GE(count(survey.diagnostics, DiagnosticCode::repeated_ping), 1);
+  // Of the cut ping the whole one is kept.
+  for (const SurveyPing& ping : survey.observations[0].pings) EXPECT_EQ(survey.entry(ping).channels, 6);
+}
+
+TEST(Survey, ChangedBeamsBeginAnObservation) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", er60(2, kStart));
+  folder.write("b.raw", er60(2, kStart + 10 * kSecondNs, 21.0F));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 2U);
+  EXPECT_EQ(count(survey.observations[1].diagnostics, DiagnosticCode::grid_changed), 1);
+  EXPECT_FALSE(survey.observations[1].continues_cut);
+}
+
+TEST(Survey, ChangedSettingsBeginAnObservation) {
+  const auto observations = [](const test::Raw0Spec& later) {
+    const test::TemporaryFolder folder;
+    folder.write("a.raw", test::small_file(2).add(test::small_ping(kStart + 5 * kSecondNs, later)));
+    const SurveyFiles survey = opened(folder);
+    if (survey.observations.size() == 2) {
+      EXPECT_EQ(count(survey.observations[1].diagnostics, DiagnosticCode::settings_changed), 1);
+    }
+    return survey.observations.size();
+  };
+  EXPECT_EQ(observations({.interval_s = 0.001F}), 2U);
+  EXPECT_EQ(observations({.pulse_s = 0.001F}), 2U);
+  EXPECT_EQ(observations({.sound_speed_mps = 1480.0F}), 2U);
+  EXPECT_EQ(observations({.power_w = 5.0F}), 1U);
+  EXPECT_EQ(observations({.sound_speed_mps = 1500.1F}), 1U);
+}
+
+TEST(Survey, TimeRunningBackBeginsAnObservation) {
+  const test::TemporaryFolder folder;
+  Bytes bytes = test::small_file(3);
+  bytes.add(test::small_ping(kStart - 5 * kSecondNs)).add(test::small_ping(kStart - 4 * kSecondNs));
+  folder.write("a.raw", bytes);
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 2U);
+  // Numbered in order of time.
+  EXPECT_EQ(survey.observations[0].pings.size(), 2U);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::time_back), 1);
+}
+
+TEST(Survey, UnequalSampleSpacingIsNoGrid) {
+  const test::TemporaryFolder folder;
+  Bytes bytes = test::con0(test::small_ms70());
+  bytes.add(test::raw0(kStart, {.channel = 1}, {1, 2})).add(test::raw0(kStart, {.channel = 2, .pulse_s = 0.004F}, {1}));
+  folder.write("a.raw", bytes);
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  EXPECT_FALSE(survey.observations[0].grid);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::no_grid), 1);
+}
+
+TEST(Survey, UnreadableFileStopsNothing) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(2));
+  fs::create_directory_symlink(folder.path() / "nowhere", folder.path() / "broken.raw");
+  const SurveyFiles survey = opened(folder);
+  EXPECT_EQ(survey.observations.size(), 1U);
+  EXPECT_EQ(survey.files.size(), 2U);
+  EXPECT_EQ(count(survey.diagnostics, DiagnosticCode::unreadable), 1);
+}
+
+TEST(Survey, NothingIsWrittenBesideTheFiles) {
+  const test::TemporaryFolder folder;
+  const test::TemporaryFolder elsewhere;
+  folder.write("a.raw", test::small_file(2));
+  Work work(1);
+  const std::vector<fs::path> paths{folder.path()};
+  ASSERT_TRUE(open_survey(paths, {}, {}, IndexCache{elsewhere.path()}, work));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(Survey, OutsideParametersAreRefused) {
+  Work work(1);
+  const auto survey = open_survey({}, {.observation_gap_s = -1.0}, {}, IndexCache{}, work);
+  ASSERT_FALSE(survey);
+  EXPECT_EQ(survey.error().code, ErrorCode::bad_parameter);
+}
+
+}  // namespace
+}  // namespace sonar
