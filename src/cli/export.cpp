@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/export.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "cli/verb.h"
+
+namespace sonar {
+namespace {
+
+struct ExportArguments {
+  std::string out;
+  std::string format;
+  std::string dest;
+  std::string survey;
+  ReduceParams reduce;
+};
+
+int run_export(const ExportArguments& arguments) {
+  Work work(1);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  const ExportOptions options{arguments.out, arguments.format, arguments.dest, arguments.survey, arguments.reduce};
+  const auto files = export_products(options, work);
+  clear_progress();
+  if (!files) return report(files.error());
+  for (const auto& file : *files) fmt::print("{}\n", file.string());
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, VerbRunner& run) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* verb = app.add_subcommand("export", "Write products in another program's format");
+  std::string formats = "Format:";
+  for (const ExportFormat& format : export_formats()) formats += fmt::format("\n{} - {}", format.name, format.text);
+  verb->add_option("OUT", arguments->out, "Work folder of a run")->required();
+  verb->add_option("--to", arguments->format, formats)->required();
+  verb->add_option("--dest", arguments->dest, "Folder that the files go to")->required();
+  verb->add_option("--survey", arguments->survey, "Folder of the raw files (raw-reduced)");
+  verb->add_option("--margin-samples", arguments->reduce.margin_samples,
+                   "raw-reduced: samples kept round each school beside its need");
+  verb->add_option("--margin-beams", arguments->reduce.margin_beams, "raw-reduced: the same in beams");
+  verb->add_option("--margin-fans", arguments->reduce.margin_fans, "raw-reduced: the same in fans");
+  verb->add_option("--margin-pings", arguments->reduce.margin_pings,
+                   "raw-reduced: pings without samples before and after a school");
+  verb->add_option("--coarsen", arguments->reduce.coarsen_samples,
+                   "raw-reduced: keep the rest as means of so many samples; 0 = drop it");
+  verb->callback([arguments, &run] { run = [arguments] { return run_export(*arguments); }; });
+}
+
+}  // namespace sonar

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/info.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/exit_codes.h"
+#include "cli/verb.h"
+
+namespace sonar {
+namespace {
+
+struct InfoOptions {
+  std::vector<std::string> paths;
+  bool json = false;
+  bool checksum = false;
+  int jobs = 0;
+};
+
+int run_info(const InfoOptions& options) {
+  Work work(options.jobs);
+  const CancelOnInterrupt cancel(work);
+  const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
+  const NavigationParams navigation;
+  const auto survey = open_survey(paths, SurveyParams{}, navigation, IndexCache::of_user(), work);
+  if (!survey) return report(survey.error());
+  const auto info = survey_info(*survey, navigation, options.checksum, work);
+  if (!info) return report(info.error());
+  const std::string text = options.json ? info_json(*info) : info_text(*info);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  for (const FileInfo& file : info->files) {
+    if (file.readable) continue;
+    const std::string why = file.notes.empty() ? "could not be read" : file.notes.back().text;
+    std::fprintf(stderr, "sonarx: %s: %s\n", file.path.c_str(), why.c_str());
+  }
+  return info->all_readable() ? kExitDone : kExitPartly;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, VerbRunner& run) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* verb = app.add_subcommand("info", "Tell what files hold: format, pings, beams, times, places, damage");
+  verb->add_option("PATH", options->paths, "Raw files, or folders of them")->required();
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->add_flag("--checksum", options->checksum, "Read every sample and give the sum of all power counts");
+  verb->add_option("--jobs", options->jobs, "Threads; 0 = as many as the machine has")->check(CLI::Range(0, 1024));
+  verb->callback([options, &run] { run = [options] { return run_info(*options); }; });
+}
+
+}  // namespace sonar

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "cli/exit_codes.h"
+#include "cli/verb.h"
+
+namespace sonar {
+namespace {
+
+// What a signal handler may touch must outlive every verb; nothing below this file sees it.
+std::array<std::atomic<Work*>, 8> watched{};
+std::atomic<bool> was_interrupted{false};
+
+extern "C" void on_interrupt(int) {
+  // A second Ctrl-C ends the program at once.
+  std::signal(SIGINT, SIG_DFL);
+  was_interrupted.store(true);
+  for (auto& slot : watched) {
+    if (Work* work = slot.load()) work->cancel();
+  }
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Explores fishery-sonar surveys: raw files in, schools, masks and maps out", "sonarx");
+  app.set_version_flag("--version", "sonarx " SONAR_VERSION);
+  app.require_subcommand(1);
+  VerbRunner run;
+  add_info(app, run);
+  add_simulate(app, run);
+  add_run(app, run);
+  add_plan(app, run);
+  add_merge(app, run);
+  add_propagate(app, run);
+  add_export(app, run);
+  add_score(app, run);
+  add_compare(app, run);
+  add_recipe(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are "errors" to the parser.
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return kExitDone;
+    }
+    std::fprintf(stderr, "sonarx: %s; see sonarx --help\n", error.what());
+    return kExitUsage;
+  }
+  std::signal(SIGINT, on_interrupt);
+  const int code = run();
+  return interrupted() ? kExitInterrupted : code;
+}
+
+}  // namespace
+
+CancelOnInterrupt::CancelOnInterrupt(Work& work) : slot_(-1) {
+  for (std::size_t i = 0; i < watched.size() && slot_ < 0; ++i) {
+    Work* none = nullptr;
+    if (watched[i].compare_exchange_strong(none, &work)) slot_ = static_cast<int>(i);
+  }
+  if (interrupted()) work.cancel();
+}
+
+CancelOnInterrupt::~CancelOnInterrupt() {
+  if (slot_ >= 0) watched[static_cast<std::size_t>(slot_)].store(nullptr);
+}
+
+bool interrupted() { return was_interrupted.load(); }
+
+int report(const Error& error) {
+  std::fprintf(stderr, "sonarx: %s\n", to_line(error).c_str());
+  return exit_code_of(error.code);
+}
+
+}  // namespace sonar
+
+int main(int argc, char** argv) {
+  try {
+    return sonar::run_program(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sonarx: %s\n", error.what());
+  } catch (...) {
+    std::fprintf(stderr, "sonarx: stopped by an unknown fault\n");
+  }
+  return sonar::kExitFailed;
+}

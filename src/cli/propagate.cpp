@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "cli/verb.h"
+#include "io/atomic_file.h"
+#include "io/product.h"
+#include "pipeline/manual.h"
+#include "pipeline/merge.h"
+#include "pipeline/run.h"
+#include "pipeline/transfer_function_json.h"
+
+namespace sonar {
+namespace {
+
+struct PropagateArguments {
+  std::string survey;
+  std::string observation;
+  std::vector<std::string> seeds;
+  double tolerance_db = 0.0;
+  double tolerance_opacity = 0.0;
+  std::string mode = "tracked";
+  std::int64_t reach = -1;
+  std::string curve;
+  std::string recipe;
+  std::string operator_name;
+  std::string out;
+  int jobs = 0;
+};
+
+struct Seed {
+  std::int64_t ping = 0;
+  int fan = 0;
+  int beam = 0;
+  int sample = 0;
+};
+
+Result<Seed> parse_seed(const std::string& text) {
+  Seed seed;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%ld,%d,%d,%d%n", &seed.ping, &seed.fan, &seed.beam, &seed.sample, &used) != 4 ||
+      static_cast<std::size_t>(used) != text.size()) {
+    return fail(ErrorCode::usage, fmt::format("--seed {}: expected PING,FAN,BEAM,SAMPLE", text));
+  }
+  return seed;
+}
+
+Result<std::vector<Seed>> parse_seeds(const PropagateArguments& arguments, const ObservationFiles& observation) {
+  std::vector<Seed> seeds;
+  for (const std::string& text : arguments.seeds) {
+    const auto seed = parse_seed(text);
+    if (!seed) return pass_on(seed);
+    if (seed->ping < 0 || seed->ping >= static_cast<std::int64_t>(observation.pings.size())) {
+      return fail(ErrorCode::usage,
+                  fmt::format("--seed {}: {} has pings 0 to {}", text, observation.name, observation.pings.size() - 1));
+    }
+    if (seed->fan < 0 || seed->fan >= observation.grid->fans() || seed->beam < 0 ||
+        seed->beam >= observation.grid->beams() || seed->sample < 0 || seed->sample >= observation.range.count) {
+      return fail(ErrorCode::usage,
+                  fmt::format("--seed {}: the grid has {} fans, {} beams, {} samples", text, observation.grid->fans(),
+                              observation.grid->beams(), observation.range.count));
+    }
+    if (!seeds.empty() && seeds.front().ping != seed->ping) {
+      return fail(ErrorCode::usage, "all seeds of one selection lie in one ping");
+    }
+    seeds.push_back(*seed);
+  }
+  return seeds;
+}
+
+/// Mean slope of the growth curve: how many dB one unit of opacity is worth.
+double db_per_opacity(const TransferFunction& curve) {
+  const auto& points = curve.points();
+  const double rise = points.back().opacity - points.front().opacity;
+  return rise > 0.0 ? (points.back().sv_db - points.front().sv_db) / rise : 1.0;
+}
+
+Result<PropagateCommand> make_command(const PropagateArguments& arguments, const Recipe& recipe) {
+  PropagateCommand command;
+  command.mode = arguments.mode == "paper" ? GrowMode::paper : GrowMode::tracked;
+  command.grow = recipe.grow;
+  command.paper = recipe.propagate_paper;
+  command.tracked = recipe.propagate_tracked;
+  command.growth_curve = recipe.growth_curve;
+  command.reach = arguments.reach;
+  if (!arguments.curve.empty()) {
+    auto curve = read_transfer_function(arguments.curve);
+    if (!curve) return pass_on(curve);
+    command.growth_curve = std::move(*curve);
+  }
+  const double slope = db_per_opacity(command.growth_curve);
+  const bool in_db = arguments.tolerance_db > 0.0;
+  // The paper grows in opacity and the default one-sided in dB; a tolerance in the other's unit is turned by the curve.
+  command.grow.mode = command.mode;
+  command.grow.tolerance_db = in_db ? arguments.tolerance_db : arguments.tolerance_opacity * slope;
+  command.grow.tolerance_opacity = in_db ? arguments.tolerance_db / slope : arguments.tolerance_opacity;
+  command.tracked.tolerance_db = command.grow.tolerance_db;
+  for (auto valid : {validate(command.grow), validate(command.tracked)}) {
+    if (!valid) return pass_on(valid);
+  }
+  return command;
+}
+
+void print_school(const ObservationProduct& product) {
+  for (const SchoolRow& row : product.schools) {
+    fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {:.1f} dB, backscatter {:.3g} m2\n", row.n_pings,
+               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, row.sv_mean_db,
+               row.backscatter_m2);
+  }
+  for (const Diagnostic& note : product.diagnostics) {
+    if (note.code == DiagnosticCode::propagation_ended) fmt::print("{}\n", note.text);
+  }
+}
+
+/// The reason why the click could not be carried out; null where it was.
+const Diagnostic* refusal(const ObservationProduct& product) {
+  const auto found = std::find_if(product.diagnostics.begin(), product.diagnostics.end(),
+                                  [](const Diagnostic& note) { return note.code == DiagnosticCode::decision_lost; });
+  return found == product.diagnostics.end() ? nullptr : &*found;
+}
+
+struct Clicked {
+  std::vector<std::filesystem::path> paths;
+  SurveyFiles survey;
+  const ObservationFiles* observation = nullptr;
+  PropagateCommand command;
+  std::int64_t ping_index = 0;
+};
+
+Result<Clicked> click(const PropagateArguments& arguments, const Recipe& recipe, Work& work) {
+  Clicked clicked;
+  clicked.paths = {arguments.survey};
+  auto survey = open_survey(clicked.paths, recipe.survey, recipe.navigation, IndexCache::of_user(), work);
+  if (!survey) return pass_on(survey);
+  clicked.survey = std::move(*survey);
+  clicked.observation = clicked.survey.find(arguments.observation);
+  if (clicked.observation == nullptr) {
+    return fail(ErrorCode::usage, fmt::format("no observation {} in {}", arguments.observation, arguments.survey));
+  }
+  if (!clicked.observation->grid) {
+    return fail(ErrorCode::usage, arguments.observation + " has no grid of fans and beams to select in");
+  }
+  auto command = make_command(arguments, recipe);
+  if (!command) return pass_on(command);
+  clicked.command = std::move(*command);
+  const auto seeds = parse_seeds(arguments, *clicked.observation);
+  if (!seeds) return pass_on(seeds);
+  clicked.ping_index = seeds->front().ping;
+  for (const Seed& seed : *seeds) {
+    const int row = seed.fan * clicked.observation->grid->beams() + seed.beam;
+    clicked.command.seeds.push_back({clicked.observation->grid->channel[static_cast<std::size_t>(row)], seed.sample});
+  }
+  return clicked;
+}
+
+Result<void> write_outcome(const Clicked& clicked, const JournalLine& line, const ObservationProduct& product,
+                           const Recipe& recipe, const RunOptions& options) {
+  if (auto written = write_product(product, product_path(options.out, product.observation)); !written) return written;
+  Journal head;
+  head.recipe_hash = product.recipe_hash;
+  head.files = input_files(clicked.survey, *clicked.observation);
+  const std::string text = journal_head_text(head) + "\n" + journal_text(line) + "\n";
+  if (auto written = write_file(options.out / "session.jsonl", text); !written) return written;
+  Plan plan =
+      make_plan(clicked.survey, clicked.paths, options.out / "session.jsonl", recipe, {{}, {&line, 1}, SONAR_VERSION});
+  std::erase_if(plan.tasks, [&](const PlanTask& task) { return task.observation != product.observation; });
+  return write_file(options.out / "plan.json", plan_text(plan));
+}
+
+int propagate_verb(const PropagateArguments& arguments) {
+  Work work(arguments.jobs);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  auto recipe = named_recipe(arguments.recipe);
+  if (!recipe) return report(recipe.error());
+  recipe->automatic = false;
+  const auto clicked = click(arguments, *recipe, work);
+  if (!clicked) return report(clicked.error());
+  JournalLine line;
+  line.n = 1;
+  line.operator_name = arguments.operator_name;
+  line.command = "propagate";
+  line.ping_time = clicked->survey.ping_time(*clicked->observation, static_cast<std::size_t>(clicked->ping_index));
+  line.args = to_json(clicked->command);
+  RunOptions options;
+  options.out = arguments.out;
+  const ObserveOptions observe_options{{}, {&line, 1}, SONAR_VERSION};
+  const auto product = observe(clicked->survey, *clicked->observation, *recipe, observe_options, work);
+  clear_progress();
+  if (!product) return report(product.error());
+  if (const Diagnostic* why = refusal(*product)) {
+    return report({ErrorCode::bad_parameter, why->text, {arguments.survey, -1, why->ping_index}});
+  }
+  if (auto written = write_outcome(*clicked, line, *product, *recipe, options); !written)
+    return report(written.error());
+  const auto merged = merge_folder(options.out, {});
+  if (!merged) return report(merged.error());
+  print_school(*product);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_propagate(CLI::App& app, VerbRunner& run) {
+  const auto arguments = std::make_shared<PropagateArguments>();
+  CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and carry it through time both ways");
+  verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
+  verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
+  verb->add_option("--seed", arguments->seeds, "PING,FAN,BEAM,SAMPLE from 0; several are joined")->required();
+  auto* in_db = verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference")
+                    ->check(CLI::Range(0.01, 60.0));
+  auto* in_opacity = verb->add_option("--tolerance-opacity", arguments->tolerance_opacity, "difference of opacity")
+                         ->check(CLI::Range(0.0001, 1.0));
+  in_db->excludes(in_opacity);
+  verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
+      ->check(CLI::IsMember({"tracked", "paper"}));
+  verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(CLI::Range(0, 1000000));
+  verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--operator", arguments->operator_name, "Who selects");
+  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
+  verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb->callback([arguments, in_db, in_opacity, &run] {
+    if (in_db->count() + in_opacity->count() == 0) throw CLI::RequiredError("--tolerance-db or --tolerance-opacity");
+    run = [arguments] { return propagate_verb(*arguments); };
+  });
+}
+
+}  // namespace sonar

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "cli/verb.h"
+#include "io/atomic_file.h"
+#include "pipeline/merge.h"
+
+namespace sonar {
+namespace {
+
+struct RunArguments {
+  std::vector<std::string> survey;
+  std::string out;
+  std::string recipe;
+  std::string calibration;
+  std::string session;
+  std::string plan;
+  std::string only;
+  std::string pings;
+  std::size_t task = 0;
+  bool has_task = false;
+  bool remeasure = false;
+  int jobs = 0;
+};
+
+/// "A:B", both inclusive from 0.
+Result<std::optional<PingSelection>> parse_pings(const std::string& text) {
+  if (text.empty()) return std::optional<PingSelection>{};
+  PingSelection pings;
+  char colon = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%ld%c%ld%n", &pings.first, &colon, &pings.last, &used) != 3 || colon != ':' ||
+      static_cast<std::size_t>(used) != text.size() || pings.first < 0 || pings.last < pings.first) {
+    return fail(ErrorCode::usage, fmt::format("--pings {}: expected A:B with 0 <= A <= B", text));
+  }
+  return std::optional<PingSelection>{pings};
+}
+
+Result<Recipe> chosen_recipe(const RunArguments& arguments) {
+  auto recipe = named_recipe(arguments.recipe);
+  if (!recipe || arguments.calibration.empty()) return recipe;
+  if (auto taken = take_calibration_file(*recipe, arguments.calibration); !taken) return pass_on(taken);
+  return recipe;
+}
+
+/// The plan of a run that names its survey; written to OUT/plan.json.
+struct Opened {
+  Plan plan;
+  SurveyFiles survey;
+  std::vector<JournalLine> journal;
+};
+
+Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
+  Opened opened;
+  std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
+  if (!arguments.plan.empty()) {
+    auto plan = read_plan(arguments.plan);
+    if (!plan) return pass_on(plan);
+    opened.plan = std::move(*plan);
+    paths.assign(opened.plan.survey.begin(), opened.plan.survey.end());
+  } else {
+    auto recipe = chosen_recipe(arguments);
+    if (!recipe) return pass_on(recipe);
+    opened.plan.recipe = std::move(*recipe);
+    opened.plan.session = arguments.session;
+  }
+  auto survey =
+      open_survey(paths, opened.plan.recipe.survey, opened.plan.recipe.navigation, IndexCache::of_user(), work);
+  if (!survey) return pass_on(survey);
+  opened.survey = std::move(*survey);
+  if (opened.survey.files.empty()) {
+    return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
+  }
+  auto journal = read_session(opened.plan.session, opened.survey.diagnostics);
+  if (!journal) return pass_on(journal);
+  opened.journal = std::move(*journal);
+  return opened;
+}
+
+Result<void> write_plan(Opened& opened, const RunArguments& arguments, const RunOptions& options) {
+  const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
+  opened.plan = make_plan(opened.survey, paths, arguments.session, opened.plan.recipe,
+                          {options.pings, opened.journal, options.program_version});
+  return write_file(options.out / "plan.json", plan_text(opened.plan));
+}
+
+void print_failures(const SurveyFiles& survey, const RunReport& report) {
+  for (const SurveyFile& file : survey.files) {
+    if (file.error) fmt::print(stderr, "{}\n", to_line(*file.error));
+  }
+  for (const RunFailure& failure : report.failures) {
+    fmt::print(stderr, "{}: {}\n", failure.observation, to_line(failure.error));
+  }
+}
+
+bool any_file_failed(const SurveyFiles& survey) {
+  for (const SurveyFile& file : survey.files) {
+    if (file.error || !file.index.readable()) return true;
+  }
+  return false;
+}
+
+int finish(const Opened& opened, const RunOptions& options, const RunReport& report) {
+  clear_progress();
+  print_failures(opened.survey, report);
+  if (options.task) {
+    return report.failures.empty() ? kExitDone : kExitFailed;
+  }
+  const auto merged = merge_folder(options.out, report);
+  if (!merged) return sonar::report(merged.error());
+  fmt::print("{}", *merged);
+  if (!report.failures.empty() && report.done.empty() && report.skipped.empty()) return kExitFailed;
+  return report.failures.empty() && !any_file_failed(opened.survey) ? kExitDone : kExitPartly;
+}
+
+int run_verb(const RunArguments& arguments) {
+  if (arguments.plan.empty() == arguments.survey.empty()) {
+    return report({ErrorCode::usage, "run needs a SURVEY, or --plan with --task", {}});
+  }
+  const auto pings = parse_pings(arguments.pings);
+  if (!pings) return report(pings.error());
+  Work work(arguments.jobs);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  RunOptions options;
+  options.out = arguments.plan.empty() ? std::filesystem::path(arguments.out)
+                                       : std::filesystem::absolute(arguments.plan).parent_path();
+  if (!arguments.only.empty()) options.only = arguments.only;
+  if (arguments.has_task) options.task = arguments.task;
+  options.pings = *pings;
+  options.remeasure = arguments.remeasure;
+  options.program_version = SONAR_VERSION;
+  auto opened = open_for_run(arguments, work);
+  if (!opened) return report(opened.error());
+  if (arguments.plan.empty()) {
+    if (auto written = write_plan(*opened, arguments, options); !written) return report(written.error());
+  }
+  const auto done = run_plan(opened->plan, opened->survey, opened->journal, options, work);
+  if (!done) {
+    clear_progress();
+    return report(done.error());
+  }
+  return finish(*opened, options, *done);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, VerbRunner& run) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* verb = app.add_subcommand("run", "Process a survey: schools, masks, tables and the map");
+  verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
+  auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables");
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--calibration", arguments->calibration,
+                   "CSV channel,gain_db,sa_correction_db,extra_factor_db; taken into the recipe");
+  verb->add_option("--session", arguments->session, "Journal of human choices to replay");
+  verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
+  verb->add_option("--pings", arguments->pings, "Ping indices A:B, both included, from 0");
+  verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
+  auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
+  auto* task = verb->add_option("--task", arguments->task, "Which task of the plan, from 0");
+  task->needs(plan);
+  plan->needs(task);
+  out->excludes(plan);
+  verb->callback([arguments, task, &run, out, plan] {
+    if (out->count() == 0 && plan->count() == 0) throw CLI::RequiredError("--out");
+    arguments->has_task = task->count() > 0;
+    run = [arguments] { return run_verb(*arguments); };
+  });
+}
+
+void add_plan(CLI::App& app, VerbRunner& run) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* verb = app.add_subcommand("plan", "Cut the work of run into independent tasks");
+  verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
+  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--calibration", arguments->calibration, "CSV as for run");
+  verb->add_option("--session", arguments->session, "Journal of human choices to replay");
+  verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb->callback([arguments, &run] {
+    run = [arguments] {
+      Work work(arguments->jobs);
+      const CancelOnInterrupt watch(work);
+      show_progress(work);
+      auto opened = open_for_run(*arguments, work);
+      clear_progress();
+      if (!opened) return report(opened.error());
+      RunOptions options;
+      options.out = arguments->out;
+      options.program_version = SONAR_VERSION;
+      if (auto written = write_plan(*opened, *arguments, options); !written) return report(written.error());
+      print_failures(opened->survey, {});
+      fmt::print("{} tasks, 0 to {}: sonarx run --plan {} --task K, then sonarx merge {}\n", opened->plan.tasks.size(),
+                 opened->plan.tasks.empty() ? 0 : opened->plan.tasks.size() - 1, (options.out / "plan.json").string(),
+                 options.out.string());
+      return any_file_failed(opened->survey) ? kExitPartly : kExitDone;
+    };
+  });
+}
+
+}  // namespace sonar

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/simulate.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "cli/verb.h"
+
+namespace sonar {
+namespace {
+
+struct SimulateOptions {
+  std::string out;
+  std::string preset = "standard";
+  std::string beams;
+  std::optional<int> seed;
+  std::optional<int> observations;
+  std::optional<int> pings;
+  std::optional<int> schools;
+  std::optional<double> speed_knots;
+  std::optional<double> noise;
+  std::optional<double> file_mb;
+  bool no_fish = false;
+  bool force = false;
+  int jobs = 0;
+};
+
+template <class T>
+void take(const std::optional<T>& option, T& field) {
+  if (option) field = *option;
+}
+
+synth::SurveyParams parameters(const SimulateOptions& o) {
+  auto preset = synth::Preset::standard;
+  for (std::size_t i = 0; i < synth::kPresetNames.size(); ++i) {
+    if (synth::kPresetNames[i] == o.preset) preset = static_cast<synth::Preset>(i);
+  }
+  synth::SurveyParams p = synth::survey_params(preset);
+  take(o.seed, p.seed);
+  take(o.observations, p.observations);
+  take(o.pings, p.pings);
+  take(o.schools, p.schools);
+  take(o.speed_knots, p.speed_knots);
+  take(o.noise, p.noise.scale);
+  take(o.file_mb, p.file_mb);
+  if (o.no_fish) p.schools = 0;
+  return p;
+}
+
+int simulate(const SimulateOptions& o) {
+  std::vector<synth::Beam> beams = synth::ms70_beams();
+  if (!o.beams.empty()) {
+    auto table = synth::read_beam_table(o.beams);
+    if (!table) return report(table.error());
+    beams = std::move(*table);
+  }
+  Work work(o.jobs);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  const auto made = synth::simulate_survey(o.out, parameters(o), beams, o.force, SONAR_VERSION, work);
+  clear_progress();
+  if (!made) return report(made.error());
+  fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
+             static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, VerbRunner& run) {
+  const auto o = std::make_shared<SimulateOptions>();
+  CLI::App* verb = app.add_subcommand("simulate", "Write a synthetic MS70 survey as .raw files, and its truth");
+  verb->add_option("OUT", o->out, "Folder to write into")->required();
+  verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo")
+      ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}))
+      ->capture_default_str();
+  verb->add_option("--seed", o->seed, "Every random number follows from it");
+  verb->add_option("--observations", o->observations, "Number of observations (the demo has three)");
+  verb->add_option("--pings", o->pings, "Pings in each observation");
+  verb->add_option("--schools", o->schools, "Schools in each observation");
+  verb->add_option("--speed-knots", o->speed_knots, "The ship's speed over ground");
+  verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams");
+  verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");
+  verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
+  verb->add_flag("--no-fish", o->no_fish, "No schools at all");
+  verb->add_flag("--force", o->force, "Write into a folder that already holds raw files");
+  verb->add_option("--jobs", o->jobs, "Threads; 0 = all");
+  verb->callback([o, &run] { run = [o] { return simulate(*o); }; });
+}
+
+}  // namespace sonar
