@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole run per ping and its stages, on a synthetic survey: bench_stages [FOLDER] [PINGS]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "pipeline/engine.h"
+#include "pipeline/observe.h"
+#include "pipeline/score.h"
+#include "school/detect.h"
+#include "school/seabed.h"
+#include "signal/flags.h"
+#include "signal/median.h"
+#include "synth/beam_table.h"
+#include "synth/presets.h"
+#include "synth/simulate.h"
+
+namespace sonar {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+class Stopwatch {
+ public:
+  template <class Body>
+  void time(const std::string& stage, const Body& body) {
+    const auto begin = Clock::now();
+    body();
+    times_[stage].push_back(milliseconds_since(begin));
+  }
+  void print() {
+    for (auto& [stage, times] : times_) {
+      std::sort(times.begin(), times.end());
+      fmt::print("{:<34} median {:8.3f} ms   min {:8.3f} ms   n {}\n", stage, times[times.size() / 2], times.front(),
+                 times.size());
+    }
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> times_;
+};
+
+template <class T>
+T must(Result<T> result) {
+  if (result) return std::move(*result);
+  fmt::print(stderr, "{}\n", to_line(result.error()));
+  std::exit(1);
+}
+
+SurveyFiles make_survey(const std::filesystem::path& folder, int pings, Work& work) {
+  if (!std::filesystem::exists(folder)) {
+    synth::SurveyParams params = synth::survey_params(synth::Preset::standard);
+    params.observations = 1;
+    params.pings = pings;
+    must(synth::simulate_survey(folder, params, synth::ms70_beams(), false, "bench", work));
+  }
+  const std::vector<std::filesystem::path> paths{folder};
+  return must(open_survey(paths, {}, {}, {}, work));
+}
+
+/// The answer first: the products must find the schools that count before their making is timed.
+void verify(const ObservationProduct& product, const std::filesystem::path& truth) {
+  ScoreSide found;
+  found.observations.push_back(product);
+  const Score result = score(found, must(read_truth_side(truth)));
+  double dice = 0.0;
+  int counted = 0;
+  for (const SchoolScore& school : result.schools) {
+    if (!school.counted) continue;
+    dice += school.dice;
+    ++counted;
+  }
+  fmt::print("answer: {} schools that count, mean Dice {:.3f}, {} false\n", counted, counted > 0 ? dice / counted : 0.0,
+             result.false_schools.size());
+  if (counted == 0 || dice / counted < 0.8 || !result.false_schools.empty()) std::exit(1);
+}
+
+void time_stages(const SurveyFiles& survey, const ObservationFiles& observation, Work& work) {
+  const Recipe recipe;
+  Engine engine(survey, observation, recipe);
+  must(engine.estimate_background(0, engine.pings() - 1, work));
+  CalibrationTables tables(observation, recipe.calibration);
+  Stopwatch watch;
+  PowerVolume power;
+  for (std::int64_t i = 0; i < std::min<std::int64_t>(engine.pings(), 40); ++i) {
+    watch.time("1 read and lay on the grid",
+               [&] { must(load_volume(survey, observation, static_cast<std::size_t>(i), power)); });
+    StagedPing staged = must(engine.staged(i));
+    watch.time("2 flags, Sv, median, seabed", [&] { staged = must(engine.staged(i)); });
+    Array3<std::int16_t> filtered(staged.sv.counts.shape());
+    watch.time("3   of which the median",
+               [&] { median_into(staged.sv.counts.view(), staged.sv.flags.view(), recipe.median, filtered.view()); });
+    Seabed seabed;
+    watch.time("4   of which the seabed", [&] {
+      seabed = find_seabed(filtered.view(), staged.sv.flags.view(), engine.sector(), engine.grid().vertical_width_deg,
+                           recipe.seabed);
+    });
+    std::vector<Detection> detections;
+    watch.time("5 detect", [&] {
+      detections = detect(staged.filtered->counts.view(), staged.filtered->flags.view(), engine.sector(),
+                          staged.background(), recipe.detect);
+    });
+  }
+  watch.print();
+}
+
+void time_run(const SurveyFiles& survey, const ObservationFiles& observation, const std::filesystem::path& truth,
+              Work& work) {
+  const auto pings = static_cast<double>(observation.pings.size());
+  verify(must(observe(survey, observation, {}, {}, work)), truth);
+  std::vector<double> per_ping;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const auto begin = Clock::now();
+    must(observe(survey, observation, {}, {}, work));
+    per_ping.push_back(milliseconds_since(begin) / pings);
+  }
+  std::sort(per_ping.begin(), per_ping.end());
+  const double span_s =
+      static_cast<double>(observation.navigation.back().time - observation.navigation.front().time) / 1e9;
+  fmt::print("whole run, {} threads: median {:.2f} ms a ping (min {:.2f}), {:.0f} times real time\n", work.threads(),
+             per_ping[2], per_ping[0], span_s * 1000.0 / (per_ping[2] * pings));
+}
+
+}  // namespace
+}  // namespace sonar
+
+int main(int argc, char** argv) {
+  using namespace sonar;
+  const std::filesystem::path folder =
+      argc > 1 ? argv[1] : (std::filesystem::temp_directory_path() / "sonar-bench-stages").string();
+  Work work;
+  const SurveyFiles survey = make_survey(folder, argc > 2 ? std::atoi(argv[2]) : 120, work);
+  time_stages(survey, survey.observations.front(), work);
+  time_run(survey, survey.observations.front(), folder / "truth", work);
+  return 0;
+}

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same work cut into tasks, by any number of jobs, without the raw data, gives the same survey."""
+import json
+import shutil
+
+import sonarx
+from sonarx import OUT, SURVEY, Case
+
+# What a survey is: the rest of the folder says how it was made.
+RESULTS = ("schools.csv", "school_pings.csv", "products/obs-0001.nc", "products/obs-0002.nc")
+
+
+class Merge(Case):
+    def same_results(self, other):
+        for name in RESULTS:
+            self.assertEqual((other / name).read_bytes(), (OUT / name).read_bytes(), name)
+        self.sonarx("compare", OUT, other)
+
+    def test_plan_tasks_merge_equals_run(self):
+        out = self.fresh("tasks")
+        self.sonarx("plan", SURVEY, "--out", out)
+        plan = json.loads((out / "plan.json").read_text())
+        self.assertEqual(len(plan["tasks"]), 2)
+        for task in (1, 0):  # in any order
+            self.sonarx("run", "--plan", out / "plan.json", "--task", task)
+        self.sonarx("merge", out)
+        self.same_results(out)
+        self.one_line_error("run", "--plan", out / "plan.json", "--task", 99, code=2)
+
+    def test_any_number_of_jobs(self):
+        for jobs in (1, 3):
+            out = self.fresh(f"jobs-{jobs}")
+            self.sonarx("run", SURVEY, "--out", out, "--jobs", jobs)
+            self.same_results(out)
+            shutil.rmtree(out)
+
+    def test_raw_moved_away(self):
+        away = self.fresh("away")
+        shutil.copytree(SURVEY, away / "survey", ignore=shutil.ignore_patterns("truth"))
+        self.sonarx("run", away / "survey", "--out", away / "out")
+        (away / "survey").rename(away / "gone")
+        for name in ("schools.csv", "school_pings.csv", "survey.gpkg"):
+            (away / "out" / name).unlink()
+        self.sonarx("merge", away / "out")
+        self.same_results(away / "out")
+        self.assertGreater((away / "out" / "survey.gpkg").stat().st_size, 10000)
+        self.sonarx("export", away / "out", "--to", "geojson", "--dest", away / "geojson")
+
+    def test_only_one_observation_then_the_rest(self):
+        out = self.fresh("only")
+        self.sonarx("run", SURVEY, "--out", out, "--only", "obs-0002")
+        self.assertEqual([p.name for p in (out / "products").glob("*.nc")], ["obs-0002.nc"])
+        self.sonarx("run", SURVEY, "--out", out)
+        self.same_results(out)
+
+    def test_compare_names_a_difference(self):
+        self.sonarx("compare", OUT / "products/obs-0001.nc", OUT / "products/obs-0001.nc")
+        code, out, err = sonarx.run("compare", OUT / "products/obs-0001.nc", OUT / "products/obs-0002.nc")
+        self.assertEqual(code, 1)
+        self.assertTrue((out + err).strip())
+
+    def test_recipe(self):
+        folder = self.fresh("recipe")
+        for preset in ("default", "paper"):
+            text = self.sonarx("recipe", "--preset", preset)
+            self.assertIn("recipe_version", json.loads(text))
+            (folder / f"{preset}.json").write_text(text)
+            self.sonarx("recipe", "--validate", folder / f"{preset}.json")
+        recipe = json.loads((folder / "default.json").read_text())
+        recipe["recipe_version"] += 1
+        (folder / "newer.json").write_text(json.dumps(recipe))
+        self.one_line_error("recipe", "--validate", folder / "newer.json", code=1, names="version")
+        (folder / "broken.json").write_text("{")
+        code, _, err = sonarx.run("recipe", "--validate", folder / "broken.json")
+        self.assertIn(code, (1, 2))
+        self.assertEqual(len(err.strip().splitlines()), 1)
+
+    def test_mixed_recipes_are_refused(self):
+        out = self.fresh("mixed")
+        self.sonarx("run", SURVEY, "--out", out, "--only", "obs-0001")
+        recipe = json.loads(self.sonarx("recipe", "--preset", "paper"))
+        (out / "paper.json").write_text(json.dumps(recipe))
+        other = self.fresh("mixed-other")
+        self.sonarx("run", SURVEY, "--out", other, "--only", "obs-0002", "--recipe", out / "paper.json")
+        shutil.copy(other / "products/obs-0002.nc", out / "products/obs-0002.nc")
+        self.one_line_error("merge", out, code=1, names="recipe")
+
+
+if __name__ == "__main__":
+    sonarx.main()

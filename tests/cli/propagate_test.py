@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One click on a school of the truth, in both modes."""
+import sonarx
+from sonarx import SURVEY, TRUTH, Case
+
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
+
+
+def seed():
+    """PING,FAN,BEAM,SAMPLE in the middle of the longest run of the largest school's middle ping."""
+    product = netCDF4.Dataset(TRUTH / "obs-0001.nc")
+    mask = {name: product["mask"][name][:].tolist()
+            for name in ("school_id", "ping_index", "channel", "first_sample", "sample_count")}
+    product.close()
+    size = {}
+    for school, count in zip(mask["school_id"], mask["sample_count"]):
+        size[school] = size.get(school, 0) + count
+    school = max(sorted(size), key=size.get)
+    pings = sorted({p for s, p in zip(mask["school_id"], mask["ping_index"]) if s == school})
+    ping = pings[len(pings) // 2]
+    runs = [(n, c, f) for s, p, c, f, n in zip(*(mask[k] for k in ("school_id", "ping_index", "channel", "first_sample",
+                                                                  "sample_count"))) if (s, p) == (school, ping)]
+    count, channel, first = max(runs)
+    return f"{ping},{channel // 25},{channel % 25},{first + count // 2}", len(pings)
+
+
+class Propagate(Case):
+    def setUp(self):
+        if netCDF4 is None:
+            self.skipTest("python3-netcdf4 is not installed")
+
+    def test_both_modes_follow_the_school(self):
+        place, pings = seed()
+        for mode, tolerance in (("tracked", ("--tolerance-db", "10")), ("paper", ("--tolerance-opacity", "0.3"))):
+            with self.subTest(mode):
+                out = self.fresh(f"propagate-{mode}")
+                self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, *tolerance, "--mode", mode,
+                            "--out", out)
+                schools = sonarx.read_csv(out / "schools.csv")
+                self.assertEqual(len(schools), 1)
+                self.assertEqual(schools[0]["origin"], "manual")
+                rows = sonarx.read_csv(out / "school_pings.csv")
+                self.assertEqual(len(rows), int(schools[0]["n_pings"]))
+                if mode == "tracked":
+                    self.assertGreaterEqual(len(rows), pings // 2)
+
+    def test_a_seed_in_the_sea_is_refused_in_one_line(self):
+        out = self.fresh("propagate-sea")
+        code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", "--seed", "0,10,12,3",
+                                  "--tolerance-db", "10", "--out", out)
+        self.assertIn(code, (1, 2))
+        self.assertEqual(len(err.strip().splitlines()), 1)
+
+    def test_seeds_that_are_no_voxels(self):
+        for place in ("1,2,3", "a,b,c,d", "0,20,0,100", "0,0,25,100", "0,0,0,999999", "-1,0,0,100", "9999,0,0,100"):
+            with self.subTest(place):
+                code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", f"--seed={place}",
+                                          "--tolerance-db", "10", "--out", self.fresh("propagate-none"))
+                self.assertIn(code, (1, 2), err)
+                self.assertEqual(len(err.strip().splitlines()), 1, err)
+
+
+if __name__ == "__main__":
+    sonarx.main()

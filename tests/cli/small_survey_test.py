@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the survey that the other tests read, and runs it: simulate -> info -> run -> score -> compare."""
+import json
+import shutil
+
+import sonarx
+from sonarx import OUT, SCHOOL_PINGS, SCHOOLS, SURVEY, TRUTH, WORK, Case
+
+FLAGS = ["--preset", "easy", "--seed", "3", "--observations", "2", "--pings", "14", "--schools", "2"]
+
+
+class SmallSurvey(Case):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        code, out, err = sonarx.run("simulate", SURVEY, *FLAGS)
+        assert code == 0, out + err
+        cls.raw = sonarx.snapshot(SURVEY)
+        code, out, err = sonarx.run("run", SURVEY, "--out", OUT)
+        assert code == 0, out + err
+
+    def test_simulated_survey(self):
+        self.assertTrue(sorted(SURVEY.glob("*.raw")))
+        self.assertEqual(sonarx.header(TRUTH / "schools.csv"), SCHOOLS)
+        self.assertEqual(sonarx.header(TRUTH / "school_pings.csv"), SCHOOL_PINGS)
+        self.assertGreater(len(sonarx.read_csv(TRUTH / "bodies.csv")), 0)
+        self.assertEqual(sorted(p.name for p in TRUTH.glob("*.nc")), ["obs-0001.nc", "obs-0002.nc"])
+        for raw in SURVEY.glob("*.raw"):
+            self.assertIn(b"SYNTHETIC", raw.read_bytes()[:2000])
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        again = self.fresh("again")
+        self.sonarx("simulate", again / "survey", *FLAGS)
+        self.assertEqual(sonarx.contents(again / "survey"), sonarx.contents(SURVEY))
+        shutil.rmtree(again)
+
+    def test_info(self):
+        info = json.loads(self.sonarx("info", SURVEY, "--json", "--checksum"))
+        self.assertEqual([o["name"] for o in info["observations"]], ["obs-0001", "obs-0002"])
+        for observation in info["observations"]:
+            self.assertEqual(observation["grid"], {"fans": 20, "beams": 25})
+            self.assertEqual(observation["pings"], 14)
+            self.assertLess(observation["first_time_utc"], observation["last_time_utc"])
+        for file in info["files"]:
+            self.assertEqual(file["channels"], 500)
+            self.assertEqual(file["datagrams"]["RAW0"], 500 * file["pings"])
+            self.assertEqual(file["datagrams"]["CON0"], 1)
+            self.assertEqual(file["notes"], [])
+            self.assertIn("power_count_sum", file)
+            self.assertLessEqual(file["samples"]["min"], file["samples"]["max"])
+            for key in ("path", "format", "sounder", "size", "first_time_utc", "last_time_utc", "first_position",
+                        "talkers", "gps_minus_clock_s"):
+                self.assertIn(key, file)
+        self.assertGreater(len(self.sonarx("info", SURVEY)), 100)
+
+    def test_the_raw_folder_is_never_written_to(self):
+        self.assertEqual(sonarx.snapshot(SURVEY), self.raw)
+
+    def test_score(self):
+        score = json.loads(self.sonarx("score", OUT, "--truth", TRUTH, "--json"))
+        self.assertEqual(len(score["schools"]), len(sonarx.read_csv(TRUTH / "schools.csv")))
+        for school in score["schools"]:
+            for key in ("truth_id", "found_id", "inside", "n_pings", "n_unclipped", "dice", "cog_error_m",
+                        "volume_ratio", "volume_corrected_ratio", "backscatter_error_db", "sv_error_db",
+                        "speed_error_mps", "purity"):
+                self.assertIn(key, school)
+        self.assertIn("false_schools", score)
+        self.assertIn("found_fraction", score["summary"])
+        self.assertIn("mean_dice", score["summary"])
+        self.assertTrue(self.sonarx("score", OUT, "--truth", TRUTH).strip())
+
+    def test_a_second_run_does_nothing_again(self):
+        before = sonarx.snapshot(OUT / "products")
+        self.sonarx("run", SURVEY, "--out", OUT)
+        self.assertEqual(sonarx.snapshot(OUT / "products"), before)
+
+    def test_remeasuring_unchanged_calibration_changes_no_table(self):
+        again = self.fresh("remeasured")
+        shutil.copytree(OUT, again / "out")
+        self.sonarx("run", SURVEY, "--out", again / "out", "--remeasure")
+        for table in ("schools.csv", "school_pings.csv"):
+            self.assertEqual((again / "out" / table).read_bytes(), (OUT / table).read_bytes())
+        shutil.rmtree(again)
+
+
+if __name__ == "__main__":
+    sonarx.main()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the built sonarx for the tests beside this file. SONARX = the program, SONAR_WORK = a folder to write in."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("SONARX", "sonarx")
+WORK = Path(os.environ.get("SONAR_WORK", PROJECT / "build" / "tests-cli")).resolve()
+SURVEY, OUT = WORK / "survey", WORK / "out"
+TRUTH = SURVEY / "truth"
+
+VERBS = ["info", "simulate", "run", "plan", "merge", "propagate", "export", "score", "compare", "recipe"]
+SCHOOL_PINGS = (
+    "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,n_fans,"
+    "volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,sv_max_db,backscatter_m2,"
+    "valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,height_corrected_m,sv_corrected_db,snr_db,"
+    "threshold_db,edge_flags,edge_fraction,touches_edge,bottom_depth_m,provisional").split(",")
+SCHOOLS = (
+    "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
+    "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
+    "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
+    "comment").split(",")
+
+
+def run(*arguments, timeout=600):
+    """(exit code, standard output, standard error)"""
+    environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache")}
+    for display in ("DISPLAY", "WAYLAND_DISPLAY"):
+        environment.pop(display, None)
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                          timeout=timeout, env=environment, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def read_csv(path):
+    with open(path, newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def header(path):
+    with open(path, newline="", encoding="utf-8") as stream:
+        return next(csv.reader(stream))
+
+
+def snapshot(folder):
+    """Every file under the folder with size, time and bytes' hash: equal snapshots, untouched folder."""
+    import hashlib
+    return {p.relative_to(folder).as_posix(): (p.stat().st_size, p.stat().st_mtime_ns,
+                                               hashlib.sha1(p.read_bytes()).hexdigest())
+            for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def contents(folder):
+    """The same without times."""
+    return {name: (size, digest) for name, (size, _, digest) in snapshot(folder).items()}
+
+
+class Case(unittest.TestCase):
+    def sonarx(self, *arguments, code=0):
+        got, out, err = run(*arguments)
+        self.assertEqual(got, code, f"sonarx {' '.join(map(str, arguments))}\n{out[-2000:]}\n{err[-2000:]}")
+        return out
+
+    def one_line_error(self, *arguments, code, names=""):
+        """Fails with one line on standard error that names what was wrong, nothing on standard output."""
+        got, out, err = run(*arguments)
+        self.assertEqual(got, code, f"sonarx {' '.join(map(str, arguments))}\n{out[-2000:]}\n{err[-2000:]}")
+        self.assertEqual(len(err.strip().splitlines()), 1, err)
+        self.assertIn(str(names), err)
+        self.assertEqual(out, "")
+
+    @staticmethod
+    def fresh(name):
+        """An empty folder of this test's own."""
+        folder = WORK / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        return folder
+
+
+def main():
+    unittest.main(argv=[sys.argv[0]], verbosity=2)

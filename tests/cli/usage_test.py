@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Help, versions, wrong usage, and every command that the README and the pages show."""
+import re
+import shlex
+
+import sonarx
+from sonarx import PROJECT, VERBS, Case, run
+
+
+class Usage(Case):
+    def test_help_names_every_verb(self):
+        text = self.sonarx("--help")
+        for verb in VERBS:
+            self.assertRegex(text, rf"(?m)^\s+{verb}\b")
+
+    def test_every_verb_has_help(self):
+        for verb in VERBS:
+            with self.subTest(verb):
+                self.assertGreater(len(self.sonarx(verb, "--help")), 80)
+
+    def test_version_is_the_projects(self):
+        project = re.search(r"project\(sonar-explorer VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text()).group(1)
+        self.assertIn(project, self.sonarx("--version"))
+
+    def test_wrong_usage_is_two(self):
+        for arguments in [(), ("no-such-verb",), ("info",), ("info", "--no-such-flag"), ("simulate",), ("run",),
+                          ("score",), ("compare", "a"), ("simulate", "x", "--preset", "no-such-preset"),
+                          ("simulate", "x", "--pings", "-3"), ("simulate", "x", "--seed", "word"),
+                          ("export", "x", "--to", "no-such-format", "--dest", "y")]:
+            with self.subTest(arguments):
+                code, out, err = run(*arguments)
+                self.assertEqual(code, 2, out + err)
+                self.assertEqual(out, "")
+                self.assertNotEqual(err.strip(), "")
+
+    def test_what_is_not_there_fails_in_one_line(self):
+        gone = sonarx.WORK / "not-there"
+        for arguments in [("run", gone, "--out", sonarx.WORK / "nowhere"), ("merge", gone), ("compare", gone, gone),
+                          ("score", gone, "--truth", gone), ("recipe", "--validate", gone / "r.json")]:
+            with self.subTest(arguments):
+                self.one_line_error(*arguments, code=1, names=gone)
+
+    def test_commands_in_the_pages_exist(self):
+        pages = [PROJECT / "README.md", *sorted((PROJECT / "docs").glob("*.md"))]
+        commands = []
+        for page in pages:
+            for block in re.findall(r"```(?:sh|bash)\n(.*?)```", page.read_text(), re.DOTALL):
+                joined = block.replace("\\\n", " ")
+                commands += [(page.name, line.split("#")[0].strip()) for line in joined.splitlines() if line.strip()]
+        shown = [(page, shlex.split(line)) for page, line in commands if line]
+        self.assertGreater(len(shown), 10)
+        help_of = {verb: self.sonarx(verb, "--help") for verb in VERBS}
+        for page, words in shown:
+            with self.subTest(f"{page}: {' '.join(words)}"):
+                if words[0] == "sonarx":
+                    if words[1].startswith("--"):
+                        continue
+                    self.assertIn(words[1], VERBS)
+                    for flag in (w.split("=")[0] for w in words[2:] if w.startswith("--")):
+                        self.assertIn(flag, help_of[words[1]])
+                elif words[0].startswith("tools/"):
+                    self.assertTrue((PROJECT / words[0]).stat().st_mode & 0o111, words[0])
+
+
+if __name__ == "__main__":
+    sonarx.main()

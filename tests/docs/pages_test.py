@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The pages: links lead somewhere, every room and package is described, columns agree with the code."""
+import re
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent.parent
+PAGES = [*sorted(PROJECT.glob("*.md")), *sorted((PROJECT / "docs").glob("*.md"))]
+
+
+class Pages(unittest.TestCase):
+    def test_links_between_pages(self):
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()):
+                if "://" not in target and not target.startswith("mailto:"):
+                    self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+
+    def test_every_room_of_the_check_is_described_with_its_includes(self):
+        check = {}
+        exec(compile(re.search(r"ROOMS = \{.*?\n\}", (PROJECT / "tools/check_layers").read_text(), re.DOTALL).group(0),
+                     "rooms", "exec"), check)
+        text = (PROJECT / "docs/architecture.md").read_text()
+        rows = dict(re.findall(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|", text, re.MULTILINE))
+        self.assertEqual(list(rows), list(check["ROOMS"]))
+        for room, allowed in check["ROOMS"].items():
+            self.assertEqual(set(re.findall(r"\w+", rows[room])), set(allowed), room)
+        self.assertEqual({p.name for p in (PROJECT / "src").iterdir() if p.is_dir()} - set(rows), set())
+
+    def test_every_installed_package_is_described(self):
+        setup = (PROJECT / "tools/setup.sh").read_text()
+        described = (PROJECT / "docs/dependencies.md").read_text()
+        for group in re.findall(r"^(?:build|test|full|bench)=\(([^)]*)\)", setup, re.MULTILINE):
+            for package in group.split():
+                self.assertIn(f"`{package}`", described)
+
+    def test_columns_of_the_tables(self):
+        text = (PROJECT / "docs/interfaces.md").read_text()
+        source = (PROJECT / "src/model/school.h").read_text()
+        lists = [",".join(re.findall(r'v\("(\w+)"', body)) for body in source.split("void columns(")[1:]]
+        self.assertEqual(len(lists), 2)
+        for columns in lists:
+            self.assertIn(columns, re.sub(r"\s+", "", text))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// From raw bytes to products, on small synthetic surveys.
+#include "pipeline/observe.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "pipeline/compare.h"
+#include "pipeline/engine.h"
+#include "pipeline/manual.h"
+#include "pipeline/survey.h"
+#include "synth/beam_table.h"
+#include "synth/presets.h"
+#include "synth/simulate.h"
+
+namespace sonar {
+namespace {
+
+/// One small survey for all tests: 24 pings, two schools, easy water.
+class Observe : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::filesystem::temp_directory_path() / ("sonar-observe-" + std::to_string(::getpid()));
+    synth::SurveyParams params = synth::survey_params(synth::Preset::easy);
+    params.observations = 1;
+    params.pings = 24;
+    params.schools = 2;
+    Work work;
+    ASSERT_TRUE(synth::simulate_survey(folder_, params, synth::ms70_beams(), false, "test", work));
+    const std::vector<std::filesystem::path> paths{folder_};
+    auto survey = open_survey(paths, {}, {}, {}, work);
+    ASSERT_TRUE(survey);
+    survey_ = std::make_unique<SurveyFiles>(std::move(*survey));
+    auto product = observe(*survey_, observation(), {}, {{}, {}, "test"}, work);
+    ASSERT_TRUE(product);
+    product_ = std::make_unique<ObservationProduct>(std::move(*product));
+  }
+  static void TearDownTestSuite() {
+    survey_.reset();
+    product_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  static const ObservationFiles& observation() { return survey_->observations.front(); }
+
+  /// A click on the middle of a school that was found.
+  static JournalLine click(GrowMode mode) {
+    const SchoolMask& found = product_->masks[product_->masks.size() / 2];
+    const auto longest = std::max_element(found.mask.runs.begin(), found.mask.runs.end(),
+                                          [](const auto& a, const auto& b) { return a.count < b.count; });
+    PropagateCommand command;
+    command.mode = mode;
+    command.grow.mode = mode;
+    command.grow.tolerance_opacity = 0.25;
+    const int channel = observation().grid->channel[static_cast<std::size_t>(longest->row)];
+    command.seeds = {{channel, longest->first_sample + longest->count / 2}};
+    JournalLine line;
+    line.n = 1;
+    line.operator_name = "someone";
+    line.command = "propagate";
+    line.ping_time = survey_->ping_time(observation(), static_cast<std::size_t>(found.ping_index));
+    line.args = to_json(command);
+    return line;
+  }
+
+  static ObservationProduct observed(const Recipe& recipe, std::vector<JournalLine> journal) {
+    Work work(2);
+    auto product = observe(*survey_, observation(), recipe, {{}, journal, "test"}, work);
+    EXPECT_TRUE(product);
+    return product ? *product : ObservationProduct{};
+  }
+
+  static int count(const ObservationProduct& product, DiagnosticCode code) {
+    return static_cast<int>(std::count_if(product.diagnostics.begin(), product.diagnostics.end(),
+                                          [&](const Diagnostic& note) { return note.code == code; }));
+  }
+
+  static inline std::filesystem::path folder_;
+  static inline std::unique_ptr<SurveyFiles> survey_;
+  static inline std::unique_ptr<ObservationProduct> product_;
+};
+
+TEST_F(Observe, FindsTheSchoolsAndNotesTheirBirths) {
+  EXPECT_EQ(product_->schools.size(), 2U);
+  EXPECT_GE(count(*product_, DiagnosticCode::track_event), 2);
+  for (const SchoolPingRow& row : product_->school_pings) {
+    EXPECT_LE(row.valid_fraction, 1.0);
+    EXPECT_GT(row.snr_db, 0.0);
+  }
+}
+
+TEST_F(Observe, AnyNumberOfThreadsGivesTheSameProduct) {
+  for (const int threads : {1, 2, 5}) {
+    Work work(threads);
+    const auto again = observe(*survey_, observation(), {}, {{}, {}, "test"}, work);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(first_difference(*product_, *again), "");
+  }
+}
+
+TEST_F(Observe, PingsInAnyOrderAreTheSamePings) {
+  Work work(1);
+  Engine forwards(*survey_, observation(), {});
+  Engine backwards(*survey_, observation(), {});
+  ASSERT_TRUE(forwards.estimate_background(0, forwards.pings() - 1, work));
+  ASSERT_TRUE(backwards.estimate_background(0, backwards.pings() - 1, work));
+  std::vector<Array3<std::int16_t>> filtered;
+  for (std::int64_t i = 0; i < forwards.pings(); ++i) filtered.push_back(forwards.staged(i)->filtered->counts);
+  for (std::int64_t i = backwards.pings() - 1; i >= 0; --i) {
+    EXPECT_EQ(backwards.staged(i)->filtered->counts, filtered[static_cast<std::size_t>(i)]) << "ping " << i;
+  }
+}
+
+TEST_F(Observe, RemeasuringUnderTheSameRecipeChangesNothing) {
+  Work work(2);
+  const auto again = remeasure(*survey_, observation(), *product_, {}, {{}, {}, "test"}, work);
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->school_pings.size(), product_->school_pings.size());
+  for (std::size_t i = 0; i < again->school_pings.size(); ++i) {
+    EXPECT_EQ(again->school_pings[i].sv_mean_db, product_->school_pings[i].sv_mean_db);
+    EXPECT_EQ(again->school_pings[i].backscatter_m2, product_->school_pings[i].backscatter_m2);
+  }
+}
+
+TEST_F(Observe, OneDecibelMoreGainIsTwoDecibelsLessSv) {
+  Recipe louder;
+  for (int channel = 0; channel < 500; ++channel) {
+    const BeamConfig& beam = observation().config.beams[static_cast<std::size_t>(channel)];
+    louder.calibration.beams.push_back({channel, beam.gain_db + 1.0, kUnknown, kUnknown});
+  }
+  Work work(2);
+  const auto again = remeasure(*survey_, observation(), *product_, louder, {{}, {}, "test"}, work);
+  ASSERT_TRUE(again);
+  // Background is subtracted in the same step, so the law holds to the rounding of one count.
+  for (std::size_t i = 0; i < again->school_pings.size(); ++i) {
+    EXPECT_NEAR(again->school_pings[i].sv_mean_db, product_->school_pings[i].sv_mean_db - 2.0, 0.012);
+  }
+}
+
+TEST_F(Observe, ClickIsReplayedFromItsJournalLine) {
+  for (const GrowMode mode : {GrowMode::tracked, GrowMode::paper}) {
+    Recipe recipe;
+    recipe.automatic = false;
+    const ObservationProduct once = observed(recipe, {click(mode)});
+    const ObservationProduct twice = observed(recipe, {click(mode)});
+    ASSERT_EQ(once.schools.size(), 1U);
+    EXPECT_EQ(once.schools[0].origin, "manual");
+    EXPECT_EQ(once.schools[0].operator_name, "someone");
+    EXPECT_EQ(first_difference(once, twice), "");
+    EXPECT_EQ(count(once, DiagnosticCode::decision_lost), 0);
+    EXPECT_GE(count(once, DiagnosticCode::propagation_ended), 1);
+  }
+}
+
+TEST_F(Observe, DetectionNeverTakesAHumansVoxel) {
+  const ObservationProduct both = observed({}, {click(GrowMode::tracked)});
+  ASSERT_GE(both.schools.size(), 2U);
+  for (const SchoolMask& a : both.masks) {
+    for (const SchoolMask& b : both.masks) {
+      if (a.ping_index != b.ping_index || a.school_id >= b.school_id) continue;
+      EXPECT_EQ(overlap(a.mask, b.mask), 0U);
+    }
+  }
+}
+
+TEST_F(Observe, ChoiceThatDoesNotHoldIsListedAndNeverMoved) {
+  JournalLine line = click(GrowMode::tracked);
+  line.args["seeds"][0]["sample"] = 0;  // the transducer's ringing
+  JournalLine unknown = click(GrowMode::tracked);
+  unknown.command = "paint";
+  Recipe recipe;
+  recipe.automatic = false;
+  const ObservationProduct product = observed(recipe, {line, unknown});
+  EXPECT_TRUE(product.schools.empty());
+  EXPECT_EQ(count(product, DiagnosticCode::decision_lost), 2);
+}
+
+TEST_F(Observe, ChannelWithoutCalibrationIsNotedAndNotUsed) {
+  Recipe recipe;
+  ObservationFiles altered = observation();
+  altered.config.beams[7].gain_db = kUnknown;
+  altered.config.beams[7].pulse_length_s = {};
+  Work work(2);
+  const auto product = observe(*survey_, altered, recipe, {{}, {}, "test"}, work);
+  ASSERT_TRUE(product);
+  EXPECT_EQ(count(*product, DiagnosticCode::not_calibrated), 1);
+  Engine engine(*survey_, altered, recipe);
+  ASSERT_TRUE(engine.estimate_background(0, 0, work));
+  const auto ping = engine.staged(0);
+  ASSERT_TRUE(ping);
+  const int row = altered.grid->row_of_channel()[7];
+  for (const SampleFlags flags : ping->sv.flags.view().row(row)) ASSERT_TRUE(any(flags & SampleFlags::lost));
+  for (const std::int16_t sv : ping->sv.counts.view().row(row)) ASSERT_EQ(sv, kNoData);
+}
+
+TEST_F(Observe, CancelledWorkGivesNoProduct) {
+  Work work(2);
+  work.cancel();
+  const auto product = observe(*survey_, observation(), {}, {{}, {}, "test"}, work);
+  ASSERT_FALSE(product);
+  EXPECT_EQ(product.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace sonar

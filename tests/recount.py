@@ -1,0 +1,463 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Independent recount of a result: raw files and masks in, every number out again.
+
+    recount.py SURVEY OUT [--observation obs-0001] [--every N]
+
+Needs numpy and netCDF4 only. Reads the raw files with a parser of its own, takes masks, navigation, recipe and
+background levels from the products, works the columns of school_pings.csv and schools.csv out anew, and prints the
+worst deviation of each. Exit code 1 where one is beyond its tolerance.
+
+Sv columns are recounted where every member is valid (valid_fraction 1): which samples were faulty is not in the
+product. Left out: the corrected extents (the figures that follow from them are checked), edges (touches_edge is checked
+against edge_flags), valid_fraction, threshold_db, bottom_depth_m, provisional.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import struct
+import sys
+
+import netCDF4
+import numpy as np
+
+DB_PER_COUNT = 10 * math.log10(2) / 256
+A, F = 6378137.0, 1 / 298.257223563
+B = A * (1 - F)
+
+
+# --- the earth (Vincenty 1975) ---------------------------------------------------------------------------------------
+
+def series(cos2_alpha):
+    u2 = cos2_alpha * (A * A - B * B) / (B * B)
+    return (1 + u2 / 16384 * (4096 + u2 * (-768 + u2 * (320 - 175 * u2))),
+            u2 / 1024 * (256 + u2 * (-128 + u2 * (74 - 47 * u2))))
+
+
+def delta_sigma(b, sin_s, cos_s, c2m):
+    return b * sin_s * (c2m + b / 4 * (cos_s * (2 * c2m**2 - 1)
+                                       - b / 6 * c2m * (4 * sin_s**2 - 3) * (4 * c2m**2 - 3)))
+
+
+def travel(lat, lon, distance, bearing):
+    """Where one arrives; degrees, metres, radians clockwise from north."""
+    if distance == 0:
+        return lat, lon
+    tan_u = (1 - F) * math.tan(math.radians(lat))
+    cos_u = 1 / math.hypot(1, tan_u)
+    sin_u = tan_u * cos_u
+    sin_a, cos_a = math.sin(bearing), math.cos(bearing)
+    sigma1 = math.atan2(tan_u, cos_a)
+    sin_alpha = cos_u * sin_a
+    cos2 = 1 - sin_alpha**2
+    a, b = series(cos2)
+    sigma = distance / (B * a)
+    for _ in range(50):
+        c2m = math.cos(2 * sigma1 + sigma)
+        following = distance / (B * a) + delta_sigma(b, math.sin(sigma), math.cos(sigma), c2m)
+        if abs(following - sigma) < 1e-15:
+            break
+        sigma = following
+    s, c = math.sin(sigma), math.cos(sigma)
+    lat2 = math.atan2(sin_u * c + cos_u * s * cos_a, (1 - F) * math.hypot(sin_alpha, sin_u * s - cos_u * c * cos_a))
+    lam = math.atan2(s * sin_a, cos_u * c - sin_u * s * cos_a)
+    k = F / 16 * cos2 * (4 + F * (4 - 3 * cos2))
+    c2m = math.cos(2 * sigma1 + sigma)
+    lam -= (1 - k) * F * sin_alpha * (sigma + k * s * (c2m + k * c * (2 * c2m**2 - 1)))
+    return math.degrees(lat2), (lon + math.degrees(lam) + 180) % 360 - 180
+
+
+def plane(lat1, lon1, lat2, lon2):
+    """East and north of place 2 in the plane about place 1, metres (azimuthal equidistant)."""
+    if lat1 == lat2 and lon1 == lon2:
+        return 0.0, 0.0
+    u1, u2 = (math.atan((1 - F) * math.tan(math.radians(v))) for v in (lat1, lat2))
+    length = math.radians((lon2 - lon1 + 180) % 360 - 180)
+    lam = length
+    for _ in range(200):
+        sl, cl = math.sin(lam), math.cos(lam)
+        x, y = math.cos(u2) * sl, math.cos(u1) * math.sin(u2) - math.sin(u1) * math.cos(u2) * cl
+        s, c = math.hypot(x, y), math.sin(u1) * math.sin(u2) + math.cos(u1) * math.cos(u2) * cl
+        sigma = math.atan2(s, c)
+        sin_alpha = math.cos(u1) * math.cos(u2) * sl / s
+        cos2 = 1 - sin_alpha**2
+        c2m = c - 2 * math.sin(u1) * math.sin(u2) / cos2 if cos2 else 0.0
+        k = F / 16 * cos2 * (4 + F * (4 - 3 * cos2))
+        following = length + (1 - k) * F * sin_alpha * (sigma + k * s * (c2m + k * c * (2 * c2m**2 - 1)))
+        if abs(following - lam) < 1e-14:
+            break
+        lam = following
+    a, b = series(cos2)
+    distance = B * a * (sigma - delta_sigma(b, s, c, c2m))
+    bearing = math.atan2(x, y)
+    return distance * math.sin(bearing), distance * math.cos(bearing)
+
+
+# --- raw files -------------------------------------------------------------------------------------------------------
+
+def datagrams(path):
+    data = path.read_bytes()
+    at = 0
+    while at + 16 <= len(data):
+        length = struct.unpack_from("<i", data, at)[0]
+        end = at + 8 + length
+        if length < 12 or end > len(data) or struct.unpack_from("<i", data, end - 4)[0] != length:
+            return
+        kind = data[at + 4:at + 8].decode("latin-1")
+        ticks = struct.unpack_from("<Q", data, at + 8)[0]
+        yield kind, (ticks - 116444736000000000) * 100, memoryview(data)[at + 16:end - 4]
+        at = end
+
+
+def read_con0(body):
+    beams = []
+    for i in range(struct.unpack_from("<i", body, 512)[0]):
+        f = lambda offset, n=1: struct.unpack_from(f"<{n}f", body, 516 + 320 * i + offset)
+        beams.append({"gain": f(136)[0], "psi": f(140)[0], "pulses": f(192, 5), "gains": f(220, 5), "sa": f(248, 5)})
+    return beams
+
+
+def read_raw0(body):
+    names = ("power", "pulse", "interval", "c", "absorption")
+    frequency, power, pulse, _, interval, c, absorption = struct.unpack_from("<7f", body, 8)
+    offset, count = struct.unpack_from("<2i", body, 64)
+    head = dict(zip(names, (power, pulse, interval, c, absorption)), frequency=frequency, offset=offset)
+    head["counts"] = np.frombuffer(body, "<i2", count, 72).astype(int)
+    return struct.unpack_from("<h", body, 0)[0] - 1, head
+
+
+class Survey:
+    """A folder of raw files, read one ping at a time."""
+
+    def __init__(self, folder):
+        self.paths = sorted(p for p in pathlib.Path(folder).iterdir() if p.suffix.lower() == ".raw")
+
+    def load(self, wanted):
+        """Yields (time, beams of CON0, {channel: head and counts}) of the wanted times."""
+        for path in self.paths:
+            beams, time, channels = None, None, {}
+            for kind, stamp, body in datagrams(path):
+                if kind == "CON0":
+                    beams = read_con0(body)
+                if kind != "RAW0":
+                    continue
+                if stamp != time:
+                    if channels:
+                        yield time, beams, channels
+                    time, channels = stamp, {}
+                if stamp in wanted:
+                    channel, head = read_raw0(body)
+                    channels[channel] = head
+            if channels:
+                yield time, beams, channels
+
+
+# --- one observation -------------------------------------------------------------------------------------------------
+
+def bounds(centres, lone):
+    if len(centres) == 1:
+        return np.array([centres[0] - lone / 2, centres[0] + lone / 2])
+    mid = (centres[1:] + centres[:-1]) / 2
+    return np.concatenate([[centres[0] - (centres[1] - centres[0]) / 2], mid,
+                           [centres[-1] + (centres[-1] - centres[-2]) / 2]])
+
+
+class Observation:
+    def __init__(self, path):
+        with netCDF4.Dataset(path) as data:
+            data.set_auto_mask(False)
+            self.name = data.observation
+            self.recipe = json.loads(data.recipe)
+            self.pings = {k: v[:] for k, v in data["pings"].variables.items()}
+            self.rows = self.table(data["school_pings"])
+            self.schools = self.table(data["schools"])
+            grid = data["grid"]
+            self.has_grid = "elevation" in grid.variables
+            if not self.has_grid:
+                return
+            self.elevation, self.azimuth = (np.radians(grid[k][:]) for k in ("elevation", "azimuth"))
+            widths = [math.radians(float(grid[k][0, 0])) for k in ("vertical_width", "horizontal_width")]
+            self.e, self.a = bounds(self.elevation, widths[0]), bounds(self.azimuth, widths[1])
+            self.first, self.dr = float(grid["range_of_first_sample"][...]), float(grid["sample_spacing"][...])
+            self.place = {int(c): index for index, c in np.ndenumerate(grid["channel"][:])}
+            mask = data["mask"]
+            mask["confidence"].set_auto_scale(False)
+            q = mask["confidence"][:]
+            runs = [mask[k][:] for k in ("school_id", "ping_index", "channel", "first_sample", "sample_count")]
+            self.masks, at = {}, 0
+            for school, ping, channel, first, count in zip(*(r.tolist() for r in runs)):
+                self.masks.setdefault((school, ping), []).append((channel, first, q[at:at + count]))
+                at += count
+
+    @staticmethod
+    def table(group):
+        columns = {k: v[:] for k, v in group.variables.items()}
+        return [dict(zip(columns, values)) for values in zip(*columns.values())]
+
+    def voxels(self, school, ping):
+        parts = self.masks[(school, ping)]
+        channel = np.concatenate([np.full(len(q), c) for c, _, q in parts])
+        sample = np.concatenate([np.arange(first, first + len(q)) for _, first, q in parts])
+        weight = np.concatenate([q for _, _, q in parts]) / 255.0
+        fan = np.array([self.place[int(c)][0] for c in channel])
+        beam = np.array([self.place[int(c)][1] for c in channel])
+        return channel, fan, beam, sample, weight
+
+    def cell_volumes(self, fan, beam, sample):
+        r = self.first + sample * self.dr
+        shell = ((r + self.dr / 2)**3 - (r - self.dr / 2)**3) / 3
+        shell[r < self.dr] = 0
+        return shell * (self.a[beam + 1] - self.a[beam]) * np.abs(np.sin(self.e[fan + 1]) - np.sin(self.e[fan]))
+
+
+def geometry(o, school, ping):
+    """Columns that need no samples."""
+    channel, fan, beam, sample, weight = o.voxels(school, ping)
+    volume = o.cell_volumes(fan, beam, sample)
+    heading = math.radians(float(o.pings["heading"][ping]))
+    depth = float(o.pings["transducer_depth"][ping])
+    lat, lon = float(o.pings["latitude"][ping]), float(o.pings["longitude"][ping])
+    r = o.first + sample * o.dr
+    az = o.azimuth[beam] + heading
+    level = r * np.cos(o.elevation[fan])
+    east, north, down = level * np.sin(az), level * np.cos(az), -r * np.sin(o.elevation[fan])
+    w = weight * volume
+    total = w.sum()
+    e, n, z = ((w * v).sum() / total for v in (east, north, down))
+    cov = [[(w * p * q).sum() / total - a * b for q, b in ((east, e), (north, n))] for p, a in ((east, e), (north, n))]
+    bearing = 0.5 * math.atan2(2 * cov[0][1], cov[1][1] - cov[0][0])
+    near, far = np.maximum(r - o.dr / 2, 0), np.maximum(r + o.dr / 2, 0)
+    along, across, depths = [], [], []
+    for el in (o.e[fan], o.e[fan + 1]):
+        for a in (o.a[beam] + heading, o.a[beam + 1] + heading):
+            for rr in (near, far):
+                x, y = rr * np.cos(el) * np.sin(a), rr * np.cos(el) * np.cos(a)
+                along.append(x * math.sin(bearing) + y * math.cos(bearing))
+                across.append(x * math.cos(bearing) - y * math.sin(bearing))
+                depths.append(depth - rr * np.sin(el))
+    length, width, depths = np.ptp(along), np.ptp(across), np.array(depths)
+    axis = math.degrees(bearing) + (90 if width > length else 0)
+    where = travel(lat, lon, math.hypot(e, n), math.atan2(e, n))
+    return {"n_voxels": len(fan), "n_beams": len(set(beam.tolist())), "n_fans": len(set(fan.tolist())),
+            "volume_m3": volume.sum(), "latitude": where[0], "longitude": where[1], "depth_m": depth + z,
+            "range_m": math.sqrt(e * e + n * n + z * z), "bearing_deg": math.degrees(math.atan2(e, n)) % 360,
+            "length_m": max(length, width), "width_m": min(length, width), "axis_deg": axis % 180,
+            "depth_min_m": depths.min(), "depth_max_m": depths.max(), "height_m": np.ptp(depths)}
+
+
+def calibration(o, beam, head, channel, samples):
+    """Counts added to power counts to give Sv counts, as 16-bit whole numbers."""
+    gain, sa, extra = beam["gain"], 0.0, 0.0
+    for pulse, g, s in zip(beam["pulses"], beam["gains"], beam["sa"]):
+        if pulse > 0 and abs(pulse - head["pulse"]) <= o.recipe["calibration"]["pulse_tolerance"] * pulse:
+            gain, sa = g, s
+            break
+    for line in o.recipe.get("beam_calibration", []):
+        if line.get("channel") == channel:
+            gain = gain if line.get("gain_db") is None else line["gain_db"]
+            sa = sa if line.get("sa_correction_db") is None else line["sa_correction_db"]
+            extra = extra if line.get("extra_factor_db") is None else line["extra_factor_db"]
+    wavelength = head["c"] / head["frequency"]
+    constant = -10 * math.log10(head["power"] * wavelength**2 * head["c"] * head["pulse"] / (32 * math.pi**2))
+    constant += -beam["psi"] - 2 * gain - 2 * sa + extra
+    r = np.maximum(o.first + samples * o.dr, o.dr)
+    db = constant + 20 * np.log10(r) + 2 * head["absorption"] * r
+    counts = np.clip(db / DB_PER_COUNT, -32767, 32767)
+    return np.where(counts < 0, np.ceil(counts - 0.5), np.floor(counts + 0.5))
+
+
+def echo(o, row, beams, channels):
+    """Sv columns of a row whose members are all valid."""
+    school, ping = int(row["school_id"]), int(row["ping_index"])
+    channel, fan, beam, sample, _ = o.voxels(school, ping)
+    volume = o.cell_volumes(fan, beam, sample)
+    sv, noise = np.empty(len(sample)), np.zeros(len(sample))
+    levels = o.pings.get("background_db")
+    for c in set(channel.tolist()):
+        of = channel == c
+        head = channels[c]
+        table = calibration(o, beams[c], head, c, sample[of])
+        power = np.clip(head["counts"][sample[of] - head["offset"]], -32766, 32766)
+        sv[of] = 2.0**(np.clip(power + table, -32766, 32766) / 256)
+        if levels is not None and np.isfinite(levels[ping, c]):
+            noise[of] = 10**(float(levels[ping, c]) / 10) * 2.0**(table / 256)
+    rest = sv - noise
+    mean = (rest * volume).sum() / volume.sum()
+    db = lambda v: 10 * math.log10(v) if v > 0 else math.nan
+    p95 = np.sort(rest)[math.ceil(0.95 * len(rest)) - 1]
+    out = {"sv_mean_db": db(mean), "sv_p95_db": db(p95), "sv_max_db": db(rest.max()),
+           "backscatter_m2": mean * volume.sum()}
+    if noise.any():
+        out["snr_db"] = db((rest * volume).sum() / (noise * volume).sum())
+    return out
+
+
+# --- one school over its pings ---------------------------------------------------------------------------------------
+
+def line(t, x):
+    """Slope of the least-squares line and its standard error."""
+    tc, xc = t - t.mean(), x - x.mean()
+    slope = (tc * xc).sum() / (tc**2).sum()
+    return slope, math.sqrt(((xc - slope * tc)**2).sum() / (len(t) - 2) / (tc**2).sum())
+
+
+def summary(o, rows):
+    whole = [r for r in rows if r["touches_edge"] == 0]
+    used = whole or rows
+    values = lambda name: np.array([r[name] for r in used if math.isfinite(r[name])])
+    median = lambda name: float(np.median(values(name))) if len(values(name)) else math.nan
+    mean = lambda name: float(values(name).mean()) if len(values(name)) else math.nan
+    db = lambda name: 10 * math.log10((10**(values(name) / 10)).mean()) if len(values(name)) else math.nan
+    placed = [r for r in used if math.isfinite(r["latitude"])]
+    out = {"n_pings": len(rows), "n_pings_whole": len(whole), "touches_edge_fraction": 1 - len(whole) / len(rows),
+           "depth_m": mean("depth_m"), "backscatter_m2": mean("backscatter_m2"), "sv_mean_db": db("sv_mean_db"),
+           "sv_corrected_db": db("sv_corrected_db")}
+    for name in ("volume_m3", "volume_corrected_m3", "length_m", "width_m", "height_m"):
+        out[name] = median(name)
+    if placed:
+        lat, lon = placed[0]["latitude"], placed[0]["longitude"]
+        xy = np.array([plane(lat, lon, r["latitude"], r["longitude"]) for r in placed]).mean(axis=0)
+        out["latitude"], out["longitude"] = travel(lat, lon, math.hypot(*xy), math.atan2(*xy))
+    moving = [r for r in rows if not r["edge_flags"] & (1 | 2 | 16 | 32) and math.isfinite(r["latitude"])]
+    out |= dict.fromkeys(("speed_mps", "speed_se_mps", "course_deg", "vertical_speed_mps"), math.nan)
+    if len(moving) < 4:
+        return out
+    time = np.array([int(o.pings["time"][r["ping_index"]]) for r in moving])
+    t = (time - time[0]) / 1e9
+    if t[-1] < 15:
+        return out
+    lat, lon = moving[0]["latitude"], moving[0]["longitude"]
+    xy = np.array([plane(lat, lon, r["latitude"], r["longitude"]) for r in moving])
+    (e, se), (n, sn) = line(t, xy[:, 0]), line(t, xy[:, 1])
+    speed = math.hypot(e, n)
+    error = math.hypot(e / speed * se, n / speed * sn)
+    out |= {"speed_mps": speed, "speed_se_mps": error,
+            "vertical_speed_mps": line(t, np.array([r["depth_m"] for r in moving]))[0],
+            "course_deg": math.degrees(math.atan2(e, n)) % 360 if speed >= 2 * error else math.nan}
+    return out
+
+
+# --- comparing -------------------------------------------------------------------------------------------------------
+
+# Absolute tolerances where a relative one of 1e-7 is too narrow: positions stand with Vincenty's 0.1 mm, speeds on
+# positions, and an angle of a nearly round outline is ill-defined.
+TOLERANCE = {"latitude": 2e-9, "longitude": 4e-9, "axis_deg": 1e-4, "bearing_deg": 1e-6, "speed_mps": 1e-5,
+             "speed_se_mps": 1e-5, "course_deg": 1e-2, "vertical_speed_mps": 1e-6, "sv_mean_db": 1e-6,
+             "sv_p95_db": 1e-6, "sv_max_db": 1e-6, "snr_db": 1e-6, "sv_corrected_db": 1e-6}
+TURN = {"bearing_deg": 360, "course_deg": 360, "axis_deg": 180, "longitude": 360}
+
+
+class Deviations:
+    def __init__(self):
+        self.worst, self.failed = {}, False
+
+    def add(self, table, name, got, wanted, where):
+        got, wanted = float(got), float(wanted)
+        if math.isnan(got) and math.isnan(wanted):
+            off = 0.0
+        elif math.isnan(got) or math.isnan(wanted):
+            off = math.inf
+        else:
+            off = abs(got - wanted)
+            if name in TURN:
+                off = min(off, abs(TURN[name] - off))
+        limit = TOLERANCE.get(name, 1e-7 * max(1.0, abs(wanted)) if math.isfinite(wanted) else 0.0)
+        count, worst, _, _ = self.worst.get((table, name), (0, -1.0, limit, ""))
+        if off / limit > worst if limit else off > 0:
+            self.worst[(table, name)] = (count + 1, off / limit if limit else math.inf, limit,
+                                         f"{where}: {got!r}, recounted {wanted!r}")
+        else:
+            self.worst[(table, name)] = (count + 1,) + self.worst[(table, name)][1:]
+        self.failed |= not off <= limit
+
+    def show(self):
+        for (table, name), (count, worst, limit, where) in self.worst.items():
+            mark = "  BEYOND " + where if worst > 1 else ""
+            print(f"{table:18s}{name:24s}{count:7d} values, worst {worst * limit:10.3g}, allowed {limit:8.2g}{mark}")
+
+
+def recount_observation(o, survey, every, deviations):
+    skipped, wanted = 0, {}
+    for i, row in enumerate(o.rows):
+        where = f"{o.name} school {row['school_id']} ping {row['ping_index']}"
+        add = lambda name, value: deviations.add("school_pings", name, row[name], value, where)
+        for name, value in geometry(o, int(row["school_id"]), int(row["ping_index"])).items():
+            add(name, value)
+        add("touches_edge", float(int(row["edge_flags"]) & 255 != 0))
+        if row["backscatter_m2"] > 0 and math.isfinite(row["volume_corrected_m3"]):
+            add("sv_corrected_db", 10 * math.log10(row["backscatter_m2"] / row["volume_corrected_m3"]))
+            add("volume_corrected_m3", math.pi / 6 * row["length_corrected_m"] * row["width_corrected_m"]
+                * row["height_corrected_m"])
+        if abs(row["valid_fraction"] - 1) > 1e-9:
+            skipped += 1
+        elif i % every == 0:
+            wanted.setdefault(int(o.pings["time"][row["ping_index"]]), []).append((row, where))
+    if o.recipe["calibration"]["absorption"] != "file" or o.recipe["navigation"]["time_offset_s"] != 0:
+        print(f"{o.name}: sv not recounted: absorption by formula, or shifted times")
+        wanted = {}
+    seen = set()
+    for time, beams, channels in survey.load(wanted):
+        seen.add(time)
+        for row, where in wanted[time]:
+            for name, value in echo(o, row, beams, channels).items():
+                deviations.add("school_pings", name, row[name], value, where)
+    if seen != set(wanted):
+        print(f"{o.name}: {len(wanted) - len(seen)} pings are not in the raw files")
+        deviations.failed = True
+    for school in o.schools:
+        rows = [r for r in o.rows if r["school_id"] == school["school_id"]]
+        for name, value in summary(o, rows).items():
+            deviations.add("schools", name, school[name], value, f"{o.name} school {school['school_id']}")
+    print(f"{o.name}: {len(o.rows)} school pings, {len(o.schools)} schools; sv of {skipped} pings left out (faulty samples)")
+
+
+def compare_table(path, rows, deviations):
+    """The CSV says what the products say."""
+    with open(path, newline="", encoding="utf-8") as file:
+        read = list(csv.DictReader(file))
+    key = lambda r: (str(r["observation"]), int(r["school_id"]), int(r.get("ping_index", 0)))
+    by_key = {key(r): r for r in read}
+    if len(read) != len(rows) or set(by_key) != {key(r) for r in rows}:
+        print(f"{path}: other rows than the products")
+        deviations.failed = True
+        return
+    for row in rows:
+        for name, value in row.items():
+            text = by_key[key(row)][name]
+            if name == "continues":
+                continue
+            if isinstance(value, str):
+                same = text == value
+            elif name in ("latitude", "longitude"):
+                same = (text == "") == math.isnan(value) and (text == "" or abs(float(text) - value) <= 5.1e-9)
+            else:
+                same = (math.isnan(value) and text == "") or (text != "" and float(text) == value)
+            if not same:
+                print(f"{path}: {key(row)} {name}: {text!r}, product {value!r}")
+                deviations.failed = True
+                return
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("survey", help="folder of the raw files")
+    parser.add_argument("out", help="work folder of the run")
+    parser.add_argument("--observation", help="only this one")
+    parser.add_argument("--every", type=int, default=1, help="recount the Sv of every N-th row only")
+    options = parser.parse_args()
+    out, survey, deviations = pathlib.Path(options.out), Survey(options.survey), Deviations()
+    observations = [Observation(p) for p in sorted((out / "products").glob("obs-*.nc"))]
+    for o in observations:
+        if o.has_grid and options.observation in (None, o.name):
+            recount_observation(o, survey, options.every, deviations)
+    compare_table(out / "schools.csv", [r for o in observations for r in o.schools], deviations)
+    compare_table(out / "school_pings.csv", [r for o in observations for r in o.rows], deviations)
+    deviations.show()
+    print("beyond tolerance" if deviations.failed else "all within tolerance")
+    return 1 if deviations.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Sets everything up and does the main job: simulates a survey of raw files, finds the schools in it, prints what was
+# found and where the tables and the map are.
+#   tools/demo.sh [FOLDER]      (default: build/demo in the project)
+set -euo pipefail
+here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
+exec </dev/null
+export LC_ALL=C
+case "${1:-}" in -h | --help) sed -n '3,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
+folder=${1:-$here/build/demo}
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+cd "$here"
+
+echo "== packages"
+tools/setup.sh build
+echo "== build"
+mkdir -p build
+cmake --preset release -DSONAR_TESTS=OFF >build/release.configure.log 2>&1 || { cat build/release.configure.log; exit 1; }
+cmake --build --preset release --target sonarx
+sonarx=$here/build/release/src/cli/sonarx
+
+echo "== survey"
+# The truth is written last, so its presence means a whole survey.
+if [[ ! -f $folder/survey/truth/schools.csv ]]; then
+  rm -rf "$folder/survey.partial"
+  "$sonarx" simulate "$folder/survey.partial" --preset demo --seed 1
+  rm -rf "$folder/survey"
+  mv "$folder/survey.partial" "$folder/survey"
+fi
+echo "$folder/survey: $(find "$folder/survey" -maxdepth 1 -name '*.raw' | wc -l) raw files, $(du -sh "$folder/survey" | cut -f1)"
+
+echo "== run"
+"$sonarx" run "$folder/survey" --out "$folder/out"
+
+echo "== schools"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i
+                   printf "%-9s %4s %6s %10s %10s %8s %9s %8s %8s %7s\n", "survey", "id", "pings", "latitude", "longitude",
+                          "depth m", "length m", "Sv dB", "m/s", "course"; next }
+         { printf "%-9s %4s %6s %10.5f %10.5f %8.1f %9.1f %8.1f %8s %7s\n", $column["observation"], $column["school_id"],
+                  $column["n_pings"], $column["latitude"], $column["longitude"], $column["depth_m"], $column["length_m"],
+                  $column["sv_mean_db"], $column["speed_mps"] == "" ? "-" : sprintf("%.2f", $column["speed_mps"]),
+                  $column["course_deg"] == "" ? "-" : sprintf("%.0f", $column["course_deg"]) }' "$folder/out/schools.csv"
+
+echo "== against the known truth"
+"$sonarx" score "$folder/out" --truth "$folder/survey/truth"
+
+echo "== where it is"
+echo "raw survey         $folder/survey"
+echo "table of schools   $folder/out/schools.csv"
+echo "school by ping     $folder/out/school_pings.csv"
+echo "map for QGIS       $folder/out/survey.gpkg"
+echo "masks              $folder/out/products"
+echo "the program        $sonarx --help"

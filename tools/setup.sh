@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian 12 packages that the project needs; does nothing, quickly, where they are there.
+#   tools/setup.sh [build | test | full | bench]...     (default: build)
+# build  to build and run sonarx      test   build + unit, data and command-line tests, format check
+# full   test + clang, clang-tidy, sanitizers, fuzzing      bench  build + the rivals that the benchmarks measure
+set -euo pipefail
+
+build=(g++ cmake ninja-build ccache pkg-config ca-certificates
+       libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libproj-dev proj-data libhwy-dev
+       libnetcdf-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev)
+test=(libgtest-dev libgmock-dev clang-format-16 git python3 python3-numpy python3-netcdf4)
+full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
+bench=(libbenchmark-dev libinsighttoolkit5-dev)
+
+wanted=("${build[@]}")
+for group in "${@:-build}"; do
+  case "$group" in
+    build) ;;
+    test) wanted+=("${test[@]}") ;;
+    full) wanted+=("${test[@]}" "${full[@]}") ;;
+    bench) wanted+=("${bench[@]}") ;;
+    *) echo "setup.sh: '$group' is none of build, test, full, bench" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup.sh: this is no Debian; install what docs/dependencies.md lists, then run cmake and ctest by hand" >&2
+  exit 1
+fi
+# Unknown packages make dpkg-query fail; what it prints about the others is still right.
+installed=" $(dpkg-query -W -f '${Package}=${db:Status-Status} ' "${wanted[@]}" 2>/dev/null || true)"
+missing=()
+for package in "${wanted[@]}"; do
+  [[ "$installed" == *" $package=installed "* ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=(env DEBIAN_FRONTEND=noninteractive)
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: missing packages: ${missing[*]}" >&2
+    echo "setup.sh: run it as root, or install sudo" >&2
+    exit 1
+  fi
+  # Without a terminal nobody can type a password: fail at once instead of waiting.
+  if [[ -t 0 ]]; then as_root=(sudo "${as_root[@]}"); else as_root=(sudo -n "${as_root[@]}"); fi
+fi
+echo "installing ${#missing[@]} packages: ${missing[*]}"
+"${as_root[@]}" apt-get -q -o Acquire::Retries=3 update </dev/null
+"${as_root[@]}" apt-get -q -y -o Acquire::Retries=3 install --no-install-recommends "${missing[@]}" </dev/null
