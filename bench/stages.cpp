@@ -58,6 +58,12 @@ T must(Result<T> result) {
   std::exit(1);
 }
 
+void must(const Result<void>& result) {
+  if (result) return;
+  fmt::print(stderr, "{}\n", to_line(result.error()));
+  std::exit(1);
+}
+
 SurveyFiles make_survey(const std::filesystem::path& folder, int pings, Work& work) {
   if (!std::filesystem::exists(folder)) {
     synth::SurveyParams params = synth::survey_params(synth::Preset::standard);

@@ -25,9 +25,19 @@ struct Work::Pool {
 #endif
 };
 
+namespace {
+
+/// Each thread holds a few pings: unasked, a machine of many cores must not cost the memory of many.
+constexpr int kMostDefaultThreads = 16;
+
+int default_threads() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostDefaultThreads);
+}
+
+}  // namespace
+
 Work::Work(int threads)
-    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
-      pool_(std::make_unique<Pool>(threads_)) {}
+    : threads_(threads > 0 ? threads : default_threads()), pool_(std::make_unique<Pool>(threads_)) {}
 
 Work::~Work() = default;
 

@@ -15,7 +15,7 @@ class Work {
  public:
   using ProgressSink = std::function<void(std::string_view stage, std::int64_t done, std::int64_t total)>;
 
-  /// threads = 0 takes what the machine has.
+  /// threads = 0 takes what the machine has, 16 at most.
   explicit Work(int threads = 0);
   ~Work();
   Work(const Work&) = delete;

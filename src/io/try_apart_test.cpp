@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 namespace sonar {
 namespace {
@@ -14,11 +15,10 @@ TEST(TryApart, tells_who_survives) {
   const auto crashed = try_apart([] { ::raise(SIGSEGV); }, "x");
   ASSERT_FALSE(crashed);
   EXPECT_EQ(crashed.error().code, ErrorCode::format);
-  // An alarm of one second ends what never ends.
+  // An alarm ends what never ends.
   EXPECT_FALSE(try_apart(
       [] {
-        for (volatile int i = 0;; i = i + 1) {
-        }
+        for (;;) ::pause();
       },
       "x", 1));
 }

@@ -20,7 +20,7 @@ inline constexpr int kProductVersion = 1;
 struct InputFile {
   std::string name;  ///< file name without folder
   std::uint64_t size = 0;
-  std::string hash;  ///< hexadecimal XXH3-128 of the file's identity (see io/simrad/index.h)
+  std::string hash;  ///< hexadecimal XXH3-128 of all its bytes
   friend bool operator==(const InputFile&, const InputFile&) = default;
 };
 

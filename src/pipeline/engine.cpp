@@ -16,8 +16,11 @@ namespace sonar {
 namespace {
 
 /// Power volumes of neighbouring pings that are kept: enough for a few threads and both neighbours of each.
-constexpr std::size_t kKeptBytes = 96U << 20U;
-constexpr std::size_t kLeastKept = 3;
+constexpr std::size_t kPowerBytes = 96U << 20U;
+constexpr std::size_t kLeastPower = 3;
+/// Stages that are kept from detecting to measuring: most of a short observation. With it a run stays below 600 MB.
+constexpr std::size_t kStagedBytes = 240U << 20U;
+constexpr std::size_t kStagedBytesPerVoxel = 5;  // Sv, filtered Sv, flags
 
 /// A sonar whose rows are not calibrated has no Sv there.
 void apply_tables(const Array3<std::int16_t>& table, Volume& volume) {
@@ -47,7 +50,8 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       given_(observation.pings.size()) {
   const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
                       static_cast<std::size_t>(std::max(1, observation.range.count));
-  kept_limit_ = std::clamp(kKeptBytes / (voxels * 3), kLeastKept, std::size_t{64});
+  power_limit_ = std::clamp(kPowerBytes / (voxels * 3), kLeastPower, std::size_t{64});
+  staged_limit_ = kStagedBytes / (voxels * kStagedBytesPerVoxel);
 }
 
 Placement Engine::placement(std::int64_t ping_index) const {
@@ -57,16 +61,16 @@ Placement Engine::placement(std::int64_t ping_index) const {
 Result<Engine::Power> Engine::power(std::int64_t ping_index) {
   {
     const std::scoped_lock lock(mutex_);
-    if (const auto found = kept_.find(ping_index); found != kept_.end()) return found->second;
+    if (const auto found = power_.find(ping_index); found != power_.end()) return found->second;
   }
   auto loaded = load_volume(survey_, observation_, static_cast<std::size_t>(ping_index));
   if (!loaded) return pass_on(loaded);
   auto made = std::make_shared<const PowerVolume>(std::move(*loaded));
   const std::scoped_lock lock(mutex_);
-  if (kept_.emplace(ping_index, made).second) kept_order_.push_back(ping_index);
-  if (kept_order_.size() > kept_limit_) {
-    kept_.erase(kept_order_.front());
-    kept_order_.erase(kept_order_.begin());
+  if (power_.emplace(ping_index, made).second) power_order_.push_back(ping_index);
+  if (power_order_.size() > power_limit_) {
+    power_.erase(power_order_.front());
+    power_order_.erase(power_order_.begin());
   }
   return made;
 }
@@ -181,6 +185,21 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.background_db.push_back(static_cast<double>(level_db));
   }
   return ping;
+}
+
+void Engine::keep(std::shared_ptr<const StagedPing> ping) {
+  const std::scoped_lock lock(mutex_);
+  if (staged_.size() < staged_limit_) staged_.emplace(ping->ping_index, std::move(ping));
+}
+
+Result<std::shared_ptr<const StagedPing>> Engine::kept_or_staged(std::int64_t ping_index) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = staged_.find(ping_index); found != staged_.end()) return found->second;
+  }
+  auto ping = staged(ping_index);
+  if (!ping) return pass_on(ping);
+  return std::shared_ptr<const StagedPing>(std::make_shared<StagedPing>(std::move(*ping)));
 }
 
 Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {

@@ -28,7 +28,7 @@ struct StagedPing {
   std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the seabed
   Seabed seabed;
   CalibrationTables::Table calibration;
-  std::vector<double> background_db;      ///< [row] power, dB re 1 W; NaN = none known
+  std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
 
   [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
 };
@@ -58,6 +58,10 @@ class Engine {
 
   /// All stages up to the seabed. errors: as load_volume()
   [[nodiscard]] Result<StagedPing> staged(std::int64_t ping_index);
+  /// Hands a ping's stages to a later kept_or_staged(), as long as there is room: measuring need not work out again what
+  /// detecting just did. Which pings are kept changes no result.
+  void keep(std::shared_ptr<const StagedPing> ping);
+  [[nodiscard]] Result<std::shared_ptr<const StagedPing>> kept_or_staged(std::int64_t ping_index);
   /// The same for growing and propagating.
   [[nodiscard]] Result<FilteredPing> filtered(std::int64_t ping_index);
 
@@ -77,9 +81,11 @@ class Engine {
   std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
   std::vector<std::vector<float>> given_;       ///< [ping] background that a reduced file brings along; else empty
   std::mutex mutex_;
-  std::size_t kept_limit_;
-  std::vector<std::int64_t> kept_order_;
-  std::unordered_map<std::int64_t, Power> kept_;
+  std::size_t power_limit_;
+  std::vector<std::int64_t> power_order_;
+  std::unordered_map<std::int64_t, Power> power_;
+  std::size_t staged_limit_;
+  std::unordered_map<std::int64_t, std::shared_ptr<const StagedPing>> staged_;
 };
 
 }  // namespace sonar

@@ -120,8 +120,8 @@ Result<void> measure_numbered(Engine& engine, std::vector<SchoolMasks> schools, 
   std::atomic<std::int64_t> done{0};
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
-    if (const auto ping = engine.staged(ping_index))
-      rows[static_cast<std::size_t>(i)] = measure_ping(*ping, engine, *refs);
+    if (const auto ping = engine.kept_or_staged(ping_index))
+      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, *refs);
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");

@@ -46,13 +46,15 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<
     detected.ping_index = ping_index;
     detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
     detected.placement = engine.placement(ping_index);
-    const auto ping = engine.staged(ping_index);
+    auto ping = engine.staged(ping_index);
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
       const PingMask humans = voxels_in_ping(taken, ping_index);
       detected.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
                                    ping->background(), engine.recipe().detect, &humans);
+      ping->sv.flags = {};  // measuring looks at those with the seabed
+      if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }
     work.progress("detecting", ++done, static_cast<std::int64_t>(pings.size()));
   });

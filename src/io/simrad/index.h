@@ -19,7 +19,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 1;
+inline constexpr int kIndexVersion = 2;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {
@@ -73,9 +73,7 @@ static_assert(sizeof(PingEntry) < 100);
 struct RawIndex {
   std::string name;  ///< path as the user named it
   std::uint64_t size = 0;
-  /// Identity of the content, the same under any name: hexadecimal XXH3-128 over the size (8 bytes, little-endian), the
-  /// first and the last 64 KiB (the whole file twice where it is shorter). Two files of equal size that differ only in
-  /// between count as one; headers and time stamps of sounders lie in both ends.
+  /// Hexadecimal XXH3-128 of all bytes: the same under any name, another after any change.
   std::string hash;
   RawFormat format = RawFormat::unknown;
   std::map<std::string, std::int64_t> datagrams;  ///< sound datagrams by type, skipped ones included
@@ -91,13 +89,13 @@ struct RawIndex {
   [[nodiscard]] bool readable() const { return format == RawFormat::simrad || format == RawFormat::ek80; }
 };
 
-/// The content identity described at RawIndex::hash.
+/// RawIndex::hash of a file.
 /// errors  io
-[[nodiscard]] Result<std::string> identity_hash(const ByteSource& source);
+[[nodiscard]] Result<std::string> content_hash(const ByteSource& source);
 
 /// Reads the whole file once, in blocks, and indexes it; damage is in the diagnostics.
 /// errors  io
-/// cost    one pass over the file; 4 MB of memory beside the index
+/// cost    two passes over the file, the second from memory where it fits; 4 MB beside the index
 [[nodiscard]] Result<RawIndex> index_raw(const ByteSource& source);
 
 }  // namespace sonar

@@ -92,7 +92,7 @@ TEST(IndexCache, FolderThatCannotBeMadeIsNoError) {
   EXPECT_EQ(entries(folder.path()).size(), 1U);
 }
 
-TEST(IdentityHash, DoesNotDependOnTheName) {
+TEST(ContentHash, DoesNotDependOnTheName) {
   const test::TemporaryFolder folder;
   const auto a = open_index(folder.write("a.raw", test::small_file(2)), {});
   const auto b = open_index(folder.write("b.raw", test::small_file(2)), {});
@@ -102,5 +102,12 @@ TEST(IdentityHash, DoesNotDependOnTheName) {
   EXPECT_EQ(a.value().hash.size(), 32U);
 }
 
+TEST(ContentHash, SeesAChangeAnywhere) {
+  std::vector<std::byte> bytes(5U << 20U);
+  const auto hash = [&] { return content_hash(MemorySource("a", bytes)).value(); };
+  const std::string before = hash();
+  bytes[bytes.size() / 2] = std::byte{1};
+  EXPECT_NE(hash(), before);
+}
 }  // namespace
 }  // namespace sonar

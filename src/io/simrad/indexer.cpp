@@ -109,7 +109,7 @@ Result<void> Indexer::finish(const ByteSource& source) {
         fmt::format("{} navigation sentences with a wrong checksum or none readable, the first here", bad_sentences_));
   }
   name_format();
-  const auto hash = identity_hash(source);
+  const auto hash = content_hash(source);
   if (!hash) return pass_on(hash);
   index_.hash = *hash;
   index_.diagnostics = notes_.all();
@@ -316,19 +316,17 @@ std::uint16_t Indexer::transmit_of_open_ping() {
 
 }  // namespace simrad
 
-Result<std::string> identity_hash(const ByteSource& source) {
-  constexpr std::uint64_t kEnd = 64 << 10;
-  const auto size = source.size();
-  if (!size) return pass_on(size);
+Result<std::string> content_hash(const ByteSource& source) {
+  constexpr std::size_t kBlock = 2U << 20U;
   Hasher hasher;
-  hasher.add(std::as_bytes(std::span(&*size, 1)));
-  std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(*size, kEnd)));
-  for (const std::uint64_t offset : {std::uint64_t{0}, *size - bytes.size()}) {
+  std::vector<std::byte> bytes(kBlock);
+  for (std::uint64_t offset = 0;;) {
     const auto got = source.read(offset, bytes);
     if (!got) return pass_on(got);
     hasher.add(std::span<const std::byte>(bytes).first(*got));
+    offset += *got;
+    if (*got < bytes.size()) return to_hex(hasher.value());
   }
-  return to_hex(hasher.value());
 }
 
 Result<RawIndex> index_raw(const ByteSource& source) {
