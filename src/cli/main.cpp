@@ -53,7 +53,12 @@ int run_program(int argc, char** argv) {
     return kExitUsage;
   }
   std::signal(SIGINT, on_interrupt);
-  const int code = run();
+  int code = run();
+  // A full disk or a closed pipe under the results is a failure.
+  if (code == kExitDone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    std::fprintf(stderr, "sonarx: standard output could not be written\n");
+    code = kExitFailed;
+  }
   return interrupted() ? kExitInterrupted : code;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,7 @@ struct PropagateArguments {
   std::vector<std::string> seeds;
   double tolerance_db = 0.0;
   double tolerance_opacity = 0.0;
-  std::string mode = "tracked";
+  std::string mode;  // empty = the recipe's
   std::int64_t reach = -1;
   std::string curve;
   std::string recipe;
@@ -86,7 +87,8 @@ double db_per_opacity(const TransferFunction& curve) {
 
 Result<PropagateCommand> make_command(const PropagateArguments& arguments, const Recipe& recipe) {
   PropagateCommand command;
-  command.mode = arguments.mode == "paper" ? GrowMode::paper : GrowMode::tracked;
+  command.mode = recipe.grow.mode;
+  if (!arguments.mode.empty()) command.mode = arguments.mode == "paper" ? GrowMode::paper : GrowMode::tracked;
   command.grow = recipe.grow;
   command.paper = recipe.propagate_paper;
   command.tracked = recipe.propagate_tracked;
@@ -104,7 +106,7 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
   command.grow.tolerance_db = in_db ? arguments.tolerance_db : arguments.tolerance_opacity * slope;
   command.grow.tolerance_opacity = in_db ? arguments.tolerance_db / slope : arguments.tolerance_opacity;
   command.tracked.tolerance_db = command.grow.tolerance_db;
-  for (auto valid : {validate(command.grow), validate(command.tracked)}) {
+  for (auto valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
     if (!valid) return pass_on(valid);
   }
   return command;
@@ -167,6 +169,7 @@ Result<void> write_outcome(const Clicked& clicked, const JournalLine& line, cons
   if (auto written = write_product(product, product_path(options.out, product.observation)); !written) return written;
   Journal head;
   head.recipe_hash = product.recipe_hash;
+  head.recipe = product.recipe_json;
   head.files = input_files(clicked.survey, *clicked.observation);
   const std::string text = journal_head_text(head) + "\n" + journal_text(line) + "\n";
   if (auto written = write_file(options.out / "session.jsonl", text); !written) return written;
@@ -174,6 +177,17 @@ Result<void> write_outcome(const Clicked& clicked, const JournalLine& line, cons
       make_plan(clicked.survey, clicked.paths, options.out / "session.jsonl", recipe, {{}, {&line, 1}, SONAR_VERSION});
   std::erase_if(plan.tasks, [&](const PlanTask& task) { return task.observation != product.observation; });
   return write_file(options.out / "plan.json", plan_text(plan));
+}
+
+/// OUT holds this one school: results of a run, or of another click, are not overwritten.
+Result<void> require_own_folder(const std::filesystem::path& out, const JournalLine& line) {
+  std::error_code absent;
+  if (!std::filesystem::exists(out / "plan.json", absent)) return {};
+  const auto journal = read_journal((out / "session.jsonl").string());
+  const bool same = journal && journal->lines.size() == 1 && journal->lines[0].ping_time == line.ping_time &&
+                    journal->lines[0].args == line.args;
+  if (same) return {};
+  return fail(ErrorCode::usage, "holds other results; name a folder of its own", {out.string()});
 }
 
 int propagate_verb(const PropagateArguments& arguments) {
@@ -185,12 +199,16 @@ int propagate_verb(const PropagateArguments& arguments) {
   recipe->automatic = false;
   const auto clicked = click(arguments, *recipe, work);
   if (!clicked) return report(clicked.error());
+  if (auto outside = require_outside_raw(clicked->survey, arguments.out); !outside) return report(outside.error());
   JournalLine line;
   line.n = 1;
+  line.decided =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
   line.operator_name = arguments.operator_name;
   line.command = "propagate";
   line.ping_time = clicked->survey.ping_time(*clicked->observation, static_cast<std::size_t>(clicked->ping_index));
   line.args = to_json(clicked->command);
+  if (auto own = require_own_folder(arguments.out, line); !own) return report(own.error());
   RunOptions options;
   options.out = arguments.out;
   const ObserveOptions observe_options{{}, {&line, 1}, SONAR_VERSION};

@@ -24,10 +24,7 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
     run = [arguments] {
       if (!arguments->validate.empty()) {
         const auto recipe = read_recipe(arguments->validate);
-        if (!recipe) {
-          sonar::report(recipe.error());
-          return kExitFailed;
-        }
+        if (!recipe) return sonar::report(recipe.error());
         fmt::print("{}: a sound recipe, hash {}\n", arguments->validate, recipe_hash(*recipe));
         return kExitDone;
       }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
+#include "pipeline/manual.h"
 #include "pipeline/merge.h"
 
 namespace sonar {
@@ -61,30 +63,60 @@ struct Opened {
   std::vector<JournalLine> journal;
 };
 
+/// Journal lines whose ping is in no observation: listed, never moved.
+void note_lost_choices(Opened& opened) {
+  for (const JournalLine& line : opened.journal) {
+    const bool found = std::any_of(opened.survey.observations.begin(), opened.survey.observations.end(),
+                                   [&](const ObservationFiles& observation) {
+                                     return ping_at(opened.survey, observation, line.ping_time).has_value();
+                                   });
+    if (found) continue;
+    opened.survey.diagnostics.push_back(
+        {DiagnosticCode::decision_lost, opened.plan.session, -1, -1,
+         fmt::format("line {} ({}): the survey has no ping of {}", line.n, line.command, iso_time(line.ping_time))});
+  }
+}
+
+/// The session's journal, empty where there is none.
+Result<Journal> read_session(const std::string& path) {
+  if (path.empty()) return Journal{};
+  return read_journal(path);
+}
+
+/// A recipe that was asked for; else the one that the session's choices were made under; else the default.
+Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
+  if (arguments.recipe.empty() && arguments.calibration.empty() && !journal.recipe.empty()) {
+    return recipe_from_text(journal.recipe);
+  }
+  return chosen_recipe(arguments);
+}
+
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
   Opened opened;
   std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
+  opened.plan.session = arguments.session;
   if (!arguments.plan.empty()) {
     auto plan = read_plan(arguments.plan);
     if (!plan) return pass_on(plan);
     opened.plan = std::move(*plan);
     paths.assign(opened.plan.survey.begin(), opened.plan.survey.end());
-  } else {
-    auto recipe = chosen_recipe(arguments);
+  }
+  auto journal = read_session(opened.plan.session);
+  if (!journal) return pass_on(journal);
+  if (arguments.plan.empty()) {
+    auto recipe = recipe_for(arguments, *journal);
     if (!recipe) return pass_on(recipe);
     opened.plan.recipe = std::move(*recipe);
-    opened.plan.session = arguments.session;
   }
-  auto survey =
-      open_survey(paths, opened.plan.recipe.survey, opened.plan.recipe.navigation, IndexCache::of_user(), work);
+  const Recipe& recipe = opened.plan.recipe;
+  auto survey = open_survey(paths, recipe.survey, recipe.navigation, IndexCache::of_user(), work);
   if (!survey) return pass_on(survey);
+  if (survey->files.empty()) return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
   opened.survey = std::move(*survey);
-  if (opened.survey.files.empty()) {
-    return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
-  }
-  auto journal = read_session(opened.plan.session, opened.survey.diagnostics);
-  if (!journal) return pass_on(journal);
-  opened.journal = std::move(*journal);
+  opened.survey.diagnostics.insert(opened.survey.diagnostics.end(), journal->diagnostics.begin(),
+                                   journal->diagnostics.end());
+  opened.journal = effective_lines(journal->lines);
+  note_lost_choices(opened);
   return opened;
 }
 
@@ -95,33 +127,47 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
   return write_file(options.out / "plan.json", plan_text(opened.plan));
 }
 
-void print_failures(const SurveyFiles& survey, const RunReport& report) {
+/// Files that gave nothing, each with the reason.
+std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
+  std::vector<RunFailure> failures;
   for (const SurveyFile& file : survey.files) {
-    if (file.error) fmt::print(stderr, "{}\n", to_line(*file.error));
+    const std::string name = file.path.filename().string();
+    if (file.error) {
+      failures.push_back({name, *file.error});
+    } else if (file.index.format != RawFormat::simrad) {
+      const std::string format(sonar::name(file.index.format));
+      failures.push_back({name, {ErrorCode::unsupported, "format " + format + " is not read by this version", {}}});
+    } else if (file.index.pings.empty() && file.index.datagrams.count("RAW0") > 0) {
+      failures.push_back({name, {ErrorCode::format, "none of its samples could be used; sonarx info tells why", {}}});
+    }
+  }
+  return failures;
+}
+
+void print_failures(const SurveyFiles& survey, const RunReport& report) {
+  for (const Diagnostic& note : survey.diagnostics) {
+    fmt::print(stderr, "note {}: {}\n", name(note.code),
+               to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
   }
   for (const RunFailure& failure : report.failures) {
     fmt::print(stderr, "{}: {}\n", failure.observation, to_line(failure.error));
   }
 }
 
-bool any_file_failed(const SurveyFiles& survey) {
-  for (const SurveyFile& file : survey.files) {
-    if (file.error || !file.index.readable()) return true;
-  }
-  return false;
-}
-
-int finish(const Opened& opened, const RunOptions& options, const RunReport& report) {
+int finish(const Opened& opened, const RunOptions& options, RunReport report) {
   clear_progress();
-  print_failures(opened.survey, report);
   if (options.task) {
+    print_failures(opened.survey, report);
     return report.failures.empty() ? kExitDone : kExitFailed;
   }
+  const std::vector<RunFailure> files = failed_files(opened.survey);
+  report.failures.insert(report.failures.end(), files.begin(), files.end());
+  print_failures(opened.survey, report);
   const auto merged = merge_folder(options.out, report);
   if (!merged) return sonar::report(merged.error());
   fmt::print("{}", *merged);
-  if (!report.failures.empty() && report.done.empty() && report.skipped.empty()) return kExitFailed;
-  return report.failures.empty() && !any_file_failed(opened.survey) ? kExitDone : kExitPartly;
+  if (report.failures.empty()) return kExitDone;
+  return report.done.empty() && report.skipped.empty() ? kExitFailed : kExitPartly;
 }
 
 int run_verb(const RunArguments& arguments) {
@@ -143,6 +189,8 @@ int run_verb(const RunArguments& arguments) {
   options.program_version = SONAR_VERSION;
   auto opened = open_for_run(arguments, work);
   if (!opened) return report(opened.error());
+  if (auto outside = require_outside_raw(opened->survey, options.out); !outside) return report(outside.error());
+  if (!arguments.plan.empty()) options.pings = opened->plan.pings;
   if (arguments.plan.empty()) {
     if (auto written = write_plan(*opened, arguments, options); !written) return report(written.error());
   }
@@ -170,7 +218,11 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_option("--pings", arguments->pings, "Ping indices A:B, both included, from 0");
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
   auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
-  auto* task = verb->add_option("--task", arguments->task, "Which task of the plan, from 0");
+  auto* task =
+      verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(CLI::NonNegativeNumber);
+  for (const char* own : {"--recipe", "--calibration", "--session", "--only", "--pings", "--remeasure"}) {
+    plan->excludes(verb->get_option(own));  // the plan says these
+  }
   task->needs(plan);
   plan->needs(task);
   out->excludes(plan);
@@ -201,12 +253,14 @@ void add_plan(CLI::App& app, VerbRunner& run) {
       RunOptions options;
       options.out = arguments->out;
       options.program_version = SONAR_VERSION;
+      if (auto outside = require_outside_raw(opened->survey, options.out); !outside) return report(outside.error());
       if (auto written = write_plan(*opened, *arguments, options); !written) return report(written.error());
-      print_failures(opened->survey, {});
+      const std::vector<RunFailure> failed = failed_files(opened->survey);
+      print_failures(opened->survey, {{}, {}, failed});
       fmt::print("{} tasks, 0 to {}: sonarx run --plan {} --task K, then sonarx merge {}\n", opened->plan.tasks.size(),
                  opened->plan.tasks.empty() ? 0 : opened->plan.tasks.size() - 1, (options.out / "plan.json").string(),
                  options.out.string());
-      return any_file_failed(opened->survey) ? kExitPartly : kExitDone;
+      return failed.empty() ? kExitDone : kExitPartly;
     };
   });
 }

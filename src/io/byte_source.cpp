@@ -52,7 +52,7 @@ class FileSource final : public ByteSource {
 }  // namespace
 
 Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe is refused, not waited for
   if (descriptor < 0) {
     const int error = errno;
     return fail(error == ENOENT ? ErrorCode::not_found : ErrorCode::io, system_text(error), {.file = path.string()});
@@ -62,6 +62,8 @@ Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path&
   if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode)) {
     return fail(ErrorCode::io, "is a folder, not a file", {.file = path.string()});
   }
+  if (!S_ISREG(info.st_mode))
+    return fail(ErrorCode::io, "is not a file that can be read from any place", {.file = path.string()});
   return std::shared_ptr<const ByteSource>(std::move(source));
 }
 

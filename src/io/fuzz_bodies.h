@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/check.h"
+#include "io/csv_table.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
 #include "io/simrad/con1.h"
@@ -68,6 +70,34 @@ inline void con1(std::string_view xml) {
   for (const BeamConfig& beam : config.beams) {
     SONAR_CHECK(std::isfinite(beam.direction_deg[0]) && std::isfinite(beam.direction_deg[1]));
   }
+}
+
+/// A table that is taken has full records only, and says the same when it is written and read again.
+inline void csv(std::string_view text) {
+  const auto table = parse_csv(text, "fuzz");
+  if (!table) return;
+  std::string written;
+  const auto add = [&](const std::vector<std::string>& fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i) written += (i > 0 ? "," : "") + csv_field(fields[i]);
+    written += "\r\n";
+  };
+  add(table->header);
+  for (const CsvRecord& record : table->records) {
+    SONAR_CHECK(record.fields.size() == table->header.size());
+    add(record.fields);
+  }
+  // A record of one empty field is an empty line, which is passed over.
+  const auto again = parse_csv(written, "fuzz");
+  SONAR_CHECK(table->header.size() < 2 || (again.has_value() && again->records.size() == table->records.size()));
+  for (const CsvRecord& record : table->records) {
+    if (const auto number = table->number(record, 0)) SONAR_CHECK(!std::isinf(*number));
+  }
+}
+
+/// A stored index is taken whole or not at all.
+inline void index_cache(std::span<const std::byte> bytes) {
+  const auto index = decode_index(bytes);
+  if (index) SONAR_CHECK(decode_index(encode_index(*index)).has_value());
 }
 
 }  // namespace sonar::fuzz

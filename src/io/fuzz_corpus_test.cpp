@@ -39,5 +39,13 @@ TEST(FuzzCorpus, Con1) {
   replay("con1", [](const std::string& xml) { fuzz::con1(xml); });
 }
 
+TEST(FuzzCorpus, Csv) {
+  replay("csv", [](const std::string& text) { fuzz::csv(text); });
+}
+
+TEST(FuzzCorpus, IndexCache) {
+  replay("index_cache", [](const std::string& bytes) { fuzz::index_cache(std::as_bytes(std::span(bytes))); });
+}
+
 }  // namespace
 }  // namespace sonar

@@ -30,7 +30,6 @@ struct NavigationParams {
   double lever_arm_y_m = 0.0;
   double lever_arm_z_m = 0.0;
   double mounting_azimuth_deg = 270.0;
-  bool beams_stabilised = true;
   double fix_limit_s = 30.0;
   double log_limit_s = 900.0;
   std::string position_talker;
@@ -62,8 +61,6 @@ void describe(Visitor& v, NavigationParams& p) {
           {.unit = "m", .min = -500, .max = 500, .text = "Antenna to transducer, downwards."});
   v.field("mounting_azimuth_deg", p.mounting_azimuth_deg,
           {.unit = "deg", .min = 0, .max = 360, .text = "Where the sonar looks, clockwise from the bow; 270 = port."});
-  v.field("beams_stabilised", p.beams_stabilised,
-          {.text = "The beams keep their angle to the horizon, so that they turn with the heading only."});
   v.field(
       "fix_limit_s", p.fix_limit_s,
       {.unit = "s", .min = 0, .max = 3600, .text = "A ping farther than this from any sentence has no such value."});

@@ -13,6 +13,7 @@
 #include "io/product.h"
 #include "io/survey_map.h"
 #include "pipeline/merge.h"
+#include "pipeline/plan.h"
 
 namespace sonar {
 namespace {
@@ -145,6 +146,10 @@ Result<Files> export_products(const ExportOptions& options, Work& work) {
     return fail(ErrorCode::usage, fmt::format("no export format '{}'; there are {}", options.format, format_names()));
   }
   if (auto sound = validate(options.reduce); !sound) return pass_on(sound);
+  if (const auto plan = read_plan(options.out / "plan.json")) {
+    const std::vector<fs::path> raw(plan->survey.begin(), plan->survey.end());
+    if (auto outside = require_outside_raw(raw, options.dest); !outside) return pass_on(outside);
+  }
   const auto source = read_source(options.out, work);
   if (!source) return pass_on(source);
   if (format->name == "csv") return export_csv(*source, options.dest);

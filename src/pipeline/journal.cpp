@@ -19,13 +19,18 @@
 namespace sonar {
 namespace {
 
+/// A file's name may be no UTF-8.
+std::string one_line(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string checksum(const nlohmann::json& json) {
-  return fmt::format("{:08x}", static_cast<std::uint32_t>(hash_text(json.dump()).low));
+  return fmt::format("{:08x}", static_cast<std::uint32_t>(hash_text(one_line(json)).low));
 }
 
 std::string sealed(nlohmann::json json) {
   json["crc"] = checksum(json);
-  return json.dump();
+  return one_line(json);
 }
 
 /// Takes the check sum off; empty where it is missing or wrong.
@@ -62,6 +67,7 @@ Result<Journal> head_from_json(const nlohmann::json& json) {
   if (json.contains("recipe_hash") && json["recipe_hash"].is_string()) {
     journal.recipe_hash = json["recipe_hash"].get<std::string>();
   }
+  if (json.contains("recipe") && json["recipe"].is_object()) journal.recipe = json["recipe"].dump(2) + "\n";
   if (!json.contains("files") || !json["files"].is_array()) return journal;
   for (const auto& file : json["files"]) {
     const bool whole = file.is_object() && file.contains("name") && file["name"].is_string() && file.contains("size") &&
@@ -89,35 +95,46 @@ std::string journal_head_text(const Journal& journal) {
   for (const InputFile& file : journal.files) {
     files.push_back({{"name", file.name}, {"size", file.size}, {"hash", file.hash}});
   }
-  return sealed({{"journal_version", kJournalVersion}, {"recipe_hash", journal.recipe_hash}, {"files", files}});
+  nlohmann::json head = {
+      {"journal_version", kJournalVersion}, {"recipe_hash", journal.recipe_hash}, {"files", std::move(files)}};
+  if (auto recipe = parse_json(journal.recipe)) head["recipe"] = std::move(*recipe);
+  return sealed(std::move(head));
 }
 
-Result<Journal> read_journal(const std::string& path) {
-  const auto text = read_file(path);
-  if (!text) return pass_on(text);
+Result<Journal> parse_journal(std::string_view text, const std::string& file) {
   Journal journal;
   std::size_t begin = 0;
-  for (int number = 1; begin < text->size(); ++number) {
-    const std::size_t end = std::min(text->find('\n', begin), text->size());
-    const auto json = parse_json(std::string_view(*text).substr(begin, end - begin));
+  for (int number = 1; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const auto json = parse_json(text.substr(begin, end - begin));
     if (number == 1) {
       auto head = json ? head_from_json(*json) : Result<Journal>(pass_on(json));
-      if (!head) return fail(head.error().code, head.error().text, {path, 0});
+      if (!head) return fail(head.error().code, head.error().text, {file, 0});
       journal = std::move(*head);
+      if (!unsealed(*json)) {
+        journal.diagnostics.push_back(
+            {DiagnosticCode::journal_line, file, 0, -1, "line 1 was changed by another hand"});
+      }
     } else {
       const auto whole = json ? unsealed(*json) : std::nullopt;
       auto line = whole ? line_from_json(*whole) : std::nullopt;
       if (line) {
         journal.lines.push_back(std::move(*line));
       } else {
-        journal.diagnostics.push_back({DiagnosticCode::journal_line, path, static_cast<std::int64_t>(begin), -1,
+        journal.diagnostics.push_back({DiagnosticCode::journal_line, file, static_cast<std::int64_t>(begin), -1,
                                        fmt::format("line {} is broken and was left out", number)});
       }
     }
     begin = end + 1;
   }
-  if (text->empty()) return fail(ErrorCode::format, "is empty, expected a journal", {path, 0});
+  if (text.empty()) return fail(ErrorCode::format, "is empty, expected a journal", {file, 0});
   return journal;
+}
+
+Result<Journal> read_journal(const std::string& path) {
+  const auto text = read_file(path);
+  if (!text) return pass_on(text);
+  return parse_journal(*text, path);
 }
 
 Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -25,16 +26,20 @@ struct JournalLine {
   nlohmann::json args = nlohmann::json::object();
 };
 
-/// A journal file: JSON lines, the first with the version, the survey's files and the recipe's hash.
+/// A journal file: JSON lines, the first with the version, the survey's files and the recipe.
 struct Journal {
   std::vector<InputFile> files;
   std::string recipe_hash;
+  std::string recipe;  ///< JSON, as recipe_text() writes it
   std::vector<JournalLine> lines;
   Diagnostics diagnostics;  ///< broken lines, which were left out
 };
 
-/// Reads a journal. A broken line (no JSON, wrong check sum, missing member) is a diagnostic and the rest is kept.
-/// errors  not_found, io; format or newer_version where the first line is unusable
+/// Parses a journal. A broken line (no JSON, wrong check sum, missing member) is a diagnostic and the rest is kept.
+/// file    for messages
+/// errors  format or newer_version where the first line is unusable
+[[nodiscard]] Result<Journal> parse_journal(std::string_view text, const std::string& file);
+/// errors  also not_found, io
 [[nodiscard]] Result<Journal> read_journal(const std::string& path);
 
 /// One line of the file, check sum included, without line end. The check sum is the lowest 32 bits of the XXH3-128 of

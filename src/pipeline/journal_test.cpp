@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/journal.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -36,7 +37,7 @@ class JournalFile : public testing::Test {
   void overwrite(const std::string& text) { std::ofstream(path_) << text; }
 
   std::string path_;
-  Journal head_{{{"a.raw", 12, "ab"}}, "cd", {}, {}};
+  Journal head_{{{"a.raw", 12, "ab"}}, "cd", "{\"recipe_version\": 1}", {}, {}};
 };
 
 TEST_F(JournalFile, ReadsBackWhatWasAppended) {
@@ -46,6 +47,7 @@ TEST_F(JournalFile, ReadsBackWhatWasAppended) {
   ASSERT_TRUE(journal) << journal.error().text;
   EXPECT_EQ(journal->files, head_.files);
   EXPECT_EQ(journal->recipe_hash, "cd");
+  EXPECT_THAT(journal->recipe, testing::HasSubstr("recipe_version"));
   ASSERT_EQ(journal->lines.size(), 2U);
   EXPECT_EQ(journal->lines[0].args["seeds"][0]["sample"], 400);
   EXPECT_EQ(journal->lines[1].ping_time, 2'000'000'000);

@@ -90,7 +90,6 @@ Result<ManualSchool> replay_line(Engine& engine, const JournalLine& line, std::i
   auto made = propagate(engine, ping_index, *command, taken, limits);
   if (!made) return made;
   made->school.decided.operator_name = line.operator_name;
-  made->school.decided.decided_utc = line.decided;
   return made;
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -95,48 +97,68 @@ void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& re
   }
 }
 
+using MeasuredPing = std::pair<std::int64_t, std::vector<InPingRef>>;
+
+std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
+  std::map<std::int64_t, std::vector<InPingRef>> pings;
+  for (const SchoolMasks& school : schools) {
+    for (const SchoolMasks::InPing& in_ping : school.pings) pings[in_ping.ping_index].push_back({&school, &in_ping});
+  }
+  return {pings.begin(), pings.end()};
+}
+
+void note_unreadable(std::int64_t ping_index, const std::string& why, ObservationProduct& product) {
+  product.pings[static_cast<std::size_t>(ping_index)].bad = true;
+  product.diagnostics.push_back({DiagnosticCode::unreadable, "", -1, ping_index, why});
+}
+
+void take_masks(std::vector<SchoolMasks>& schools, ObservationProduct& product) {
+  for (SchoolMasks& school : schools) {
+    for (SchoolMasks::InPing& in_ping : school.pings) {
+      if (product.pings[static_cast<std::size_t>(in_ping.ping_index)].bad) continue;
+      product.masks.push_back({school.decided.school_id, in_ping.ping_index, std::move(in_ping.mask)});
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid) {
+  std::erase_if(schools, [](const SchoolMasks& school) { return school.pings.empty(); });
+  std::stable_sort(schools.begin(), schools.end(), [&](const SchoolMasks& a, const SchoolMasks& b) {
+    return first_voxel(a, grid.channel) < first_voxel(b, grid.channel);
+  });
+  for (std::size_t i = 0; i < schools.size(); ++i) schools[i].decided.school_id = static_cast<std::int64_t>(i) + 1;
+  return schools;
+}
 
 Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product,
                              Work& work) {
-  std::erase_if(schools, [](const SchoolMasks& school) { return school.pings.empty(); });
-  const std::vector<int>& channel = engine.grid().channel;
-  std::stable_sort(schools.begin(), schools.end(), [&](const SchoolMasks& a, const SchoolMasks& b) {
-    return first_voxel(a, channel) < first_voxel(b, channel);
-  });
-  for (std::size_t i = 0; i < schools.size(); ++i) schools[i].decided.school_id = static_cast<std::int64_t>(i) + 1;
-  return measure_numbered(engine, std::move(schools), product, work);
-}
-
-Result<void> measure_numbered(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product,
-                              Work& work) {
-  std::map<std::int64_t, std::vector<InPingRef>> by_ping;
-  for (const SchoolMasks& school : schools) {
-    for (const SchoolMasks::InPing& in_ping : school.pings) by_ping[in_ping.ping_index].push_back({&school, &in_ping});
-  }
-  std::vector<std::pair<std::int64_t, const std::vector<InPingRef>*>> pings;
-  for (const auto& [ping_index, refs] : by_ping) pings.emplace_back(ping_index, &refs);
+  std::sort(schools.begin(), schools.end(),
+            [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
+  const std::vector<MeasuredPing> pings = by_ping(schools);
   std::vector<std::vector<SchoolPingRow>> rows(pings.size());
+  std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
-    if (const auto ping = engine.kept_or_staged(ping_index))
-      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, *refs);
+    if (const auto ping = engine.kept_or_staged(ping_index)) {
+      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs);
+    } else {
+      problems[static_cast<std::size_t>(i)] = ping.error().text;
+    }
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-  for (auto& of_ping : rows) std::move(of_ping.begin(), of_ping.end(), std::back_inserter(product.school_pings));
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);
+    std::move(rows[i].begin(), rows[i].end(), std::back_inserter(product.school_pings));
+  }
   std::sort(product.school_pings.begin(), product.school_pings.end(), [](const auto& a, const auto& b) {
     return std::pair(a.school_id, a.ping_index) < std::pair(b.school_id, b.ping_index);
   });
   summarise_schools(schools, engine.recipe(), product);
-  std::sort(schools.begin(), schools.end(),
-            [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
-  for (SchoolMasks& school : schools) {
-    for (SchoolMasks::InPing& in_ping : school.pings) {
-      product.masks.push_back({school.decided.school_id, in_ping.ping_index, std::move(in_ping.mask)});
-    }
-  }
+  take_masks(schools, product);
   return {};
 }
 

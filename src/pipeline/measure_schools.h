@@ -20,17 +20,16 @@ struct SchoolMasks {
     double threshold_db = kUnknown;
   };
   std::vector<InPing> pings;  ///< rising
+  std::int64_t track_id = 0;  ///< number among the tracked schools; 0 = a human's
   SchoolRow decided;          ///< origin, status, operator, decided_utc, species, comment; the rest is measured
 };
 
-/// Numbers schools by (first ping, channel, sample) of their first voxel, measures every ping and summarises. Rows and
-/// masks are put into the product, sorted. Schools without pings are left out.
-/// errors  cancelled. A ping that cannot be read has no row; it is noted and marked bad.
+/// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.
+[[nodiscard]] std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid);
+
+/// Measures every ping of numbered schools and summarises. Rows and masks are put into the product, sorted.
+/// errors  cancelled. A ping that cannot be read any more loses its masks; it is noted and marked bad.
 [[nodiscard]] Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools,
                                            ObservationProduct& product, Work& work);
-
-/// Measures and summarises schools that have their numbers already.
-[[nodiscard]] Result<void> measure_numbered(Engine& engine, std::vector<SchoolMasks> schools,
-                                            ObservationProduct& product, Work& work);
 
 }  // namespace sonar

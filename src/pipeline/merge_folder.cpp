@@ -106,6 +106,17 @@ Result<void> hold_against_plan(const fs::path& out, std::vector<fs::path>& files
     return std::any_of(plan->tasks.begin(), plan->tasks.end(),
                        [&](const PlanTask& task) { return task.observation == file.stem().string(); });
   };
+  // A product of other files or other choices than the plan's is as good as none. One that cannot be read, or of another
+  // recipe, is left to be refused as such; one whose masks were kept has a longer key.
+  const std::string recipe = recipe_hash(plan->recipe);
+  const auto stale = [&](const fs::path& file) {
+    const auto key = read_product_key(file);
+    return key && key->recipe_hash == recipe &&
+           std::any_of(plan->tasks.begin(), plan->tasks.end(), [&](const PlanTask& task) {
+             return task.observation == file.stem().string() && !key->input_hash.starts_with(task.key);
+           });
+  };
+  std::erase_if(files, stale);
   for (const fs::path& file : files) {
     if (!planned(file)) report.unplanned.push_back(file.stem().string());
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "base/hash.h"
@@ -35,6 +36,27 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
   }
 }
 
+/// What a human selected is his: a detection that shares much with it is the same fish, not a school on its rim; of one
+/// that only touches it the rest stays.
+std::vector<Detection> beside_humans(std::vector<Detection> detections, const PingMask& humans,
+                                     View3<const SampleFlags> flags, const Sector& sector) {
+  constexpr double kSameFish = 0.25;
+  std::vector<Detection> kept;
+  for (Detection& detection : detections) {
+    const auto shared = static_cast<double>(overlap(detection.mask, humans));
+    const auto smaller = static_cast<double>(std::min(detection.mask.voxels(), humans.voxels()));
+    if (shared > 0.0 && shared >= kSameFish * smaller) continue;
+    if (shared > 0.0) {
+      Detection rest = describe_mask(subtract(detection.mask, humans), flags, sector);
+      rest.reference_db = detection.reference_db;
+      rest.threshold_db = detection.threshold_db;
+      detection = std::move(rest);
+    }
+    kept.push_back(std::move(detection));
+  }
+  return kept;
+}
+
 std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<const SchoolMasks> taken,
                                      ObservationProduct& product, Work& work) {
   std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
@@ -51,8 +73,9 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
       const PingMask humans = voxels_in_ping(taken, ping_index);
-      detected.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
-                                   ping->background(), engine.recipe().detect, &humans);
+      detected.detections = beside_humans(detect(ping->filtered->counts.view(), ping->filtered->flags.view(),
+                                                 engine.sector(), ping->background(), engine.recipe().detect),
+                                          humans, ping->filtered->flags.view(), engine.sector());
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }
@@ -67,11 +90,12 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<
 }
 
 std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const DetectedPing> pings,
-                                         ObservationProduct& product) {
+                                         std::vector<TrackEvent>& events) {
   const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, engine.recipe().track);
   std::vector<SchoolMasks> schools;
   for (const SchoolTrack& of_school : tracks.schools) {
     SchoolMasks school;
+    school.track_id = of_school.school_id;
     for (const TrackedDetection& in_ping : of_school.pings) {
       const auto ping =
           std::lower_bound(pings.begin(), pings.end(), in_ping.ping_index,
@@ -81,10 +105,21 @@ std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const D
     }
     schools.push_back(std::move(school));
   }
-  for (const TrackEvent& event : tracks.events) {
+  events = tracks.events;
+  return schools;
+}
+
+/// Events name schools by the tracker's numbers; rows by those they got among all schools.
+void note_events(const std::vector<TrackEvent>& events, const std::vector<SchoolMasks>& schools,
+                 ObservationProduct& product) {
+  std::map<std::int64_t, std::int64_t> number;
+  for (const SchoolMasks& school : schools) number[school.track_id] = school.decided.school_id;
+  number[0] = 0;
+  for (TrackEvent event : events) {
+    event.school_id = number[event.school_id];
+    event.other_id = number[event.other_id];
     product.diagnostics.push_back({DiagnosticCode::track_event, "", -1, event.ping_index, to_text(event)});
   }
-  return schools;
 }
 
 void note_schools_without_place(ObservationProduct& product) {
@@ -93,6 +128,17 @@ void note_schools_without_place(ObservationProduct& product) {
   if (lost == 0 || product.schools.empty()) return;
   product.diagnostics.push_back({DiagnosticCode::no_position, "", -1, -1,
                                  fmt::format("{} pings have no position; their schools have no place", lost)});
+}
+
+/// What is known of how the kept masks were made.
+void keep_notes_of_masks(const ObservationProduct& before, ObservationProduct& product) {
+  for (const Diagnostic& note : before.diagnostics) {
+    if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::decision_lost ||
+        note.code == DiagnosticCode::propagation_ended) {
+      product.diagnostics.push_back(note);
+    }
+  }
+  product.history = fmt::format("{}; measured again, masks kept from recipe {}", before.history, before.recipe_hash);
 }
 
 Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
@@ -124,7 +170,10 @@ std::string observation_key(const SurveyFiles& survey, const ObservationFiles& o
   add_number(hasher, static_cast<double>(reach.first));
   add_number(hasher, static_cast<double>(reach.last));
   for (const JournalLine& line : options.journal) {
-    if (ping_at(survey, observation, line.ping_time)) hasher.add(journal_text(line));
+    if (!ping_at(survey, observation, line.ping_time)) continue;
+    JournalLine undated = line;
+    undated.decided = 0;  // when a choice was made does not change what it gives
+    hasher.add(journal_text(undated));
   }
   return to_hex(hasher.value());
 }
@@ -165,11 +214,14 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   Engine engine(survey, observation, recipe);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   std::vector<SchoolMasks> schools = replay(engine, options.journal, reach, product.diagnostics);
+  std::vector<TrackEvent> events;
   if (recipe.automatic) {
     const std::vector<DetectedPing> detected = detect_all(engine, reach, schools, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    for (SchoolMasks& school : tracked_schools(engine, detected, product)) schools.push_back(std::move(school));
+    for (SchoolMasks& school : tracked_schools(engine, detected, events)) schools.push_back(std::move(school));
   }
+  schools = numbered(std::move(schools), engine.grid());
+  note_events(events, schools, product);
   if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
   note_schools_without_place(product);
   return product;
@@ -185,6 +237,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
     return fail(ErrorCode::mismatch,
                 fmt::format("{}: the pings are not those of the product: run again", product.observation));
   }
+  keep_notes_of_masks(before, product);
   if (!observation.grid) return product;
   Engine engine(survey, observation, recipe);
   const PingReach reach = selected(observation, options);
@@ -203,7 +256,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
     }
     schools.push_back(std::move(school));
   }
-  if (auto done = measure_numbered(engine, std::move(schools), product, work); !done) return pass_on(done);
+  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
   note_schools_without_place(product);
   return product;
 }

@@ -65,6 +65,12 @@ Result<Plan> plan_from_json(const nlohmann::json& json) {
   auto recipe = recipe_from_text(json["recipe"].dump());
   if (!recipe) return pass_on(recipe);
   plan.recipe = std::move(*recipe);
+  if (const auto pings = json.find("pings"); pings != json.end()) {
+    const bool whole =
+        pings->is_array() && pings->size() == 2 && (*pings)[0].is_number_integer() && (*pings)[1].is_number_integer();
+    if (!whole) return fail(ErrorCode::format, "pings: expected two whole numbers");
+    plan.pings = PingSelection{(*pings)[0].get<std::int64_t>(), (*pings)[1].get<std::int64_t>()};
+  }
   if (!json.contains("tasks") || !json["tasks"].is_array()) return fail(ErrorCode::format, "tasks: expected an array");
   for (const auto& entry : json["tasks"]) {
     auto task = task_from_json(entry, plan.tasks.size());
@@ -84,6 +90,7 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
   }
   if (!session.empty()) plan.session = std::filesystem::absolute(session).lexically_normal().string();
   plan.recipe = recipe;
+  plan.pings = options.pings;
   for (const ObservationFiles& observation : survey.observations) {
     PlanTask task;
     task.observation = observation.name;
@@ -101,12 +108,13 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
 std::string plan_text(const Plan& plan) {
   nlohmann::json tasks = nlohmann::json::array();
   for (const PlanTask& task : plan.tasks) tasks.push_back(to_json(task, tasks.size()));
-  const nlohmann::json json = {{"plan_version", kPlanVersion},
-                               {"survey", plan.survey},
-                               {"session", plan.session},
-                               {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
-                               {"tasks", std::move(tasks)}};
-  return json.dump(2) + "\n";
+  nlohmann::json json = {{"plan_version", kPlanVersion},
+                         {"survey", plan.survey},
+                         {"session", plan.session},
+                         {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
+                         {"tasks", std::move(tasks)}};
+  if (plan.pings) json["pings"] = {plan.pings->first, plan.pings->last};
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 Result<Plan> read_plan(const std::filesystem::path& path) {

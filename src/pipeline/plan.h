@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Plan {
   std::vector<std::string> survey;  ///< absolute paths of what was given as the survey
   std::string session;              ///< absolute path of the journal; empty = none
   Recipe recipe;
+  std::optional<PingSelection> pings;  ///< of each observation; empty = all
   std::vector<PlanTask> tasks;
 };
 

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "base/hash.h"
@@ -18,6 +21,7 @@ namespace sonar {
 namespace {
 
 constexpr int kMaxChannels = 100'000;
+constexpr double kMostDecibels = 100.0;
 
 nlohmann::json beams_to_json(const std::vector<BeamCalibration>& beams) {
   nlohmann::json list = nlohmann::json::array();
@@ -46,6 +50,22 @@ Result<std::vector<BeamCalibration>> beams_from_json(const nlohmann::json& list)
         {static_cast<int>(channel), number("gain_db"), number("sa_correction_db"), number("extra_factor_db")});
   }
   return beams;
+}
+
+Result<void> check_beams(const std::vector<BeamCalibration>& beams) {
+  std::set<int> channels;
+  for (const BeamCalibration& beam : beams) {
+    if (!channels.insert(beam.channel).second) {
+      return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {} stands twice", beam.channel));
+    }
+    for (const double db : {beam.gain_db, beam.sa_correction_db, beam.extra_factor_db}) {
+      if (std::abs(db) > kMostDecibels) {
+        return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {}: {} dB is outside -{} .. {}",
+                                                          beam.channel, db, kMostDecibels, kMostDecibels));
+      }
+    }
+  }
+  return {};
 }
 
 nlohmann::json recipe_to_json(const Recipe& recipe) {
@@ -105,6 +125,10 @@ Result<Recipe> recipe_from_text(std::string_view text) {
     recipe.calibration.beams = std::move(*beams);
   }
   if (auto valid = validate(recipe); !valid) return pass_on(valid);
+  for (const int length : {recipe.median.kernel_fans, recipe.median.kernel_beams, recipe.median.kernel_samples}) {
+    if (length % 2 == 0) return fail(ErrorCode::bad_parameter, fmt::format("median: kernel {} is not odd", length));
+  }
+  if (auto valid = check_beams(recipe.calibration.beams); !valid) return pass_on(valid);
   return recipe;
 }
 
@@ -144,10 +168,14 @@ Result<void> take_calibration_file(Recipe& recipe, const std::string& path) {
       if (!column) continue;
       const auto read = table->number(record, *column);
       if (!read) return pass_on(read);
+      if (!std::isfinite(*read) && !record.fields[*column].empty()) {
+        return fail(ErrorCode::format, fmt::format("line {}: {} is no number", record.line, name), {path});
+      }
       *value = *read;
     }
     beams.push_back(beam);
   }
+  if (auto valid = check_beams(beams); !valid) return fail(valid.error().code, valid.error().text, {path});
   recipe.calibration.beams = std::move(beams);
   return {};
 }

@@ -170,20 +170,6 @@ class FileReducer {
   Result<void> status_;
 };
 
-Result<void> check_destination(const SurveyFiles& survey, const fs::path& dest) {
-  std::error_code error;
-  const fs::path there = fs::weakly_canonical(dest, error);
-  for (const SurveyFile& file : survey.files) {
-    const fs::path folder = fs::weakly_canonical(fs::absolute(file.path, error).parent_path(), error);
-    const auto [at, ignored] = std::mismatch(folder.begin(), folder.end(), there.begin(), there.end());
-    if (at == folder.end()) {
-      return fail(ErrorCode::usage, "reduced files do not go into the folder of the raw files",
-                  {.file = dest.string()});
-    }
-  }
-  return {};
-}
-
 Result<std::vector<Reduced>> choose(const SurveyFiles& survey, std::span<const ObservationProduct> products,
                                     const Recipe& recipe, const ReduceParams& params) {
   std::vector<Reduced> observations;
@@ -219,7 +205,7 @@ std::map<std::uint32_t, KeptOfFile> by_file(const SurveyFiles& survey, const std
 
 Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const ObservationProduct> products,
                                    const Recipe& recipe, const fs::path& dest, const ReduceParams& params, Work& work) {
-  if (auto checked = check_destination(survey, dest); !checked) return pass_on(checked);
+  if (auto checked = require_outside_raw(survey, dest); !checked) return pass_on(checked);
   auto observations = choose(survey, products, recipe, params);
   if (!observations) return pass_on(observations);
   const auto kept = by_file(survey, *observations);

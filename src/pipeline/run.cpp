@@ -44,17 +44,15 @@ bool is_right(const std::filesystem::path& product, const std::string& key) {
   return there && there->input_hash == key;
 }
 
-/// Key of a product whose masks were kept: the new key and the masks themselves.
+/// Key of a product whose masks were kept: begins with the plan's key, goes on with the masks' own.
 std::string remeasured_key(const std::string& key, const ObservationProduct& before) {
   Hasher hasher;
-  hasher.add("remeasured ");
-  hasher.add(key);
   for (const SchoolMask& mask : before.masks) {
     hasher.add(fmt::format("{} {} ", mask.school_id, mask.ping_index));
     hasher.add(std::as_bytes(std::span(mask.mask.runs)));
     hasher.add(std::as_bytes(std::span(mask.mask.confidence)));
   }
-  return to_hex(hasher.value());
+  return key + "-" + to_hex(hasher.value());
 }
 
 /// The product that is to be written; empty where the one that is there is right.
@@ -105,18 +103,15 @@ std::filesystem::path product_path(const std::filesystem::path& out, const std::
   return out / "products" / (observation + ".nc");
 }
 
-Result<std::vector<JournalLine>> read_session(const std::filesystem::path& path, Diagnostics& notes) {
-  if (path.empty()) return std::vector<JournalLine>{};
-  auto journal = read_journal(path.string());
-  if (!journal) return pass_on(journal);
-  notes.insert(notes.end(), journal->diagnostics.begin(), journal->diagnostics.end());
-  return effective_lines(journal->lines);
-}
-
 Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::span<const JournalLine> journal,
                            const RunOptions& options, Work& work) {
   const auto tasks = chosen_tasks(plan, options);
   if (!tasks) return pass_on(tasks);
+  for (const PlanTask& task : *tasks) {
+    if (options.pings && options.pings->first >= task.pings) {
+      return fail(ErrorCode::usage, fmt::format("{} has pings 0 to {}", task.observation, task.pings - 1));
+    }
+  }
   if (auto space = require_free_space(options.out, space_needed(*tasks)); !space) return pass_on(space);
   remove_leftovers(options.out / "products");
   ObserveOptions observe_options{options.pings, journal, options.program_version};

@@ -37,9 +37,6 @@ struct RunReport {
 /// Where the product of an observation lies below OUT.
 [[nodiscard]] std::filesystem::path product_path(const std::filesystem::path& out, const std::string& observation);
 
-/// Reads a journal and leaves what holds after undo and redo; broken lines go into `notes`.
-[[nodiscard]] Result<std::vector<JournalLine>> read_session(const std::filesystem::path& path, Diagnostics& notes);
-
 /// Works through the plan's tasks (or the chosen one): makes each product that is not there or not right, atomically.
 /// A failed observation does not stop the others.
 /// survey   opened from plan.survey with plan.recipe

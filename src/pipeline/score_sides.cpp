@@ -79,7 +79,13 @@ Result<ScoreSide> read_side(const fs::path& folder) {
 
 }  // namespace
 
-Result<ScoreSide> read_result_side(const fs::path& out) { return read_side(out); }
+Result<ScoreSide> read_result_side(const fs::path& out) {
+  auto side = read_side(out);
+  if (side && side->observations.empty()) {
+    return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
+  }
+  return side;
+}
 
 Result<ScoreSide> read_truth_side(const fs::path& truth) {
   auto side = read_side(truth);

@@ -127,4 +127,25 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
   return survey;
 }
 
+Result<void> require_outside_raw(std::span<const std::filesystem::path> raw, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path there = fs::weakly_canonical(fs::absolute(folder, error), error);
+  for (const fs::path& path : raw) {
+    const fs::path named = fs::absolute(path, error);
+    const fs::path where = fs::weakly_canonical(fs::is_regular_file(named, error) ? named.parent_path() : named, error);
+    if (std::mismatch(where.begin(), where.end(), there.begin(), there.end()).first == where.end()) {
+      return fail(ErrorCode::usage, "lies in the folder of the raw files, where nothing is ever written",
+                  {folder.string()});
+    }
+  }
+  return {};
+}
+
+Result<void> require_outside_raw(const SurveyFiles& survey, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const SurveyFile& file : survey.files) paths.push_back(file.path);
+  return require_outside_raw(paths, folder);
+}
+
 }  // namespace sonar

@@ -119,6 +119,14 @@ struct SurveyFiles {
 [[nodiscard]] Result<SurveyFiles> open_survey(std::span<const std::filesystem::path> paths, const SurveyParams& survey,
                                               const NavigationParams& navigation, const IndexCache& cache, Work& work);
 
+/// Nothing is ever written where raw files lie: refuses a folder that is, or lies in, the folder of one of them (links
+/// followed).
+/// errors  usage
+[[nodiscard]] Result<void> require_outside_raw(const SurveyFiles& survey, const std::filesystem::path& folder);
+/// raw  folders of raw files, or raw files, as a user named them
+[[nodiscard]] Result<void> require_outside_raw(std::span<const std::filesystem::path> raw,
+                                               const std::filesystem::path& folder);
+
 /// The second half of open_survey: from indexed files to observations. Pure.
 [[nodiscard]] SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& survey,
                                          const NavigationParams& navigation);

@@ -42,14 +42,18 @@ class Exports(Case):
     def test_gpkg(self):
         for file in self.export("gpkg").rglob("*.gpkg"):
             with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as table:
-                self.assertTrue(table.execute("SELECT COUNT(*) FROM schools").fetchone())
+                count = table.execute("SELECT COUNT(*) FROM schools").fetchone()[0]
+                self.assertEqual(count, len(sonarx.read_csv(OUT / "schools.csv")))
 
     def test_netcdf_mask(self):
         dest = self.export("netcdf-mask")
         if netCDF4 is None:
             self.skipTest("python3-netcdf4 is not installed")
+        voxels = 0
         for file in dest.rglob("*.nc"):
-            netCDF4.Dataset(file).close()
+            with netCDF4.Dataset(file) as mask:
+                voxels += sum(int((v[:] > 0).sum()) for k, v in mask.variables.items() if "confidence" in k)
+        self.assertEqual(voxels, sum(int(row["n_voxels"]) for row in sonarx.read_csv(OUT / "school_pings.csv")))
 
     def test_reduced_raw_gives_the_same_masks(self):
         dest = self.export("raw-reduced", "--survey", SURVEY)

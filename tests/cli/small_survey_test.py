@@ -65,7 +65,9 @@ class SmallSurvey(Case):
                         "volume_ratio", "volume_corrected_ratio", "backscatter_error_db", "sv_error_db",
                         "speed_error_mps", "purity"):
                 self.assertIn(key, school)
-        self.assertIn("false_schools", score)
+        self.assertEqual(score["false_schools"], [])
+        self.assertEqual(score["summary"]["found_fraction"], 1.0)
+        self.assertGreater(score["summary"]["mean_dice"], 0.8)
         self.assertIn("found_fraction", score["summary"])
         self.assertIn("mean_dice", score["summary"])
         self.assertTrue(self.sonarx("score", OUT, "--truth", TRUTH).strip())

@@ -64,6 +64,7 @@ class Observe : public testing::Test {
     command.seeds = {{channel, longest->first_sample + longest->count / 2}};
     JournalLine line;
     line.n = 1;
+    line.decided = 1'600'000'000 * kSecondNs;
     line.operator_name = "someone";
     line.command = "propagate";
     line.ping_time = survey_->ping_time(observation(), static_cast<std::size_t>(found.ping_index));

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "io/atomic_file.h"
+#include "pipeline/fuzz_bodies.h"
+
+namespace sonar {
+namespace {
+
+template <class Body>
+void replay(const char* target, const Body& body) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(__FILE__).parent_path() / "../../tests/data/fuzz" / target;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    body(read_file(entry.path()).value());
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(FuzzCorpus, Recipe) {
+  replay("recipe", [](const std::string& text) { fuzz::recipe(text); });
+}
+
+TEST(FuzzCorpus, Journal) {
+  replay("journal", [](const std::string& text) { fuzz::journal(text); });
+}
+
+}  // namespace
+}  // namespace sonar
