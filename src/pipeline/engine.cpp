@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
+#include "signal/beam_overlap.h"
 #include "signal/calibrate.h"
 #include "signal/median.h"
 
@@ -173,7 +174,10 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
   ping.calibration = tables_.of((*loaded)->heads);
   ping.sv = calibrated(ping_index, **loaded, *ping.calibration);
   ping.filtered = std::make_shared<Volume>(Volume{Array3<std::int16_t>(ping.sv.counts.shape()), ping.sv.flags});
-  median_into(ping.sv.counts.view(), ping.sv.flags.view(), recipe_.median, ping.filtered->counts.view());
+  // Where beams hardly overlap, a school's next beam is no second look at it, and a box over beams would take it away.
+  const MedianParams box = fitted(recipe_.median, grid().elevation_deg, grid().azimuth_deg, grid().vertical_width_deg,
+                                  grid().horizontal_width_deg);
+  median_into(ping.sv.counts.view(), ping.sv.flags.view(), box, ping.filtered->counts.view());
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
     flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->flags.view());
   } else if (recipe_.seabed.enabled) {

@@ -19,6 +19,12 @@ using Runs = std::vector<Run>;
 
 /// The median of Rayleigh-fading echo lies ln 2 below its mean; thresholds are meant for the mean.
 constexpr double kMedianOfMean_db = -1.5917;
+/// A fan of fewer beams is narrow enough for a school to fill it.
+constexpr int kFloorBeams = 8;
+/// Schools that fill a whole fan are weaker.
+constexpr double kFloorLevel_db = -30.0;
+/// Ranges of one depth in a fan, as a share of the range: a slope and a ship's roll included.
+constexpr double kFlatShare = 0.06;
 
 std::vector<Runs> split(const Runs& runs, const Shape3& shape, Connectivity connectivity) {
   const Components components = label_runs(runs, shape, connectivity);
@@ -207,7 +213,7 @@ class PingDetector {
     const auto voxels = static_cast<double>(detection.mask.voxels());
     if (static_cast<double>(faulty) > params_.max_flagged_members * voxels) return false;
     if (mask_edges(detection.mask, flags_, sector_).boundary_fraction > params_.max_boundary_faces) return false;
-    return !is_shell(detection);
+    return !is_shell(detection) && !is_open_floor(detection);
   }
 
   /// A wall at constant range: all beams, thin, and flat.
@@ -218,6 +224,49 @@ class PingDetector {
     return detection.box.beams() >= params_.shell_share * sector_.beams() &&
            mean_run_m < params_.max_shell_thickness_m &&
            detection.box.samples() * spacing_m < 2.0 * params_.max_shell_thickness_m;
+  }
+
+  /// A seabed of which too little is seen to fit a plane: all beams, and either a fan of it that the record's end cuts
+  /// off, or a lowest fan that sees it strongly and at one range throughout.
+  [[nodiscard]] bool is_open_floor(const Detection& detection) const {
+    if (sector_.beams() < kFloorBeams || detection.box.beams() < params_.shell_share * sector_.beams()) return false;
+    return is_cut_off(detection.mask) ||
+           (detection.reference_db >= kFloorLevel_db && lowest_fan_is_flat(detection.mask));
+  }
+
+  [[nodiscard]] bool is_cut_off(const PingMask& mask) const {
+    const int end = sv_.shape().samples - std::max(2, sv_.shape().samples / 40);
+    std::vector<int> beams(static_cast<std::size_t>(sector_.fans()), 0);
+    int last_row = -1;
+    for (const Run& run : mask.runs) {
+      if (run.end() < end || run.row == last_row) continue;
+      last_row = run.row;
+      ++beams[static_cast<std::size_t>(run.row / sector_.beams())];
+    }
+    return 2 * *std::max_element(beams.begin(), beams.end()) >= sector_.beams();
+  }
+
+  [[nodiscard]] bool lowest_fan_is_flat(const PingMask& mask) const {
+    const int top = sector_.fans() - 1;
+    const int lowest_fan = sector_.elevation_rad(0) <= sector_.elevation_rad(top) ? 0 : top;
+    std::vector<double> sum(static_cast<std::size_t>(sector_.beams()), 0.0);
+    std::vector<double> count(sum.size(), 0.0);
+    for (const Run& run : mask.runs) {
+      if (run.row / sector_.beams() != lowest_fan) continue;
+      const auto beam = static_cast<std::size_t>(run.row % sector_.beams());
+      sum[beam] += run.count * sector_.range().range_m(run.first_sample + run.count / 2);
+      count[beam] += run.count;
+    }
+    std::vector<double> ranges_m;
+    for (std::size_t beam = 0; beam < sum.size(); ++beam) {
+      if (count[beam] > 0.0) ranges_m.push_back(sum[beam] / count[beam]);
+    }
+    if (static_cast<double>(ranges_m.size()) < params_.shell_share * sector_.beams()) return false;
+    std::sort(ranges_m.begin(), ranges_m.end());
+    const double middle_m = ranges_m[ranges_m.size() / 2];
+    const auto near = std::count_if(ranges_m.begin(), ranges_m.end(),
+                                    [&](double r) { return std::abs(r - middle_m) <= kFlatShare * middle_m; });
+    return static_cast<double>(near) >= params_.shell_share * sector_.beams();
   }
 
   View3<const std::int16_t> sv_;

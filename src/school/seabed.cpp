@@ -18,6 +18,8 @@ namespace {
 
 /// The seabed lies on the beam's axis where its echo is strongest; its onset comes much earlier.
 constexpr double kNearPeak_db = 2.0;
+/// No school fills so large a share of a fan at one depth.
+constexpr double kWholeFan = 0.9;
 constexpr int kBlock = 16;
 constexpr SampleFlags kUnusable = SampleFlags::near_field | SampleFlags::surface;
 
@@ -111,19 +113,21 @@ class SeabedFinder {
     for (int s = first; s < end; ++s) {
       if (counts[static_cast<std::size_t>(s)] > counts[static_cast<std::size_t>(at)]) at = s;
     }
-    // an echo still rising where the beam ends says nothing about where its middle would be
-    if (at >= sv_.shape().samples - std::max(2, sv_.shape().samples / 40)) return;
     const int before = first - std::max(4, (end - first) / 4);
     if (before < 0) return;
     const std::int16_t peak = counts[static_cast<std::size_t>(at)];
     if (peak - counts[static_cast<std::size_t>(before)] < counts_from_db(params_.rise_db)) return;
     double weight = 0.0;
     double sum = 0.0;
+    int last = at;
     for (int s = first; s < end; ++s) {
       if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(kNearPeak_db)) continue;
       weight += 1.0;
       sum += sector_.range().range_m(s);
+      last = s;
     }
+    // an echo still at its height where the beam ends says nothing about where its middle would be
+    if (last >= sv_.shape().samples - std::max(2, sv_.shape().samples / 40)) return;
     const double range_m = sum / weight;
     echoes_.push_back({row, range_m, axis(row) * range_m});
   }
@@ -214,7 +218,8 @@ class SeabedFinder {
     return plane;
   }
 
-  /// Share of the beams whose axis meets the plane well inside their range that have an echo there.
+  /// Share of the beams whose axis meets the plane well inside their range that have an echo there. Where the record
+  /// ends soon behind the seabed few do: then a fan beyond counts as well, if (almost) all its beams see the plane.
   [[nodiscard]] double coverage(const Plane& plane) const {
     std::vector<bool> sees(sv_.shape().rows(), false);
     for (const Echo& echo : echoes_) {
@@ -223,14 +228,20 @@ class SeabedFinder {
       }
     }
     const double reach = 0.9 * sector_.range().range_m(sv_.shape().samples - 1);
+    const auto beams = static_cast<std::size_t>(sector_.beams());
     int expected = 0;
     int seen = 0;
-    for (int row = 0; row < static_cast<int>(sees.size()); ++row) {
-      // grazing beams see the bottom as a faint ramp: they need not agree
-      const Point<Sonar> u = axis(row);
-      if (u.z < 0.3 || plane.range(u) > reach) continue;
-      ++expected;
-      if (sees[static_cast<std::size_t>(row)]) ++seen;
+    for (std::size_t first = 0; first < sees.size(); first += beams) {
+      const auto fan = sees.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto seeing = std::count(fan, fan + sector_.beams(), true);
+      const bool whole = static_cast<double>(seeing) >= kWholeFan * sector_.beams();
+      for (std::size_t row = first; row < first + beams; ++row) {
+        // grazing beams see the bottom as a faint ramp: they need not agree
+        const Point<Sonar> u = axis(static_cast<int>(row));
+        if (u.z < 0.3 || (plane.range(u) > reach && !(whole && sees[row]))) continue;
+        ++expected;
+        if (sees[row]) ++seen;
+      }
     }
     return expected >= params_.min_inliers ? static_cast<double>(seen) / expected : 0.0;
   }

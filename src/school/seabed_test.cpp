@@ -65,6 +65,18 @@ TEST(Seabed, FindsALevelBottom) {
   EXPECT_EQ(left, 0);
 }
 
+TEST(Seabed, TwoFansSeeItBeforeTheRecordEnds) {
+  BottomScene scene;
+  const double end_m = scene.sector.range().range_m(899);
+  // the second fan meets it at 0.95 of the range, where no beam is expected to see a plane
+  const double depth_m = 0.95 * end_m * -std::sin(scene.sector.elevation_rad(1));
+  scene.add_bottom(depth_m);
+  const Seabed seabed = scene.look(6);
+  ASSERT_TRUE(seabed.found);
+  const Point<Sonar> place = Sector::direction(scene.sector.elevation_rad(0), rad_from_deg(270.0)) * (0.9 * end_m);
+  EXPECT_NEAR(bottom_depth_m(seabed, place, {}), depth_m, 8.0);
+}
+
 TEST(Seabed, FollowsASlope) {
   BottomScene scene;
   scene.add_bottom(120.0, -0.1);  // deeper to port

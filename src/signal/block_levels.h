@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "base/array.h"
@@ -37,8 +38,9 @@ class BlockLevels {
 };
 
 /// flag_hot_beams() and flag_walls() with levels that are worked out once for both.
+/// fan_loss_db  [row] neighbour_loss_db() to the nearest fan; empty = beams that overlap well
 void flag_hot_beams(View3<const std::int16_t> power, const BlockLevels& levels, const HotBeamParams& params,
-                    View3<SampleFlags> flags);
+                    std::span<const double> fan_loss_db, View3<SampleFlags> flags);
 void flag_walls(View3<const std::int16_t> power, const BlockLevels& levels, const WallParams& params,
                 View3<SampleFlags> flags);
 

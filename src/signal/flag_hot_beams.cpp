@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "base/check.h"
 #include "base/units.h"
+#include "signal/beam_overlap.h"
 #include "signal/block_levels.h"
 #include "signal/flags.h"
 
@@ -28,18 +30,20 @@ struct Stretch {
 class HotBeams {
  public:
   HotBeams(View3<const std::int16_t> power, const BlockLevels& levels, const HotBeamParams& params,
-           View3<SampleFlags> flags)
+           std::span<const double> fan_loss_db, View3<SampleFlags> flags)
       : power_(power),
         flags_(flags),
         params_(params),
         block_(levels.block_samples()),
         levels_(levels),
+        fan_loss_db_(fan_loss_db),
         threshold_(counts_of(params.threshold_db)),
         neighbour_(counts_of(params.neighbour_db)),
         spread_(counts_of(params.beam_spread_db)) {}
 
   void flag_row(int row) {
     hot_.assign(static_cast<std::size_t>(levels_.blocks()), false);
+    isolated_ = isolated(row);
     bool found = false;
     for (int block = 0; block < levels_.blocks(); ++block) {
       const bool hot = is_hot(row, block);
@@ -56,10 +60,17 @@ class HotBeams {
   bool is_hot(int row, int block) {
     const int level = levels_.level(row, block);
     if (level == BlockLevels::kUnknown) return false;
-    if (stands_out(row, block, false, level, spread_)) return true;
+    if (stands_out(row, block, false, level, spread_ + isolated_)) return true;
     const int above_own = level - levels_.background(row);
-    return above_own >= threshold_ && stands_out(row, block, true, above_own, 0) &&
-           stands_out(row, block, false, level, 0);
+    return above_own >= threshold_ && stands_out(row, block, true, above_own, isolated_) &&
+           stands_out(row, block, false, level, isolated_);
+  }
+
+  /// What a beam must stand out by more, counts, where a school in its middle already stands out as a hot beam does.
+  [[nodiscard]] int isolated(int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    const double loss_db = r < fan_loss_db_.size() ? fan_loss_db_[r] : 0.0;
+    return loss_db > kSeparateBeams_db ? counts_of(loss_db) : 0;
   }
 
   /// Above the median of the up to 8 neighbours, above both neighbours in fan (in beam on a sonar of one fan), and above
@@ -183,7 +194,9 @@ class HotBeams {
   const HotBeamParams& params_;
   int block_;
   const BlockLevels& levels_;
+  std::span<const double> fan_loss_db_;
   int threshold_, neighbour_, spread_;
+  int isolated_ = 0;
   std::vector<bool> hot_;
   std::vector<int> around_, beside_;
 };
@@ -191,15 +204,15 @@ class HotBeams {
 }  // namespace
 
 void flag_hot_beams(View3<const std::int16_t> power, const BlockLevels& levels, const HotBeamParams& params,
-                    View3<SampleFlags> flags) {
+                    std::span<const double> fan_loss_db, View3<SampleFlags> flags) {
   SONAR_CHECK(power.shape() == flags.shape());
   if (!params.enabled) return;
-  HotBeams beams(power, levels, params, flags);
+  HotBeams beams(power, levels, params, fan_loss_db, flags);
   for (int row = 0; row < static_cast<int>(power.shape().rows()); ++row) beams.flag_row(row);
 }
 
 void flag_hot_beams(View3<const std::int16_t> power, const HotBeamParams& params, View3<SampleFlags> flags) {
-  if (params.enabled) flag_hot_beams(power, BlockLevels(power, flags, params.block_samples), params, flags);
+  if (params.enabled) flag_hot_beams(power, BlockLevels(power, flags, params.block_samples), params, {}, flags);
 }
 
 }  // namespace sonar

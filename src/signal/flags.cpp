@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "signal/beam_overlap.h"
 #include "signal/block_levels.h"
 
 namespace sonar {
@@ -93,7 +94,8 @@ void flag_ping(View3<const std::int16_t> power, const PingGeometry& geometry, co
   flag_lost(power, params.lost, flags);
   if (params.hot_beam.enabled || params.wall.enabled) {
     const BlockLevels levels(power, flags, params.hot_beam.block_samples);
-    flag_hot_beams(power, levels, params.hot_beam, flags);
+    flag_hot_beams(power, levels, params.hot_beam, fan_losses_db(geometry.elevation_deg, geometry.vertical_width_deg),
+                   flags);
     flag_walls(power, levels, params.wall, flags);
   }
   flag_impulses(power, neighbours, params.impulse, flags);
