@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the survey that the other tests read, and runs it: simulate -> info -> run -> score -> compare."""
 import json
+import resource
 import shutil
 
 import sonarx
@@ -56,6 +57,10 @@ class SmallSurvey(Case):
 
     def test_the_raw_folder_is_never_written_to(self):
         self.assertEqual(sonarx.snapshot(SURVEY), self.raw)
+
+    def test_memory_stays_bounded(self):
+        """Every program that this test started, the run among them."""
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 600 * 1024)
 
     def test_score(self):
         score = json.loads(self.sonarx("score", OUT, "--truth", TRUTH, "--json"))

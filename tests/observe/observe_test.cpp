@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -159,6 +161,67 @@ TEST_F(Observe, ClickIsReplayedFromItsJournalLine) {
     EXPECT_EQ(count(once, DiagnosticCode::decision_lost), 0);
     EXPECT_GE(count(once, DiagnosticCode::propagation_ended), 1);
   }
+}
+
+/// Masks of an observation's manual schools by ping time: what a journal stands for, whatever things are called.
+std::map<TimeNs, PingMask> manual_masks(const SurveyFiles& survey, std::span<const JournalLine> journal) {
+  Recipe recipe;
+  recipe.automatic = false;
+  Work work(2);
+  std::map<TimeNs, PingMask> masks;
+  for (const ObservationFiles& in : survey.observations) {
+    const auto product = observe(survey, in, recipe, {{}, journal, "test"}, work);
+    EXPECT_TRUE(product);
+    if (!product) continue;
+    for (const SchoolMask& mask : product->masks) {
+      masks[survey.ping_time(in, static_cast<std::size_t>(mask.ping_index))] = mask.mask;
+    }
+  }
+  return masks;
+}
+
+TEST_F(Observe, ChoicesStayOnTheirPingsWhateverHappensToTheFiles) {
+  namespace fs = std::filesystem;
+  synth::SurveyParams params = synth::survey_params(synth::Preset::easy);
+  params.observations = 2;
+  params.pings = 16;
+  params.schools = 2;
+  const fs::path all = folder_ / "two";
+  Work work(2);
+  ASSERT_TRUE(synth::simulate_survey(all, params, synth::ms70_beams(), false, "test", work));
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(all)) {
+    if (entry.path().extension() == ".raw") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  ASSERT_EQ(files.size(), 2U);
+  const auto open = [&](const std::vector<fs::path>& paths) { return *open_survey(paths, {}, {}, {}, work); };
+
+  const SurveyFiles later = open({files[1]});  // the first file is not there yet
+  const auto found = observe(later, later.observations.front(), {}, {{}, {}, "test"}, work);
+  ASSERT_TRUE(found);
+  ASSERT_FALSE(found->masks.empty());
+  const SchoolMask& mask = found->masks.front();
+  const auto longest = std::max_element(mask.mask.runs.begin(), mask.mask.runs.end(),
+                                        [](const auto& a, const auto& b) { return a.count < b.count; });
+  PropagateCommand command;
+  command.seeds = {{later.observations.front().grid->channel[static_cast<std::size_t>(longest->row)],
+                    longest->first_sample + longest->count / 2}};
+  JournalLine line;
+  line.n = 1;
+  line.command = "propagate";
+  line.ping_time = later.ping_time(later.observations.front(), static_cast<std::size_t>(mask.ping_index));
+  line.args = to_json(command);
+  const std::vector<JournalLine> journal{line};
+  const auto expected = manual_masks(later, journal);
+  ASSERT_FALSE(expected.empty());
+
+  EXPECT_EQ(manual_masks(open(files), journal), expected);  // a file came in before: the observation is obs-0002 now
+  const fs::path renamed = all / "another name.raw";
+  fs::copy_file(files[1], renamed);
+  EXPECT_EQ(manual_masks(open({files[0], files[1], renamed}), journal), expected);  // and a duplicate
+  fs::remove(files[1]);
+  EXPECT_EQ(manual_masks(open({files[0], renamed}), journal), expected);  // and under its new name alone
 }
 
 TEST_F(Observe, DetectionNeverTakesAHumansVoxel) {
