@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
+#include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
 #include "io/product.h"
 #include "pipeline/manual.h"
@@ -40,19 +40,17 @@ struct PropagateArguments {
 
 struct Seed {
   std::int64_t ping = 0;
-  int fan = 0;
-  int beam = 0;
-  int sample = 0;
+  std::int64_t fan = 0;
+  std::int64_t beam = 0;
+  std::int64_t sample = 0;
 };
 
 Result<Seed> parse_seed(const std::string& text) {
-  Seed seed;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%ld,%d,%d,%d%n", &seed.ping, &seed.fan, &seed.beam, &seed.sample, &used) != 4 ||
-      static_cast<std::size_t>(used) != text.size()) {
+  const auto numbers = whole_numbers(text, ',');
+  if (!numbers || numbers->size() != 4) {
     return fail(ErrorCode::usage, fmt::format("--seed {}: expected PING,FAN,BEAM,SAMPLE", text));
   }
-  return seed;
+  return Seed{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
 }
 
 Result<std::vector<Seed>> parse_seeds(const PropagateArguments& arguments, const ObservationFiles& observation) {
@@ -158,8 +156,9 @@ Result<Clicked> click(const PropagateArguments& arguments, const Recipe& recipe,
   if (!seeds) return pass_on(seeds);
   clicked.ping_index = seeds->front().ping;
   for (const Seed& seed : *seeds) {
-    const int row = seed.fan * clicked.observation->grid->beams() + seed.beam;
-    clicked.command.seeds.push_back({clicked.observation->grid->channel[static_cast<std::size_t>(row)], seed.sample});
+    const std::int64_t row = seed.fan * clicked.observation->grid->beams() + seed.beam;
+    clicked.command.seeds.push_back(
+        {clicked.observation->grid->channel[static_cast<std::size_t>(row)], static_cast<int>(seed.sample)});
   }
   return clicked;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
+#include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
@@ -39,14 +39,11 @@ struct RunArguments {
 /// "A:B", both inclusive from 0.
 Result<std::optional<PingSelection>> parse_pings(const std::string& text) {
   if (text.empty()) return std::optional<PingSelection>{};
-  PingSelection pings;
-  char colon = 0;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%ld%c%ld%n", &pings.first, &colon, &pings.last, &used) != 3 || colon != ':' ||
-      static_cast<std::size_t>(used) != text.size() || pings.first < 0 || pings.last < pings.first) {
+  const auto numbers = whole_numbers(text, ':');
+  if (!numbers || numbers->size() != 2 || (*numbers)[0] < 0 || (*numbers)[1] < (*numbers)[0]) {
     return fail(ErrorCode::usage, fmt::format("--pings {}: expected A:B with 0 <= A <= B", text));
   }
-  return std::optional<PingSelection>{pings};
+  return std::optional<PingSelection>{PingSelection{(*numbers)[0], (*numbers)[1]}};
 }
 
 Result<Recipe> chosen_recipe(const RunArguments& arguments) {

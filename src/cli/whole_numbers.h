@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sonar {
+
+/// Whole numbers between separators, "12,8,10,560"; empty where anything else stands there or a number is too large.
+[[nodiscard]] std::optional<std::vector<std::int64_t>> whole_numbers(std::string_view text, char separator);
+
+}  // namespace sonar
