@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "view/image.h"
+
+namespace sonar {
+
+/// A rectangle of a picture, pixels; x, y is the upper left corner.
+struct PixelRect {
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+/// How a line is drawn; no dashes = solid.
+struct Stroke {
+  Rgba8 colour{0, 0, 0, 255};
+  double width_px = 1.0;
+  std::vector<double> dashes_px;
+  friend bool operator==(const Stroke&, const Stroke&) = default;
+};
+
+/// A raster laid over a rectangle; `smooth` = interpolated when enlarged, else each of its pixels stays a block.
+struct ImageItem {
+  PixelRect place;
+  std::shared_ptr<const Image> image;
+  bool smooth = false;
+};
+
+/// One path of one or more rings or polylines, filled (even-odd) and stroked; alpha 0 = not.
+struct PathItem {
+  struct Part {
+    std::vector<PixelPoint> points;
+    bool closed = false;
+  };
+  std::vector<Part> parts;
+  Rgba8 fill{0, 0, 0, 0};
+  Stroke stroke{{0, 0, 0, 0}, 0.0, {}};
+};
+
+/// Where a text's anchor point lies in it.
+enum class TextAnchor : std::uint8_t { left, centre, right };
+
+/// One line of text; `at` is the anchor on the text's vertical middle. A halo keeps it readable over a picture.
+struct TextItem {
+  PixelPoint at;
+  std::string text;  ///< UTF-8
+  double size_px = 12.0;
+  Rgba8 colour{0, 0, 0, 255};
+  TextAnchor anchor = TextAnchor::left;
+  double turned_deg = 0.0;  ///< clockwise
+  bool bold = false;
+  Rgba8 halo{0, 0, 0, 0};
+};
+
+/// Items between a ClipItem and the next are cut to its rectangle; an empty rectangle ends clipping.
+struct ClipItem {
+  PixelRect place;
+};
+
+/// A 2-D picture as a list of things to draw, in order. What `view` builds, and `render` turns into pixels, SVG or PDF.
+struct FrameDescription {
+  PixelSize size;
+  Rgba8 background{255, 255, 255, 255};
+  std::string title;  ///< of the document (SVG, PDF); what is seen stands in a TextItem
+  std::vector<std::variant<ImageItem, PathItem, TextItem, ClipItem>> items;
+};
+
+}  // namespace sonar
