@@ -32,6 +32,28 @@ Point<Sonar> right_of(const Point<Sonar>& forward, const Point<Sonar>& up) {
   return unit(other - forward * dot(other, forward), {0.0, 1.0, 0.0});
 }
 
+/// Rectangle of the picture that the sector's outline takes, pixels.
+struct Extent {
+  double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
+};
+
+Extent extent(const Sector& sector, const CameraBasis& b) {
+  Extent out;
+  for (int fan = 0; fan < sector.fans(); ++fan) {
+    for (int beam = 0; beam < sector.beams(); ++beam) {
+      for (const int sample : {0, std::max(0, sector.range().count - 1)}) {
+        const auto seen = b.project(sector.centre(fan, beam, sample));
+        if (!seen) continue;
+        out.left = std::min(out.left, seen->pixel.x);
+        out.right = std::max(out.right, seen->pixel.x);
+        out.top = std::min(out.top, seen->pixel.y);
+        out.bottom = std::max(out.bottom, seen->pixel.y);
+      }
+    }
+  }
+  return out.left <= out.right ? out : Extent{0.0, 0.0, 1.0 * b.size.width, 1.0 * b.size.height};
+}
+
 }  // namespace
 
 CameraBasis basis(const Camera& camera, PixelSize size) {
@@ -91,15 +113,29 @@ Camera zoomed(const Camera& camera, double factor) {
   return out;
 }
 
-Camera overview(const Sector& sector) {
-  const double far_m = sector.range().range_m(std::max(0, sector.range().count - 1));
+Camera overview(const Sector& sector, PixelSize size) {
+  const double far_m = std::max(1.0, sector.range().range_m(std::max(0, sector.range().count - 1)));
   const double azimuth = 0.5 * (sector.azimuth_rad(0) + sector.azimuth_rad(sector.beams() - 1));
-  const double elevation = 0.5 * (sector.elevation_rad(0) + sector.elevation_rad(sector.fans() - 1));
-  Camera out;
-  out.target = Sector::direction(elevation, azimuth) * (0.55 * far_m);
-  // From outside the far corner, looking back towards the ship: the fan opens towards the viewer.
-  out.eye = out.target + Sector::direction(rad_from_deg(32.0), azimuth + rad_from_deg(115.0)) * (1.75 * far_m);
-  return out;
+  Camera camera;
+  camera.target =
+      Sector::direction(0.5 * (sector.elevation_rad(0) + sector.elevation_rad(sector.fans() - 1)), azimuth) *
+      (0.55 * far_m);
+  // From outside and beside the fan, so that it opens across the picture.
+  const Point<Sonar> from = Sector::direction(rad_from_deg(32.0), azimuth + rad_from_deg(115.0));
+  double distance = 2.0 * far_m;
+  for (int i = 0; i < 8; ++i) {
+    camera.eye = camera.target + from * distance;
+    const CameraBasis b = basis(camera, size);
+    const Extent seen = extent(sector, b);
+    const double metres = 2.0 * b.tan_half_fov * distance / size.height;
+    const double right = 0.5 * (seen.left + seen.right) - 0.5 * size.width;
+    const double down = 0.5 * (seen.top + seen.bottom) - 0.5 * size.height;
+    camera.target = camera.target + b.right * (right * metres) - b.up * (down * metres);
+    distance *= std::max((seen.right - seen.left) / size.width, (seen.bottom - seen.top) / size.height) / 0.9;
+    distance = std::max(distance, 0.5 * far_m);
+  }
+  camera.eye = camera.target + from * distance;
+  return camera;
 }
 
 }  // namespace sonar

@@ -53,7 +53,7 @@ struct CameraBasis {
 /// Distance to the target times `factor` (> 0).
 [[nodiscard]] Camera zoomed(const Camera& camera, double factor);
 
-/// Sees the whole sector, obliquely from above and from outside.
-[[nodiscard]] Camera overview(const Sector& sector);
+/// Sees the whole sector, obliquely from above and from outside, as large as a picture of this shape allows.
+[[nodiscard]] Camera overview(const Sector& sector, PixelSize size = {1024, 768});
 
 }  // namespace sonar
