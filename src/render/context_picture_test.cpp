@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/context_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "view/theme.h"
+
+namespace sonar {
+namespace {
+
+/// Looks from 100 m aft towards the bow; field of view 90 degrees.
+const Camera kFromAft{{-100.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, rad_from_deg(90.0)};
+constexpr PixelSize kSize{200, 200};
+constexpr Rgba8 kBlack{0, 0, 0, 255};
+constexpr Rgba8 kRed{255, 0, 0, 255};
+constexpr Rgba8 kGreen{0, 255, 0, 255};
+
+/// A square at x, from -half to half in y and z.
+void add_square(std::vector<SceneTriangle>& to, double x, double half, Rgba8 colour) {
+  to.push_back({{Point<Sonar>{x, -half, -half}, {x, half, -half}, {x, half, half}}, colour});
+  to.push_back({{Point<Sonar>{x, -half, -half}, {x, half, half}, {x, -half, half}}, colour});
+}
+
+TEST(ContextPicture, AFaceHasItsPlaceSizeAndDistance) {
+  ContextScene scene;
+  add_square(scene.opaque, 0.0, 50.0, kRed);
+  Work work(2);
+  const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  int red = 0;
+  for (const Rgba8& p : picture.behind.pixels) red += p == kRed ? 1 : 0;
+  EXPECT_EQ(red, 100 * 100) << "50 m at 100 m fills half of a 90 degree view each way";
+  ASSERT_TRUE(picture.opaque_m);
+  const auto metres = [&](int x, int y) { return (*picture.opaque_m)[picture.behind.index(x, y)]; };
+  EXPECT_NEAR(metres(100, 100), 100.0, 0.01);
+  EXPECT_NEAR(metres(140, 120), 100.0 * std::sqrt(1.0 + 0.405 * 0.405 + 0.205 * 0.205), 0.5);
+  EXPECT_TRUE(std::isinf(metres(10, 10)));
+}
+
+TEST(ContextPicture, TheNearerHidesTheFartherInAnyOrder) {
+  for (const bool near_first : {true, false}) {
+    ContextScene scene;
+    add_square(scene.opaque, near_first ? -20.0 : 30.0, 30.0, near_first ? kRed : kGreen);
+    add_square(scene.opaque, near_first ? 30.0 : -20.0, 30.0, near_first ? kGreen : kRed);
+    Work work(1);
+    const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+    EXPECT_EQ(picture.behind.at(100, 100), kRed);
+  }
+}
+
+TEST(ContextPicture, TheSeaLiesOnTheEyesSide) {
+  ContextScene scene;
+  add_square(scene.translucent, 0.0, 50.0, {0, 0, 255, 100});
+  Work work(1);
+  Camera camera = kFromAft;
+  camera.eye.z = -20.0;
+  const ContextPicture above = draw_context(scene, camera, kSize, kBlack, -7.0, work);
+  EXPECT_EQ(above.behind.at(100, 100), kBlack);
+  EXPECT_EQ(above.front.at(100, 100).a, 100);
+  camera.eye.z = 20.0;
+  const ContextPicture below = draw_context(scene, camera, kSize, kBlack, -7.0, work);
+  EXPECT_EQ(below.front.at(100, 100).a, 0);
+  EXPECT_GT(below.behind.at(100, 100).b, 90);
+}
+
+TEST(ContextPicture, WhatIsBehindTheEyeIsCutOff) {
+  ContextScene scene;
+  // A floor that passes under the eye and goes on behind it.
+  scene.opaque.push_back({{Point<Sonar>{-500.0, -300.0, 10.0}, {500.0, 0.0, 10.0}, {-500.0, 300.0, 10.0}}, kGreen});
+  Work work(1);
+  const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  EXPECT_EQ(picture.behind.at(100, 199), kGreen);
+  EXPECT_EQ(picture.behind.at(100, 50), kBlack) << "nothing above the horizon";
+}
+
+TEST(ContextPicture, AnyNumberOfThreadsDrawsTheSame) {
+  std::vector<double> elevation;
+  std::vector<double> azimuth;
+  for (int i = 0; i < 6; ++i) elevation.push_back(rad_from_deg(-45.0 + 9.0 * i));
+  for (int i = 0; i < 7; ++i) azimuth.push_back(rad_from_deg(240.0 + 10.0 * i));
+  const Sector sector(elevation, azimuth, {0.0, 0.5, 1000});
+  SeabedPatch bed{20, 20, -600.0, -600.0, 60.0, std::vector<float>(400, 300.0F)};
+  bed.depth_m[7] = std::nanf("");
+  const ContextScene scene = context_scene(sector, {}, dark_theme({320, 240}), bed);
+  Work one(1);
+  Work four(4);
+  const Camera camera = overview(sector, {320, 240});
+  const ContextPicture a = draw_context(scene, camera, {320, 240}, kBlack, -7.0, one);
+  const ContextPicture b = draw_context(scene, camera, {320, 240}, kBlack, -7.0, four);
+  EXPECT_EQ(a.behind, b.behind);
+  EXPECT_EQ(a.front, b.front);
+  EXPECT_EQ(*a.opaque_m, *b.opaque_m);
+}
+
+}  // namespace
+}  // namespace sonar

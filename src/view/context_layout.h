@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "view/context_scene.h"
+
+namespace sonar {
+
+/// Range of the last sample, m; at least 1.
+[[nodiscard]] double far_range_m(const Sector& sector);
+
+/// Angles from first to last, 1.5 degrees apart or closer, both ends among them.
+[[nodiscard]] std::vector<double> even_angles(double first_rad, double last_rad);
+
+/// A place on a level z at a horizontal distance, azimuth clockwise from the bow.
+[[nodiscard]] Point<Sonar> on_surface(double distance_m, double azimuth_rad, double z_m);
+
+/// Rings and bearings as drawn on the sea surface.
+struct SurfaceGrid {
+  std::vector<double> radii_m;  ///< rising, at least one
+  double first_azimuth_rad = 0.0;
+  double last_azimuth_rad = 0.0;
+  std::vector<double> azimuths_rad;  ///< of the bearing lines; whole tens of degrees as they are labelled
+};
+[[nodiscard]] SurfaceGrid surface_grid(const Sector& sector, const ContextParams& params);
+/// "283°", or "-77° bow" where the heading is not known.
+[[nodiscard]] std::string bearing_text(double azimuth_rad, const ContextParams& params);
+
+/// A depth scale at the sector's far aft edge, from the sea surface to the sector's deepest place.
+struct DepthAxis {
+  Point<Sonar> top;
+  Point<Sonar> bottom;
+  Point<Sonar> outwards;         ///< unit vector, level
+  std::vector<double> depths_m;  ///< of the ticks, below the sea surface
+};
+[[nodiscard]] DepthAxis depth_axis(const Sector& sector, const ContextParams& params);
+
+/// Smallest and largest known depth; equal where there is none.
+[[nodiscard]] std::pair<double, double> depth_span(const SeabedPatch& bed);
+
+}  // namespace sonar
