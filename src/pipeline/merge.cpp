@@ -11,6 +11,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "pipeline/recipe.h"
 
 namespace sonar {
 namespace {
@@ -76,7 +77,7 @@ double miss(const SchoolRow& school, const SchoolPingRow& end, const SchoolRow& 
   const double seconds = static_cast<double>(begin.time_utc - end.time_utc) / 1e9;
   const bool moves = std::isfinite(school.speed_mps) && std::isfinite(school.course_deg);
   const Geographic predicted = moves ? destination(from, school.speed_mps * seconds, school.course_deg) : from;
-  const double gate_m = params.gate_m + 0.25 * (known(school.length_m, 0.0) + known(next.length_m, 0.0));
+  const double gate_m = params.gate_m + params.length_share * (known(school.length_m, 0.0) + known(next.length_m, 0.0));
   const double depth_m = std::abs(known(end.depth_m, 0.0) - known(begin.depth_m, 0.0));
   const double distance_m = geodesic(predicted, to).distance_m;
   return distance_m <= gate_m && depth_m <= params.depth_gate_m ? distance_m : -1.0;
@@ -113,16 +114,24 @@ void join_over_cut(const ObservationProduct& before, ObservationProduct& after, 
   }
 }
 
+/// Those that the products were made with.
+MergeParams merge_params_of(const std::vector<ObservationProduct>& products) {
+  if (products.empty()) return {};
+  const auto recipe = recipe_from_text(products.front().recipe_json);
+  return recipe ? recipe->merge : MergeParams{};
+}
+
 }  // namespace
 
 bool name_less(const std::string& a, const std::string& b) {
   return std::pair(a.size(), std::string_view(a)) < std::pair(b.size(), std::string_view(b));
 }
 
-Result<Survey> merge(std::vector<ObservationProduct> products, const MergeParams& params) {
+Result<Survey> merge(std::vector<ObservationProduct> products, const std::optional<MergeParams>& given) {
   std::sort(products.begin(), products.end(),
             [](const auto& a, const auto& b) { return name_less(a.observation, b.observation); });
   if (auto checked = check_together(products); !checked) return pass_on(checked);
+  const MergeParams params = given ? *given : merge_params_of(products);
   for (ObservationProduct& product : products) {
     product.masks.clear();
     product.background_db.clear();

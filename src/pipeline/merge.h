@@ -2,24 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/describe.h"
 #include "base/result.h"
 #include "base/work.h"
 #include "model/product.h"
+#include "pipeline/merge_params.h"
 #include "pipeline/run.h"
 
 namespace sonar {
-
-/// How a school is followed over a cut made by observation_max_s. Depends on products alone.
-struct MergeParams {
-  double cut_gap_s = 120.0;  ///< observations of one sounder and grid no further apart than this were one
-  double gate_m = 20.0;      ///< plus half the mean length of the two: the predicted place may miss by this much
-  double depth_gate_m = 10.0;
-  int edge_pings = 3;  ///< pings a school may be missing before or after the cut
-};
 
 /// All observations of a survey without their voxels: rows, tracks, grids, notes. What the survey map shows.
 struct Survey {
@@ -32,8 +25,10 @@ struct Survey {
 [[nodiscard]] bool name_less(const std::string& a, const std::string& b);
 
 /// Puts products together; any order of products gives the same survey.
+/// params  empty = those of the products' recipe, the defaults where it tells none
 /// errors  mismatch: two recipes, two sets of stage versions, one observation twice (each named)
-[[nodiscard]] Result<Survey> merge(std::vector<ObservationProduct> products, const MergeParams& params = {});
+[[nodiscard]] Result<Survey> merge(std::vector<ObservationProduct> products,
+                                   const std::optional<MergeParams>& params = {});
 
 /// What stands in survey.json under `failures`.
 struct MergeFailure {

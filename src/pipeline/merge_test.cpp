@@ -14,6 +14,7 @@
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/product_example.h"
+#include "pipeline/recipe.h"
 
 namespace sonar {
 namespace {
@@ -55,6 +56,19 @@ TEST(Merge, follows_a_school_over_a_cut) {
   EXPECT_EQ(survey->schools[0].continues, "");
   EXPECT_EQ(survey->schools[1].continues, "obs-0001/3");
   EXPECT_EQ(survey->schools[2].continues, "");
+}
+
+TEST(Merge, gates_are_those_of_the_products_recipe) {
+  Recipe narrow;
+  narrow.merge.gate_m = 0.0;
+  narrow.merge.length_share = 0.0;
+  ObservationProduct before = before_cut();
+  ObservationProduct after = after_cut();
+  before.schools[0].speed_mps = 0.0;  // then the school seems to have moved with the ship, by some metres
+  ASSERT_EQ(merge({before, after})->schools[1].continues, "obs-0001/3");
+  before.recipe_json = after.recipe_json = recipe_text(narrow);
+  EXPECT_EQ(merge({before, after})->schools[1].continues, "");
+  EXPECT_EQ(merge({before, after}, MergeParams{})->schools[1].continues, "obs-0001/3");
 }
 
 TEST(Merge, a_gap_or_another_grid_is_no_cut) {

@@ -39,13 +39,12 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
 /// What a human selected is his: a detection that shares much with it is the same fish, not a school on its rim; of one
 /// that only touches it the rest stays.
 std::vector<Detection> beside_humans(std::vector<Detection> detections, const PingMask& humans,
-                                     View3<const SampleFlags> flags, const Sector& sector) {
-  constexpr double kSameFish = 0.25;
+                                     View3<const SampleFlags> flags, const Sector& sector, double same_share) {
   std::vector<Detection> kept;
   for (Detection& detection : detections) {
     const auto shared = static_cast<double>(overlap(detection.mask, humans));
     const auto smaller = static_cast<double>(std::min(detection.mask.voxels(), humans.voxels()));
-    if (shared > 0.0 && shared >= kSameFish * smaller) continue;
+    if (shared > 0.0 && shared >= same_share * smaller) continue;
     if (shared > 0.0) {
       Detection rest = describe_mask(subtract(detection.mask, humans), flags, sector);
       rest.reference_db = detection.reference_db;
@@ -73,9 +72,10 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
       const PingMask humans = voxels_in_ping(taken, ping_index);
-      detected.detections = beside_humans(detect(ping->filtered->counts.view(), ping->filtered->flags.view(),
-                                                 engine.sector(), ping->background(), engine.recipe().detect),
-                                          humans, ping->filtered->flags.view(), engine.sector());
+      detected.detections =
+          beside_humans(detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
+                               ping->background(), engine.recipe().detect),
+                        humans, ping->filtered->flags.view(), engine.sector(), engine.recipe().detect.human_share);
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }

@@ -8,8 +8,10 @@
 
 #include "base/describe.h"
 #include "base/result.h"
+#include "io/csv_table.h"
 #include "io/navigation.h"
 #include "model/transfer_function.h"
+#include "pipeline/merge_params.h"
 #include "pipeline/survey.h"
 #include "school/detect.h"
 #include "school/grow.h"
@@ -88,6 +90,7 @@ struct Recipe {
   TrackParams track;
   MeasureParams measure;
   SummariseParams summarise;
+  MergeParams merge;
   GrowParams grow;
   PaperPropagationParams propagate_paper;
   TrackedPropagationParams propagate_tracked;
@@ -109,6 +112,7 @@ void describe(Visitor& v, Recipe& r) {
   v.group("track", r.track, "schools over pings");
   v.group("measure", r.measure, "a school's figures in one ping");
   v.group("summarise", r.summarise, "a school's figures over its pings");
+  v.group("merge", r.merge, "schools over the cuts between observations");
   v.group("grow", r.grow, "one click");
   v.group("propagate_paper", r.propagate_paper, "carrying a click through time as the 2007 paper did");
   v.group("propagate_tracked", r.propagate_tracked, "carrying a click through time");

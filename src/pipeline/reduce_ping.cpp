@@ -22,9 +22,11 @@ struct Reach {
   int samples = 0;
 };
 
-/// Detection looks no further round a candidate than this (PingDetector), and takes candidates from no lower than this
-/// below its thresholds.
-constexpr Reach kDetectionReach{2, 3, 40};
+/// Detection looks no further round a candidate than this.
+Reach detection_reach(const DetectParams& params) {
+  return {params.search_fans, params.search_beams, params.search_samples};
+}
+/// Detection takes candidates from no lower than this below its thresholds (the median's ln 2, rounded up).
 constexpr double kCandidateSlack_db = 2.0;
 
 bool meet(const IndexBox& a, const IndexBox& b) {
@@ -54,7 +56,7 @@ std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams
   std::vector<IndexBox> boxes;
   for (std::size_t i = 0; i < masks.size(); ++i) {
     if (voxels[i] >= params.min_samples)
-      boxes.push_back(enlarged(box_of(masks[i], shape.beams), kDetectionReach, shape));
+      boxes.push_back(enlarged(box_of(masks[i], shape.beams), detection_reach(params), shape));
   }
   return boxes;
 }
@@ -65,7 +67,9 @@ std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const DetectParams&
   const Shape3 shape = ping.filtered->counts.shape();
   const std::vector<IndexBox> all = candidate_boxes(ping, params);
   std::vector<IndexBox> of_masks;
-  for (const PingMask* mask : masks) of_masks.push_back(enlarged(box_of(*mask, shape.beams), kDetectionReach, shape));
+  for (const PingMask* mask : masks) {
+    of_masks.push_back(enlarged(box_of(*mask, shape.beams), detection_reach(params), shape));
+  }
   const auto those_that_meet = [&](const std::vector<IndexBox>& wanted) {
     std::vector<IndexBox> out;
     std::copy_if(all.begin(), all.end(), std::back_inserter(out), [&](const IndexBox& box) {

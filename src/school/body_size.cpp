@@ -66,15 +66,11 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
   return subtract(united, *ping.others).runs;
 }
 
-constexpr int kRingGap = 12;     ///< samples between the stretch and its ring
-constexpr int kRingLength = 64;  ///< samples of the ring on either side
-constexpr std::size_t kLeastRing = 60;
-constexpr double kLargestFactor = 4.0;
-
 /// What the background near the school is, as a multiple of the expected: its reverberation changes with range as no
 /// beam's average does, and in the far flanks of the beam a tenth too much looks like a lower school.
 /// out  [fan], from the median over the samples just before and behind the stretch
-std::vector<double> background_factors(const MeasureInput& ping, const std::vector<Run>& runs) {
+std::vector<double> background_factors(const MeasureInput& ping, const std::vector<Run>& runs,
+                                       const MeasureParams& params) {
   const Shape3 shape = ping.sv.shape();
   std::vector<std::vector<double>> offsets(static_cast<std::size_t>(shape.fans));
   const auto collect = [&](int row, int first, int end) {
@@ -93,20 +89,22 @@ std::vector<double> background_factors(const MeasureInput& ping, const std::vect
     const Run& run = runs[i];
     const int row = run.row;
     if (i == 0 || runs[i - 1].row != row) {
-      collect(row, run.first_sample - kRingGap - kRingLength, run.first_sample - kRingGap);
+      const int end = run.first_sample - params.ring_gap_samples;
+      collect(row, end - params.ring_samples, end);
     }
     if (i + 1 == runs.size() || runs[i + 1].row != row) {
-      collect(row, run.end() + kRingGap, run.end() + kRingGap + kRingLength);
+      const int first = run.end() + params.ring_gap_samples;
+      collect(row, first, first + params.ring_samples);
     }
   }
   std::vector<double> factors(offsets.size(), 1.0);
   for (std::size_t fan = 0; fan < offsets.size(); ++fan) {
     std::vector<double>& values = offsets[fan];
-    if (values.size() < kLeastRing) continue;
+    if (values.size() < static_cast<std::size_t>(params.min_ring_samples)) continue;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     const double factor = linear_from_db(db_from_counts(*middle)) / std::numbers::ln2;
-    factors[fan] = std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor);
+    factors[fan] = std::clamp(factor, 1.0 / params.max_ring_factor, params.max_ring_factor);
   }
   return factors;
 }
@@ -204,12 +202,12 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
   add_square(m.blur, along, w0 * solid_angle * ping.pulse_m * ping.pulse_m / 12.0);
 }
 
-/// Fans of which at least half of the stretch is there.
-std::vector<FanEcho> profile(const std::vector<FanSum>& sums, const Sector& sector) {
+/// Fans of which enough of the stretch is there.
+std::vector<FanEcho> profile(const std::vector<FanSum>& sums, const Sector& sector, double least_share) {
   std::vector<FanEcho> fans;
   for (std::size_t fan = 0; fan < sums.size(); ++fan) {
     const FanSum& sum = sums[fan];
-    if (!(sum.echo > 0.0) || sum.shells < 0.5 * sum.whole) continue;
+    if (!(sum.echo > 0.0) || sum.shells < least_share * sum.whole) continue;
     fans.push_back({sector.elevation_rad(static_cast<int>(fan)), sum.sigma, sum.echo / sum.shells,
                     sum.background / sum.shells, static_cast<double>(sum.samples)});
   }
@@ -242,7 +240,7 @@ BodySize body_size(const MeasureInput& ping, const PingMask& mask, const Measure
   Moments m;
   std::vector<FanSum> sums(static_cast<std::size_t>(ping.sector->fans()));
   const std::vector<Run> stretch = surroundings(ping, mask, params);
-  const std::vector<double> factors = background_factors(ping, stretch);
+  const std::vector<double> factors = background_factors(ping, stretch, params);
   for (const Run& run : stretch) {
     const auto fan = static_cast<std::size_t>(run.row / ping.sector->beams());
     add_row(m, sums[fan], ping, run, factors[fan]);
@@ -257,7 +255,7 @@ BodySize body_size(const MeasureInput& ping, const PingMask& mask, const Measure
       blur[k] = m.blur[k] / m.weight;
     }
   }
-  if (const auto fit = fit_vertical(profile(sums, *ping.sector))) {
+  if (const auto fit = fit_vertical(profile(sums, *ping.sector, params.min_fan_share), params.beam_pedestal)) {
     correct_selection(total, blur, {centre[0], centre[1], centre[2]}, fit->body_variance_rad2 * m.range2 / m.weight);
   }
   Covariance3 body{};

@@ -17,14 +17,8 @@ namespace {
 
 using Runs = std::vector<Run>;
 
-/// The median of Rayleigh-fading echo lies ln 2 below its mean; thresholds are meant for the mean.
+/// The median of Rayleigh-fading echo lies at ln 2 of its mean, whatever the sonar; thresholds are meant for the mean.
 constexpr double kMedianOfMean_db = -1.5917;
-/// A fan of fewer beams is narrow enough for a school to fill it.
-constexpr int kFloorBeams = 8;
-/// Schools that fill a whole fan are weaker.
-constexpr double kFloorLevel_db = -30.0;
-/// Ranges of one depth in a fan, as a share of the range: a slope and a ship's roll included.
-constexpr double kFlatShare = 0.06;
 
 std::vector<Runs> split(const Runs& runs, const Shape3& shape, Connectivity connectivity) {
   const Components components = label_runs(runs, shape, connectivity);
@@ -111,7 +105,9 @@ class PingDetector {
 
   /// Finds the component's own school, then steps down: what hangs together and holds no school yet may be one.
   void refine(const Runs& component, double reference_db) {
-    const IndexBox box = box_of_runs(component, sv_.shape().beams).enlarged(2, 3, 40).clipped(sv_.shape());
+    const IndexBox box = box_of_runs(component, sv_.shape().beams)
+                             .enlarged(params_.search_fans, params_.search_beams, params_.search_samples)
+                             .clipped(sv_.shape());
     const double own_level_db = reference_db - params_.tolerance_db - params_.link_db;
     // a stronger neighbour's skirt may reach this far down: then the school is what stands out of it
     for (double level_db = own_level_db; level_db <= reference_db - params_.min_prominence_db;
@@ -223,19 +219,21 @@ class PingDetector {
         static_cast<double>(detection.mask.voxels()) / static_cast<double>(detection.mask.runs.size()) * spacing_m;
     return detection.box.beams() >= params_.shell_share * sector_.beams() &&
            mean_run_m < params_.max_shell_thickness_m &&
-           detection.box.samples() * spacing_m < 2.0 * params_.max_shell_thickness_m;
+           detection.box.samples() * spacing_m < params_.shell_bend * params_.max_shell_thickness_m;
   }
 
   /// A seabed of which too little is seen to fit a plane: all beams, and either a fan of it that the record's end cuts
   /// off, or a lowest fan that sees it strongly and at one range throughout.
   [[nodiscard]] bool is_open_floor(const Detection& detection) const {
-    if (sector_.beams() < kFloorBeams || detection.box.beams() < params_.shell_share * sector_.beams()) return false;
+    if (sector_.beams() < params_.floor_beams || detection.box.beams() < params_.shell_share * sector_.beams())
+      return false;
     return is_cut_off(detection.mask) ||
-           (detection.reference_db >= kFloorLevel_db && lowest_fan_is_flat(detection.mask));
+           (detection.reference_db >= params_.floor_echo_db && lowest_fan_is_flat(detection.mask));
   }
 
   [[nodiscard]] bool is_cut_off(const PingMask& mask) const {
-    const int end = sv_.shape().samples - std::max(2, sv_.shape().samples / 40);
+    const int samples = sv_.shape().samples;
+    const int end = samples - std::max(2, static_cast<int>(params_.record_end_share * samples));
     std::vector<int> beams(static_cast<std::size_t>(sector_.fans()), 0);
     int last_row = -1;
     for (const Run& run : mask.runs) {
@@ -243,7 +241,7 @@ class PingDetector {
       last_row = run.row;
       ++beams[static_cast<std::size_t>(run.row / sector_.beams())];
     }
-    return 2 * *std::max_element(beams.begin(), beams.end()) >= sector_.beams();
+    return *std::max_element(beams.begin(), beams.end()) >= params_.cut_off_share * sector_.beams();
   }
 
   [[nodiscard]] bool lowest_fan_is_flat(const PingMask& mask) const {
@@ -264,8 +262,9 @@ class PingDetector {
     if (static_cast<double>(ranges_m.size()) < params_.shell_share * sector_.beams()) return false;
     std::sort(ranges_m.begin(), ranges_m.end());
     const double middle_m = ranges_m[ranges_m.size() / 2];
-    const auto near = std::count_if(ranges_m.begin(), ranges_m.end(),
-                                    [&](double r) { return std::abs(r - middle_m) <= kFlatShare * middle_m; });
+    const auto near = std::count_if(ranges_m.begin(), ranges_m.end(), [&](double r) {
+      return std::abs(r - middle_m) <= params_.floor_flat_share * middle_m;
+    });
     return static_cast<double>(near) >= params_.shell_share * sector_.beams();
   }
 

@@ -34,6 +34,16 @@ struct DetectParams {
   double max_boundary_faces = 0.3;
   double max_shell_thickness_m = 8.0;
   double shell_share = 0.9;
+  double shell_bend = 2.0;
+  int floor_beams = 8;
+  double floor_echo_db = -30.0;
+  double floor_flat_share = 0.06;
+  double record_end_share = 0.025;
+  double cut_off_share = 0.5;
+  int search_fans = 2;
+  int search_beams = 3;
+  int search_samples = 40;
+  double human_share = 0.25;
   Connectivity connectivity = Connectivity::faces;
 };
 
@@ -72,6 +82,38 @@ void describe(Visitor& v, DetectParams& p) {
           {.unit = "m", .min = 0, .max = 100, .text = "what is thinner and spans the shell_share is a wall"});
   v.field("shell_share", p.shell_share,
           {.unit = "1", .min = 0, .max = 1, .text = "share of all beams at constant range that makes a wall"});
+  v.field("shell_bend", p.shell_bend,
+          {.unit = "1",
+           .min = 1,
+           .max = 100,
+           .text = "a wall's whole extent along range stays below so many max_shell_thickness_m"});
+  v.field("floor_beams", p.floor_beams,
+          {.unit = "beams", .min = 1, .max = 1000, .text = "a school may fill fans of fewer beams; no seabed there"});
+  v.field("floor_echo_db", p.floor_echo_db,
+          {.unit = "dB re 1 m-1",
+           .min = -100,
+           .max = 0,
+           .text = "what fills the lowest fan at one range and is stronger is the seabed"});
+  v.field("floor_flat_share", p.floor_flat_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "ranges this near to their median, as a share of it, are one range: slope and roll included"});
+  v.field("record_end_share", p.record_end_share,
+          {.unit = "1", .min = 0, .max = 0.5, .text = "last share of the samples, where the record cuts echo off"});
+  v.field("cut_off_share", p.cut_off_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's beams reaching there that makes it the seabed"});
+  v.field("search_fans", p.search_fans,
+          {.unit = "fans", .min = 0, .max = 1000, .text = "a candidate's school is sought so far beyond its box"});
+  v.field("search_beams", p.search_beams,
+          {.unit = "beams", .min = 0, .max = 1000, .text = "a candidate's school is sought so far beyond its box"});
+  v.field("search_samples", p.search_samples,
+          {.unit = "samples", .min = 0, .max = 100000, .text = "a candidate's school is sought so far beyond its box"});
+  v.field("human_share", p.human_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "a detection that shares more of the smaller mask with a human's school is that school"});
   v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
 }
 

@@ -152,7 +152,9 @@ SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const Meas
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
-  if (ping.seabed != nullptr) row.bottom_depth_m = bottom_depth_m(*ping.seabed, shape.centre, ping.placement);
+  if (ping.seabed != nullptr)
+    row.bottom_depth_m =
+        bottom_depth_m(*ping.seabed, shape.centre, ping.placement, params.bottom_beyond_share, params.bottom_beyond_m);
   const BodySize body = body_size(ping, mask, params);
   if (!body.known) return row;
   row.length_corrected_m = body.length_m;

@@ -24,6 +24,14 @@ struct MeasureParams {
   int reach_beams = 1;
   int reach_samples = 6;
   double floor_extent_m = 1.0;
+  int ring_gap_samples = 12;
+  int ring_samples = 64;
+  int min_ring_samples = 60;
+  double max_ring_factor = 4.0;
+  double min_fan_share = 0.5;
+  double beam_pedestal = 0.02;
+  double bottom_beyond_share = 0.3;
+  double bottom_beyond_m = 20.0;
 };
 
 template <class Visitor>
@@ -41,6 +49,28 @@ void describe(Visitor& v, MeasureParams& p) {
           {.unit = "samples", .min = 0, .max = 1000, .text = "corrected sizes use echo so far beyond the mask"});
   v.field("floor_extent_m", p.floor_extent_m,
           {.unit = "m", .min = 0.01, .max = 100, .text = "least corrected extent: what the beam cannot resolve"});
+  v.field("ring_gap_samples", p.ring_gap_samples,
+          {.unit = "samples",
+           .min = 0,
+           .max = 10000,
+           .text = "the local background is taken from so far before and behind that echo"});
+  v.field("ring_samples", p.ring_samples,
+          {.unit = "samples", .min = 1, .max = 10000, .text = "over this length on either side"});
+  v.field("min_ring_samples", p.min_ring_samples,
+          {.unit = "samples", .min = 1, .max = 100000, .text = "fewer sound samples in a fan leave it as estimated"});
+  v.field("max_ring_factor", p.max_ring_factor,
+          {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of local and estimated background, either way"});
+  v.field("min_fan_share", p.min_fan_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is sound"});
+  v.field("beam_pedestal", p.beam_pedestal,
+          {.unit = "1",
+           .min = 0.0001,
+           .max = 1,
+           .text = "share of the strongest fan below which a beam is no Gaussian any more and decides nothing"});
+  v.field("bottom_beyond_share", p.bottom_beyond_share,
+          {.unit = "1", .min = 0, .max = 10, .text = "the seabed's plane holds so far beyond where it was seen ..."});
+  v.field("bottom_beyond_m", p.bottom_beyond_m,
+          {.unit = "m", .min = 0, .max = 10000, .text = "... as a share of that area's extent, and this more"});
 }
 
 /// What one ping offers for measuring; borrowed.

@@ -11,8 +11,6 @@
 namespace sonar {
 namespace {
 
-/// A coordinate that is cut off says nothing: its standard deviation, m.
-constexpr double kCensored_m = 200.0;
 /// Share of an extent -> variance: a uniform ellipsoid of extent L has variance L^2 / 20.
 constexpr double kExtent2PerVariance = 20.0;
 
@@ -66,21 +64,21 @@ Covariance3 turned(const Covariance3& c, double heading_rad) {
 }
 
 Covariance3 centre_covariance(const Point<Sonar>& centre, const Covariance3& shape, double heading_rad, double share,
-                              double least_m, std::int32_t edge_flags) {
+                              double least_m, double censored_m, std::int32_t edge_flags) {
   Covariance3 c = turned(shape, heading_rad);
   for (double& v : c) v *= share * share * kExtent2PerVariance;
   for (const std::size_t k : {std::size_t{0}, std::size_t{3}, std::size_t{5}}) c[k] += least_m * least_m;
   const double range = norm(centre);
   const double level = std::hypot(centre.x, centre.y);
   if (!(range > 0.0) || !(level > 0.0)) return c;
-  constexpr double kVariance = kCensored_m * kCensored_m;
+  const double variance = censored_m * censored_m;
   const Point<Sonar> along = centre * (1.0 / range);
   const Point<Sonar> sideways{-centre.y / level, centre.x / level, 0.0};
   const Point<Sonar> up{-along.z * centre.x / level, -along.z * centre.y / level, level / range};
-  if ((edge_flags & (kEdgeFore | kEdgeAft)) != 0) add_direction(c, to_enu(sideways, heading_rad), kVariance);
-  if ((edge_flags & (kEdgeNear | kEdgeFar)) != 0) add_direction(c, to_enu(along, heading_rad), kVariance);
+  if ((edge_flags & (kEdgeFore | kEdgeAft)) != 0) add_direction(c, to_enu(sideways, heading_rad), variance);
+  if ((edge_flags & (kEdgeNear | kEdgeFar)) != 0) add_direction(c, to_enu(along, heading_rad), variance);
   if ((edge_flags & (kEdgeTopFan | kEdgeBottomFan | kEdgeSurface | kEdgeSeabed)) != 0) {
-    add_direction(c, to_enu(up, heading_rad), kVariance);
+    add_direction(c, to_enu(up, heading_rad), variance);
   }
   return c;
 }

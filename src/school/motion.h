@@ -27,9 +27,10 @@ class PingFrame {
 
 /// How well a mask's centre tells the school's: a share of its extent, and nothing in directions where a border of the
 /// sector cuts it off (censored coordinates).
+/// censored_m  standard deviation of a coordinate that is cut off
 /// edge_flags  EdgeFlags; censored = false leaves them out
 [[nodiscard]] Covariance3 centre_covariance(const Point<Sonar>& centre, const Covariance3& shape, double heading_rad,
-                                            double share, double least_m, std::int32_t edge_flags);
+                                            double share, double least_m, double censored_m, std::int32_t edge_flags);
 
 /// Kalman filter of a point with nearly constant velocity.
 class Motion {

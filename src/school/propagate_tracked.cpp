@@ -20,15 +20,6 @@
 namespace sonar {
 namespace {
 
-constexpr double kAcceleration_mps2 = 0.05;
-constexpr double kSpeedSpread_mps = 1.0;
-constexpr double kPositionShare = 0.08;
-constexpr double kLeastPosition_m = 2.0;
-/// A school cut by a border may grow faster: it is coming in.
-constexpr double kCutGrowth = 2.0;
-constexpr int kTries = 4;
-constexpr double kTighter = 0.75;
-
 /// Neighbouring runs that meet or overlap become one.
 std::vector<Run> united(std::vector<Run> runs) {
   std::sort(runs.begin(), runs.end());
@@ -70,14 +61,14 @@ class Follower {
     const PingFrame frame(start.placement, origin_);
     const MaskShape shape = shape_of(selection, sector_);
     Sighting last{selection, frame, start.time, shape.volume_m3, false};
-    Motion motion(frame.to_world(shape.centre), centre_spread(shape, frame, 0), kSpeedSpread_mps);
+    Motion motion(frame.to_world(shape.centre), centre_spread(shape, frame, 0), params_.initial_speed_mps);
     TimeNs predicted_at = start.time;
     int lost = 0;
     for (std::int64_t i = clicked + step; i >= reach.first && i <= reach.last; i += step) {
       const Result<FilteredPing> ping = pings(i);
       if (!ping) return fmt::format("stopped at ping {}: {}", i, ping.error().text);
       if (!fits(*ping)) return fmt::format("stopped at ping {}: another grid", i);
-      motion.predict(elapsed(predicted_at, ping->time), kAcceleration_mps2);
+      motion.predict(elapsed(predicted_at, ping->time), params_.acceleration_mps2);
       predicted_at = ping->time;
       const PingFrame here(ping->placement, origin_);
       std::string why;
@@ -105,15 +96,16 @@ class Follower {
     return std::abs(static_cast<double>(b - a) / static_cast<double>(kSecondNs));
   }
 
-  static Covariance3 centre_spread(const MaskShape& shape, const PingFrame& frame, std::int32_t edges) {
-    return centre_covariance(shape.centre, shape.covariance, frame.heading_rad(), kPositionShare, kLeastPosition_m,
-                             edges);
+  [[nodiscard]] Covariance3 centre_spread(const MaskShape& shape, const PingFrame& frame, std::int32_t edges) const {
+    return centre_covariance(shape.centre, shape.covariance, frame.heading_rad(), params_.position_share,
+                             params_.min_position_m, params_.censored_m, edges);
   }
 
   std::optional<Found> find(const FilteredPing& ping, const PingFrame& here, const Sighting& last, const Motion& motion,
                             double reference_db, std::string& why) const {
     const double dt = elapsed(last.time, ping.time);
-    const std::vector<MovedPoint> moved = moved_mask(last.mask, sector_, last.frame, here, motion.velocity() * dt, 2);
+    const std::vector<MovedPoint> moved =
+        moved_mask(last.mask, sector_, last.frame, here, motion.velocity() * dt, params_.seed_samples);
     if (moved.empty()) {
       why = "the school has left the sector";
       return std::nullopt;
@@ -122,8 +114,8 @@ class Follower {
     PingMask gate;
     gate.runs = gate_round(seeds, dt);
     double tolerance_db = params_.tolerance_db;
-    const double largest = params_.max_growth * (last.cut ? kCutGrowth : 1.0);
-    for (int attempt = 0; attempt < kTries; ++attempt, tolerance_db *= kTighter) {
+    const double largest = params_.max_growth * (last.cut ? params_.cut_growth : 1.0);
+    for (int attempt = 0; attempt < params_.tries; ++attempt, tolerance_db *= params_.tighter) {
       Found found = grow_twice(ping, seeds, gate, reference_db, tolerance_db);
       if (found.mask.empty()) {
         why = fmt::format("no voxel of the moved school reaches {:.1f} dB", reference_db - tolerance_db);
@@ -131,7 +123,7 @@ class Follower {
       }
       const double volume = shape_of(found.mask, sector_).volume_m3;
       const bool cut = (mask_edges(found.mask, ping.volume->flags.view(), sector_).flags & kTouchesEdge) != 0;
-      if (volume <= largest * (cut ? kCutGrowth : 1.0) * last.volume_m3) return found;
+      if (volume <= largest * (cut ? params_.cut_growth : 1.0) * last.volume_m3) return found;
     }
     why = fmt::format("the school would grow more than {} times from one ping to the next", params_.max_growth);
     return std::nullopt;

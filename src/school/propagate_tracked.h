@@ -24,6 +24,15 @@ struct TrackedPropagationParams {
   int gate_fans = 1;
   int gate_beams = 2;
   int max_lost_pings = 3;
+  double cut_growth = 2.0;
+  int tries = 4;
+  double tighter = 0.75;
+  int seed_samples = 2;
+  double acceleration_mps2 = 0.05;
+  double initial_speed_mps = 1.0;
+  double position_share = 0.08;
+  double min_position_m = 2.0;
+  double censored_m = 200.0;
   Connectivity connectivity = Connectivity::faces;
 };
 
@@ -45,6 +54,24 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
   v.field("gate_beams", p.gate_beams, {.unit = "beams", .min = 0, .max = 100, .text = "the gate's least reach"});
   v.field("max_lost_pings", p.max_lost_pings,
           {.unit = "pings", .min = 0, .max = 100, .text = "a school lost for so many pings may be found again"});
+  v.field(
+      "cut_growth", p.cut_growth,
+      {.unit = "1", .min = 1, .max = 100, .text = "a school that a border cuts may grow so much more: it comes in"});
+  v.field("tries", p.tries,
+          {.unit = "1", .min = 1, .max = 100, .text = "growths with ever tighter tolerance before a leak is given up"});
+  v.field("tighter", p.tighter,
+          {.unit = "1", .min = 0.01, .max = 1, .text = "factor on the tolerance from one try to the next"});
+  v.field("seed_samples", p.seed_samples,
+          {.unit = "samples", .min = 1, .max = 1000, .text = "every so-manyth sample of the moved mask is a seed"});
+  v.field("acceleration_mps2", p.acceleration_mps2,
+          {.unit = "m s-2", .min = 0.0001, .max = 10, .text = "how strongly schools change their velocity"});
+  v.field("initial_speed_mps", p.initial_speed_mps,
+          {.unit = "m s-1", .min = 0, .max = 20, .text = "spread of the clicked school's velocity, per axis"});
+  v.field("position_share", p.position_share,
+          {.unit = "1", .min = 0.001, .max = 2, .text = "uncertainty of a centre as a share of the school's extent"});
+  v.field("min_position_m", p.min_position_m, {.unit = "m", .min = 0.01, .max = 100, .text = "its least value"});
+  v.field("censored_m", p.censored_m,
+          {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
   v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
 }
 

@@ -16,11 +16,9 @@
 namespace sonar {
 namespace {
 
-/// The seabed lies on the beam's axis where its echo is strongest; its onset comes much earlier.
-constexpr double kNearPeak_db = 2.0;
-/// No school fills so large a share of a fan at one depth.
-constexpr double kWholeFan = 0.9;
-constexpr int kBlock = 16;
+constexpr int kBlock = 16;  ///< samples looked at together: for speed alone
+/// Stands in where a grid tells no beam width.
+constexpr double kUnknownWidth_rad = 0.1;
 constexpr SampleFlags kUnusable = SampleFlags::near_field | SampleFlags::surface;
 
 /// A long strong echo along one beam.
@@ -113,7 +111,7 @@ class SeabedFinder {
     for (int s = first; s < end; ++s) {
       if (counts[static_cast<std::size_t>(s)] > counts[static_cast<std::size_t>(at)]) at = s;
     }
-    const int before = first - std::max(4, (end - first) / 4);
+    const int before = first - std::max(params_.before_samples, static_cast<int>(params_.before_share * (end - first)));
     if (before < 0) return;
     const std::int16_t peak = counts[static_cast<std::size_t>(at)];
     if (peak - counts[static_cast<std::size_t>(before)] < counts_from_db(params_.rise_db)) return;
@@ -121,15 +119,20 @@ class SeabedFinder {
     double sum = 0.0;
     int last = at;
     for (int s = first; s < end; ++s) {
-      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(kNearPeak_db)) continue;
+      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(params_.near_peak_db)) continue;
       weight += 1.0;
       sum += sector_.range().range_m(s);
       last = s;
     }
     // an echo still at its height where the beam ends says nothing about where its middle would be
-    if (last >= sv_.shape().samples - std::max(2, sv_.shape().samples / 40)) return;
+    if (last >= first_cut_off()) return;
     const double range_m = sum / weight;
     echoes_.push_back({row, range_m, axis(row) * range_m});
+  }
+
+  [[nodiscard]] int first_cut_off() const {
+    const int samples = sv_.shape().samples;
+    return samples - std::max(2, static_cast<int>(params_.record_end_share * samples));
   }
 
   [[nodiscard]] int support(const Plane& plane) const {
@@ -144,13 +147,13 @@ class SeabedFinder {
     return beams;
   }
 
-  [[nodiscard]] static std::optional<Plane> through(const std::array<Point<Sonar>, 3>& p) {
+  [[nodiscard]] std::optional<Plane> through(const std::array<Point<Sonar>, 3>& p) const {
     const double x1 = p[1].x - p[0].x;
     const double y1 = p[1].y - p[0].y;
     const double x2 = p[2].x - p[0].x;
     const double y2 = p[2].y - p[0].y;
     const double area = x1 * y2 - x2 * y1;
-    if (std::abs(area) < 25.0) return std::nullopt;
+    if (std::abs(area) < params_.min_triangle_m2) return std::nullopt;
     Plane plane;
     plane.slope_x = ((p[1].z - p[0].z) * y2 - (p[2].z - p[0].z) * y1) / area;
     plane.slope_y = (x1 * (p[2].z - p[0].z) - x2 * (p[1].z - p[0].z)) / area;
@@ -170,7 +173,7 @@ class SeabedFinder {
     };
     std::optional<Plane> best;
     int most = 0;
-    for (int trial = 0; trial < 300; ++trial) {
+    for (int trial = 0; trial < params_.trials; ++trial) {
       const std::array<Point<Sonar>, 3> p{echoes_[draw()].place, echoes_[draw()].place, echoes_[draw()].place};
       std::optional<Plane> plane = through(p);
       // every third trial a level plane: enough where few beams see the bottom
@@ -183,7 +186,7 @@ class SeabedFinder {
       }
     }
     if (most < params_.min_inliers) return std::nullopt;
-    for (int round = 0; round < 5; ++round) {
+    for (int round = 0; round < params_.refinements; ++round) {
       const std::optional<Plane> better = least_squares(*best);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
       if (support(*better) < most) break;
@@ -227,18 +230,18 @@ class SeabedFinder {
         sees[static_cast<std::size_t>(echo.row)] = true;
       }
     }
-    const double reach = 0.9 * sector_.range().range_m(sv_.shape().samples - 1);
+    const double reach = params_.reach_share * sector_.range().range_m(sv_.shape().samples - 1);
     const auto beams = static_cast<std::size_t>(sector_.beams());
     int expected = 0;
     int seen = 0;
     for (std::size_t first = 0; first < sees.size(); first += beams) {
       const auto fan = sees.begin() + static_cast<std::ptrdiff_t>(first);
       const auto seeing = std::count(fan, fan + sector_.beams(), true);
-      const bool whole = static_cast<double>(seeing) >= kWholeFan * sector_.beams();
+      const bool whole = static_cast<double>(seeing) >= params_.whole_fan_share * sector_.beams();
       for (std::size_t row = first; row < first + beams; ++row) {
         // grazing beams see the bottom as a faint ramp: they need not agree
         const Point<Sonar> u = axis(static_cast<int>(row));
-        if (u.z < 0.3 || (plane.range(u) > reach && !(whole && sees[row]))) continue;
+        if (u.z < params_.min_dip || (plane.range(u) > reach && !(whole && sees[row]))) continue;
         ++expected;
         if (sees[row]) ++seen;
       }
@@ -263,7 +266,7 @@ class SeabedFinder {
   [[nodiscard]] int onset(const Plane& plane, int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int samples = sv_.shape().samples;
-    const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : 0.1;
+    const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : kUnknownWidth_rad;
     const RangeAxis& axis_m = sector_.range();
     const double nearest_m = plane.range(axis(row, params_.edge_widths * width));
     const double on_axis_m = plane.range(axis(row));
@@ -273,7 +276,7 @@ class SeabedFinder {
     const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
     const auto counts = sv_.row(row);
     const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
-    const int gap = std::max(1, static_cast<int>(2.0 / axis_m.spacing_m));
+    const int gap = std::max(1, static_cast<int>(params_.onset_gap_m / axis_m.spacing_m));
     int first = on_axis_m <= last_m ? from : samples;
     for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
       const bool loud = counts[static_cast<std::size_t>(s)] >= level;
@@ -312,10 +315,11 @@ void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
   }
 }
 
-double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement) {
+double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement, double beyond_share,
+                      double beyond_m) {
   if (!seabed.found) return kUnknown;
-  const double beyond_x = 0.3 * (seabed.max_x - seabed.min_x) + 20.0;
-  const double beyond_y = 0.3 * (seabed.max_y - seabed.min_y) + 20.0;
+  const double beyond_x = beyond_share * (seabed.max_x - seabed.min_x) + beyond_m;
+  const double beyond_y = beyond_share * (seabed.max_y - seabed.min_y) + beyond_m;
   if (place.x < seabed.min_x - beyond_x || place.x > seabed.max_x + beyond_x) return kUnknown;
   if (place.y < seabed.min_y - beyond_y || place.y > seabed.max_y + beyond_y) return kUnknown;
   return placement.transducer_depth_m + seabed.offset_m + seabed.slope_x * place.x + seabed.slope_y * place.y;

@@ -25,6 +25,17 @@ struct SeabedParams {
   double onset_db = -60.0;
   double edge_widths = 1.4;
   double margin_m = 5.0;
+  double near_peak_db = 2.0;
+  double before_share = 0.25;
+  int before_samples = 4;
+  double record_end_share = 0.025;
+  double whole_fan_share = 0.9;
+  double reach_share = 0.9;
+  double min_dip = 0.3;
+  double onset_gap_m = 2.0;
+  int trials = 300;
+  int refinements = 5;
+  double min_triangle_m2 = 25.0;
 };
 
 template <class Visitor>
@@ -51,6 +62,33 @@ void describe(Visitor& v, SeabedParams& p) {
            .max = 5,
            .text = "beams see the seabed this many vertical beam widths below their axis, not more"});
   v.field("margin_m", p.margin_m, {.unit = "m", .min = 0, .max = 200, .text = "water above the seabed left out"});
+  v.field("near_peak_db", p.near_peak_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 30,
+           .text = "the seabed lies on the beam's axis in the middle of what is so near to the peak"});
+  v.field("before_share", p.before_share,
+          {.unit = "1", .min = 0, .max = 5, .text = "the rise is judged so far before the echo, as a share of it ..."});
+  v.field("before_samples", p.before_samples,
+          {.unit = "samples", .min = 1, .max = 10000, .text = "... or at least so far"});
+  v.field("record_end_share", p.record_end_share,
+          {.unit = "1", .min = 0, .max = 0.5, .text = "an echo at its peak in this last share of the samples is cut"});
+  v.field("whole_fan_share", p.whole_fan_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "no school fills so large a share of a fan at one depth"});
+  v.field("reach_share", p.reach_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "beams should see the plane within this share of their range"});
+  v.field("min_dip", p.min_dip,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "sine of the depression of the flattest beams that should: others see a faint ramp"});
+  v.field("onset_gap_m", p.onset_gap_m,
+          {.unit = "m", .min = 0, .max = 100, .text = "a quiet stretch of this length ends the echo"});
+  v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
+  v.field("refinements", p.refinements,
+          {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});
+  v.field("min_triangle_m2", p.min_triangle_m2,
+          {.unit = "m2", .min = 0, .max = 10000, .text = "three echoes on less tell no slope (twice the area)"});
 }
 
 /// The seabed of one ping: a plane in the sonar frame, z = offset_m + slope_x x + slope_y y (z down).
@@ -80,6 +118,8 @@ struct Seabed {
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags);
 
 /// Depth of the seabed under a place, below the water line; NaN where none was seen near there.
-[[nodiscard]] double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement);
+/// beyond_share, beyond_m  how far beyond the seen area it is believed: a share of its extent, and so much more
+[[nodiscard]] double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement,
+                                    double beyond_share, double beyond_m);
 
 }  // namespace sonar

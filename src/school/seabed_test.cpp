@@ -55,8 +55,8 @@ TEST(Seabed, FindsALevelBottom) {
   ASSERT_TRUE(seabed.found);
   Placement placement;
   placement.transducer_depth_m = 7.0;
-  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -200.0, 50.0}, placement), 157.0, 5.0);
-  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {5000.0, 0.0, 0.0}, placement)));
+  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -200.0, 50.0}, placement, 0.3, 20.0), 157.0, 5.0);
+  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {5000.0, 0.0, 0.0}, placement, 0.3, 20.0)));
   flag_seabed(seabed, scene.flags.view());
   int left = 0;
   for (std::size_t i = 0; i < scene.expected.shape().size(); ++i) {
@@ -74,7 +74,7 @@ TEST(Seabed, TwoFansSeeItBeforeTheRecordEnds) {
   const Seabed seabed = scene.look(6);
   ASSERT_TRUE(seabed.found);
   const Point<Sonar> place = Sector::direction(scene.sector.elevation_rad(0), rad_from_deg(270.0)) * (0.9 * end_m);
-  EXPECT_NEAR(bottom_depth_m(seabed, place, {}), depth_m, 8.0);
+  EXPECT_NEAR(bottom_depth_m(seabed, place, {}, 0.3, 20.0), depth_m, 8.0);
 }
 
 TEST(Seabed, FollowsASlope) {
@@ -82,13 +82,13 @@ TEST(Seabed, FollowsASlope) {
   scene.add_bottom(120.0, -0.1);  // deeper to port
   const Seabed seabed = scene.look(2);
   ASSERT_TRUE(seabed.found);
-  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -150.0, 0.0}, {}), 135.0, 6.0);
+  EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -150.0, 0.0}, {}, 0.3, 20.0), 135.0, 6.0);
 }
 
 TEST(Seabed, NoBottomNoSeabed) {
   const Seabed seabed = BottomScene().look(3);
   EXPECT_FALSE(seabed.found);
-  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {0.0, -100.0, 0.0}, {})));
+  EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {0.0, -100.0, 0.0}, {}, 0.3, 20.0)));
   for (const int first : seabed.first_sample) EXPECT_EQ(first, 900);
 }
 

@@ -19,11 +19,8 @@
 namespace sonar {
 namespace {
 
-constexpr int kThinning = 8;
+/// Dearer than any pair within the gates: no choice, only a mark.
 constexpr double kForbidden = 1e6;
-/// A piece that stays apart for so many pings is a school of its own.
-constexpr int kSplitPings = 3;
-constexpr double kPieceVolume = 0.5;
 
 double seconds_between(TimeNs from, TimeNs to) {
   return static_cast<double>(to - from) / static_cast<double>(kSecondNs);
@@ -167,7 +164,7 @@ class Tracker {
     for (const int piece : track.pings.back().detections) {
       const PingMask& mask = pings_[track.last_ping].detections[static_cast<std::size_t>(piece)].mask;
       for (const MovedPoint& point :
-           moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, kThinning)) {
+           moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, params_.overlap_samples)) {
         moved_m3 += point.volume_m3;
         const int owner = owners.at(point.index);
         if (owner >= 0) shared[static_cast<std::size_t>(owner)] += point.volume_m3;
@@ -178,7 +175,7 @@ class Tracker {
 
   [[nodiscard]] Covariance3 spread(std::size_t p, const Detection& d, bool censored) const {
     return centre_covariance(d.centre, d.covariance, frames_[p].heading_rad(), params_.position_share,
-                             params_.min_position_m, censored ? d.edge_flags : 0);
+                             params_.min_position_m, params_.censored_m, censored ? d.edge_flags : 0);
   }
 
   [[nodiscard]] double alone() const { return params_.gate_sigmas * params_.gate_sigmas + params_.overlap_weight; }
@@ -194,7 +191,7 @@ class Tracker {
     const double missed = static_cast<double>(pings_[p].ping_index - pings_[track.last_ping].ping_index - 1);
     return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) +
            params_.size_weight * std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
-           params_.level_weight * std::abs(d.reference_db - track.reference_db) + missed;
+           params_.level_weight * std::abs(d.reference_db - track.reference_db) + params_.lost_cost * missed;
   }
 
   /// A school without a detection whose moved mask lies in another's has gone into it.
@@ -226,9 +223,9 @@ class Tracker {
       const double volume = pings_[p].detections[d].volume_m3;
       int parent = -1;
       for (std::size_t t = 0; t < shared.size(); ++t) {
-        if (main_of[t] < 0 || open_[t].pieces_streak >= kSplitPings) continue;
+        if (main_of[t] < 0 || open_[t].pieces_streak >= params_.split_pings) continue;
         const double main_m3 = pings_[p].detections[static_cast<std::size_t>(main_of[t])].volume_m3;
-        if (volume > kPieceVolume * main_m3 || shared[t][d] < params_.fragment_overlap * volume) continue;
+        if (volume > params_.piece_volume * main_m3 || shared[t][d] < params_.fragment_overlap * volume) continue;
         if (parent < 0 || shared[t][d] > shared[static_cast<std::size_t>(parent)][d]) parent = static_cast<int>(t);
       }
       if (parent < 0) continue;

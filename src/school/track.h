@@ -28,6 +28,11 @@ struct TrackParams {
   int confirm_pings = 3;
   int confirm_window = 5;
   double fragment_overlap = 0.5;
+  double piece_volume = 0.5;
+  int split_pings = 3;
+  double lost_cost = 1.0;
+  double censored_m = 200.0;
+  int overlap_samples = 8;
 };
 
 template <class Visitor>
@@ -56,6 +61,16 @@ void describe(Visitor& v, TrackParams& p) {
            .min = 0,
            .max = 1,
            .text = "a stray detection with this share inside a school's moved mask is a piece of that school"});
+  v.field("piece_volume", p.piece_volume,
+          {.unit = "1", .min = 0, .max = 1, .text = "a piece is no larger than this share of the school's main part"});
+  v.field("split_pings", p.split_pings,
+          {.unit = "pings", .min = 1, .max = 100, .text = "a piece apart for so many pings is a school of its own"});
+  v.field("lost_cost", p.lost_cost,
+          {.unit = "1", .min = 0, .max = 100, .text = "cost of each ping in which the school was not seen"});
+  v.field("censored_m", p.censored_m,
+          {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
+  v.field("overlap_samples", p.overlap_samples,
+          {.unit = "samples", .min = 1, .max = 1000, .text = "overlaps are counted at every so-manyth sample"});
 }
 
 /// The detections of one ping, for association.

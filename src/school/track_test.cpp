@@ -207,7 +207,7 @@ TEST(Motion, CutCoordinatesDoNotMoveIt) {
   for (int i = 1; i <= 10; ++i) {
     motion.predict(5.0, 0.01);
     motion.update({-100.0 + 1.0 * i, 10.0 * i, -10.0},
-                  centre_covariance(centre, {9, 0, 0, 9, 0, 9}, 0.0, 0.1, 1.0, kEdgeFore));
+                  centre_covariance(centre, {9, 0, 0, 9, 0, 9}, 0.0, 0.1, 1.0, 200.0, kEdgeFore));
   }
   EXPECT_LT(std::abs(motion.velocity().y), 0.15);
   EXPECT_NEAR(motion.velocity().x, 0.2, 0.1);

@@ -9,11 +9,9 @@
 namespace sonar {
 namespace {
 
+// Numbers of the arithmetic (nodes and steps until nothing moves any more) and of the ellipsoid, no choices.
 constexpr int kNodes = 9;
 constexpr double kMarginalVariance = 0.2;  ///< of an ellipsoid's marginal 1 - u^2 on -1..1
-/// Share of the strongest fan below which a beam is no Gaussian any more: added to echo and model alike, it keeps the
-/// far flanks from deciding.
-constexpr double kPedestal = 0.02;
 constexpr int kScoringSteps = 6;
 constexpr int kGoldenSteps = 22;
 
@@ -40,7 +38,7 @@ struct Marginal {
 
 class Likelihood {
  public:
-  explicit Likelihood(const std::vector<FanEcho>& fans) : fans_(fans) {
+  Likelihood(const std::vector<FanEcho>& fans, double pedestal) : fans_(fans), pedestal_(pedestal) {
     double sum = 0.0;
     double moment = 0.0;
     for (const FanEcho& fan : fans) {
@@ -86,10 +84,10 @@ class Likelihood {
       double m = 0.0;
       double dm = 0.0;
       model(fan, half_height, m, dm);
-      const double expected = amplitude_ * m + fan.background + kPedestal * strongest_;
+      const double expected = amplitude_ * m + fan.background + pedestal_ * strongest_;
       const double da = amplitude_ * m / expected;
       const double dc = amplitude_ * dm / expected;
-      const double off = (fan.echo + kPedestal * strongest_) / expected - 1.0;
+      const double off = (fan.echo + pedestal_ * strongest_) / expected - 1.0;
       s_a += fan.looks * off * da;
       s_c += fan.looks * off * dc;
       i_aa += fan.looks * da * da;
@@ -111,13 +109,14 @@ class Likelihood {
       double m = 0.0;
       double dm = 0.0;
       model(fan, half_height, m, dm);
-      const double expected = amplitude_ * m + fan.background + kPedestal * strongest_;
-      sum -= fan.looks * ((fan.echo + kPedestal * strongest_) / expected + std::log(expected));
+      const double expected = amplitude_ * m + fan.background + pedestal_ * strongest_;
+      sum -= fan.looks * ((fan.echo + pedestal_ * strongest_) / expected + std::log(expected));
     }
     return sum;
   }
 
   const std::vector<FanEcho>& fans_;
+  double pedestal_;
   Marginal marginal_;
   double centre_ = 0.0;
   double amplitude_ = 0.0;
@@ -126,9 +125,9 @@ class Likelihood {
 
 }  // namespace
 
-std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans) {
+std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, double pedestal) {
   if (fans.size() < 3) return std::nullopt;
-  Likelihood likelihood(fans);
+  Likelihood likelihood(fans, pedestal);
   if (!likelihood.sound()) return std::nullopt;
   constexpr double kGolden = 0.6180339887498949;
   double low = 0.0;

@@ -22,8 +22,10 @@ struct VerticalFit {
 
 /// Most likely height of a uniform ellipsoid seen through Gaussian beams, from means of exponentially distributed echo.
 /// Fans may be missing at either end (surface, border of the sector): what is there is enough.
+/// pedestal  share of the strongest fan below which a beam is no Gaussian any more: added to echo and model alike, it
+///           keeps the far flanks from deciding
 /// out     empty with fewer than three fans, or where the search does not settle
 /// source  gamma likelihood of averaged Rayleigh-fading echo
-[[nodiscard]] std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans);
+[[nodiscard]] std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, double pedestal);
 
 }  // namespace sonar

@@ -20,11 +20,11 @@ double nearest_spacing(std::span<const double> angles, std::size_t at) {
 }
 
 /// Whether most beams are separate.
-bool mostly_separate(std::vector<double> losses_db) {
+bool mostly_separate(std::vector<double> losses_db, double separate_db) {
   if (losses_db.empty()) return false;
   const auto middle = losses_db.begin() + static_cast<std::ptrdiff_t>(losses_db.size() / 2);
   std::nth_element(losses_db.begin(), middle, losses_db.end());
-  return *middle > kSeparateBeams_db;
+  return *middle > separate_db;
 }
 
 }  // namespace
@@ -55,7 +55,9 @@ MedianParams fitted(const MedianParams& params, std::span<const double> elevatio
   for (std::size_t row = 0; row < rows; ++row) {
     losses[row] = neighbour_loss_db(nearest_spacing(azimuth_deg, row % azimuth_deg.size()), horizontal_width_deg[row]);
   }
-  if (!mostly_separate(losses) || !mostly_separate(fan_losses_db(elevation_deg, vertical_width_deg))) return out;
+  const double separate_db = params.separate_beams_db;
+  if (!mostly_separate(losses, separate_db)) return out;
+  if (!mostly_separate(fan_losses_db(elevation_deg, vertical_width_deg), separate_db)) return out;
   out.kernel_fans = 1;
   out.kernel_beams = 1;
   return out;

@@ -8,9 +8,6 @@
 
 namespace sonar {
 
-/// Beams whose neighbours see a target on their axis weaker than this hardly look at the same water.
-inline constexpr double kSeparateBeams_db = 10.0;
-
 /// Two-way loss of a target on a beam's axis in the beam beside it, dB, for a Gaussian main lobe: 24 (spacing / width)^2.
 /// width  one-way -3 dB, in the unit of the spacing; 0 where the beams are known badly, 60 at most
 [[nodiscard]] double neighbour_loss_db(double spacing, double width);

@@ -18,8 +18,8 @@ class BlockLevels {
  public:
   static constexpr int kUnknown = std::numeric_limits<int>::min();
 
-  /// Blocks of which fewer than half the samples are sound (kNotFiltered) are unknown.
-  BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, int block_samples);
+  /// Blocks of which too few samples are sound (kNotFiltered) are unknown.
+  BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, const HotBeamParams& params);
 
   [[nodiscard]] int blocks() const { return blocks_; }
   [[nodiscard]] int block_samples() const { return block_samples_; }
@@ -27,7 +27,7 @@ class BlockLevels {
   [[nodiscard]] int level(int row, int block) const {
     return levels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(blocks_) + static_cast<std::size_t>(block)];
   }
-  /// The beam's own background: the lower quartile of its blocks; kUnknown where it has none.
+  /// The beam's own background: a low quantile of its blocks (the lower quartile); kUnknown where it has none.
   [[nodiscard]] int background(int row) const { return background_[static_cast<std::size_t>(row)]; }
 
  private:

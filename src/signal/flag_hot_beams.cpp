@@ -16,9 +16,6 @@ namespace {
 
 using Row = std::span<const std::int16_t>;
 
-constexpr int kStep = 8;   // samples on either side that an edge's step is measured over
-constexpr int kTail = 16;  // how far a blurred edge may reach
-
 int counts_of(double db) { return static_cast<int>(std::lround(counts_from_db(db))); }
 
 /// Half-open stretch of blocks or samples.
@@ -70,11 +67,11 @@ class HotBeams {
   [[nodiscard]] int isolated(int row) const {
     const auto r = static_cast<std::size_t>(row);
     const double loss_db = r < fan_loss_db_.size() ? fan_loss_db_[r] : 0.0;
-    return loss_db > kSeparateBeams_db ? counts_of(loss_db) : 0;
+    return loss_db > params_.separate_beams_db ? counts_of(loss_db) : 0;
   }
 
   /// Above the median of the up to 8 neighbours, above both neighbours in fan (in beam on a sonar of one fan), and above
-  /// the median of the nearest six of its own fan: a whole fan may see what its neighbours do not, the surface.
+  /// the median of the nearest of its own fan: a whole fan may see what its neighbours do not, the surface.
   bool stands_out(int row, int block, bool relative, int level, int more) {
     const Shape3 shape = power_.shape();
     const int fan = row / shape.beams;
@@ -82,7 +79,7 @@ class HotBeams {
     around_.clear();
     beside_.clear();
     for (int df = -1; df <= 1; ++df) {
-      for (int db = -3; db <= 3; ++db) {
+      for (int db = -params_.beside_beams; db <= params_.beside_beams; ++db) {
         const int f = fan + df;
         const int b = beam + db;
         const bool near = db >= -1 && db <= 1;
@@ -147,10 +144,11 @@ class HotBeams {
 
   /// The sharpest step within a block of a stretch's coarse edge. direction: +1 rising along range, -1 falling.
   [[nodiscard]] Edge sharpest(int row, int around, int direction) const {
+    const int step_samples = params_.edge_samples;
     const int samples = power_.shape().samples;
     Edge best{around, -1.0};
-    for (int i = std::max(around - block_, kStep); i <= std::min(around + block_, samples - kStep); ++i) {
-      const double step = direction * (mean(row, i, i + kStep) - mean(row, i - kStep, i));
+    for (int i = std::max(around - block_, step_samples); i <= std::min(around + block_, samples - step_samples); ++i) {
+      const double step = direction * (mean(row, i, i + step_samples) - mean(row, i - step_samples, i));
       if (step > best.step) best = {i, step};
     }
     return best;
@@ -179,14 +177,14 @@ class HotBeams {
 
   [[nodiscard]] bool known(int row, int block) const { return levels_.level(row, block) != BlockLevels::kUnknown; }
 
-  /// Takes in what is still loud next to the edges, and one sample more.
+  /// Takes in what is still loud next to the edges, and a margin.
   void widen(int row, double inside, Stretch& s) const {
     const Row counts = power_.row(row);
     const auto loud = [&](int i) { return counts[static_cast<std::size_t>(i)] > inside - threshold_; };
-    for (int n = 0; n < kTail && s.begin > 0 && loud(s.begin - 1); ++n) --s.begin;
-    for (int n = 0; n < kTail && s.end < power_.shape().samples && loud(s.end); ++n) ++s.end;
-    s.begin = std::max(s.begin - 1, 0);
-    s.end = std::min(s.end + 1, power_.shape().samples);
+    for (int n = 0; n < params_.tail_samples && s.begin > 0 && loud(s.begin - 1); ++n) --s.begin;
+    for (int n = 0; n < params_.tail_samples && s.end < power_.shape().samples && loud(s.end); ++n) ++s.end;
+    s.begin = std::max(s.begin - params_.margin_samples, 0);
+    s.end = std::min(s.end + params_.margin_samples, power_.shape().samples);
   }
 
   View3<const std::int16_t> power_;
@@ -212,7 +210,7 @@ void flag_hot_beams(View3<const std::int16_t> power, const BlockLevels& levels, 
 }
 
 void flag_hot_beams(View3<const std::int16_t> power, const HotBeamParams& params, View3<SampleFlags> flags) {
-  if (params.enabled) flag_hot_beams(power, BlockLevels(power, flags, params.block_samples), params, {}, flags);
+  if (params.enabled) flag_hot_beams(power, BlockLevels(power, flags, params), params, {}, flags);
 }
 
 }  // namespace sonar

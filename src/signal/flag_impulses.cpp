@@ -22,21 +22,21 @@ int largest(std::span<const std::int16_t> row, int sample, int reach) {
   return value;
 }
 
-bool above_neighbour_beams(View3<const std::int16_t> power, int row, int sample, int limit) {
+bool above_neighbour_beams(View3<const std::int16_t> power, int row, int sample, int reach, int limit) {
   const Shape3 shape = power.shape();
   const int fan = row / shape.beams;
   const int beam = row % shape.beams;
   for (int f = std::max(fan - 1, 0); f <= std::min(fan + 1, shape.fans - 1); ++f) {
     for (int b = std::max(beam - 1, 0); b <= std::min(beam + 1, shape.beams - 1); ++b) {
-      if ((f != fan || b != beam) && largest(power.row(f, b), sample, 1) >= limit) return false;
+      if ((f != fan || b != beam) && largest(power.row(f, b), sample, reach) >= limit) return false;
     }
   }
   return true;
 }
 
 /// Between two pings a ship moves by more than a sample, so the same place is a few samples wide.
-bool above_other_ping(View3<const std::int16_t> other, Shape3 shape, int row, int sample, int limit) {
-  return other.shape() != shape || largest(other.row(row), sample, 3) < limit;
+bool above_other_ping(View3<const std::int16_t> other, Shape3 shape, int row, int sample, int reach, int limit) {
+  return other.shape() != shape || largest(other.row(row), sample, reach) < limit;
 }
 
 }  // namespace
@@ -55,9 +55,9 @@ void flag_impulses(View3<const std::int16_t> power, const NeighbourPings& neighb
       for (std::uint64_t left = bits[word]; left != 0; left &= left - 1) {
         const int sample = static_cast<int>(word * 64) + std::countr_zero(left);
         const int limit = counts[static_cast<std::size_t>(sample)] - threshold;
-        if (above_neighbour_beams(power, row, sample, limit) &&
-            above_other_ping(neighbours.before, shape, row, sample, limit) &&
-            above_other_ping(neighbours.after, shape, row, sample, limit)) {
+        if (above_neighbour_beams(power, row, sample, params.beam_reach_samples, limit) &&
+            above_other_ping(neighbours.before, shape, row, sample, params.ping_reach_samples, limit) &&
+            above_other_ping(neighbours.after, shape, row, sample, params.ping_reach_samples, limit)) {
           flags.row(row)[static_cast<std::size_t>(sample)] |= SampleFlags::impulse;
         }
       }

@@ -33,6 +33,13 @@ struct HotBeamParams {
   double beam_spread_db = 15.0;
   int block_samples = 64;
   int minimum_samples = 100;
+  double block_sound_share = 0.5;
+  double background_share = 0.25;
+  int beside_beams = 3;
+  int edge_samples = 8;
+  int tail_samples = 16;
+  int margin_samples = 1;
+  double separate_beams_db = 10.0;
 };
 
 struct WallParams {
@@ -43,11 +50,18 @@ struct WallParams {
   int maximum_samples = 16;
   int window_samples = 32;
   int minimum_beams = 8;
+  int gap_samples = 2;
+  int shoulder_near_samples = 2;
+  int shoulder_far_samples = 4;
+  double tapered_share = 0.25;
+  int margin_samples = 1;
 };
 
 struct ImpulseParams {
   bool enabled = true;
   double threshold_db = 10.0;
+  int beam_reach_samples = 1;
+  int ping_reach_samples = 3;
 };
 
 struct FlagParams {
@@ -94,6 +108,23 @@ void describe(Visitor& v, HotBeamParams& p) {
           {.unit = "samples", .min = 8, .max = 1024, .text = "medians are taken over blocks of this length"});
   v.field("minimum_samples", p.minimum_samples,
           {.unit = "samples", .min = 8, .max = 100000, .text = "shorter stretches are left alone"});
+  v.field("block_sound_share", p.block_sound_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "blocks with a smaller share of sound samples are not judged"});
+  v.field("background_share", p.background_share,
+          {.unit = "1", .min = 0, .max = 0.99, .text = "a beam's own background: this share of its blocks lies below"});
+  v.field("beside_beams", p.beside_beams,
+          {.unit = "beams", .min = 1, .max = 100, .text = "so many beams of its own fan on either side are looked at"});
+  v.field("edge_samples", p.edge_samples,
+          {.unit = "samples", .min = 1, .max = 1000, .text = "the step at an edge is taken over this on either side"});
+  v.field("tail_samples", p.tail_samples,
+          {.unit = "samples", .min = 0, .max = 1000, .text = "how far a blurred edge may reach"});
+  v.field("margin_samples", p.margin_samples,
+          {.unit = "samples", .min = 0, .max = 1000, .text = "flagged beyond either end"});
+  v.field("separate_beams_db", p.separate_beams_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "where the next fan sees a target weaker than this, more than that is asked for"});
 }
 
 template <class Visitor>
@@ -111,12 +142,29 @@ void describe(Visitor& v, WallParams& p) {
           {.unit = "samples", .min = 4, .max = 1000, .text = "half length of the running median"});
   v.field("minimum_beams", p.minimum_beams,
           {.unit = "beams", .min = 1, .max = 1000, .text = "fans with fewer sound beams are not judged"});
+  v.field("gap_samples", p.gap_samples,
+          {.unit = "samples", .min = 0, .max = 100, .text = "speckle may break a wall by this"});
+  v.field("shoulder_near_samples", p.shoulder_near_samples,
+          {.unit = "samples", .min = 1, .max = 100, .text = "beside a wall its own blurred edge ends here ..."});
+  v.field("shoulder_far_samples", p.shoulder_far_samples,
+          {.unit = "samples", .min = 1, .max = 100, .text = "... and the water beside it is judged up to here"});
+  v.field("tapered_share", p.tapered_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "so many more of the beams loud beside it than farther off make a rounded body, no wall"});
+  v.field("margin_samples", p.margin_samples,
+          {.unit = "samples", .min = 0, .max = 100, .text = "flagged beyond either side"});
 }
 
 template <class Visitor>
 void describe(Visitor& v, ImpulseParams& p) {
   v.field("enabled", p.enabled, {.text = "flag peaks of up to 3 samples in one beam"});
   v.field("threshold_db", p.threshold_db, {.unit = "dB", .min = 1, .max = 100, .text = "above everything around"});
+  v.field("beam_reach_samples", p.beam_reach_samples,
+          {.unit = "samples", .min = 0, .max = 100, .text = "around: in the neighbouring beams"});
+  v.field("ping_reach_samples", p.ping_reach_samples,
+          {.unit = "samples", .min = 0, .max = 100, .text = "around: in the pings before and after, as ships move"});
 }
 
 template <class Visitor>

@@ -14,11 +14,6 @@ namespace sonar {
 
 namespace {
 
-constexpr int kGap = 2;            // slices that speckle may break a wall by
-constexpr int kShoulderNear = 2;   // slices beside a wall where its own blurred edge ends ...
-constexpr int kShoulderFar = 4;    // ... and where the water beside it is judged
-constexpr double kTapered = 0.25;  // share of beams more beside a wall than farther off: a rounded body, no wall
-
 int counts_of(double db) { return static_cast<int>(std::lround(counts_from_db(db))); }
 
 /// Half-open stretch of slices.
@@ -31,7 +26,7 @@ struct Slices {
 /// renewed every few samples.
 class RunningMedian {
  public:
-  static constexpr int kRenewed = 4;
+  static constexpr int kRenewed = 4;  ///< for speed, as the coarse bins: far below what a wall is judged by
 
   void run(std::span<const std::int16_t> values, int half, std::span<std::int16_t> out) {
     std::fill(bins_.begin(), bins_.end(), 0);
@@ -153,7 +148,7 @@ class Walls {
     for (int s = 0; s < shape_.samples; ++s) {
       if (candidate_[static_cast<std::size_t>(s)] == 0) continue;
       Slices wall{s, s + 1};
-      for (int i = s + 1; i < std::min(wall.end + kGap + 1, shape_.samples); ++i) {
+      for (int i = s + 1; i < std::min(wall.end + params_.gap_samples + 1, shape_.samples); ++i) {
         if (candidate_[static_cast<std::size_t>(i)] != 0) wall.end = i + 1;
       }
       if (wall.end - wall.begin <= params_.maximum_samples) body(wall);
@@ -173,7 +168,7 @@ class Walls {
 
   bool side_is_sharp(int fan, int edge, int direction, int peak, int limit, int threshold) {
     int known = 0;
-    for (int n = kShoulderNear; n <= kShoulderFar; ++n) {
+    for (int n = params_.shoulder_near_samples; n <= params_.shoulder_far_samples; ++n) {
       const int s = edge + direction * n;
       if (s < 0 || s >= shape_.samples || level(fan, s) == kNoData) continue;
       if (level(fan, s) > peak - threshold) return false;
@@ -181,10 +176,11 @@ class Walls {
     }
     // Nearer than the first usable sample nothing tells a wall from a school's or the near field's tail.
     if (known == 0) return direction > 0;
-    const double beside = share_above(fan, edge, direction, kShoulderNear, kShoulderFar, limit);
+    const double beside =
+        share_above(fan, edge, direction, params_.shoulder_near_samples, params_.shoulder_far_samples, limit);
     const double farther =
         share_above(fan, edge, direction, params_.maximum_samples + 1, params_.window_samples, limit);
-    return beside - farther <= kTapered;
+    return beside - farther <= params_.tapered_share;
   }
 
   /// Share of a fan's sound samples above a limit, `from`..`to` slices off an edge.
@@ -203,11 +199,12 @@ class Walls {
     return data > 0 ? static_cast<double>(above) / data : 0.0;
   }
 
-  /// One slice more on either side: the blurred edge.
+  /// With a margin on either side: the blurred edge.
   void flag(int fan, Slices wall) {
     for (int beam = 0; beam < shape_.beams; ++beam) {
       const auto row = flags_.row(fan, beam);
-      for (int s = std::max(wall.begin - 1, 0); s < std::min(wall.end + 1, shape_.samples); ++s) {
+      for (int s = std::max(wall.begin - params_.margin_samples, 0);
+           s < std::min(wall.end + params_.margin_samples, shape_.samples); ++s) {
         row[static_cast<std::size_t>(s)] |= SampleFlags::wall;
       }
     }
@@ -237,7 +234,7 @@ void flag_walls(View3<const std::int16_t> power, const BlockLevels& levels, cons
 }
 
 void flag_walls(View3<const std::int16_t> power, const WallParams& params, View3<SampleFlags> flags) {
-  if (params.enabled) flag_walls(power, BlockLevels(power, flags, 64), params, flags);
+  if (params.enabled) flag_walls(power, BlockLevels(power, flags, HotBeamParams{}), params, flags);
 }
 
 }  // namespace sonar

@@ -93,7 +93,7 @@ void flag_ping(View3<const std::int16_t> power, const PingGeometry& geometry, co
   flag_surface(geometry, params.surface, flags);
   flag_lost(power, params.lost, flags);
   if (params.hot_beam.enabled || params.wall.enabled) {
-    const BlockLevels levels(power, flags, params.hot_beam.block_samples);
+    const BlockLevels levels(power, flags, params.hot_beam);
     flag_hot_beams(power, levels, params.hot_beam, fan_losses_db(geometry.elevation_deg, geometry.vertical_width_deg),
                    flags);
     flag_walls(power, levels, params.wall, flags);

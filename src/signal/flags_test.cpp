@@ -262,6 +262,30 @@ TEST(flags, schools_are_no_faults) {
 }
 
 // A flat seabed meets every beam of a fan at one range, D / sin(tilt), smeared by a 7 degree beam.
+TEST(flags, margins_round_faults_are_parameters) {
+  auto ping = noise_ping(kMs70, -125, 17);
+  TestRandom random(18);
+  for (int f = 0; f < kMs70.fans; ++f) {
+    for (int b = 0; b < kMs70.beams; ++b) {
+      for (int n = 0; n < 6; ++n) add_power(ping(f, b, 900 + n), -80, random);
+    }
+  }
+  const auto flagged = [&](int margin_samples) {
+    WallParams params;
+    params.margin_samples = margin_samples;
+    Array3<SampleFlags> flags(kMs70);
+    flag_walls(ping.view(), params, flags.view());
+    std::vector<int> samples;
+    for (int s = 0; s < kMs70.samples; ++s) {
+      if (any(flags(7, 12, s))) samples.push_back(s);
+    }
+    return samples;
+  };
+  EXPECT_EQ(flagged(0), (std::vector<int>{900, 901, 902, 903, 904, 905}));
+  EXPECT_EQ(flagged(2).front(), 898);
+  EXPECT_EQ(flagged(2).back(), 907);
+}
+
 TEST(flags, the_seabed_is_no_wall) {
   for (const double depth_m : {25.0, 50.0, 100.0, 200.0}) {
     auto ping = noise_ping(kMs70, -125, 40);

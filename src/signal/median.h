@@ -15,6 +15,7 @@ struct MedianParams {
   int kernel_fans = 3;
   int kernel_beams = 3;
   int kernel_samples = 23;
+  double separate_beams_db = 10.0;
 };
 
 template <class Visitor>
@@ -24,6 +25,11 @@ void describe(Visitor& v, MedianParams& p) {
   v.field("kernel_beams", p.kernel_beams, {.unit = "beams", .min = 1, .max = 63, .text = "width of the box, odd"});
   v.field("kernel_samples", p.kernel_samples,
           {.unit = "samples", .min = 1, .max = 63, .text = "length of the box along range, odd"});
+  v.field("separate_beams_db", p.separate_beams_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "along range alone where neighbours see a target on a beam's axis weaker than this, both ways"});
 }
 
 /// Median of one ping over a box-shaped neighbourhood; flagged samples are left out.
