@@ -15,6 +15,7 @@
 #include "cli/verb.h"
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
+#include "pipeline/earlier.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
 
@@ -121,6 +122,7 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
   const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
   opened.plan = make_plan(opened.survey, paths, arguments.session, opened.plan.recipe,
                           {options.pings, opened.journal, options.program_version});
+  if (auto held = set_aside(options.out, opened.plan); !held) return held;
   return write_file(options.out / "plan.json", plan_text(opened.plan));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -27,6 +28,11 @@ struct ProductKey {
   std::string input_hash;
   std::string recipe_hash;
   std::string stage_versions;
+  std::string source;
+  std::string recipe_json;
+  std::size_t pings = 0;
+  TimeNs first_time = 0;  ///< of the first and last ping; 0 = there is none
+  TimeNs last_time = 0;
 };
 /// errors   as read_product()
 Result<ProductKey> read_product_key(const std::filesystem::path& path);

@@ -19,6 +19,8 @@ using netcdf::Reader;
 
 constexpr std::size_t kMostBeams = 1 << 16;
 constexpr int kMostSamples = 1 << 24;
+constexpr std::size_t kPingColumns = 11;  ///< numbers a ping, beside its time
+constexpr std::int64_t kMostSchools = std::int64_t{1} << 53;
 
 bool check_version(Reader& in) {
   if (!in.ok()) return false;
@@ -66,6 +68,17 @@ void read_attributes(Reader& in, ObservationProduct& product) {
     if (!parse_input_file(text, file)) in.refuse(ErrorCode::format, "'input_files' is not 'name size hash'");
     product.input_files.push_back(std::move(file));
   }
+}
+
+/// Products of programs that did not count have only the numbers that are in them.
+void read_numbers(Reader& in, ObservationProduct& product) {
+  if (in.has_attribute(in.root(), "next_school_id")) product.next_school_id = in.whole(in.root(), "next_school_id");
+  const bool sound = product.next_school_id >= 0 && product.next_school_id <= kMostSchools &&
+                     std::all_of(product.schools.begin(), product.schools.end(), [](const SchoolRow& school) {
+                       return school.school_id >= 0 && school.school_id < kMostSchools;
+                     });
+  if (!sound) in.refuse(ErrorCode::format, "a school's number is impossible");
+  if (in.ok()) product.next_school_id = next_school_id(product);
 }
 
 void read_background(Reader& in, int group, ObservationProduct& product) {
@@ -279,8 +292,15 @@ Result<ProductKey> read_key(const std::filesystem::path& path) {
   ProductKey key;
   if (check_version(in)) {
     const int root = in.root();
-    key = {in.text(root, "observation"), in.text(root, "input_hash"), in.text(root, "recipe_hash"),
-           in.text(root, "stage_versions")};
+    key = {in.text(root, "observation"),    in.text(root, "input_hash"), in.text(root, "recipe_hash"),
+           in.text(root, "stage_versions"), in.text(root, "source"),     in.text(root, "recipe")};
+    const int group = in.group(root, "pings");
+    key.pings = in.dimension(group, "ping");
+    const auto time = in.values<std::int64_t>(group, "time", key.pings);
+    if (!time.empty()) {
+      key.first_time = time.front();
+      key.last_time = time.back();
+    }
   }
   if (!in.ok()) return pass_on(in.status());
   return key;

@@ -44,6 +44,7 @@ void write_attributes(Writer& out, const ObservationProduct& product) {
   text("observation", product.observation);
   text("stage_versions", product.stage_versions);
   text("input_hash", product.input_hash);
+  out.attribute(root, Writer::kGlobal, "next_school_id", next_school_id(product));
   std::vector<std::string> files;
   for (const InputFile& f : product.input_files) files.push_back(fmt::format("{} {} {}", f.name, f.size, f.hash));
   out.attribute(root, Writer::kGlobal, "input_files", files);

@@ -60,6 +60,18 @@ struct ObservationProduct {
   std::vector<SchoolPingRow> school_pings;  ///< sorted by school_id, ping_index
   std::vector<SchoolMask> masks;            ///< sorted by school_id, ping_index
   Diagnostics diagnostics;
+  /// Above every number that a school of these pings ever had; 0 = only those that are here.
+  std::int64_t next_school_id = 0;
+  bool continues_cut = false;  ///< begun only because the observation before it reached observation_max_s
 };
+
+/// The number that the next new school of the product gets.
+[[nodiscard]] inline std::int64_t next_school_id(const ObservationProduct& product) {
+  std::int64_t next = product.next_school_id > 1 ? product.next_school_id : 1;
+  for (const SchoolRow& school : product.schools) {
+    if (school.school_id >= next) next = school.school_id + 1;
+  }
+  return next;
+}
 
 }  // namespace sonar

@@ -13,6 +13,7 @@
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/survey_map.h"
+#include "pipeline/earlier.h"
 #include "pipeline/merge.h"
 #include "pipeline/plan.h"
 
@@ -210,6 +211,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   if (!written) return pass_on(written);
   remove_leftovers(out);
   remove_leftovers(out / "products");
+  if (report.complete()) forget_superseded(out, report.survey.observations);
   return report;
 }
 

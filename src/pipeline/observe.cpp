@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "pipeline/earlier.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
@@ -151,7 +152,27 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
   return {};
 }
 
+/// New numbers from 1, or those that the schools had.
+void number(std::vector<SchoolMasks>& schools, const Engine& engine, const ObserveOptions& options,
+            ObservationProduct& product) {
+  schools = numbered(std::move(schools), engine.grid());
+  product.next_school_id = static_cast<std::int64_t>(schools.size()) + 1;
+  if (options.earlier == nullptr) return;
+  const std::vector<TimeNs> times = datagram_times(engine.survey(), engine.observation());
+  product.next_school_id = keep_numbers(schools, engine.grid(), times, *options.earlier);
+}
+
 }  // namespace
+
+std::string source_of(const ObservationFiles& observation) {
+  return fmt::format("{} {}", observation.config.sounder_name, observation.config.version);
+}
+
+std::vector<TimeNs> datagram_times(const SurveyFiles& survey, const ObservationFiles& observation) {
+  std::vector<TimeNs> times;
+  for (const SurveyPing& ping : observation.pings) times.push_back(survey.entry(ping).time);
+  return times;
+}
 
 std::string observation_key(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
                             const ObserveOptions& options) {
@@ -184,7 +205,7 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   product.observation = observation.name;
   product.program_version = options.program_version;
   product.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
-  product.source = fmt::format("{} {}", observation.config.sounder_name, observation.config.version);
+  product.source = source_of(observation);
   product.history = fmt::format("sonar-explorer {}: raw files to schools", options.program_version);
   product.recipe_json = recipe_text(recipe);
   product.recipe_hash = recipe_hash(recipe);
@@ -192,6 +213,7 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   product.input_hash = observation_key(survey, observation, recipe, options);
   product.input_files = input_files(survey, observation);
   product.pings = observation.navigation;
+  product.next_school_id = options.earlier != nullptr ? options.earlier->next_school_id : 1;
   product.diagnostics = observation.diagnostics;
   for (const std::uint32_t file : observation.files) {
     const Diagnostics& of_file = survey.files[file].index.diagnostics;
@@ -220,7 +242,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     for (SchoolMasks& school : tracked_schools(engine, detected, events)) schools.push_back(std::move(school));
   }
-  schools = numbered(std::move(schools), engine.grid());
+  number(schools, engine, options, product);
   note_events(events, schools, product);
   if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
   note_schools_without_place(product);
@@ -231,13 +253,14 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
                                      const ObservationProduct& before, const Recipe& recipe,
                                      const ObserveOptions& options, Work& work) {
   ObservationProduct product = empty_product(survey, observation, recipe, options);
-  const bool same_pings =
-      before.pings.size() == product.pings.size() && before.grid.has_value() == product.grid.has_value();
+  const bool same_pings = has_pings(before, product.source, datagram_times(survey, observation)) &&
+                          before.grid.has_value() == product.grid.has_value();
   if (!same_pings) {
     return fail(ErrorCode::mismatch,
                 fmt::format("{}: the pings are not those of the product: run again", product.observation));
   }
   keep_notes_of_masks(before, product);
+  product.next_school_id = next_school_id(before);
   if (!observation.grid) return product;
   Engine engine(survey, observation, recipe);
   const PingReach reach = selected(observation, options);

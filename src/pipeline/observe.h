@@ -13,6 +13,7 @@
 #include "model/product.h"
 #include "pipeline/journal.h"
 #include "pipeline/recipe.h"
+#include "pipeline/school_numbers.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -34,9 +35,16 @@ struct ObserveOptions {
   std::optional<PingSelection> pings;    ///< empty = all
   std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
   std::string program_version;
+  const EarlierSchools* earlier = nullptr;  ///< numbers that schools of these pings had; null = number from 1
 };
 
-/// Key of everything that an observation's product depends on; equal key, equal product.
+/// Sounder and version as they stand in products.
+[[nodiscard]] std::string source_of(const ObservationFiles& observation);
+/// Datagram times of an observation's pings, the lasting keys.
+[[nodiscard]] std::vector<TimeNs> datagram_times(const SurveyFiles& survey, const ObservationFiles& observation);
+
+/// Key of everything that an observation's product depends on but the numbers that schools had before; equal key, equal
+/// product up to school numbers.
 [[nodiscard]] std::string observation_key(const SurveyFiles& survey, const ObservationFiles& observation,
                                           const Recipe& recipe, const ObserveOptions& options);
 

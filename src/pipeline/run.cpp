@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "io/atomic_file.h"
 #include "io/product.h"
+#include "pipeline/earlier.h"
 
 namespace sonar {
 namespace {
@@ -55,18 +56,31 @@ std::string remeasured_key(const std::string& key, const ObservationProduct& bef
   return key + "-" + to_hex(hasher.value());
 }
 
+/// The product whose masks are kept: that of this name, or where names have shifted the one with these pings.
+Result<ObservationProduct> product_before(const SurveyFiles& survey, const ObservationFiles& observation,
+                                          const std::filesystem::path& path, const EarlierProducts& earlier) {
+  auto there = read_product(path);
+  const std::vector<TimeNs> times = datagram_times(survey, observation);
+  if (there && has_pings(*there, source_of(observation), times)) return there;
+  auto elsewhere = earlier.of_pings(source_of(observation), times);
+  return elsewhere ? Result<ObservationProduct>{std::move(*elsewhere)} : there;
+}
+
 /// The product that is to be written; empty where the one that is there is right.
 Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey, const ObservationFiles& observation,
-                                                       const Recipe& recipe, const ObserveOptions& options,
-                                                       const RunOptions& run, const std::string& key, Work& work) {
+                                                       const Recipe& recipe, ObserveOptions options,
+                                                       const RunOptions& run, const std::string& key,
+                                                       const EarlierProducts& earlier, Work& work) {
   const std::filesystem::path path = product_path(run.out, observation.name);
   if (!run.remeasure) {
     if (is_right(path, key)) return std::optional<ObservationProduct>{};
+    const auto numbers = earlier.schools_of(source_of(observation), datagram_times(survey, observation));
+    if (numbers) options.earlier = &*numbers;
     auto made = observe(survey, observation, recipe, options, work);
     if (!made) return pass_on(made);
     return std::optional<ObservationProduct>{std::move(*made)};
   }
-  const auto before = read_product(path);
+  const auto before = product_before(survey, observation, path, earlier);
   if (!before) return pass_on(before);
   const std::string kept_key = remeasured_key(key, *before);
   if (before->input_hash == kept_key) return std::optional<ObservationProduct>{};
@@ -77,7 +91,7 @@ Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey
 }
 
 Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan& plan, const ObserveOptions& options,
-                     const RunOptions& run, RunReport& report, Work& work) {
+                     const RunOptions& run, const EarlierProducts& earlier, RunReport& report, Work& work) {
   const ObservationFiles* observation = survey.find(task.observation);
   if (observation == nullptr) {
     return fail(ErrorCode::mismatch, task.observation + " is not in the survey any more: plan again");
@@ -86,7 +100,7 @@ Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan
   if (run.task && key != task.key) {
     return fail(ErrorCode::mismatch, task.observation + " changed since the plan was made: plan again");
   }
-  const auto product = make_product(survey, *observation, plan.recipe, options, run, key, work);
+  const auto product = make_product(survey, *observation, plan.recipe, options, run, key, earlier, work);
   if (!product) return pass_on(product);
   if (!*product) {
     report.skipped.push_back(task.observation);
@@ -115,9 +129,10 @@ Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::spa
   if (auto space = require_free_space(options.out, space_needed(*tasks)); !space) return pass_on(space);
   remove_leftovers(options.out / "products");
   ObserveOptions observe_options{options.pings, journal, options.program_version};
+  const EarlierProducts earlier(options.out);
   RunReport report;
   for (const PlanTask& task : *tasks) {
-    auto worked = work_on(survey, task, plan, observe_options, options, report, work);
+    auto worked = work_on(survey, task, plan, observe_options, options, earlier, report, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "interrupted; finished observations are kept");
     if (!worked) report.failures.push_back({task.observation, worked.error()});
   }
