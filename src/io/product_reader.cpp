@@ -278,6 +278,7 @@ Result<ObservationProduct> read_whole(const std::filesystem::path& path) {
     read_grid(in, product);
     read_pings(in, product);
     read_rows(in, "schools", "school", product.schools);
+    read_numbers(in, product);
     read_rows(in, "school_pings", "row", product.school_pings);
     read_mask(in, product);
     read_diagnostics(in, product);
