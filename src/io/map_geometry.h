@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geo/geodesic.h"
-#include "io/outline.h"
+#include "model/outline.h"
 #include "model/product.h"
 
 namespace sonar {

@@ -13,7 +13,7 @@
 
 #include "base/units.h"
 #include "io/atomic_file.h"
-#include "io/outline.h"
+#include "model/outline.h"
 #include "io/product_example.h"
 
 namespace sonar {

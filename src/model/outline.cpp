@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/outline.h"
+#include "model/outline.h"
 
 #include <algorithm>
 #include <cmath>
