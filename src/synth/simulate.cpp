@@ -10,8 +10,10 @@
 
 #include "base/check.h"
 #include "io/atomic_file.h"
+#include "io/depth_raster.h"
 #include "io/simrad/writer.h"
 #include "synth/nmea.h"
+#include "synth/seabed_grid.h"
 #include "synth/sonar.h"
 #include "synth/truth_files.h"
 
@@ -210,6 +212,7 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   }
   if (auto closed = files.close(); !closed) return pass_on(closed);
   if (auto done = truth.finish(); !done) return pass_on(done);
+  if (auto done = write_depth_raster(out / "truth" / "depth.tif", seabed_grid(*scenes)); !done) return pass_on(done);
   result.files = files.files();
   result.bytes = files.bytes();
   result.schools = truth.schools();

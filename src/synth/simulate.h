@@ -19,7 +19,8 @@ struct SimulateResult {
   std::int64_t schools = 0;  ///< with at least one ping in the truth
 };
 
-/// Writes a synthetic survey: OUT/SYNTHETIC-Dyyyymmdd-Thhmmss.raw files, and OUT/truth beside them.
+/// Writes a synthetic survey: OUT/SYNTHETIC-Dyyyymmdd-Thhmmss.raw files, and OUT/truth beside them, with the seabed's
+/// depths as truth/depth.tif.
 /// force     write into a folder that already holds raw files
 /// errors    bad_parameter; usage: the folder holds raw files; no_space; io; cancelled
 /// threads   pings are made on work's threads; the bytes are the same for any number
