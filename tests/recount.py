@@ -8,12 +8,15 @@ Needs numpy and netCDF4 only. Reads the raw files with a parser of its own, take
 background levels from the products, works the columns of school_pings.csv and schools.csv out anew, and prints the
 worst deviation of each. Exit code 1 where one is beyond its tolerance.
 
-Sv columns are recounted where every member is valid (valid_fraction 1): which samples were faulty is not in the
-product. Left out: the corrected extents (the figures that follow from them are checked), edges (touches_edge is checked
-against edge_flags), valid_fraction, threshold_db, bottom_depth_m, provisional.
+Edges are those of the sector, the near field and the surface, from the recipe; which samples were faulty or seabed is
+not in the product, so Sv columns are recounted where every member is valid (valid_fraction 1), the bits 64 (seabed) and
+256 (flagged) of edge_flags are taken as they stand, and 32 (far) as well beside faulty samples, because a beam may end
+in lost ones; edge_fraction is recounted where these are the same. Left
+out: the corrected extents (the figures that follow from them are checked), threshold_db, bottom_depth_m.
 """
 import argparse
 import csv
+import datetime
 import json
 import math
 import pathlib
@@ -181,6 +184,8 @@ class Observation:
             widths = [math.radians(float(grid[k][0, 0])) for k in ("vertical_width", "horizontal_width")]
             self.e, self.a = bounds(self.elevation, widths[0]), bounds(self.azimuth, widths[1])
             self.first, self.dr = float(grid["range_of_first_sample"][...]), float(grid["sample_spacing"][...])
+            self.samples = int(grid["sample_count_of_grid"][...])
+            self.widths_deg = grid["vertical_width"][:]
             self.place = {int(c): index for index, c in np.ndenumerate(grid["channel"][:])}
             mask = data["mask"]
             mask["confidence"].set_auto_scale(False)
@@ -245,6 +250,56 @@ def geometry(o, school, ping):
             "range_m": math.sqrt(e * e + n * n + z * z), "bearing_deg": math.degrees(math.atan2(e, n)) % 360,
             "length_m": max(length, width), "width_m": min(length, width), "axis_deg": axis % 180,
             "depth_min_m": depths.min(), "depth_max_m": depths.max(), "height_m": np.ptp(depths)}
+
+
+FORE, AFT, TOP, BOTTOM, NEAR, FAR, SEABED, SURFACE, FLAGGED = (1 << i for i in range(9))
+
+
+def usable(o, ping):
+    """First and end sample of each beam between the near field and the surface, [fan][beam]."""
+    flags = o.recipe["flags"]
+    at = lambda r: np.clip(np.ceil((r - o.first) / o.dr - 1e-9), 0, o.samples)
+    shape = o.widths_deg.shape
+    first = np.full(shape, at(flags["near_field"]["range_m"]) if flags["near_field"]["enabled"] else 0.0)
+    end = np.full(shape, float(o.samples))
+    surface = flags["surface"]
+    elevation = np.degrees(o.elevation)
+    if surface["enabled"] and surface["mode"] == "fan" and surface["fans"] < len(elevation):
+        end[np.argsort(-elevation, kind="stable")[:surface["fans"]]] = 0
+    elif surface["enabled"] and surface["mode"] == "edge":
+        clear = max(float(o.pings["transducer_depth"][ping]) - surface["margin_m"], 0)
+        edge = np.radians(np.minimum(elevation[:, None] + o.widths_deg / 2, 90))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            end = at(np.where(edge > 0, clear / np.sin(edge), np.inf))
+    return first.astype(int), end.astype(int)
+
+
+def edges(o, school, ping):
+    """Edge flags without seabed and faults, and the share of the mask's outer faces that lie at them."""
+    _, fan, beam, sample, _ = o.voxels(school, ping)
+    mask = np.zeros(o.widths_deg.shape + (o.samples,), bool)
+    mask[fan, beam, sample] = True
+    first, end = usable(o, ping)
+    fans, beams = first.shape
+    last_is_fore = math.cos(o.azimuth[-1]) > math.cos(o.azimuth[0])
+    sides = ((0, 0, -1, NEAR), (0, 0, 1, FAR), (1, 0, 0, TOP), (-1, 0, 0, BOTTOM),
+             (0, 1, 0, FORE if last_is_fore else AFT), (0, -1, 0, AFT if last_is_fore else FORE))
+    found = faces = at_edge = 0
+    for df, db, ds, border in sides:
+        f, b, s = fan + df, beam + db, sample + ds
+        out = (f < 0) | (f >= fans) | (b < 0) | (b >= beams) | (s < 0) | (s >= o.samples)
+        f, b, s = np.clip(f, 0, fans - 1), np.clip(b, 0, beams - 1), np.clip(s, 0, o.samples - 1)
+        outer = out | ~mask[f, b, s]
+        flags = np.zeros(len(f), int)
+        # a row of which nothing is usable is no row: the sector ends before it
+        flags[(first[f, b] >= end[f, b]) & (ds == 0)] |= border
+        flags[s < first[f, b]] |= NEAR
+        flags[s >= end[f, b]] |= SURFACE
+        flags[out] = border
+        found |= int(np.bitwise_or.reduce(flags[outer])) if outer.any() else 0
+        faces += int(outer.sum())
+        at_edge += int((flags[outer] != 0).sum())
+    return found, at_edge / faces
 
 
 def calibration(o, beam, head, channel, samples):
@@ -378,6 +433,15 @@ class Deviations:
             print(f"{table:18s}{name:24s}{count:7d} values, worst {worst * limit:10.3g}, allowed {limit:8.2g}{mark}")
 
 
+def check_time(o, told, ping, where, deviations):
+    time = int(o.pings["time"][ping])
+    whole = datetime.datetime.fromtimestamp(time // 10**9, datetime.timezone.utc)
+    text = f"{whole:%Y-%m-%dT%H:%M:%S}.{time % 10**9 // 10**6:03d}Z"
+    if (told != text) if isinstance(told, str) else (int(told) != time):
+        print(f"{where}: time {told!r}, recounted {text!r}")
+        deviations.failed = True
+
+
 def recount_observation(o, survey, every, deviations):
     skipped, wanted = 0, {}
     for i, row in enumerate(o.rows):
@@ -385,7 +449,15 @@ def recount_observation(o, survey, every, deviations):
         add = lambda name, value: deviations.add("school_pings", name, row[name], value, where)
         for name, value in geometry(o, int(row["school_id"]), int(row["ping_index"])).items():
             add(name, value)
+        flags, share = edges(o, int(row["school_id"]), int(row["ping_index"]))
+        told = int(row["edge_flags"])
+        unknown = SEABED | FLAGGED | (FAR if told & FLAGGED else 0)
+        add("edge_flags", flags & ~unknown | told & unknown)
+        if not told & SEABED and (not told & FLAGGED or told & FAR == flags & FAR):
+            add("edge_fraction", share)
         add("touches_edge", float(int(row["edge_flags"]) & 255 != 0))
+        add("provisional", 0)
+        check_time(o, row["time_utc"], row["ping_index"], where, deviations)
         if row["backscatter_m2"] > 0 and math.isfinite(row["volume_corrected_m3"]):
             add("sv_corrected_db", 10 * math.log10(row["backscatter_m2"] / row["volume_corrected_m3"]))
             add("volume_corrected_m3", math.pi / 6 * row["length_corrected_m"] * row["width_corrected_m"]
@@ -408,6 +480,9 @@ def recount_observation(o, survey, every, deviations):
         deviations.failed = True
     for school in o.schools:
         rows = [r for r in o.rows if r["school_id"] == school["school_id"]]
+        where = f"{o.name} school {school['school_id']}"
+        check_time(o, school["first_time_utc"], rows[0]["ping_index"], where, deviations)
+        check_time(o, school["last_time_utc"], rows[-1]["ping_index"], where, deviations)
         for name, value in summary(o, rows).items():
             deviations.add("schools", name, school[name], value, f"{o.name} school {school['school_id']}")
     print(f"{o.name}: {len(o.rows)} school pings, {len(o.schools)} schools; sv of {skipped} pings left out (faulty samples)")

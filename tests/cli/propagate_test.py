@@ -14,6 +14,8 @@ def seed():
     product = netCDF4.Dataset(TRUTH / "obs-0001.nc")
     mask = {name: product["mask"][name][:].tolist()
             for name in ("school_id", "ping_index", "channel", "first_sample", "sample_count")}
+    place = {int(channel): (fan, beam) for fan, row in enumerate(product["grid"]["channel"][:].tolist())
+             for beam, channel in enumerate(row)}
     product.close()
     size = {}
     for school, count in zip(mask["school_id"], mask["sample_count"]):
@@ -24,7 +26,16 @@ def seed():
     runs = [(n, c, f) for s, p, c, f, n in zip(*(mask[k] for k in ("school_id", "ping_index", "channel", "first_sample",
                                                                   "sample_count"))) if (s, p) == (school, ping)]
     count, channel, first = max(runs)
-    return f"{ping},{channel // 25},{channel % 25},{first + count // 2}", len(pings)
+    fan, beam = place[channel]
+    return f"{ping},{fan},{beam},{first + count // 2}", len(pings)
+
+
+def shape():
+    """Fans and beams of the survey's grid."""
+    product = netCDF4.Dataset(TRUTH / "obs-0001.nc")
+    fans, beams = product["grid"]["channel"].shape
+    product.close()
+    return fans, beams
 
 
 class Propagate(Case):
@@ -55,7 +66,8 @@ class Propagate(Case):
         self.assertEqual(len(err.strip().splitlines()), 1)
 
     def test_seeds_that_are_no_voxels(self):
-        for place in ("1,2,3", "a,b,c,d", "0,20,0,100", "0,0,25,100", "0,0,0,999999", "-1,0,0,100", "9999,0,0,100"):
+        fans, beams = shape()
+        for place in ("1,2,3", "a,b,c,d", f"0,{fans},0,100", f"0,0,{beams},100", "0,0,0,999999", "-1,0,0,100", "9999,0,0,100"):
             with self.subTest(place):
                 code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", f"--seed={place}",
                                           "--tolerance-db", "10", "--out", self.fresh("propagate-none"))

@@ -135,8 +135,8 @@ TEST_F(Observe, RemeasuringUnderTheSameRecipeChangesNothing) {
 
 TEST_F(Observe, OneDecibelMoreGainIsTwoDecibelsLessSv) {
   Recipe louder;
-  for (int channel = 0; channel < 500; ++channel) {
-    const BeamConfig& beam = observation().config.beams[static_cast<std::size_t>(channel)];
+  for (const BeamConfig& beam : observation().config.beams) {
+    const auto channel = static_cast<int>(louder.calibration.beams.size());
     louder.calibration.beams.push_back({channel, beam.gain_db + 1.0, kUnknown, kUnknown});
   }
   Work work(2);
