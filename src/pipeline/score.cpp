@@ -13,78 +13,10 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "pipeline/score_index.h"
 
 namespace sonar {
 namespace {
-
-constexpr TimeNs kSamePing_ns = 1'000'000;
-
-using SchoolKey = std::pair<std::size_t, std::int64_t>;               ///< observation, school
-using PingKey = std::tuple<std::size_t, std::int64_t, std::int64_t>;  ///< observation, school, ping
-
-/// One side with its masks by channel (grids may number rows differently) and its rows at hand.
-struct Indexed {
-  std::map<PingKey, const SchoolPingRow*> rows;
-  std::map<PingKey, PingMask> masks;
-  std::map<SchoolKey, const SchoolRow*> schools;
-  std::map<std::pair<std::size_t, std::int64_t>, std::vector<std::int64_t>> in_ping;  ///< (observation, ping): schools
-  std::map<TimeNs, std::pair<std::size_t, std::int64_t>> pings;
-};
-
-PingMask by_channel(const PingMask& mask, const std::vector<int>& channel) {
-  struct Piece {
-    Run run;
-    std::size_t first;
-  };
-  std::vector<Piece> pieces;
-  std::size_t voxel = 0;
-  for (const Run& run : mask.runs) {
-    pieces.push_back({{channel[static_cast<std::size_t>(run.row)], run.first_sample, run.count}, voxel});
-    voxel += static_cast<std::size_t>(run.count);
-  }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.run < b.run; });
-  PingMask out;
-  for (const Piece& piece : pieces) {
-    out.runs.push_back(piece.run);
-    const auto first = mask.confidence.begin() + static_cast<std::ptrdiff_t>(piece.first);
-    out.confidence.insert(out.confidence.end(), first, first + piece.run.count);
-  }
-  return out;
-}
-
-Indexed index_side(const ScoreSide& side) {
-  Indexed out;
-  for (std::size_t o = 0; o < side.observations.size(); ++o) {
-    const ObservationProduct& product = side.observations[o];
-    std::set<std::int64_t> rejected;
-    for (const SchoolRow& school : product.schools) {
-      if (school.status == "rejected") {
-        rejected.insert(school.school_id);
-      } else {
-        out.schools[{o, school.school_id}] = &school;
-      }
-    }
-    for (const SchoolPingRow& row : product.school_pings) {
-      if (!rejected.contains(row.school_id)) out.rows[{o, row.school_id, row.ping_index}] = &row;
-    }
-    if (!product.grid) continue;
-    for (const SchoolMask& m : product.masks) {
-      if (m.mask.empty() || rejected.contains(m.school_id)) continue;
-      out.masks[{o, m.school_id, m.ping_index}] = by_channel(m.mask, product.grid->grid.channel);
-      out.in_ping[{o, m.ping_index}].push_back(m.school_id);
-    }
-    for (std::size_t p = 0; p < product.pings.size(); ++p) {
-      out.pings[product.pings[p].time] = {o, static_cast<std::int64_t>(p)};
-    }
-  }
-  return out;
-}
-
-std::optional<std::pair<std::size_t, std::int64_t>> ping_at(const Indexed& side, TimeNs time) {
-  const auto found = side.pings.lower_bound(time - kSamePing_ns);
-  if (found == side.pings.end() || found->first > time + kSamePing_ns) return std::nullopt;
-  return found->second;
-}
 
 /// A true school in one ping and what was found there.
 struct PingPair {
@@ -235,44 +167,18 @@ double mean_dice(const std::vector<PingPair>& pairs, const Indexed& found, const
   return pings > 0 ? sum / pings : kUnknown;
 }
 
-/// For every found mask the true school that it overlaps most.
-struct FoundLooksLike {
-  std::map<SchoolKey, std::map<SchoolKey, int>> pings;  ///< found track -> true school -> pings
-};
+using Likenesses = std::map<SchoolKey, TrackLikeness>;
 
-FoundLooksLike look_back(const Indexed& found, const ScoreSide& found_side, const Indexed& truth) {
-  FoundLooksLike out;
-  for (const auto& [key, mask] : found.masks) {
-    const auto& [observation, school_id, ping_index] = key;
-    const TimeNs time = found_side.observations[observation].pings[static_cast<std::size_t>(ping_index)].time;
-    const auto there = ping_at(truth, time);
-    if (!there) continue;
-    const auto schools = truth.in_ping.find(*there);
-    if (schools == truth.in_ping.end()) continue;
-    std::size_t most = 0;
-    std::optional<SchoolKey> like;
-    for (const std::int64_t id : schools->second) {
-      const std::size_t shared = overlap(mask, truth.masks.at({there->first, id, there->second}));
-      if (shared > most) {
-        most = shared;
-        like = SchoolKey{there->first, id};
-      }
-    }
-    if (like) ++out.pings[{observation, school_id}][*like];
+/// The true school that a track is like in most pings; among equals the first.
+std::optional<SchoolKey> most_like(const TrackLikeness& track) {
+  std::optional<SchoolKey> best;
+  int most = 0;
+  for (const auto& [school, pings] : track.pings) {
+    if (pings <= most) continue;
+    most = pings;
+    best = school;
   }
-  return out;
-}
-
-double purity(const FoundLooksLike& looks, const SchoolKey& found, const SchoolKey& truth) {
-  const auto track = looks.pings.find(found);
-  if (track == looks.pings.end()) return kUnknown;
-  int all = 0;
-  int own = 0;
-  for (const auto& [school, pings] : track->second) {
-    all += pings;
-    if (school == truth) own += pings;
-  }
-  return static_cast<double>(own) / all;
+  return best;
 }
 
 std::map<std::int64_t, BodyInPing> bodies_of(const ScoreSide& truth, const std::string& observation,
@@ -303,8 +209,7 @@ std::string id_text(const ScoreSide& side, const SchoolKey& key) {
 }
 
 SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pairs, const ScoreSide& found_side,
-                         const Indexed& found, const ScoreSide& truth_side, const Indexed& truth,
-                         const FoundLooksLike& looks) {
+                         const Indexed& found, const ScoreSide& truth_side, const Indexed& truth) {
   SchoolScore out;
   const ObservationProduct& product = truth_side.observations[key.first];
   out.truth_id = id_text(truth_side, key);
@@ -327,7 +232,6 @@ SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pair
   if (!partner) return out;
   out.found_id = id_text(found_side, *partner);
   compare_rows(pairs, found, *partner, bodies, out);
-  out.purity = purity(looks, *partner, key);
   const auto truth_school = truth.schools.find(key);
   const auto found_school = found.schools.find(*partner);
   if (truth_school != truth.schools.end() && found_school != found.schools.end()) {
@@ -336,25 +240,101 @@ SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pair
   return out;
 }
 
+/// Tracks by what became of them.
+struct Pairing {
+  std::map<SchoolKey, std::vector<SchoolKey>> schools_of;  ///< found track -> true schools paired with it
+  std::map<SchoolKey, std::vector<SchoolKey>> pieces_of;   ///< true school -> its fragments
+  std::vector<SchoolKey> false_tracks;
+};
+
+Pairing pair_tracks(const std::map<SchoolKey, std::vector<PingPair>>& pairs, const Indexed& found,
+                    const Likenesses& looks) {
+  Pairing out;
+  for (const auto& [school, of_school] : pairs) {
+    if (const auto partner = track_partner(of_school)) out.schools_of[*partner].push_back(school);
+  }
+  std::set<SchoolKey> tracks;
+  for (const auto& [key, mask] : found.masks) tracks.insert({std::get<0>(key), std::get<1>(key)});
+  for (const SchoolKey& track : tracks) {
+    if (out.schools_of.contains(track)) continue;
+    const auto look = looks.find(track);
+    const bool inside = look != looks.end() && static_cast<double>(look->second.inside) >=
+                                                   kFragmentInside * static_cast<double>(look->second.voxels);
+    const auto whose = inside ? most_like(look->second) : std::nullopt;
+    if (whose) {
+      out.pieces_of[*whose].push_back(track);
+    } else {
+      out.false_tracks.push_back(track);
+    }
+  }
+  return out;
+}
+
+/// Of several true schools in one track it is the one that it is like in most pings; the others were not found.
+SchoolKey owner_of(const std::vector<SchoolKey>& schools, const TrackLikeness& look) {
+  const auto pings = [&](const SchoolKey& s) {
+    const auto at = look.pings.find(s);
+    return at == look.pings.end() ? 0 : at->second;
+  };
+  return *std::max_element(schools.begin(), schools.end(),
+                           [&](const SchoolKey& a, const SchoolKey& b) { return pings(a) < pings(b); });
+}
+
+/// Share of a school's own pings in its track and in the fragments of the school.
+double purity(const SchoolKey& school, const TrackLikeness& look, std::int64_t pings_of_fragments) {
+  std::int64_t all = pings_of_fragments;
+  std::int64_t own = 0;
+  for (const auto& [other, pings] : look.pings) {
+    all += pings;
+    if (other == school) own += pings;
+  }
+  return all > 0 ? static_cast<double>(own) / static_cast<double>(all) : kUnknown;
+}
+
 }  // namespace
 
 Score score(const ScoreSide& found_side, const ScoreSide& truth_side) {
   const Indexed found = index_side(found_side);
   const Indexed truth = index_side(truth_side);
-  const FoundLooksLike looks = look_back(found, found_side, truth);
+  const Likenesses looks = look_back(found, found_side, truth);
   std::map<SchoolKey, std::vector<PingPair>> pairs;
   for (const auto& [key, mask] : truth.masks) {
     pairs[{std::get<0>(key), std::get<1>(key)}].push_back(pair_ping(found, truth, truth_side, key));
   }
+  std::map<SchoolKey, std::int64_t> pings_of;
+  for (const auto& [key, mask] : found.masks) ++pings_of[{std::get<0>(key), std::get<1>(key)}];
+  const Pairing pairing = pair_tracks(pairs, found, looks);
+  std::map<SchoolKey, std::size_t> place;
   Score out;
   for (const auto& [key, of_school] : pairs) {
-    out.schools.push_back(score_school(key, of_school, found_side, found, truth_side, truth, looks));
+    place[key] = out.schools.size();
+    out.schools.push_back(score_school(key, of_school, found_side, found, truth_side, truth));
+    SchoolScore& school = out.schools.back();
+    std::int64_t pings_of_fragments = 0;
+    if (const auto pieces = pairing.pieces_of.find(key); pieces != pairing.pieces_of.end()) {
+      for (const SchoolKey& piece : pieces->second) {
+        pings_of_fragments += pings_of[piece];
+        out.fragments.push_back({id_text(found_side, piece), school.truth_id, pings_of[piece]});
+      }
+      school.fragments = std::ssize(pieces->second);
+    }
+    const auto partner = track_partner(of_school);
+    if (!partner) continue;
+    const auto look = looks.find(*partner);
+    if (look != looks.end()) school.purity = purity(key, look->second, pings_of_fragments);
   }
-  std::map<SchoolKey, std::int64_t> tracks;
-  for (const auto& [key, mask] : found.masks) ++tracks[{std::get<0>(key), std::get<1>(key)}];
-  for (const auto& [key, pings] : tracks) {
-    if (looks.pings.contains(key)) continue;
-    FalseSchool school{id_text(found_side, key), pings, kUnknown, kUnknown};
+  for (const auto& [track, schools] : pairing.schools_of) {
+    if (schools.size() < 2) continue;
+    const SchoolKey owner = owner_of(schools, looks.at(track));
+    MergedTrack merged{id_text(found_side, track), {}};
+    for (const SchoolKey& school : schools) {
+      merged.truth_ids.push_back(id_text(truth_side, school));
+      out.schools[place[school]].merged = school != owner;
+    }
+    out.merged.push_back(std::move(merged));
+  }
+  for (const SchoolKey& key : pairing.false_tracks) {
+    FalseSchool school{id_text(found_side, key), pings_of[key], kUnknown, kUnknown};
     if (const auto row = found.schools.find(key); row != found.schools.end()) {
       school.volume_m3 = row->second->volume_m3;
       school.sv_mean_db = row->second->sv_mean_db;

@@ -18,6 +18,10 @@ namespace sonar {
 /// overlaps every school and has found none.
 inline constexpr double kPairDice = 0.1;
 
+/// A track that is paired with no true school is a fragment of one where so much of its voxels lies in true masks, and
+/// a false school otherwise.
+inline constexpr double kFragmentInside = 0.5;
+
 /// A school counts when its mask spans so much in at least kCountedPings pings that touch no edge.
 inline constexpr int kCountedBeams = 3;
 inline constexpr int kCountedFans = 2;
@@ -61,12 +65,14 @@ struct SchoolScore {
   double backscatter_error_db = kUnknown;
   double sv_error_db = kUnknown;
   double speed_error_mps = kUnknown;
-  double purity = kUnknown;
+  double purity = kUnknown;    ///< share of this school's pings in its track and its fragments
+  bool merged = false;         ///< its track is another school's as well, and rather that one's: not found
+  std::int64_t fragments = 0;  ///< further tracks that lie in it
   double body_volume_corrected_ratio = kUnknown;
   double body_backscatter_error_db = kUnknown;
 };
 
-/// A found track that overlaps no true school in any ping.
+/// A found track that is no true school's and no fragment of one.
 struct FalseSchool {
   std::string found_id;
   std::int64_t n_pings = 0;
@@ -74,16 +80,31 @@ struct FalseSchool {
   double sv_mean_db = kUnknown;
 };
 
+/// A further track inside a true school that another track was paired with, or that none was.
+struct Fragment {
+  std::string found_id;
+  std::string truth_id;
+  std::int64_t n_pings = 0;
+};
+
+/// One found track for several true schools.
+struct MergedTrack {
+  std::string found_id;
+  std::vector<std::string> truth_ids;
+};
+
 struct Score {
   std::vector<SchoolScore> schools;
   std::vector<FalseSchool> false_schools;
+  std::vector<Fragment> fragments;
+  std::vector<MergedTrack> merged;
 };
 
 /// Holds a result against the truth. Pings match by time (within 1 ms), whatever the observations are called; schools
 /// marked as rejected are not there.
 [[nodiscard]] Score score(const ScoreSide& found, const ScoreSide& truth);
 
-/// The object of INTERFACES section 7. `summary` has, over the schools that count: counted, found, found_fraction,
+/// The object of INTERFACES section 7, with `fragments` and `merged` beside. `summary` has, over the schools that count: counted, found, found_fraction,
 /// mean_dice, and the members `median`, `p90` (of the error's size) and `bias` (median with its sign) of each error.
 [[nodiscard]] std::string score_json(const Score& score);
 /// The same for people.

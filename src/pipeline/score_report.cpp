@@ -78,17 +78,19 @@ Basics basics(const std::vector<SchoolScore>& schools) {
   if (schools.empty()) return b;
   double dice_sum = 0.0;
   double purity_sum = 0.0;
+  std::size_t paired = 0;
   for (const SchoolScore& s : schools) {
     dice_sum += s.dice;
     b.min_dice = std::fmin(b.min_dice, s.dice);
     if (s.found_id.empty()) continue;
-    ++b.found;
+    if (!s.merged) ++b.found;
+    ++paired;
     purity_sum += s.purity;
     b.min_purity = std::fmin(b.min_purity, s.purity);
   }
   b.found_fraction = static_cast<double>(b.found) / static_cast<double>(b.counted);
   b.mean_dice = dice_sum / static_cast<double>(b.counted);
-  if (b.found > 0) b.mean_purity = purity_sum / static_cast<double>(b.found);
+  if (paired > 0) b.mean_purity = purity_sum / static_cast<double>(paired);
   return b;
 }
 
@@ -127,6 +129,8 @@ json summary_json(const Score& score) {
           {"mean_purity", number(b.mean_purity)},
           {"min_purity", number(b.min_purity)},
           {"false_schools", score.false_schools.size()},
+          {"fragments", score.fragments.size()},
+          {"merged", score.merged.size()},
           {"median", median},
           {"p90", p90},
           {"bias", bias},
@@ -149,6 +153,8 @@ json school_json(const SchoolScore& s) {
           {"sv_error_db", number(s.sv_error_db)},
           {"speed_error_mps", number(s.speed_error_mps)},
           {"purity", number(s.purity)},
+          {"merged", s.merged},
+          {"fragments", s.fragments},
           {"body_volume_corrected_ratio", number(s.body_volume_corrected_ratio)},
           {"body_backscatter_error_db", number(s.body_backscatter_error_db)}};
 }
@@ -169,7 +175,17 @@ std::string score_json(const Score& score) {
                              {"volume_m3", number(s.volume_m3)},
                              {"sv_mean_db", number(s.sv_mean_db)}});
   }
-  const json out = {{"schools", schools}, {"false_schools", false_schools}, {"summary", summary_json(score)}};
+  json fragments = json::array();
+  for (const Fragment& f : score.fragments) {
+    fragments.push_back({{"found_id", f.found_id}, {"truth_id", f.truth_id}, {"n_pings", f.n_pings}});
+  }
+  json merged = json::array();
+  for (const MergedTrack& m : score.merged) merged.push_back({{"found_id", m.found_id}, {"truth_ids", m.truth_ids}});
+  const json out = {{"schools", schools},
+                    {"false_schools", false_schools},
+                    {"fragments", fragments},
+                    {"merged", merged},
+                    {"summary", summary_json(score)}};
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -186,13 +202,20 @@ std::string score_text(const Score& score) {
                        s.counted ? "" : "  (does not count)");
   }
   for (const FalseSchool& s : score.false_schools) {
-    out += fmt::format("{:<14}{:<14}{:>6}  overlaps no true school\n", "-", s.found_id, s.n_pings);
+    out += fmt::format("{:<14}{:<14}{:>6}  is no true school\n", "-", s.found_id, s.n_pings);
+  }
+  for (const Fragment& f : score.fragments) {
+    out += fmt::format("{:<14}{:<14}{:>6}  is a fragment\n", f.truth_id, f.found_id, f.n_pings);
+  }
+  for (const MergedTrack& m : score.merged) {
+    out += fmt::format("{:<14}{:<14}{:>6}  holds {}\n", "-", m.found_id, "", fmt::join(m.truth_ids, " and "));
   }
   const std::vector<SchoolScore> schools = counted(score);
   const Basics b = basics(schools);
-  out += fmt::format("\n{} of {} schools that count found ({} %), mean Dice {}, least purity {}, {} false\n", b.found,
-                     b.counted, cell(100.0 * b.found_fraction, 1), cell(b.mean_dice, 3), cell(b.min_purity, 2),
-                     score.false_schools.size());
+  out += fmt::format(
+      "\n{} of {} schools that count found ({} %), mean Dice {}, least purity {}, {} false, {} fragments, {} merged\n",
+      b.found, b.counted, cell(100.0 * b.found_fraction, 1), cell(b.mean_dice, 3), cell(b.min_purity, 2),
+      score.false_schools.size(), score.fragments.size(), score.merged.size());
   out += fmt::format("{:<36}{:>10}{:>10}{:>10}\n", "size of the error", "median", "90 %", "bias");
   for (const ErrorFigure& figure : kErrors) {
     out +=

@@ -147,6 +147,58 @@ TEST(Score, purity_and_false_schools) {
   EXPECT_TRUE(score(found, truth()).false_schools.empty());
 }
 
+/// A track of its own for a part of a school is a fragment; one that only grazes a school is false.
+TEST(Score, fragments_lower_the_purity) {
+  ObservationProduct p = example::empty("obs-0001", 10);
+  example::add_school(p, 1, 0, 7, large(10));
+  example::add_school(p, 2, 8, 9, large(10));
+  example::add_school(p, 3, 0, 9, large(40));
+  example::add_school(p, 4, 0, 4, example::block(2, 0, 4, 20, 10));
+  p.masks.push_back({4, 5, example::block(1, 0, 1, 20, 10)});  // two voxels of ten in school 1
+  ScoreSide found;
+  found.observations = {p};
+  const Score result = score(found, truth());
+  EXPECT_EQ(result.schools[0].found_id, "obs-0001/1");
+  EXPECT_EQ(result.schools[0].fragments, 1);
+  EXPECT_NEAR(result.schools[0].purity, 0.8, 1e-12);
+  EXPECT_EQ(result.schools[1].purity, 1.0);
+  ASSERT_EQ(result.fragments.size(), 1U);
+  EXPECT_EQ(result.fragments[0].found_id, "obs-0001/2");
+  EXPECT_EQ(result.fragments[0].truth_id, "obs-0001/1");
+  ASSERT_EQ(result.false_schools.size(), 1U);
+  EXPECT_EQ(result.false_schools[0].found_id, "obs-0001/4");
+  const json summary = summary_of(found, truth());
+  EXPECT_EQ(summary["fragments"], 1);
+  EXPECT_EQ(summary["merged"], 0);
+  EXPECT_EQ(summary["found_fraction"], 1.0);
+  EXPECT_NEAR(summary["min_purity"].get<double>(), 0.8, 1e-12);
+}
+
+/// Two schools in one track: found is the one that it is like in most pings.
+TEST(Score, one_track_for_two_schools_has_found_one) {
+  ObservationProduct p = example::empty("obs-0001", 10);
+  PingMask both = large(10);
+  const PingMask second = large(40);
+  both = unite(both, second);
+  PingMask mostly_second = unite(example::block(0, 0, 3, 10, 12), second);
+  example::add_school(p, 1, 0, 2, both);
+  for (int i = 3; i < 10; ++i) p.masks.push_back({1, i, mostly_second});
+  ScoreSide found;
+  found.observations = {p};
+  const Score result = score(found, truth());
+  EXPECT_EQ(result.schools[0].found_id, "obs-0001/1");
+  EXPECT_EQ(result.schools[1].found_id, "obs-0001/1");
+  EXPECT_TRUE(result.schools[0].merged);
+  EXPECT_FALSE(result.schools[1].merged);
+  ASSERT_EQ(result.merged.size(), 1U);
+  EXPECT_EQ(result.merged[0].truth_ids, (std::vector<std::string>{"obs-0001/1", "obs-0001/2"}));
+  EXPECT_TRUE(result.false_schools.empty());
+  const json summary = summary_of(found, truth());
+  EXPECT_EQ(summary["found"], 1);
+  EXPECT_EQ(summary["merged"], 1);
+  EXPECT_LT(summary["min_purity"].get<double>(), 0.5);
+}
+
 TEST(Score, grids_that_number_rows_differently_agree_by_channel) {
   ScoreSide found = truth();
   ObservationProduct& p = found.observations[0];
