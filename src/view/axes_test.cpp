@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/axes.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "view/colour_bar.h"
+
+namespace sonar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(Ticks, ByHand) {
+  EXPECT_THAT(nice_ticks(0.0, 500.0, 6).major, ElementsAre(0, 100, 200, 300, 400, 500));
+  EXPECT_THAT(nice_ticks(0.0, 500.0, 5).major, ElementsAre(0, 200, 400));
+  EXPECT_THAT(nice_ticks(500.0, 0.0, 5).major, ElementsAre(0, 200, 400));
+  const Ticks fine = nice_ticks(-0.25, 0.25, 5);
+  EXPECT_THAT(fine.major, ElementsAre(-0.2, -0.1, 0.0, 0.1, 0.2));
+  EXPECT_EQ(fine.decimals, 1);
+  EXPECT_THAT(fine.minor, ::testing::SizeIs(20));  // -0.24 .. 0.24 by 0.02 are 25, five of them major
+}
+
+TEST(Ticks, DegreesAndColourSteps) {
+  EXPECT_THAT(degree_ticks(240.0, 300.0, 7).major, ElementsAre(240, 250, 260, 270, 280, 290, 300));
+  EXPECT_THAT(degree_ticks(-45.0, 0.0, 4).major, ElementsAre(-45, -30, -15, 0));
+  EXPECT_THAT(step_ticks(-70.0, -34.0, -70.0, 3.0, 13).major, ::testing::SizeIs(13));
+  EXPECT_THAT(step_ticks(-70.0, -34.0, -70.0, 3.0, 7).major, ElementsAre(-70, -64, -58, -52, -46, -40, -34));
+}
+
+TEST(Ticks, Laws) {
+  for (int i = 0; i < 400; ++i) {
+    const double low = (i % 7 - 3) * std::pow(10.0, i % 9 - 4);
+    const double high = low + (1 + i % 11) * std::pow(10.0, (i / 9) % 9 - 4);
+    const int most = 2 + i % 9;
+    const Ticks t = nice_ticks(low, high, most);
+    ASSERT_LE(t.major.size(), static_cast<std::size_t>(most));
+    const double mantissa = t.step / std::pow(10.0, std::floor(std::log10(t.step) + 1e-9));
+    ASSERT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6);
+    for (const double v : t.major) {
+      ASSERT_GE(v, low - 1e-6 * t.step);
+      ASSERT_LE(v, high + 1e-6 * t.step);
+      // What the label says is where the tick is.
+      ASSERT_NEAR(std::stod(fmt::format("{:.{}f}", v, t.decimals)), v, 1e-6 * t.step);
+    }
+    for (const double m : t.minor) {
+      for (const double v : t.major) ASSERT_GT(std::abs(m - v), 0.1 * t.step);
+    }
+  }
+}
+
+TEST(Ticks, NothingWhereThereIsNoRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(nice_ticks(1.0, 1.0, 5).major, IsEmpty());
+  EXPECT_THAT(nice_ticks(nan, 1.0, 5).major, IsEmpty());
+  EXPECT_THAT(nice_ticks(0.0, infinite, 5).major, IsEmpty());
+  EXPECT_THAT(nice_ticks(1e300, 1e300 * (1 + 1e-15), 5).major, IsEmpty());
+  EXPECT_THAT(degree_ticks(0.0, 10.0, 0).major, IsEmpty());
+  EXPECT_THAT(step_ticks(0.0, 10.0, 0.0, 0.0, 5).major, IsEmpty());
+}
+
+TEST(Ticks, Text) {
+  EXPECT_EQ(tick_text(-60.0, 0), "\u221260");
+  EXPECT_EQ(tick_text(-0.04, 1), "0.0");
+  EXPECT_EQ(tick_text(1.25, 1), "1.2");
+}
+
+TEST(PlotFrame, PlacesAndValues) {
+  const PlotFrame plot{{100, 50, 400, 200}, {-10, 10, "x", false}, {5, -5, "y", false}};
+  EXPECT_EQ(plot.at(-10, 5), (PixelPoint{100, 50}));
+  EXPECT_EQ(plot.at(10, -5), (PixelPoint{500, 250}));
+  EXPECT_DOUBLE_EQ(plot.x_at(300), 0.0);
+  EXPECT_DOUBLE_EQ(plot.y_at(100), 2.5);
+}
+
+TEST(PlotFrame, IsotropicWidensOnlyTheAxisWithRoom) {
+  PlotFrame plot{{0, 0, 400, 100}, {0, 10, "", false}, {20, 0, "", false}};
+  make_isotropic(plot);  // y needs 0.2 a pixel; x gets 80 about 5
+  EXPECT_DOUBLE_EQ(plot.y.first, 20.0);
+  EXPECT_DOUBLE_EQ(plot.x.first, -35.0);
+  EXPECT_DOUBLE_EQ(plot.x.last, 45.0);
+}
+
+TEST(Layout, EverythingStaysInThePicture) {
+  for (const PixelSize size : {PixelSize{640, 480}, {800, 600}, {1280, 800}, {1920, 1080}, {3840, 2160}}) {
+    const Theme theme = light_theme(size);
+    const Layout layout = lay_out(size, theme);
+    EXPECT_GT(layout.plot.width, 0.6 * size.width);
+    EXPECT_GT(layout.plot.height, 0.7 * size.height);
+    EXPECT_GT(layout.plot.y, layout.title.y + layout.title.height - 1);
+    EXPECT_LT(layout.colour_bar.x + layout.colour_bar.width + 5.2 * theme.text_px, size.width);
+    EXPECT_GE(theme.text_px, 10.0);
+    // Whole pixels, so that data is not resampled.
+    EXPECT_EQ(layout.plot.x, std::round(layout.plot.x));
+    EXPECT_EQ(layout.plot.height, std::round(layout.plot.height));
+  }
+}
+
+std::vector<std::string> texts(const FrameDescription& frame) {
+  std::vector<std::string> out;
+  for (const auto& item : frame.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) out.push_back(text->text);
+  }
+  return out;
+}
+
+TEST(ColourBar, NamesBothLimitsTheUnitAndTheThreshold) {
+  SvScale scale;
+  scale.threshold_db = -51.5;
+  FrameDescription frame;
+  frame.size = {200, 600};
+  add_colour_bar(frame, {20, 20, 20, 500}, sv_colours(scale), light_theme({800, 600}));
+  EXPECT_THAT(texts(frame), ::testing::IsSupersetOf({"\u221260", "\u221224", "Sv (dB re 1 m\u207B\u00B9)", "threshold",
+                                                     "\u221251.5 dB", "\u221257", "\u221227"}));
+}
+
+TEST(ColourBar, DepthReadsDownwards) {
+  FrameDescription frame;
+  const ColourMap& deep = colour_map(ColourMapName::deep);
+  add_colour_bar(frame, {0, 0, 10, 100}, deep, 0.0, 400.0, light_theme({800, 600}), "depth (m)", true);
+  const auto* blocks = std::get_if<ImageItem>(&frame.items.at(1));
+  ASSERT_NE(blocks, nullptr);
+  EXPECT_GT(lightness(blocks->image->pixels.front()), lightness(blocks->image->pixels.back()));
+  for (const auto& item : frame.items) {
+    const auto* text = std::get_if<TextItem>(&item);
+    if (text != nullptr && text->text == "0") {
+      EXPECT_LT(text->at.y, 50.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonar

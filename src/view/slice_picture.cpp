@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/slice_picture.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "view/colour_bar.h"
+#include "view/shapes.h"
+#include "view/slice_context.h"
+
+namespace sonar {
+namespace {
+
+/// "2026-11-21 19:57:26.123 UTC"
+std::string time_text(TimeNs time) {
+  std::string text = iso_time(time);
+  const auto t = text.find('T');
+  if (t != std::string::npos) text[t] = ' ';
+  if (!text.empty() && text.back() == 'Z') text.replace(text.size() - 1, 1, " UTC");
+  return text;
+}
+
+/// Axes in the slice's own coordinates, x right and y down, grown to fill the plot with square metres or degrees.
+PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
+  PlotFrame plot{place, {extent.x0, extent.x1, "", false}, {extent.y0, extent.y1, "", false}};
+  make_isotropic(plot);
+  return plot;
+}
+
+void label_from_above(PlotFrame& plot, bool north_up, double up_rad) {
+  const char* upwards = north_up ? "north (m)" : up_rad == 0.0 ? "ahead (m)" : "up (m)";
+  plot.y = {-plot.y.first, -plot.y.last, upwards, false};
+  plot.x.label = north_up ? "east (m)" : up_rad == 0.0 ? "starboard (m)" : "right (m)";
+}
+
+/// Slice coordinates to what people read: depths below the water line, north upwards, elevations upwards.
+void label_axes(PlotFrame& plot, const SliceView& view, const SlicePing& ping, bool north_up) {
+  const auto depths = [&](double origin_z) {
+    plot.y.first += origin_z + ping.transducer_depth_m;
+    plot.y.last += origin_z + ping.transducer_depth_m;
+    plot.y.label = "depth (m)";
+  };
+  if (std::holds_alternative<TopSlice>(view.slice)) return label_from_above(plot, north_up, view.up_rad);
+  if (std::holds_alternative<SideSlice>(view.slice)) {
+    depths(0.0);
+    plot.x.label = "horizontal distance (m)";
+    return;
+  }
+  if (std::holds_alternative<RangeSlice>(view.slice)) {
+    plot.x.degrees = plot.y.degrees = true;
+    plot.x.label = "azimuth from the bow";
+    plot.y = {-plot.y.first, -plot.y.last, "elevation", true};
+    return;
+  }
+  const auto& plane = std::get<PlaneSlice>(view.slice);
+  if (plane.kind == PlaneSlice::Kind::horizontal) return label_from_above(plot, north_up, view.up_rad);
+  plot.x.label = "along (m)";
+  plot.y.label = "down the plane (m)";
+  if (plane.kind == PlaneSlice::Kind::vertical) depths(plane.origin.z);
+}
+
+std::shared_ptr<const SliceMap> map_for(const Sector& sector, const SliceView& view, const SliceExtent& extent,
+                                        PixelSize size, std::shared_ptr<const SliceMap> earlier) {
+  if (earlier != nullptr && earlier->fits(sector, view, size)) return earlier;
+  return std::make_shared<const SliceMap>(sector, view, extent, size);
+}
+
+void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, const SliceStyle& style,
+               const Theme& theme) {
+  add_axes(out.frame, out.plot, theme, {style.grid, true});
+  std::string first = ping.observation;
+  if (ping.ping_index >= 0) first += fmt::format("{}ping {}", first.empty() ? "" : "   ", ping.ping_index);
+  add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping)},
+            ping.time != 0 ? time_text(ping.time) : "");
+  add_colour_bar(out.frame, layout.colour_bar, style.colours, theme);
+}
+
+}  // namespace
+
+std::optional<Voxel> SlicePicture::voxel_at(PixelPoint pixel) const {
+  return map->voxel_at({pixel.x - plot.place.x, pixel.y - plot.place.y});
+}
+
+std::optional<PixelPoint> SlicePicture::place_of(const Voxel& voxel) const {
+  const auto p = map->place_of(voxel);
+  if (!p) return std::nullopt;
+  return PixelPoint{p->x + plot.place.x, p->y + plot.place.y};
+}
+
+Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, const SlicePing& ping,
+                                   const SliceView& view, const SliceStyle& style, const Theme& theme, PixelSize size,
+                                   std::shared_ptr<const SliceMap> earlier) {
+  if (size.width < 160 || size.height < 120) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("a slice of {} x {} pixels; expected 160 x 120 or more", size.width, size.height));
+  }
+  if (sector.fans() == 0 || sector.beams() == 0 || sector.range().count == 0) {
+    return fail(ErrorCode::bad_parameter, "the ping has no data to slice");
+  }
+  if (auto ok = check_slice(sector, view); !ok) return pass_on(ok);
+  const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
+  if (!extent) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
+
+  Layout layout;
+  layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
+  if (style.decorations) layout = lay_out(size, theme);
+  SlicePicture out;
+  out.plot = slice_axes(layout.plot, *extent);
+  const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
+  const PixelSize pixels{static_cast<int>(layout.plot.width), static_cast<int>(layout.plot.height)};
+  out.map = map_for(sector, view, shown, pixels, std::move(earlier));
+  label_axes(out.plot, view, ping, style.north_up);
+  auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);
+  if (!image) return pass_on(image);
+
+  out.frame.size = size;
+  out.frame.background = theme.background;
+  out.frame.title = slice_text(sector, view, ping);
+  out.frame.items.emplace_back(rectangle_item(layout.plot, theme.plot));
+  out.frame.items.emplace_back(ImageItem{layout.plot, std::make_shared<const Image>(std::move(*image)), false});
+  out.frame.items.emplace_back(ClipItem{layout.plot});
+  add_slice_context(out.frame, *out.map, {layout.plot.x, layout.plot.y}, ping, style, theme);
+  out.frame.items.emplace_back(ClipItem{});
+  if (style.decorations) add_words(out, layout, ping, style, theme);
+  return out;
+}
+
+}  // namespace sonar

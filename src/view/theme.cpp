@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/theme.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace sonar {
+namespace {
+
+/// Text grows slower than the picture: 10.5 px at 640 x 480, 17 at 1920 x 1080, 26 at 3840 x 2160.
+void size_for(Theme& theme, PixelSize size) {
+  const double growth = std::min(size.width / 640.0, size.height / 480.0);
+  const double factor = std::pow(std::max(growth, 0.6), 0.6);
+  theme.text_px = std::round(2.0 * 10.5 * factor) / 2.0;
+  theme.title_px = std::round(2.0 * 12.5 * factor) / 2.0;
+  theme.line_px = std::max(1.0, std::round(factor));
+}
+
+/// Advance of one character in em, DejaVu Sans, rounded up by class.
+double advance(unsigned char c) {
+  if (c >= '0' && c <= '9') return 0.636;
+  if (c == ' ' || c == '.' || c == ',' || c == ':' || c == 'i' || c == 'l' || c == 'j' || c == '-') return 0.36;
+  if (c == 'm' || c == 'w' || c == 'M' || c == 'W' || c == '@') return 0.98;
+  if (c >= 'A' && c <= 'Z') return 0.70;
+  return 0.62;
+}
+
+}  // namespace
+
+Theme light_theme(PixelSize size) {
+  Theme t;
+  t.background = {255, 255, 255, 255};
+  t.plot = {238, 241, 244, 255};
+  t.water = {255, 255, 255, 255};
+  t.no_data = {214, 219, 224, 255};
+  t.text = {28, 33, 40, 255};
+  t.muted = {92, 101, 112, 255};
+  t.axis = {70, 78, 88, 255};
+  t.grid = {60, 70, 80, 46};
+  t.ring = {60, 72, 86, 110};
+  t.outline = {60, 72, 86, 190};
+  t.ship = {40, 52, 70, 255};
+  t.hatch = {60, 60, 60, 170};
+  t.halo = {255, 255, 255, 205};
+  t.land = {222, 214, 196, 255};
+  t.track = {45, 70, 110, 255};
+  t.accent = {213, 94, 0, 255};
+  size_for(t, size);
+  return t;
+}
+
+Theme dark_theme(PixelSize size) {
+  Theme t;
+  t.background = {22, 26, 32, 255};
+  t.plot = {32, 38, 46, 255};
+  t.water = {8, 12, 20, 255};
+  t.no_data = {58, 64, 72, 255};
+  t.text = {226, 231, 237, 255};
+  t.muted = {152, 162, 174, 255};
+  t.axis = {140, 150, 162, 255};
+  t.grid = {200, 210, 220, 40};
+  t.ring = {190, 202, 216, 105};
+  t.outline = {190, 202, 216, 190};
+  t.ship = {222, 229, 238, 255};
+  t.hatch = {205, 205, 205, 170};
+  t.halo = {12, 16, 22, 205};
+  t.land = {74, 70, 58, 255};
+  t.track = {140, 175, 225, 255};
+  t.accent = {255, 153, 51, 255};
+  size_for(t, size);
+  return t;
+}
+
+Rgba8 school_colour(int number) {
+  static constexpr std::array<Rgba8, 7> kColours = {{{230, 159, 0, 255},
+                                                     {86, 180, 233, 255},
+                                                     {0, 158, 115, 255},
+                                                     {204, 121, 167, 255},
+                                                     {213, 94, 0, 255},
+                                                     {0, 114, 178, 255},
+                                                     {240, 228, 66, 255}}};
+  const int n = static_cast<int>(kColours.size());
+  return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
+}
+
+double text_width_px(const char* utf8, double size_px) {
+  double width = 0.0;
+  for (; utf8 != nullptr && *utf8 != '\0'; ++utf8) {
+    const auto c = static_cast<unsigned char>(*utf8);
+    if ((c & 0xC0U) != 0x80U) width += advance(c);
+  }
+  return width * size_px;
+}
+
+}  // namespace sonar

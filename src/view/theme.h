@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "view/frame_description.h"
+#include "view/image.h"
+
+namespace sonar {
+
+/// Colours and sizes that all 2-D pictures share.
+struct Theme {
+  Rgba8 background;  ///< of the picture
+  Rgba8 plot;        ///< inside the axes, where there is no data
+  Rgba8 water;       ///< inside the sector, where a sample is too weak to be shown
+  Rgba8 no_data;     ///< inside the sector, where a sample was not recorded or is hidden
+  Rgba8 text;
+  Rgba8 muted;    ///< secondary text
+  Rgba8 axis;     ///< frame and ticks
+  Rgba8 grid;     ///< translucent
+  Rgba8 ring;     ///< range rings, bearings
+  Rgba8 outline;  ///< the sector's outline
+  Rgba8 ship;     ///< fill of the ship's symbol
+  Rgba8 hatch;    ///< over flagged samples
+  Rgba8 halo;     ///< behind text over data
+  Rgba8 land;     ///< of maps
+  Rgba8 track;    ///< the ship's path
+  Rgba8 accent;   ///< what is current
+  double text_px = 12.0;
+  double title_px = 14.0;
+  double line_px = 1.0;
+  friend bool operator==(const Theme&, const Theme&) = default;
+};
+
+/// Text and lines sized for a picture: readable at 640 x 480, not tiny at 3840 x 2160.
+[[nodiscard]] Theme light_theme(PixelSize size);
+[[nodiscard]] Theme dark_theme(PixelSize size);
+
+/// Colours of schools, one after another, told apart on both themes and by colour-blind eyes (Okabe and Ito 2008).
+[[nodiscard]] Rgba8 school_colour(int number);
+
+/// Text as wide as this at most, for layout without a font: DejaVu Sans, characters counted, not bytes.
+[[nodiscard]] double text_width_px(const char* utf8, double size_px);
+
+[[nodiscard]] inline Rgba8 with_alpha(Rgba8 c, int alpha) {
+  c.a = static_cast<std::uint8_t>(alpha);
+  return c;
+}
+
+}  // namespace sonar
