@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/draw_frame.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "render/cairo_values.h"
+#include "render/frame_drawing.h"
+#include "render/picture_file.h"
+#include "render/svg_names.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kMostPixels = 16384;  ///< a side
+constexpr double kPointsPerPixel = 0.75;
+
+Result<PixelSize> scaled_size(const FrameDescription& frame, double scale) {
+  const double width = std::round(frame.size.width * scale);
+  const double height = std::round(frame.size.height * scale);
+  if (!std::isfinite(scale) || !(width >= 1.0) || !(height >= 1.0) || width > kMostPixels || height > kMostPixels) {
+    return fail(ErrorCode::bad_parameter, fmt::format("a picture of {} x {} pixels times {}; expected 1 to {} a side",
+                                                      frame.size.width, frame.size.height, scale, kMostPixels));
+  }
+  return PixelSize{static_cast<int>(width), static_cast<int>(height)};
+}
+
+Result<void> sound(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return {};
+  return fail(status == CAIRO_STATUS_NO_MEMORY ? ErrorCode::no_space : ErrorCode::io,
+              fmt::format("the picture could not be drawn: {}", cairo_status_to_string(status)));
+}
+
+/// Appends to a std::string.
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+Result<std::string> drawn(CairoSurface surface, const FrameDescription& frame, double units_per_pixel,
+                          std::string& bytes) {
+  {
+    const CairoContext context(cairo_create(surface.get()));
+    cairo_scale(context.get(), units_per_pixel, units_per_pixel);
+    draw_items(context.get(), frame, {units_per_pixel, true});
+    cairo_show_page(context.get());
+    if (auto ok = sound(cairo_status(context.get())); !ok) return pass_on(ok);
+  }
+  cairo_surface_finish(surface.get());
+  if (auto ok = sound(cairo_surface_status(surface.get())); !ok) return pass_on(ok);
+  return std::move(bytes);
+}
+
+bool any_smooth(const FrameDescription& frame) {
+  return std::any_of(frame.items.begin(), frame.items.end(), [](const auto& item) {
+    const auto* image = std::get_if<ImageItem>(&item);
+    return image != nullptr && image->smooth;
+  });
+}
+
+Result<std::string> svg_of(const FrameDescription& frame, PixelSize size, double scale) {
+  std::string bytes;
+  CairoSurface surface(cairo_svg_surface_create_for_stream(append, &bytes, size.width, size.height));
+  cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
+  auto svg = drawn(std::move(surface), frame, scale, bytes);
+  if (!svg) return svg;
+  const std::string named = titled_svg(renumbered_svg(*svg), frame.title);
+  return any_smooth(frame) ? named : pixelated_svg(named);
+}
+
+Result<std::string> pdf_of(const FrameDescription& frame, PixelSize size, double scale) {
+  std::string bytes;
+  CairoSurface surface(
+      cairo_pdf_surface_create_for_stream(append, &bytes, size.width * kPointsPerPixel, size.height * kPointsPerPixel));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, frame.title.c_str());
+  auto pdf = drawn(std::move(surface), frame, scale * kPointsPerPixel, bytes);
+  if (!pdf) return pdf;
+  return undated_pdf(std::move(*pdf));
+}
+
+}  // namespace
+
+Result<Image> draw_frame(const FrameDescription& frame, double scale) {
+  const auto size = scaled_size(frame, scale);
+  if (!size) return pass_on(size);
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, size->width, size->height));
+  if (auto ok = sound(cairo_surface_status(surface.get())); !ok) return pass_on(ok);
+  const CairoContext context(cairo_create(surface.get()));
+  cairo_scale(context.get(), scale, scale);
+  draw_items(context.get(), frame, {scale, false});
+  if (auto ok = sound(cairo_status(context.get())); !ok) return pass_on(ok);
+  return image_of(surface.get());
+}
+
+Result<void> write_frame(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
+  const std::string ending = file.extension().string();
+  if (ending != ".png" && ending != ".svg" && ending != ".pdf") {
+    return fail(ErrorCode::usage, fmt::format("'{}' is no kind of picture; expected .png, .svg or .pdf", ending),
+                {file.string()});
+  }
+  const auto size = scaled_size(frame, scale);
+  if (!size) return pass_on(size);
+  if (ending == ".png") {
+    const auto image = draw_frame(frame, scale);
+    if (!image) return pass_on(image);
+    return write_png(*image, file);
+  }
+  const auto bytes = ending == ".svg" ? svg_of(frame, *size, scale) : pdf_of(frame, *size, scale);
+  if (!bytes) return pass_on(bytes);
+  return write_picture_file(*bytes, file);
+}
+
+}  // namespace sonar

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/svg_names.h"
+
+#include <cctype>
+#include <cstddef>
+#include <map>
+#include <string_view>
+
+namespace sonar {
+namespace {
+
+bool name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_'; }
+
+/// The name that starts at `i`.
+std::string_view name_at(const std::string& text, std::size_t i) {
+  std::size_t end = i;
+  while (end < text.size() && name_character(text[end])) ++end;
+  return std::string_view(text).substr(i, end - i);
+}
+
+std::map<std::string, std::string, std::less<>> new_names(const std::string& svg) {
+  constexpr std::string_view kId = " id=\"";
+  std::map<std::string, std::string, std::less<>> names;
+  for (std::size_t i = svg.find(kId); i != std::string::npos; i = svg.find(kId, i + 1)) {
+    const std::string_view old = name_at(svg, i + kId.size());
+    if (!old.empty()) names.try_emplace(std::string(old), "n" + std::to_string(names.size() + 1));
+  }
+  return names;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (static_cast<unsigned char>(c) >= 0x20U) {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string renumbered_svg(const std::string& svg) {
+  const auto names = new_names(svg);
+  std::string out;
+  out.reserve(svg.size());
+  constexpr std::string_view kId = " id=\"";
+  for (std::size_t i = 0; i < svg.size();) {
+    const bool is_id = svg.compare(i, kId.size(), kId) == 0;
+    const bool is_reference = svg[i] == '#' && i > 0 && (svg[i - 1] == '(' || svg[i - 1] == '"');
+    if (!is_id && !is_reference) {
+      out += svg[i++];
+      continue;
+    }
+    const std::size_t skipped = is_id ? kId.size() : 1;
+    const std::string_view old = name_at(svg, i + skipped);
+    out.append(svg, i, skipped);
+    const auto found = names.find(old);
+    out += found != names.end() ? found->second : std::string(old);
+    i += skipped + old.size();
+  }
+  return out;
+}
+
+std::string titled_svg(const std::string& svg, const std::string& title) {
+  const std::size_t root = svg.find("<svg");
+  const std::size_t end = root == std::string::npos ? root : svg.find('>', root);
+  if (title.empty() || end == std::string::npos) return svg;
+  return svg.substr(0, end + 1) + "\n<title>" + escaped(title) + "</title>" + svg.substr(end + 1);
+}
+
+std::string pixelated_svg(const std::string& svg) {
+  constexpr std::string_view kImage = "<image ";
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t i = svg.find(kImage); i != std::string::npos; i = svg.find(kImage, from)) {
+    out.append(svg, from, i + kImage.size() - from);
+    out += "style=\"image-rendering:pixelated\" ";
+    from = i + kImage.size();
+  }
+  return out.append(svg, from, std::string::npos);
+}
+
+std::string undated_pdf(std::string pdf) {
+  constexpr std::string_view kDate = "/CreationDate (D:";
+  const std::size_t at = pdf.rfind(kDate);
+  if (at == std::string::npos) return pdf;
+  constexpr std::string_view kFixed = "19700101000000";
+  for (std::size_t i = 0; i < kFixed.size() && at + kDate.size() + i < pdf.size(); ++i) {
+    char& c = pdf[at + kDate.size() + i];
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) break;
+    c = kFixed[i];
+  }
+  return pdf;
+}
+
+}  // namespace sonar
