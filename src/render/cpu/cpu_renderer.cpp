@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/units.h"
+#include "render/cpu/trace.h"
+#include "render/grid_axes.h"
+#include "render/homogeneous_cells.h"
+#include "render/mask_grid.h"
+#include "render/ray_rules.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kTile = 32;
+
+float f(double value) { return static_cast<float>(value); }
+
+/// An AngleTable packed for one gather.
+struct Packed {
+  std::vector<std::uint32_t> words;
+  PackedAngle angle;
+};
+
+Packed packed(const AngleTable& table) {
+  constexpr double kValues = 1048575.0;
+  constexpr double kSlopes = 4095.0;
+  double most = 1e-12;
+  for (std::size_t k = 0; k + 1 < table.value.size(); ++k) {
+    most = std::max(most, static_cast<double>(table.value[k + 1]) - static_cast<double>(table.value[k]));
+  }
+  const double last = std::max(1e-12, static_cast<double>(table.value.back()));
+  Packed out;
+  for (std::size_t k = 0; k < table.value.size(); ++k) {
+    const double value = static_cast<double>(table.value[k]);
+    const double step = k + 1 < table.value.size() ? static_cast<double>(table.value[k + 1]) - value : 0.0;
+    out.words.push_back(static_cast<std::uint32_t>(std::lround(value / last * kValues)) << 12U |
+                        static_cast<std::uint32_t>(std::lround(std::clamp(step / most, 0.0, 1.0) * kSlopes)));
+  }
+  out.angle = {nullptr, f(table.first), f(table.per_unit), f(last / kValues), f(most / kSlopes)};
+  return out;
+}
+
+bool same_beams(const Sector& a, const Sector& b) {
+  if (a.fans() != b.fans() || a.beams() != b.beams()) return false;
+  for (int i = 0; i < a.fans(); ++i) {
+    if (a.elevation_rad(i) != b.elevation_rad(i)) return false;
+  }
+  for (int i = 0; i < a.beams(); ++i) {
+    if (a.azimuth_rad(i) != b.azimuth_rad(i)) return false;
+  }
+  return true;
+}
+
+/// What of the cells depends on the view.
+struct CellKey {
+  RayMode mode = RayMode::accumulate;
+  double first_hit_db = 0.0;
+  bool data = true;
+  double thin_limit = 0.0;
+  friend bool operator==(const CellKey&, const CellKey&) = default;
+};
+
+class CpuRenderer final : public VolumeRenderer {
+ public:
+  [[nodiscard]] std::string name() const override { return std::string("cpu (") + trace_target() + ")"; }
+  Result<void> set_volume(std::shared_ptr<const VolumeData> volume) override;
+  Result<void> set_transfer(const OpticalTable& table) override;
+  Result<void> set_masks(std::span<const MaskLayer> masks) override;
+  Result<RayImage> draw(const VolumeView& view, const DrawQuality& quality, Work& work) override;
+
+ private:
+  void classify(const CellKey& key, Work& work);
+  [[nodiscard]] TraceGrid grid() const;
+  [[nodiscard]] TraceView traced(const VolumeView& view, const DrawQuality& quality) const;
+
+  std::shared_ptr<const VolumeData> volume_;
+  FilledVolume filled_;
+  std::vector<std::uint8_t> known_;  ///< filled_.known and two bytes that the last gather may touch
+  GridAxes axes_;
+  Packed beam_of_;
+  Packed fan_of_;
+  Macrocells cells_;
+  std::optional<TransferTable> table_;
+  MaskGrid masks_;
+  std::optional<CellKey> key_;  ///< what words_ and means_ were made for
+  std::vector<std::int32_t> words_;
+  std::vector<std::array<float, 4>> means_;
+};
+
+Result<void> CpuRenderer::set_volume(std::shared_ptr<const VolumeData> volume) {
+  if (volume == nullptr) {
+    return fail(ErrorCode::bad_parameter, "no volume to draw");
+  }
+  if (auto ok = check_volume(*volume); !ok) {
+    return ok;
+  }
+  const bool same_grid = volume_ != nullptr && volume_->sector.range() == volume->sector.range() &&
+                         same_beams(volume_->sector, volume->sector);
+  volume_ = std::move(volume);
+  filled_ = filled_volume(volume_->sv);
+  const auto known = filled_.known.all();
+  known_.assign(known.begin(), known.end());
+  if (!known_.empty()) known_.insert(known_.end(), 2, 0);
+  if (!same_grid) {
+    axes_ = grid_axes(volume_->sector);
+    beam_of_ = packed(axes_.beam_of);
+    fan_of_ = packed(axes_.fan_of);
+  }
+  cells_ = macrocells(filled_);
+  masks_ = {};
+  key_.reset();
+  return {};
+}
+
+Result<void> CpuRenderer::set_transfer(const OpticalTable& table) {
+  if (auto ok = check_transfer(table); !ok) {
+    return ok;
+  }
+  table_ = transfer_table(table);
+  key_.reset();
+  return {};
+}
+
+Result<void> CpuRenderer::set_masks(std::span<const MaskLayer> masks) {
+  if (volume_ == nullptr) {
+    return fail(ErrorCode::bad_parameter, "masks without a volume");
+  }
+  auto grid = mask_grid(masks, cells_, filled_.sv.shape());
+  if (!grid) {
+    return pass_on(grid);
+  }
+  masks_ = std::move(*grid);
+  key_.reset();
+  return {};
+}
+
+void CpuRenderer::classify(const CellKey& key, Work& work) {
+  if (key_ == key) {
+    return;
+  }
+  std::vector<std::uint8_t> set(cells_.size(), 0);
+  if (key.data && key.mode == RayMode::accumulate) set = visible_cells(cells_, *table_);
+  if (key.data && key.mode == RayMode::first_hit) set = cells_reaching(cells_, key.first_hit_db);
+  if (key.data && key.mode == RayMode::maximum) set = cells_reaching(cells_, table_->lowest_visible_db);
+  auto thin = thin_cells(cells_, *table_, set, axes_.spacing_m, key.thin_limit);
+  for (std::size_t i = 0; i < masks_.cells.size(); ++i) {
+    if (masks_.cells[i] != 0) {
+      set[i] = 1;
+      thin[i] = 0;
+    }
+  }
+  means_.clear();
+  if (std::find(thin.begin(), thin.end(), 1) != thin.end()) means_ = cell_means(filled_, cells_, *table_, thin, work);
+  const auto distance = empty_distance(cells_, set);
+  words_.resize(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    words_[i] = distance[i] | (thin[i] != 0 ? kCellThin : 0) | cells_.largest[i] * 65536;
+    if (!cells_.gaps.empty() && cells_.gaps[i] != 0) words_[i] |= kCellGaps;
+    if (!masks_.empty() && masks_.cells[i] != 0) words_[i] |= kCellMask;
+  }
+  key_ = key;
+}
+
+TraceGrid CpuRenderer::grid() const {
+  TraceGrid g{};
+  g.fans = axes_.fans;
+  g.beams = axes_.beams;
+  g.samples = axes_.samples;
+  g.cell_beams = cells_.beams;
+  g.cell_ranges = cells_.ranges;
+  g.first_m = f(axes_.first_m);
+  g.spacing_m = f(axes_.spacing_m);
+  g.per_spacing = f(1.0 / axes_.spacing_m);
+  g.nearest_m = f(axes_.nearest_m);
+  g.farthest_m = f(axes_.farthest_m);
+  g.surface_z_m = f(volume_->surface_z_m);
+  g.sin_side = f(std::sin(axes_.half_width_rad));
+  g.cos_side = f(std::cos(axes_.half_width_rad));
+  g.sin_e0 = f(std::sin(axes_.first_elevation_rad));
+  g.cos_e0 = f(std::cos(axes_.first_elevation_rad));
+  g.sin_e1 = f(std::sin(axes_.last_elevation_rad));
+  g.cos_e1 = f(std::cos(axes_.last_elevation_rad));
+  g.wide = axes_.half_width_rad > 1.57;
+  g.beam_of = beam_of_.angle;
+  g.beam_of.words = beam_of_.words.data();
+  g.fan_of = fan_of_.angle;
+  g.fan_of.words = fan_of_.words.data();
+  g.sin_azimuth = axes_.sin_azimuth.data();
+  g.cos_azimuth = axes_.cos_azimuth.data();
+  g.sin2_elevation = axes_.sin2_elevation.data();
+  g.beams_per_rad = axes_.beams_per_rad.data();
+  g.fans_per_rad = axes_.fans_per_rad.data();
+  g.least_beam_rad = f(axes_.least_beam_rad);
+  g.least_fan_rad = f(axes_.least_fan_rad);
+  g.sv = filled_.sv.all().data();
+  g.known = known_.empty() ? nullptr : known_.data();
+  g.masks = masks_.empty() ? nullptr : masks_.voxels.all().data();
+  return g;
+}
+
+TraceView CpuRenderer::traced(const VolumeView& view, const DrawQuality& quality) const {
+  const CameraBasis camera = basis(view.camera, view.size);
+  const double c = std::cos(axes_.middle_rad);
+  const double s = std::sin(axes_.middle_rad);
+  const auto in_fan = [&](const Point<Sonar>& p) {
+    return std::array<float, 3>{f(p.x * c + p.y * s), f(-p.x * s + p.y * c), f(p.z)};
+  };
+  TraceView v{};
+  v.eye = in_fan(camera.eye);
+  v.right = in_fan(camera.right);
+  v.up = in_fan(camera.up);
+  v.forward = in_fan(camera.forward);
+  v.light = in_fan(light_direction(camera));
+  v.pixel_scale = f(camera.tan_half_fov / (0.5 * view.size.height));
+  v.full = view.size;
+  v.size = divided(view.size, quality.divisor);
+  v.divisor = quality.divisor;
+  v.step_m = f(quality.step_samples * axes_.spacing_m);
+  v.jitter_frame = quality.jitter_frame;
+  v.mode = view.mode;
+  v.data = view.masks.data_too;
+  v.masked = !masks_.empty();
+  v.plain = v.mode == RayMode::accumulate && v.data && !v.masked && !view.lighting.on && filled_.complete();
+  v.first_hit_count = f(counts_from_db(view.first_hit_db));
+  v.lighting = view.lighting;
+  v.fuzzy_at = std::max(0.5F, view.masks.fuzzy_above * 255.0F);
+  v.core_at = view.masks.core_at * 255.0F;
+  v.fuzzy_opacity = std::clamp(view.masks.fuzzy_opacity, 0.0F, 1.0F);
+  v.core_extinction = std::max(0.0F, view.masks.core_extinction_per_m);
+  v.mask_rgb = masks_.rgb.data();
+  v.masks = static_cast<int>(masks_.rgb.size());
+  v.opaque_m = view.opaque_m != nullptr ? view.opaque_m->data() : nullptr;
+  return v;
+}
+
+Result<RayImage> CpuRenderer::draw(const VolumeView& view, const DrawQuality& quality, Work& work) {
+  if (volume_ == nullptr || !table_) {
+    return fail(ErrorCode::bad_parameter, volume_ == nullptr ? "no volume to draw yet" : "no transfer table yet");
+  }
+  if (auto ok = check_view(view, quality); !ok) {
+    return pass_on(ok);
+  }
+  // A mean knows no gradient: under light every cell is walked.
+  const bool thin = view.mode == RayMode::accumulate && !view.lighting.on;
+  classify({view.mode, view.mode == RayMode::first_hit ? view.first_hit_db : 0.0, view.masks.data_too,
+            thin ? quality.homogeneous_limit : 0.0},
+           work);
+  const TraceJob job{grid(),
+                     {table_->per_count, table_->first, f(table_->size() - 1), table_->extinction.data(),
+                      reinterpret_cast<const std::int32_t*>(table_->rgb10.data())},
+                     traced(view, quality),
+                     words_.data(),
+                     means_.empty() ? nullptr : means_.data()};
+  const PixelSize size = job.view.size;
+  RayImage out{size, std::vector<std::array<float, 4>>(size.count()), {}};
+  const int across = (size.width + kTile - 1) / kTile;
+  const int down = (size.height + kTile - 1) / kTile;
+  std::vector<RayCounts> counts(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  work.for_each(static_cast<std::int64_t>(counts.size()), [&](std::int64_t i) {
+    if (work.cancelled()) return;
+    const int x = static_cast<int>(i) % across * kTile;
+    const int y = static_cast<int>(i) / across * kTile;
+    trace_tile(job, x, y, std::min(x + kTile, size.width), std::min(y + kTile, size.height), out.rgba.data(),
+               counts[static_cast<std::size_t>(i)]);
+  });
+  if (work.cancelled()) {
+    return fail(ErrorCode::cancelled, "drawing was cancelled");
+  }
+  for (const RayCounts& c : counts) {
+    out.counts.rays += c.rays;
+    out.counts.samples += c.samples;
+    out.counts.segments += c.segments;
+    out.counts.leaps += c.leaps;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<VolumeRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }
+
+}  // namespace sonar

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// A packet of rays on its way through the volume; included once per target.
+#if defined(SONAR_RENDER_CPU_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SONAR_RENDER_CPU_PACKET_INL_H_
+#undef SONAR_RENDER_CPU_PACKET_INL_H_
+#else
+#define SONAR_RENDER_CPU_PACKET_INL_H_
+#endif
+
+#include <bit>
+
+#include "base/units.h"
+#include "render/cpu/field-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sonar::HWY_NAMESPACE {
+
+/// State of the rays. kPlain leaves out what only some pictures need: other modes, light, gaps, masks.
+template <bool kPlain>
+class Packet {
+ public:
+  Packet(const TraceJob& job, const Rays& ray, V phase, V from, V last)
+      : grid_(job.grid),
+        optics_(job.optics),
+        view_(job.view),
+        job_(job),
+        ray_(ray),
+        phase_(phase),
+        from_(from),
+        to_(from),
+        last_(last),
+        step_(set(job.view.step_m)),
+        per_step_(set(1.0F / job.view.step_m)) {
+    rgb_ = {zero(), zero(), zero()};
+    left_ = set(1.0F);
+    if constexpr (!kPlain) {
+      largest_ = set(-40000.0F);
+      before_ = set(-1.0F);
+      before_u_ = zero();
+      for (int i = 0; i <= job.view.masks; ++i) met_[i] = 0;
+    }
+  }
+
+  void run(RayCounts& counts) {
+    for (;;) {
+      const M alive = hn::And(hn::Lt(hn::Add(from_, set(1e-4F)), last_), hn::Gt(left_, set(0.01F)));
+      if (!any(alive)) return;
+      const M ended = hn::And(alive, hn::Ge(hn::Add(from_, set(1e-4F)), to_));
+      if (any(ended)) {
+        next_piece(grid_, ray_, ended, last_, from_, to_);
+        met_sector_ = hn::Or(met_sector_, hn::And(ended, hn::Lt(from_, last_)));
+        if constexpr (!kPlain) before_ = hn::IfThenElse(ended, set(-1.0F), before_);
+        continue;
+      }
+      advance(alive, counts);
+    }
+  }
+
+  /// Rays that met the sector.
+  M met_sector() const { return met_sector_; }
+
+  void store(std::array<float, 4>* const* out, std::uint32_t lanes) {
+    if constexpr (!kPlain) {
+      if (view_.mode == RayMode::maximum) show_largest();
+    }
+    // Rays that ended early are opaque: what they had not yet seen is taken to look like what they had.
+    const M opaque = hn::Le(left_, set(0.01F));
+    const V scale = hn::IfThenElse(opaque, hn::Div(set(1.0F), hn::Sub(set(1.0F), left_)), set(1.0F));
+    HWY_ALIGN float value[4][hn::MaxLanes(D())];
+    hn::Store(hn::Mul(rgb_.r, scale), D(), value[0]);
+    hn::Store(hn::Mul(rgb_.g, scale), D(), value[1]);
+    hn::Store(hn::Mul(rgb_.b, scale), D(), value[2]);
+    hn::Store(hn::IfThenElse(opaque, set(1.0F), hn::Sub(set(1.0F), left_)), D(), value[3]);
+    for (std::size_t i = 0; i < hn::Lanes(D()); ++i) {
+      if ((lanes >> i & 1U) != 0) *out[i] = {value[0][i], value[1][i], value[2][i], value[3][i]};
+    }
+  }
+
+ private:
+  /// One step for some: leaps and segments where any lane needs one, samples once half of the lanes are ready.
+  void advance(M alive, RayCounts& counts) {
+    const V next = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
+    const V end = hn::Min(next, to_);
+    const V length = hn::Sub(end, from_);
+    const V u = hn::MulAdd(phase_, length, from_);
+    const Place p = place_at(grid_, ray_, u);
+    const W cell = cell_of(grid_, p);
+    W word = hn::GatherIndex(I(), job_.cells, cell);
+    if constexpr (!kPlain) {
+      if (view_.mode == RayMode::maximum) word = lower_than_met(word);
+    }
+    const M empty = hn::And(alive, is_set(word, kCellDistance));
+    const M thin = hn::AndNot(empty, hn::And(alive, is_set(word, kCellThin)));
+    M ready = hn::AndNot(hn::Or(empty, thin), alive);
+    const M moving = hn::Or(empty, thin);
+    if (any(moving)) {
+      move(empty, thin, cell, word, p, u, end, counts);
+      if (2 * hn::CountTrue(D(), ready) < hn::CountTrue(D(), alive)) return;
+    }
+    if (!any(ready)) return;
+    counts.samples += static_cast<std::int64_t>(hn::CountTrue(D(), ready));
+    sample(ready, p, word, u, length);
+    from_ = hn::IfThenElse(ready, end, from_);
+    shorten(ready, p);
+  }
+
+  void move(M empty, M thin, W cell, W word, const Place& p, V u, V end, RayCounts& counts) {
+    counts.leaps += static_cast<std::int64_t>(hn::CountTrue(D(), empty));
+    const W distance = hn::Max(hn::Sub(hn::And(word, seti(kCellDistance)), seti(1)), seti(0));
+    const V exit = block_exit(grid_, ray_, p, distance, u, to_);
+    const V step = set(view_.step_m);
+    const V per_step = set(1.0F / view_.step_m);
+    // The first sample beyond an empty block; the nearest end of an interval behind a thin cell.
+    const V after = hn::Mul(hn::Ceil(hn::Sub(hn::Mul(exit, per_step), phase_)), step);
+    const V beyond = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(after, end), to_));
+    from_ = hn::IfThenElse(empty, beyond, from_);
+    if constexpr (!kPlain) {
+      // The last place of a block without gaps is below every level that matters.
+      const V below = hn::IfThenElse(is_set(word, kCellGaps), set(-1.0F), set(1.0F));
+      before_ = hn::IfThenElse(empty, below, before_);
+      before_u_ = hn::IfThenElse(empty, hn::Min(exit, to_), before_u_);
+    }
+    if (any(thin)) {
+      counts.segments += static_cast<std::int64_t>(hn::CountTrue(D(), thin));
+      const V nearest = hn::Mul(hn::Round(hn::Mul(exit, per_step)), step);
+      const V stop = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(nearest, end), to_));
+      segment(thin, cell, hn::Sub(stop, from_));
+      from_ = hn::IfThenElse(thin, stop, from_);
+    }
+    step_ = hn::IfThenElse(hn::Or(empty, thin), step, step_);
+    per_step_ = hn::IfThenElse(hn::Or(empty, thin), per_step, per_step_);
+  }
+
+  void segment(M lanes, W cell, V length) {
+    const W at = hn::ShiftLeft<2>(cell);
+    const float* mean = reinterpret_cast<const float*>(job_.means);
+    const V extinction = hn::GatherIndex(D(), mean + 3, at);
+    const V opacity = opacity_of(hn::Mul(extinction, length));
+    V share = hn::Mul(hn::Mul(opacity, left_), inverse(hn::Max(extinction, set(1e-12F))));
+    share = hn::IfThenElseZero(lanes, share);
+    rgb_.r = hn::MulAdd(share, hn::GatherIndex(D(), mean, at), rgb_.r);
+    rgb_.g = hn::MulAdd(share, hn::GatherIndex(D(), mean + 1, at), rgb_.g);
+    rgb_.b = hn::MulAdd(share, hn::GatherIndex(D(), mean + 2, at), rgb_.b);
+    left_ = hn::IfThenElse(lanes, hn::NegMulAdd(opacity, left_, left_), left_);
+  }
+
+  void sample(M lanes, const Place& p, W word, V u, V length) {
+    if constexpr (kPlain) {
+      const V value = value_of(corners_of(grid_, voxel_of(grid_, p)), p);
+      const W entry = entry_of(value);
+      const V extinction = hn::IfThenElseZero(lanes, hn::GatherIndex(D(), optics_.extinction, entry));
+      if (!any(hn::Gt(extinction, zero()))) return;
+      lay(opacity_of(hn::Mul(extinction, length)), unpacked(hn::GatherIndex(I(), optics_.rgb10, entry)));
+    } else {
+      sample_any(lanes, p, word, u, length);
+    }
+  }
+
+  void sample_any(M lanes, const Place& p, W word, V u, V length) {
+    const W voxel = voxel_of(grid_, p);
+    Rgb emission{zero(), zero(), zero()};
+    V extinction = zero();
+    if (view_.masked && any(hn::And(lanes, is_set(word, kCellMask)))) {
+      meet_masks(hn::And(lanes, is_set(word, kCellMask)), p, voxel, emission, extinction);
+    }
+    if (view_.data) meet_data(lanes, p, voxel, word, u, emission, extinction);
+    const M lit_up = hn::Gt(extinction, zero());
+    if (!any(lit_up)) return;
+    const V per = hn::Div(set(1.0F), hn::Max(extinction, set(1e-12F)));
+    lay(opacity_of(hn::Mul(extinction, length)),
+        {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)});
+  }
+
+  void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
+    const Corners corners = corners_of(grid_, voxel);
+    const V value = value_of(corners, p);
+    V share = set(1.0F);
+    if (grid_.known != nullptr && any(hn::And(lanes, is_set(word, kCellGaps)))) share = share_of(grid_, voxel, p);
+    const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
+    if (view_.mode == RayMode::maximum) {
+      largest_ = hn::IfThenElse(counts, hn::Max(largest_, value), largest_);
+      return;
+    }
+    if (view_.mode == RayMode::first_hit) {
+      const M above = hn::And(counts, hn::Ge(value, set(view_.first_hit_count)));
+      if (any(above)) hit(above, u);
+      before_ = hn::IfThenElse(counts, set(1.0F), hn::IfThenElse(lanes, set(-1.0F), before_));
+      before_u_ = hn::IfThenElse(lanes, u, before_u_);
+      return;
+    }
+    const W entry = entry_of(value);
+    const V own = hn::IfThenElseZero(lanes, hn::Mul(share, hn::GatherIndex(D(), optics_.extinction, entry)));
+    if (!any(hn::Gt(own, zero()))) return;
+    Rgb rgb = unpacked(hn::GatherIndex(I(), optics_.rgb10, entry));
+    if (view_.lighting.on) {
+      light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
+    }
+    emission.r = hn::MulAdd(own, rgb.r, emission.r);
+    emission.g = hn::MulAdd(own, rgb.g, emission.g);
+    emission.b = hn::MulAdd(own, rgb.b, emission.b);
+    extinction = hn::Add(extinction, own);
+  }
+
+  /// Ends the rays of `lanes` at the level between their last sample and this one.
+  void hit(M lanes, V u) {
+    V low = hn::IfThenElse(hn::Gt(before_, zero()), before_u_, u);
+    V high = u;
+    for (int i = 0; i < 10; ++i) {
+      const V middle = hn::Mul(set(0.5F), hn::Add(low, high));
+      const Place p = place_at(grid_, ray_, middle);
+      const M above = hn::Ge(value_of(corners_of(grid_, voxel_of(grid_, p)), p), set(view_.first_hit_count));
+      high = hn::IfThenElse(above, middle, high);
+      low = hn::IfThenElse(above, low, middle);
+    }
+    const Place p = place_at(grid_, ray_, high);
+    const Corners corners = corners_of(grid_, voxel_of(grid_, p));
+    const W entry = entry_of(value_of(corners, p));
+    Rgb rgb = unpacked(hn::GatherIndex(I(), optics_.rgb10, entry));
+    if (view_.lighting.on) {
+      light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
+    }
+    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb);
+  }
+
+  /// All layers that touch the voxels round the samples, the highest number first.
+  void meet_masks(M lanes, const Place& p, W voxel, Rgb& emission, V& extinction) {
+    W word[4];
+    gather_columns(grid_, grid_.masks, voxel, word);
+    std::int32_t layer = next_layer(lanes, word, 256);
+    for (; layer > 0; layer = next_layer(lanes, word, layer)) {
+      Corners c;
+      for (int i = 0; i < 4; ++i) {
+        c.first[i] = confidence_of(hn::And(word[i], seti(0xFFFF)), layer);
+        c.second[i] = confidence_of(hn::And(hn::ShiftRight<16>(word[i]), seti(0xFFFF)), layer);
+      }
+      meet_layer(lanes, layer, p, c, emission, extinction);
+    }
+  }
+
+  std::int32_t next_layer(M lanes, const W word[4], std::int32_t below) const {
+    W most = seti(0);
+    for (int i = 0; i < 4; ++i) {
+      const W first = hn::And(hn::ShiftRight<8>(word[i]), seti(0xFF));
+      const W second = hn::And(hn::ShiftRight<24>(word[i]), seti(0xFF));
+      most = hn::Max(most, hn::IfThenElseZero(hn::Lt(first, seti(below)), first));
+      most = hn::Max(most, hn::IfThenElseZero(hn::Lt(second, seti(below)), second));
+    }
+    return hn::GetLane(hn::MaxOfLanes(I(), hn::IfThenElseZero(hn::RebindMask(I(), lanes), most)));
+  }
+
+  static V confidence_of(W half, std::int32_t layer) {
+    const auto of_layer = hn::Eq(hn::ShiftRight<8>(half), seti(layer));
+    return hn::ConvertTo(D(), hn::IfThenElseZero(of_layer, hn::And(half, seti(0xFF))));
+  }
+
+  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, Rgb& emission, V& extinction) {
+    const V confidence = value_of(c, p);
+    const auto& colour = view_.mask_rgb[layer - 1];
+    const M at_surface = hn::And(lanes, hn::Ge(confidence, set(view_.fuzzy_at)));
+    const std::uint32_t fresh = bits(at_surface) & ~met_[layer];
+    if (fresh != 0) {
+      met_[layer] |= fresh;
+      Rgb rgb{set(colour[0]), set(colour[1]), set(colour[2])};
+      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb);
+      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb);
+    }
+    const M in_core = hn::And(lanes, hn::Ge(confidence, set(view_.core_at)));
+    const V own = hn::IfThenElseZero(in_core, set(view_.core_extinction));
+    emission.r = hn::MulAdd(own, set(colour[0]), emission.r);
+    emission.g = hn::MulAdd(own, set(colour[1]), emission.g);
+    emission.b = hn::MulAdd(own, set(colour[2]), emission.b);
+    extinction = hn::Add(extinction, own);
+  }
+
+  static std::uint32_t bits(M m) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(D(), m, bytes);
+    std::uint32_t out = 0;
+    for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t{bytes[i]} << (8 * i);
+    return out;
+  }
+  static M mask_of(std::uint32_t lanes) {
+    std::uint8_t bytes[8] = {};
+    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(lanes >> (8 * i));
+    return hn::LoadMaskBits(D(), bytes);
+  }
+
+  /// Cells that cannot raise a ray's maximum are empty to it; masks there count all the same.
+  W lower_than_met(W word) const {
+    const M lower = hn::Le(hn::ConvertTo(D(), hn::ShiftRight<16>(word)), largest_);
+    const M idle = hn::AndNot(is_set(word, kCellDistance | kCellMask), lower);
+    return hn::IfThenElse(hn::RebindMask(I(), idle), hn::Or(word, seti(1)), word);
+  }
+
+  void show_largest() {
+    const W entry = entry_of(largest_);
+    const V extinction = hn::GatherIndex(D(), optics_.extinction, entry);
+    const M seen = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(extinction, zero()));
+    lay(hn::IfThenElseZero(seen, set(1.0F)), unpacked(hn::GatherIndex(I(), optics_.rgb10, entry)));
+  }
+
+  W entry_of(V value) const {
+    const V at = hn::MulAdd(value, set(optics_.per_count), set(optics_.first));
+    return hn::NearestInt(hn::Clamp(at, zero(), set(optics_.last_entry)));
+  }
+
+  void lay(V opacity, const Rgb& rgb) {
+    const V share = hn::Mul(opacity, left_);
+    rgb_.r = hn::MulAdd(share, rgb.r, rgb_.r);
+    rgb_.g = hn::MulAdd(share, rgb.g, rgb_.g);
+    rgb_.b = hn::MulAdd(share, rgb.b, rgb_.b);
+    left_ = hn::Sub(left_, share);
+  }
+
+  /// Steps fit the narrow cells near the transducer.
+  void shorten(M lanes, const Place& p) {
+    const V narrow =
+        hn::Mul(set(0.5F), hn::Min(hn::Mul(p.r, set(grid_.least_fan_rad)), hn::Mul(p.rho, set(grid_.least_beam_rad))));
+    const V full = set(view_.step_m);
+    if (!any(hn::And(lanes, hn::Or(hn::Lt(narrow, full), hn::Lt(step_, full))))) return;
+    V part = set(1.0F);
+    for (const float p2 : {0.5F, 0.25F, 0.125F}) {
+      part = hn::IfThenElse(hn::Lt(narrow, hn::Mul(full, set(2.0F * p2))), set(p2), part);
+    }
+    step_ = hn::IfThenElse(lanes, hn::Mul(full, part), step_);
+    per_step_ = hn::IfThenElse(lanes, hn::Mul(set(1.0F / view_.step_m), inverse(part)), per_step_);
+  }
+
+  const TraceGrid& grid_;
+  const TraceOptics& optics_;
+  const TraceView& view_;
+  const TraceJob& job_;
+  Rays ray_;
+  V phase_, from_, to_, last_, step_, per_step_;
+  V left_;
+  M met_sector_ = none();
+  Rgb rgb_;
+  V largest_, before_, before_u_;
+  std::uint32_t met_[kPlain ? 1 : 256];
+};
+
+}  // namespace sonar::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SONAR_RENDER_CPU_PACKET_INL_H_

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "render/volume_renderer.h"
+
+namespace sonar {
+
+// What the vector kernel reads: plain pointers and floats, made by CpuRenderer. Internal to this folder.
+
+/// An AngleTable in one word an entry: index in 20 bits, step to the next entry in 12.
+struct PackedAngle {
+  const std::uint32_t* words = nullptr;  ///< [kAngleEntries]
+  float first = 0.0F;
+  float per_unit = 1.0F;
+  float index_per_value = 1.0F;
+  float index_per_slope = 1.0F;
+};
+
+/// A macrocell: bits 0-7 distance to the next cell set (0 = set), then flags; bits 16-31 largest count.
+inline constexpr std::int32_t kCellDistance = 0xFF;
+inline constexpr std::int32_t kCellThin = 0x100;
+inline constexpr std::int32_t kCellGaps = 0x200;
+inline constexpr std::int32_t kCellMask = 0x400;
+
+struct TraceGrid {
+  int fans, beams, samples;
+  int cell_beams, cell_ranges;
+  float first_m, spacing_m, per_spacing, nearest_m, farthest_m, surface_z_m;
+  float sin_side, cos_side;  ///< of the half width
+  float sin_e0, cos_e0, sin_e1, cos_e1;
+  bool wide;  ///< azimuths beyond 90 degrees from the middle
+  PackedAngle beam_of, fan_of;
+  const float *sin_azimuth, *cos_azimuth, *sin2_elevation, *beams_per_rad, *fans_per_rad;
+  float least_beam_rad, least_fan_rad;
+  const std::int16_t* sv;
+  const std::uint8_t* known;   ///< null where all is known; 2 bytes longer than the volume
+  const std::uint16_t* masks;  ///< null without masks
+};
+
+struct TraceOptics {
+  float per_count, first, last_entry;
+  const float* extinction;
+  const std::int32_t* rgb10;
+};
+
+/// A macrocell's four columns of `count` + 1 samples, with what is known of them or null.
+struct CellColumns {
+  const std::int16_t* sv[4];
+  const std::uint8_t* known[4];
+  int count;
+};
+
+struct TraceView {
+  // In the fan frame; eye, right, up, forward, towards the light.
+  std::array<float, 3> eye, right, up, forward, light;
+  float pixel_scale;  ///< tan(half fov) / half height
+  PixelSize full, size;
+  int divisor;
+  float step_m;
+  std::uint32_t jitter_frame;
+  RayMode mode;
+  bool data, plain, masked;
+  float first_hit_count;
+  Lighting lighting;
+  float fuzzy_at, core_at;  ///< 0..255
+  float fuzzy_opacity, core_extinction;
+  const std::array<float, 3>* mask_rgb;
+  int masks;
+  const float* opaque_m;
+};
+
+struct TraceJob {
+  TraceGrid grid;
+  TraceOptics optics;
+  TraceView view;
+  const std::int32_t* cells;
+  const std::array<float, 4>* means;  ///< [cell]; null where no cell is thin
+};
+
+/// Traces the pixels [x0, x1) x [y0, y1) of the divided picture.
+void trace_tile(const TraceJob& job, int x0, int y0, int x1, int y1, std::array<float, 4>* rgba, RayCounts& counts);
+/// Name of the instruction set in use.
+[[nodiscard]] const char* trace_target();
+
+}  // namespace sonar

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/array.h"
+#include "view/volume_scene.h"
+
+namespace sonar {
+
+// What every back-end does alike, so that all draw the same picture.
+//
+// Steps. A ray's parameter t is metres from its point nearest to the transducer. Intervals are [k h, (k + 1) h] with
+// h = step_samples x spacing_m, cut at the sector's faces; the sample stands at the fraction `phase` of its interval and
+// counts for the interval's length. Nearer than where half the narrowest beam spacing is below h, h is shortened to that,
+// to h / 8 at least.
+// Masks. Confidence of a layer = interpolated over its own voxels. Where a layer first reaches fuzzy_above (half a
+// quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
+// reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
+// First hit. Ends the ray with opacity 1 where the level is crossed, colour of that level. Maximum. Colour of the largest
+// Sv behind the masks' light.
+
+inline constexpr double kOpaqueEnough = 0.99;
+
+/// Column or row of the full picture whose ray stands for pixel i of a picture divided by `divisor`.
+[[nodiscard]] int full_pixel(int i, int divisor, int count);
+/// Size of the divided picture.
+[[nodiscard]] PixelSize divided(PixelSize size, int divisor);
+
+/// Where in its interval a ray's samples stand, 0..1: 0.5 for frame 0; else
+/// fract(fract(52.9829189 fract(0.06711056 x + 0.00583715 y)) + 0.61803399 frame), x, y of the full picture.
+[[nodiscard]] double sample_phase(int x, int y, std::uint32_t jitter_frame);
+
+/// Unit vector towards the light: behind the eye, from its upper left.
+[[nodiscard]] Point<Sonar> light_direction(const CameraBasis& camera);
+
+/// Colour under light. n = -gradient / |gradient|, w = min(1, |gradient| / full_gradient), half = unit(light - ray):
+///   rgb (1 - w + w (ambient + diffuse max(0, n light))) + w specular max(0, n half)^16
+/// ray  direction of the ray, away from the eye
+[[nodiscard]] std::array<double, 3> lit(const std::array<double, 3>& rgb, const Point<Sonar>& gradient_db_per_m,
+                                        const Point<Sonar>& light, const Point<Sonar>& ray, const Lighting& lighting);
+
+/// errors  bad_parameter: no sample, or fewer than 2 fans, beams or samples; sector and array of different shape
+[[nodiscard]] Result<void> check_volume(const VolumeData& volume);
+/// errors  bad_parameter: see VolumeRenderer::set_transfer
+[[nodiscard]] Result<void> check_transfer(const OpticalTable& table);
+/// errors  bad_parameter: empty size, over 16384 a side, a divisor below 1, a step not above 0, opaque_m of another
+///         size, a camera that is not finite
+[[nodiscard]] Result<void> check_view(const VolumeView& view, const DrawQuality& quality);
+
+}  // namespace sonar

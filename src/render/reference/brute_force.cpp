@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/reference/brute_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/units.h"
+#include "render/filled_volume.h"
+#include "render/ray_rules.h"
+#include "render/transfer_table.h"
+
+namespace sonar {
+namespace {
+
+using P = Point<Sonar>;
+using Rgb = std::array<double, 3>;
+
+double dot(const P& a, const P& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+struct Scene {
+  const VolumeData& volume;
+  const OpticalTable& table;
+  std::span<const MaskLayer> masks;
+  const VolumeView& view;
+  FilledVolume filled;
+  std::vector<Array3<float>> confidence;  ///< [layer], 0..1
+  CameraBasis camera;
+  P light;
+  double step_m;
+};
+
+/// Trilinear in index space; linear continuation outside.
+template <class T>
+double interpolated(const Array3<T>& a, const SectorIndex& at) {
+  const Shape3 n = a.shape();
+  const int f = std::clamp(static_cast<int>(std::floor(at.fan)), 0, n.fans - 2);
+  const int b = std::clamp(static_cast<int>(std::floor(at.beam)), 0, n.beams - 2);
+  const int s = std::clamp(static_cast<int>(std::floor(at.sample)), 0, n.samples - 2);
+  const double u = at.fan - f;
+  const double v = at.beam - b;
+  const double w = at.sample - s;
+  double sum = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const double weight = ((i & 4) != 0 ? u : 1.0 - u) * ((i & 2) != 0 ? v : 1.0 - v) * ((i & 1) != 0 ? w : 1.0 - w);
+    sum += weight * static_cast<double>(a(f + (i >> 2), b + ((i >> 1) & 1), s + (i & 1)));
+  }
+  return sum;
+}
+
+double sv_db(const Scene& scene, const P& p) {
+  return db_from_counts(interpolated(scene.filled.sv, scene.volume.sector.index_of(p)));
+}
+
+template <class Field>
+P gradient(const Field& field, const P& p) {
+  const double e = 1e-4;
+  return P{field(p + P{e, 0, 0}) - field(p - P{e, 0, 0}), field(p + P{0, e, 0}) - field(p - P{0, e, 0}),
+           field(p + P{0, 0, e}) - field(p - P{0, 0, e})} *
+         (0.5 / e);
+}
+
+/// Index of a place of the volume drawn; none outside.
+std::optional<SectorIndex> inside(const Scene& scene, const P& p) {
+  if (p.z < scene.volume.surface_z_m) return std::nullopt;
+  const Shape3 n = scene.filled.sv.shape();
+  const SectorIndex at = scene.volume.sector.index_of(p);
+  const bool in = at.fan >= 0 && at.fan <= n.fans - 1 && at.beam >= 0 && at.beam <= n.beams - 1 && at.sample >= 0 &&
+                  at.sample <= n.samples - 1;
+  return in ? std::optional(at) : std::nullopt;
+}
+
+/// What has come together along a ray so far.
+struct Ray1 {
+  Ray ray;
+  Rgb rgb{};
+  double left = 1.0;               ///< transmittance
+  std::optional<double> before_m;  ///< the last place, where it was inside and below the level of first hit
+  double largest_db = -1e9;
+  std::vector<bool> surface_met;
+
+  void lay(const Rgb& colour, double opacity) {
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] += left * opacity * colour[c];
+    left *= 1.0 - opacity;
+  }
+};
+
+/// Surfaces are laid at once; what the cores add to emission and extinction is returned, as emission and extinction.
+std::array<double, 4> meet_masks(const Scene& scene, Ray1& r, const P& p, const SectorIndex& at) {
+  std::array<double, 4> sum{};
+  const MaskStyle& style = scene.view.masks;
+  for (std::size_t k = 0; k < scene.masks.size(); ++k) {
+    const double f = interpolated(scene.confidence[k], at);
+    const auto& c = scene.masks[k].rgb;
+    const Rgb rgb{c[0], c[1], c[2]};
+    if (!r.surface_met[k] && f >= std::max(static_cast<double>(style.fuzzy_above), 0.5 / 255.0)) {
+      r.surface_met[k] = true;
+      const auto field = [&](const P& q) { return interpolated(scene.confidence[k], scene.volume.sector.index_of(q)); };
+      const P g = gradient(field, p) * 1e6;  // a surface is lit in full
+      r.lay(scene.view.lighting.on ? lit(rgb, g, scene.light, r.ray.direction, scene.view.lighting) : rgb,
+            static_cast<double>(style.fuzzy_opacity));
+    }
+    if (f >= static_cast<double>(style.core_at)) {
+      const auto e = static_cast<double>(style.core_extinction_per_m);
+      sum = {sum[0] + e * rgb[0], sum[1] + e * rgb[1], sum[2] + e * rgb[2], sum[3] + e};
+    }
+  }
+  return sum;
+}
+
+Rgb shaded(const Scene& scene, const Ray1& r, const Rgb& rgb, const P& p) {
+  if (!scene.view.lighting.on) return rgb;
+  const auto field = [&](const P& q) { return sv_db(scene, q); };
+  return lit(rgb, gradient(field, p), scene.light, r.ray.direction, scene.view.lighting);
+}
+
+/// The first place of level `first_hit_db` between the last sample and this one.
+void hit(const Scene& scene, Ray1& r, double t_m) {
+  double low = r.before_m.value_or(t_m);
+  double high = t_m;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (sv_db(scene, r.ray.origin + r.ray.direction * middle) >= scene.view.first_hit_db ? high : low) = middle;
+  }
+  const P p = r.ray.origin + r.ray.direction * high;
+  const auto o = optics_at(scene.table, sv_db(scene, p));
+  r.lay(shaded(scene, r, {o[0], o[1], o[2]}, p), 1.0);
+}
+
+void take_sample(const Scene& scene, Ray1& r, double t_m, double length_m) {
+  const P p = r.ray.origin + r.ray.direction * t_m;
+  const auto at = inside(scene, p);
+  if (!at) {
+    r.before_m.reset();
+    return;
+  }
+  std::array<double, 4> sum = meet_masks(scene, r, p, *at);
+  const double share = scene.filled.complete() ? 1.0 : interpolated(scene.filled.known, *at);
+  if (scene.view.masks.data_too && share > 0.0) {
+    const double db = db_from_counts(interpolated(scene.filled.sv, *at));
+    const bool counts = share >= 0.5;
+    if (scene.view.mode == RayMode::accumulate) {
+      const auto o = optics_at(scene.table, db);
+      const Rgb rgb = o[3] > 0.0 ? shaded(scene, r, {o[0], o[1], o[2]}, p) : Rgb{};
+      const double e = share * o[3];
+      sum = {sum[0] + e * rgb[0], sum[1] + e * rgb[1], sum[2] + e * rgb[2], sum[3] + e};
+    } else if (counts && scene.view.mode == RayMode::maximum) {
+      r.largest_db = std::max(r.largest_db, db);
+    } else if (counts && db >= scene.view.first_hit_db) {
+      hit(scene, r, t_m);
+      return;
+    }
+    r.before_m = counts ? std::optional(t_m) : std::nullopt;
+  }
+  if (sum[3] > 0.0) {
+    r.lay({sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]}, -std::expm1(-sum[3] * length_m));
+  }
+}
+
+std::array<float, 4> ray_colour(const Scene& scene, const Ray& ray, double end_m) {
+  Ray1 r{ray, {}, 1.0, {}, -1e9, std::vector<bool>(scene.masks.size())};
+  const double middle = -dot(ray.origin, ray.direction);
+  const P nearest = ray.origin + ray.direction * middle;
+  const double far_m = scene.volume.sector.range().range_m(scene.filled.sv.shape().samples - 1);
+  const double half = std::sqrt(std::max(0.0, far_m * far_m - dot(nearest, nearest)));
+  const double first = std::max(0.0, middle - half);
+  const double last = std::min(middle + half, end_m);
+  for (std::int64_t i = 0; first + (static_cast<double>(i) + 0.5) * scene.step_m < last && r.left > 0.0; ++i) {
+    take_sample(scene, r, first + (static_cast<double>(i) + 0.5) * scene.step_m, scene.step_m);
+  }
+  if (scene.view.mode == RayMode::maximum && r.largest_db > -1e9) {
+    const auto o = optics_at(scene.table, r.largest_db);
+    if (o[3] > 0.0) r.lay({o[0], o[1], o[2]}, 1.0);
+  }
+  const auto f = [](double v) { return static_cast<float>(v); };
+  return {f(r.rgb[0]), f(r.rgb[1]), f(r.rgb[2]), f(1.0 - r.left)};
+}
+
+Array3<float> confidence_of(const PingMask& mask, Shape3 shape) {
+  Array3<float> out(shape, 0.0F);
+  std::size_t voxel = 0;
+  for (const Run& run : mask.runs) {
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      out.view().row(run.row)[static_cast<std::size_t>(s)] = static_cast<float>(mask.confidence[voxel++]) / 255.0F;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+RayImage brute_force(const VolumeData& volume, const OpticalTable& table, std::span<const MaskLayer> masks,
+                     const VolumeView& view, double step_samples, Work& work) {
+  const CameraBasis camera = basis(view.camera, view.size);
+  Scene scene{volume,
+              table,
+              masks,
+              view,
+              filled_volume(volume.sv),
+              {},
+              camera,
+              light_direction(camera),
+              step_samples * volume.sector.range().spacing_m};
+  for (const MaskLayer& layer : masks) scene.confidence.push_back(confidence_of(*layer.mask, volume.sv.shape()));
+  RayImage out{view.size, std::vector<std::array<float, 4>>(view.size.count()), {}};
+  work.for_each(view.size.height, [&](std::int64_t y) {
+    for (int x = 0; x < view.size.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * view.size.width + x);
+      const double end_m = view.opaque_m ? static_cast<double>((*view.opaque_m)[i]) : 1e9;
+      out.rgba[i] = ray_colour(scene, camera.ray({x + 0.5, static_cast<double>(y) + 0.5}), end_m);
+    }
+  });
+  return out;
+}
+
+}  // namespace sonar
