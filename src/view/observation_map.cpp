@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/observation_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "base/units.h"
+#include "model/outline.h"
+#include "view/axes.h"
+#include "view/graticule.h"
+#include "view/map_items.h"
+#include "view/shapes.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kMargin = 0.05;  ///< of the hull's size
+constexpr double kLeastMargin_m = 30.0;
+constexpr double kMostCells = 1000.0;  ///< of the mosaic along a side
+constexpr double kShip_m = 78.0;       ///< a large research vessel
+
+bool placed(const PingNavigation& n) { return n.has_position() && std::isfinite(n.heading_deg); }
+
+/// A ring about the transducer (x east, y north, m) as places on the map, m.
+std::vector<PlanePoint> on_map(const MapProjection& projection, const Geographic& origin, const Ring& ring) {
+  std::vector<PlanePoint> out;
+  const auto here = projection.forward(origin);
+  if (!here) return out;
+  const double turned = projection.north_rad(origin);
+  const double scale = projection.scale_at(origin);
+  const double sine = std::sin(turned) * scale;
+  const double cosine = std::cos(turned) * scale;
+  for (const PlanePoint& p : ring) {
+    out.push_back({here->x + p.x * cosine + p.y * sine, here->y - p.x * sine + p.y * cosine});
+  }
+  return out;
+}
+
+PixelRect map_place(PixelSize size, const Theme& theme) {
+  const double em = theme.text_px;
+  const double left = 7.6 * em;
+  const double top = 1.6 * em + 1.5 * theme.title_px + 1.1 * em;
+  return {left, top, size.width - left - 1.4 * em, size.height - top - 2.6 * em};
+}
+
+std::shared_ptr<const Image> painted(const MaskMosaic& mosaic, const MaskPalette& palette) {
+  auto image = std::make_shared<Image>(PixelSize{mosaic.width(), mosaic.height()}, Rgba8{0, 0, 0, 0});
+  for (std::size_t i = 0; i < image->pixels.size(); ++i) {
+    const MaskMosaic::Cell c = mosaic.cells()[i];
+    if (c != 0) image->pixels[i] = mask_colour(palette, MaskMosaic::school(c), MaskMosaic::confidence(c));
+  }
+  return image;
+}
+
+void add_current(FrameDescription& frame, const ObservationMapBase& base, const ObservationProduct& product,
+                 std::size_t current) {
+  const Theme& theme = base.theme;
+  if (current >= product.pings.size()) return;
+  const PingNavigation& n = product.pings[current];
+  if (const auto& ring = base.footprints[current]; ring.size() > 2) {
+    frame.items.emplace_back(
+        polyline_item(ring, true, theme.accent, 1.6 * theme.line_px, with_alpha(theme.accent, 28)));
+  }
+  const auto at = n.has_position() ? base.map.at(n.transducer) : std::nullopt;
+  if (!at) return;
+  const double heading = std::isfinite(n.heading_deg) ? n.heading_deg : n.course_deg;
+  const double turned =
+      (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + base.map.projection.north_rad(n.transducer);
+  const double length = std::max(kShip_m / base.map.true_metres_per_px(n.transducer), 2.0 * theme.text_px);
+  frame.items.emplace_back(ship_item(*at, length, turned, theme.ship, theme.background, theme.line_px));
+}
+
+}  // namespace
+
+Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme) {
+  if (size.width < 24.0 * theme.text_px || size.height < 16.0 * theme.text_px) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
+  }
+  std::optional<Sector> sector;
+  if (product.grid) sector = product.grid->grid.sector(product.grid->range);
+  std::vector<Ring> rings(product.pings.size());
+  std::vector<Geographic> shown;
+  for (std::size_t i = 0; i < product.pings.size(); ++i) {
+    const PingNavigation& n = product.pings[i];
+    if (!n.has_position()) continue;
+    shown.push_back(n.transducer);
+    if (!sector || !placed(n)) continue;
+    rings[i] = footprint(*product.grid, *sector, rad_from_deg(n.heading_deg));
+    for (const PlanePoint& p : rings[i]) shown.push_back(to_geographic(Point<Enu>{p.x, p.y, 0.0}, n.transducer));
+  }
+  const auto extent = extent_of(shown);
+  if (!extent) return fail(ErrorCode::not_found, fmt::format("{}: no ping has a position", product.observation));
+  const double size_m =
+      geodesic({extent->south_deg, extent->west_deg}, {extent->north_deg, extent->east_deg}).distance_m;
+  ObservationMapBase base{fit_map(widened(*extent, std::max(kLeastMargin_m, kMargin * size_m)), map_place(size, theme)),
+                          size,
+                          theme,
+                          {},
+                          {},
+                          {},
+                          {}};
+  base.title = survey_title(std::span(&product, 1));
+  base.track = track_item(base.map, product.pings, {theme.track, 1.6 * theme.line_px, {}});
+  base.footprints.resize(product.pings.size());
+  std::vector<PlanePoint> corners;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    for (const PlanePoint& p : on_map(base.map.projection, product.pings[i].transducer, rings[i])) {
+      corners.push_back(p);
+      base.footprints[i].push_back(base.map.at(p));
+    }
+  }
+  for (const PlanePoint& p : convex_hull(std::move(corners))) base.hull.push_back(base.map.at(p));
+  return base;
+}
+
+MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product) {
+  const double longer = std::max(base.map.place.width, base.map.place.height);
+  MaskMosaic mosaic(base.map, product.pings.size(), std::max(1.0, std::ceil(longer / kMostCells)));
+  if (!product.grid) return mosaic;
+  const Sector sector = product.grid->grid.sector(product.grid->range);
+  std::vector<std::vector<MosaicMask>> of_ping(product.pings.size());
+  for (const SchoolMask& m : product.masks) {
+    if (m.ping_index < 0 || m.ping_index >= static_cast<std::int64_t>(of_ping.size())) continue;
+    const auto at = std::find_if(product.schools.begin(), product.schools.end(),
+                                 [&](const SchoolRow& s) { return s.school_id == m.school_id; });
+    of_ping[static_cast<std::size_t>(m.ping_index)].push_back(
+        {static_cast<int>(at - product.schools.begin()), &m.mask});
+  }
+  for (std::size_t i = 0; i < of_ping.size(); ++i) {
+    if (!of_ping[i].empty()) mosaic.set(i, sector, product.pings[i], of_ping[i]);
+  }
+  return mosaic;
+}
+
+FrameDescription observation_map(const ObservationMapBase& base, const ObservationProduct& product,
+                                 const MaskMosaic& mosaic, std::optional<std::size_t> current,
+                                 const MaskPalette& palette) {
+  const Theme& theme = base.theme;
+  FrameDescription frame;
+  frame.size = base.size;
+  frame.background = theme.background;
+  frame.title = base.title + ": " + product.observation;
+  frame.items.emplace_back(rectangle_item(base.map.place, theme.plot));
+  frame.items.emplace_back(ClipItem{base.map.place});
+  frame.items.emplace_back(polyline_item(base.hull, true, theme.outline, theme.line_px, theme.water));
+  frame.items.emplace_back(ImageItem{
+      {base.map.place.x, base.map.place.y, mosaic.width() * mosaic.cell_px(), mosaic.height() * mosaic.cell_px()},
+      painted(mosaic, palette),
+      false});
+  frame.items.emplace_back(base.track);
+  for (const PingNavigation& n : product.pings) {
+    if (!n.has_position()) continue;
+    if (const auto at = base.map.at(n.transducer)) {
+      frame.items.emplace_back(circle_item(*at, 0.45 * theme.text_px, kStartColour, {theme.text, theme.line_px, {}}));
+    }
+    break;
+  }
+  if (current) add_current(frame, base, product, *current);
+  frame.items.emplace_back(ClipItem{});
+  add_graticule(frame, base.map, theme);
+  add_scale_and_north(frame, base.map, theme);
+  const std::string span =
+      product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
+  std::string line = fmt::format("{} · {} pings, {} school{} · {}", product.observation, product.pings.size(),
+                                 product.schools.size(), product.schools.size() == 1 ? "" : "s", span);
+  if (current && *current < product.pings.size()) {
+    line += fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
+  }
+  Layout layout;
+  const double em = theme.text_px;
+  layout.title = {base.map.place.x, 0.9 * em, base.map.place.width, base.map.place.y - em};
+  add_title(frame, layout, theme, {base.title, line});
+  return frame;
+}
+
+}  // namespace sonar

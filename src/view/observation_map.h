@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "model/product.h"
+#include "view/frame_description.h"
+#include "view/map_frame.h"
+#include "view/mask_colours.h"
+#include "view/mask_mosaic.h"
+#include "view/theme.h"
+
+namespace sonar {
+
+/// What of an observation's map stays while pings come and go: made once, drawn often.
+struct ObservationMapBase {
+  MapFrame map;
+  PixelSize size;
+  Theme theme;
+  std::vector<PixelPoint> hull;                     ///< convex hull of the footprints of all pings
+  PathItem track;                                   ///< the ship's path
+  std::vector<std::vector<PixelPoint>> footprints;  ///< [ping]; empty without position, heading or grid
+  std::string title;
+};
+
+/// pings   of the observation; product may lack schools and masks
+/// errors  not_found: no ping has a position; bad_parameter: a picture too small for a map
+[[nodiscard]] Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size,
+                                                              const Theme& theme);
+
+/// All masks of a product in a mosaic that lies in the map; schools are numbered in the order of product.schools.
+[[nodiscard]] MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product);
+
+/// The observation from above (Balabanian et al. 2007, figure 5, green): ship and path, convex hull of all pings'
+/// footprints, the current ping's footprint, and the maximum projection of the masks of all segmented pings.
+/// mosaic   made for this base; its raster is drawn as it is
+/// current  ping to mark; empty = none
+[[nodiscard]] FrameDescription observation_map(const ObservationMapBase& base, const ObservationProduct& product,
+                                               const MaskMosaic& mosaic, std::optional<std::size_t> current,
+                                               const MaskPalette& palette);
+
+}  // namespace sonar

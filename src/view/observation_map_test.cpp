@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/observation_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "view/map_example.h"
+#include "view/propagation_view.h"
+
+namespace sonar {
+namespace {
+
+constexpr PixelSize kSize{800, 640};
+
+bool says(const FrameDescription& frame, const std::string& words) {
+  return std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+    const auto* t = std::get_if<TextItem>(&item);
+    return t != nullptr && t->text.find(words) != std::string::npos;
+  });
+}
+
+const ImageItem* image_of(const FrameDescription& frame, int which = 0) {
+  for (const auto& item : frame.items) {
+    if (const auto* i = std::get_if<ImageItem>(&item); i != nullptr && which-- == 0) return i;
+  }
+  return nullptr;
+}
+
+TEST(ObservationMap, HullHoldsEveryFootprint) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_TRUE(base);
+  ASSERT_GE(base->hull.size(), 4U);
+  ASSERT_EQ(base->footprints.size(), 20U);
+  for (const auto& ring : base->footprints) {
+    ASSERT_GT(ring.size(), 3U);
+    for (const PixelPoint& q : ring) {
+      for (std::size_t i = 0; i < base->hull.size(); ++i) {
+        const PixelPoint& a = base->hull[i];
+        const PixelPoint& b = base->hull[(i + 1) % base->hull.size()];
+        // Pixels run down: the hull is clockwise on the picture.
+        EXPECT_LE((b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x), 1e-6);
+      }
+    }
+  }
+  // 19 steps of 20 m north; the footprints' apexes are the ship's places.
+  const PixelPoint first = *base->map.at(p.pings.front().transducer);
+  const PixelPoint last = *base->map.at(p.pings.back().transducer);
+  EXPECT_NEAR((first.y - last.y) * base->map.true_metres_per_px(p.pings[0].transducer), 380.0, 0.5);
+}
+
+TEST(ObservationMap, ASchoolsVoxelsHaveItsColourAndTheRestIsClear) {
+  ObservationProduct p = map_example::product("obs-0001", 20);
+  map_example::add_school(p, 7, p.pings[4].transducer, 4, 4, map_example::block(2, 1, 2, 24, 3));
+  const auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_TRUE(base);
+  const FrameDescription frame = observation_map(*base, p, mask_mosaic(*base, p), 4, {});
+  const ImageItem* image = image_of(frame);
+  ASSERT_NE(image, nullptr);
+  const PixelPoint at = *base->map.at(destination(p.pings[4].transducer, 49.0, 270.0));
+  EXPECT_EQ(image->image->at(static_cast<int>(at.x - image->place.x), static_cast<int>(at.y - image->place.y)),
+            mask_colour({}, 0, 255));
+  EXPECT_EQ(image->image->at(2, 2).a, 0);
+  EXPECT_TRUE(says(frame, "ping 4"));
+  EXPECT_TRUE(says(frame, "SYNTHETIC"));
+}
+
+TEST(ObservationMap, NoPositionIsOneLine) {
+  ObservationProduct p = map_example::product("obs-0001", 2);
+  for (PingNavigation& n : p.pings) n.transducer.latitude_deg = std::nan("");
+  const auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_FALSE(base);
+  EXPECT_EQ(base.error().text, "obs-0001: no ping has a position");
+}
+
+TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
+  ObservationProduct p = map_example::product("obs-0001", 5);
+  map_example::add_school(p, 1, p.pings[3].transducer, 3, 3, map_example::block(2, 1, 2, 24, 3));
+  p.pings[2].bad = true;
+  const PropagationStyle style;
+  const auto panels = propagation_panels(p, 3, style);
+  ASSERT_EQ(panels.size(), 5U);
+  EXPECT_TRUE(panels[2].current);
+  EXPECT_FALSE(panels[4].there);  // ping 5
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  const auto frame = propagation_view(sector, panels, style, {1200, 500}, light_theme({1200, 500}), "SYNTHETIC");
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  EXPECT_TRUE(says(*frame, "ping 1"));
+  EXPECT_TRUE(says(*frame, "12:26:55"));  // ping 3, 15 s after 12:26:40
+  EXPECT_TRUE(says(*frame, "no school"));
+  EXPECT_TRUE(says(*frame, "bad ping"));
+  EXPECT_TRUE(says(*frame, "no such ping"));
+  EXPECT_EQ(image_of(*frame, 1), nullptr);  // only one ping has a mask
+}
+
+TEST(PropagationView, OneScaleAndOnePlaceForAllPings) {
+  // The same mask in two pings is the same picture; core and fuzzy have their two colours, and areas are true.
+  ObservationProduct p = map_example::product("obs-0001", 5);
+  PingMask mask = map_example::block(2, 1, 1, 24, 3, 255);
+  const PingMask fuzzy = map_example::block(2, 2, 1, 24, 3, 10);
+  mask.runs.insert(mask.runs.end(), fuzzy.runs.begin(), fuzzy.runs.end());
+  mask.confidence.insert(mask.confidence.end(), fuzzy.confidence.begin(), fuzzy.confidence.end());
+  map_example::add_school(p, 1, p.pings[3].transducer, 1, 3, mask);
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  for (const MaskAspect aspect : {MaskAspect::above, MaskAspect::side}) {
+    PropagationStyle style;
+    style.aspect = aspect;
+    const auto panels = propagation_panels(p, 2, style);
+    const auto frame = propagation_view(sector, panels, style, {1400, 600}, dark_theme({1400, 600}));
+    ASSERT_TRUE(frame);
+    const Image& a = *image_of(*frame, 0)->image;
+    EXPECT_TRUE(a == *image_of(*frame, 1)->image);
+    const auto count = [&](std::uint8_t q) {
+      return std::count(a.pixels.begin(), a.pixels.end(), mask_colour(style.palette, 0, q));
+    };
+    EXPECT_GT(count(255), 50);
+    if (aspect == MaskAspect::above) {
+      // Two beams of the same width and reach: equal areas.
+      EXPECT_NEAR(static_cast<double>(count(10)) / static_cast<double>(count(255)), 1.0, 0.15);
+    } else {
+      EXPECT_EQ(count(10), 0);  // the core hides what is behind it
+    }
+  }
+}
+
+TEST(PropagationView, TooManyPingsForThePictureIsOneLine) {
+  const ObservationProduct p = map_example::product("obs-0001", 5);
+  PropagationStyle style;
+  style.before = style.after = 90;
+  const auto frame = propagation_view(p.grid->grid.sector(p.grid->range), propagation_panels(p, 2, style), style,
+                                      {400, 300}, light_theme({400, 300}));
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.error().text, "a picture of 400 x 300 pixels is too small for 181 pings");
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/result.h"
+#include "model/product.h"
+#include "view/frame_description.h"
+#include "view/mask_colours.h"
+#include "view/mask_mosaic.h"
+#include "view/theme.h"
+
+namespace sonar {
+
+/// From where masks are seen.
+enum class MaskAspect : std::uint8_t {
+  above,  ///< bow up, starboard right
+  side,   ///< across the beams' direction: away from the ship to the right, up is up
+};
+inline constexpr std::array<std::string_view, 2> kMaskAspectNames{"above", "side"};
+
+struct PropagationStyle {
+  int before = 2;
+  int after = 2;
+  MaskAspect aspect = MaskAspect::above;
+  bool whole_sector = false;  ///< else only where masks are
+  MaskPalette palette{.colouring = MaskColouring::core_fuzzy, .core_at = 0.64};
+  friend bool operator==(const PropagationStyle&, const PropagationStyle&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, PropagationStyle& p) {
+  v.field("before", p.before, {.min = 0, .max = 100, .text = "pings before the current one"});
+  v.field("after", p.after, {.min = 0, .max = 100, .text = "pings after the current one"});
+  v.choice("aspect", p.aspect, kMaskAspectNames, "from where masks are seen");
+  v.field("whole_sector", p.whole_sector, {.text = "show the whole sector, not only where masks are"});
+  v.group("palette", p.palette, "colours of masks");
+}
+
+/// One ping of the view.
+struct PropagationPanel {
+  std::int64_t ping_index = 0;
+  bool there = true;  ///< false: the observation has no such ping
+  bool bad = false;   ///< the ping was not used
+  bool current = false;
+  TimeNs time = 0;
+  std::vector<MosaicMask> masks;  ///< point into what the panel was made from
+};
+/// The current ping of a product and its neighbours.
+[[nodiscard]] std::vector<PropagationPanel> propagation_panels(const ObservationProduct& product, std::int64_t current,
+                                                               const PropagationStyle& style);
+
+/// The current ping and its neighbours side by side, each a projection of its masks, all at one scale about one place in
+/// the sonar's frame; each labelled with ping and time; pings without a school, bad and missing ones say so.
+/// title   first line of the picture
+/// errors  bad_parameter: a parameter out of range, no panels, or a picture too small for them
+[[nodiscard]] Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,
+                                                        const PropagationStyle& style, PixelSize size,
+                                                        const Theme& theme, const std::string& title = {});
+
+}  // namespace sonar

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/school.h"
+#include "view/survey_map.h"
+
+namespace sonar {
+
+/// Status as a colour, the same in every picture: accepted, corrected, unreviewed, rejected.
+[[nodiscard]] Rgba8 status_colour(const std::string& status, const Theme& theme);
+/// Status as a line: accepted and corrected solid, unreviewed dashed, rejected dotted; in text sizes.
+[[nodiscard]] std::vector<double> status_dashes(const std::string& status, const Theme& theme);
+
+/// Colours and sizes of a map's schools.
+class SchoolLook {
+ public:
+  SchoolLook(std::span<const ObservationProduct> observations, const SurveyMapStyle& style, const Theme& theme);
+  [[nodiscard]] Rgba8 colour(const SchoolRow& school) const;
+  [[nodiscard]] bool shown(const SchoolRow& school) const;
+  /// Radius of a circle whose area is proportional to backscatter, within sensible bounds.
+  [[nodiscard]] double radius_px(double backscatter_m2) const;
+  /// Entries of the legend: colour and name; empty for mean Sv, which has a colour bar.
+  [[nodiscard]] const std::vector<std::pair<Rgba8, std::string>>& entries() const { return entries_; }
+  /// Backscatters for the legend's circles, rising; at most three.
+  [[nodiscard]] std::vector<double> sizes() const;
+  /// Of the colour bar.
+  [[nodiscard]] const ColourMap& map() const { return map_; }
+
+ private:
+  SurveyMapStyle style_;
+  const Theme& theme_;
+  ColourMap map_;
+  std::vector<std::pair<Rgba8, std::string>> entries_;
+  std::vector<std::string> species_;
+  double largest_m2_ = 0.0;
+};
+
+}  // namespace sonar

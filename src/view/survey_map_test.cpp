@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/survey_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <variant>
+
+#include "view/map_example.h"
+#include "view/map_items.h"
+
+namespace sonar {
+namespace {
+
+constexpr PixelSize kSize{1000, 760};
+
+std::vector<TextItem> texts(const FrameDescription& frame) {
+  std::vector<TextItem> out;
+  for (const auto& item : frame.items) {
+    if (const auto* t = std::get_if<TextItem>(&item)) out.push_back(*t);
+  }
+  return out;
+}
+
+bool says(const FrameDescription& frame, const std::string& words) {
+  const auto all = texts(frame);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const TextItem& t) { return t.text.find(words) != std::string::npos; });
+}
+
+/// Degrees of a label as on charts, by hand: "60°00′20″ N".
+double degrees_of(const std::string& label) {
+  int deg = 0;
+  double minute = 0.0;
+  double second = 0.0;
+  std::sscanf(label.c_str(), "%d°%lf′%lf″", &deg, &minute, &second);
+  const double sign = label.ends_with("S") || label.ends_with("W") ? -1.0 : 1.0;
+  return sign * (deg + minute / 60.0 + second / 3600.0);
+}
+
+/// Pixels from the graticule's own labels: straight lines between the outermost two.
+struct FromLabels {
+  double lat0, y0, lat1, y1, lon0, x0, lon1, x1;
+  explicit FromLabels(const FrameDescription& frame) {
+    std::vector<std::pair<double, double>> lats;
+    std::vector<std::pair<double, double>> lons;
+    for (const TextItem& t : texts(frame)) {
+      const bool degrees = t.text.find("′") != std::string::npos;
+      const double deg = degrees_of(t.text);
+      if (degrees && t.text.ends_with(" N")) lats.emplace_back(deg, t.at.y);
+      if (degrees && (t.text.ends_with(" E") || t.text.ends_with(" W"))) {
+        lons.emplace_back(deg < 0.0 ? deg + 360.0 : deg, t.at.x);
+      }
+    }
+    std::sort(lats.begin(), lats.end());
+    std::sort(lons.begin(), lons.end());
+    EXPECT_GE(lats.size(), 2U);
+    EXPECT_GE(lons.size(), 2U);
+    if (lats.size() < 2 || lons.size() < 2) return;
+    std::tie(lat0, y0) = lats.front();
+    std::tie(lat1, y1) = lats.back();
+    std::tie(lon0, x0) = lons.front();
+    std::tie(lon1, x1) = lons.back();
+  }
+  [[nodiscard]] PixelPoint at(const Geographic& p) const {
+    const double lon = p.longitude_deg < 0.0 ? p.longitude_deg + 360.0 : p.longitude_deg;
+    return {x0 + (lon - lon0) / (lon1 - lon0) * (x1 - x0), y0 + (p.latitude_deg - lat0) / (lat1 - lat0) * (y1 - y0)};
+  }
+};
+
+/// Whether a circle has its centre there.
+bool circle_at(const FrameDescription& frame, const PixelPoint& place, double within_px) {
+  for (const auto& item : frame.items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->parts.size() != 1 || path->parts[0].points.size() != 32) continue;
+    PixelPoint middle;
+    for (const PixelPoint& p : path->parts[0].points) middle = {middle.x + p.x / 32.0, middle.y + p.y / 32.0};
+    if (std::hypot(middle.x - place.x, middle.y - place.y) < within_px) return true;
+  }
+  return false;
+}
+
+std::vector<ObservationProduct> survey(Geographic start) {
+  std::vector<ObservationProduct> all{map_example::product("obs-0001", 60, start),
+                                      map_example::product("obs-0002", 60, destination(start, 1500.0, 90.0), 180.0,
+                                                           map_example::kStart + 3600 * kSecondNs)};
+  map_example::add_school(all[0], 1, destination(all[0].pings[30].transducer, 60.0, 270.0), 30, 31,
+                          map_example::block(2, 1, 2, 25, 5));
+  return all;
+}
+
+TEST(SurveyMap, ASchoolLandsOnItsPixelAlsoOver180Degrees) {
+  for (const Geographic start : {Geographic{60.0, 5.0}, Geographic{61.0, 179.99}, Geographic{55.0, -179.995}}) {
+    const auto all = survey(start);
+    const auto frame = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
+    ASSERT_TRUE(frame) << to_line(frame.error());
+    const FromLabels from(*frame);
+    const SchoolRow& school = all[0].schools[0];
+    EXPECT_TRUE(circle_at(*frame, from.at({school.latitude, school.longitude}), 1.5));
+    EXPECT_TRUE(circle_at(*frame, from.at(all[0].pings[0].transducer), 1.5));  // the green marker
+    EXPECT_FALSE(circle_at(*frame, from.at(destination(start, 700.0, 90.0)), 10.0));
+  }
+}
+
+TEST(SurveyMap, SaysWhatItIs) {
+  const auto all = survey({60.0, 5.0});
+  const auto frame = survey_map(all, {}, nullptr, {}, kSize, dark_theme(kSize), "depths.tif: no such depth raster");
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->title, "Fish schools of SYNTHETIC example");
+  EXPECT_TRUE(says(*frame, "2 observations, 1 school · 2020-09-13 12:26 \u2013 13:31 UTC"));
+  EXPECT_TRUE(says(*frame, "obs-0002"));
+  EXPECT_TRUE(says(*frame, "No depth raster: plain sea."));
+  EXPECT_TRUE(says(*frame, "no such depth raster"));
+  EXPECT_TRUE(says(*frame, "Lambert conformal conic"));  // 1.2 km high, 1.5 km wide, at 60 N
+  EXPECT_TRUE(says(*frame, "nmi"));
+}
+
+TEST(SurveyMap, DepthsAreColouredAndSaidWhereFrom) {
+  const auto all = survey({60.0, 5.0});
+  DepthGrid grid{59.9, 4.8, 0.005, 0.005,
+                 60,   100, {},    "sea.nc, elevation: elevation, negative down (told by its name)"};
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.columns; ++c) grid.depth_m.push_back(static_cast<float>(100.0 + 2.0 * c));
+  }
+  const auto frame = survey_map(all, {}, &grid, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "depth (m)"));
+  EXPECT_TRUE(says(*frame, "sea.nc"));
+  const ImageItem* image = nullptr;
+  for (const auto& item : frame->items) {
+    if (const auto* i = std::get_if<ImageItem>(&item)) image = i;
+  }
+  ASSERT_NE(image, nullptr);
+  // Deeper to the east: another colour, and the same colour all the way north.
+  const PixelSize s = image->image->size;
+  EXPECT_NE(image->image->at(5, s.height / 2), image->image->at(s.width - 5, s.height / 2));
+  EXPECT_EQ(image->image->at(s.width / 4, 5).a, 255);
+}
+
+TEST(SurveyMap, RejectedSchoolsAreLeftOutUnlessAskedFor) {
+  auto all = survey({60.0, 5.0});
+  all[0].schools[0].status = "rejected";
+  SurveyMapStyle style;
+  auto frame = survey_map(all, {}, nullptr, style, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "0 schools"));
+  style.rejected = true;
+  style.colouring = SchoolColouring::status;
+  frame = survey_map(all, {}, nullptr, style, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "rejected"));
+}
+
+TEST(SurveyMap, RefusesInOneLine) {
+  auto all = survey({60.0, 5.0});
+  const auto small = survey_map(all, {}, nullptr, {}, {200, 100}, light_theme({200, 100}));
+  ASSERT_FALSE(small);
+  EXPECT_EQ(small.error().text, "a picture of 200 x 100 pixels is too small for a survey map");
+  for (auto& p : all) {
+    for (auto& n : p.pings) n.transducer.latitude_deg = std::nan("");
+  }
+  const auto nowhere = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
+  ASSERT_FALSE(nowhere);
+  EXPECT_EQ(nowhere.error().code, ErrorCode::not_found);
+}
+
+TEST(MapItems, TitlesTellWhatIsSynthetic) {
+  std::vector<ObservationProduct> two(2);
+  two[0].observation = "obs-0001";
+  two[0].title = "Herring obs-0001";
+  two[1].observation = "obs-0002";
+  two[1].title = "Herring obs-0002";
+  EXPECT_EQ(survey_title(two), "Herring");
+  two[1].title = "SYNTHETIC obs-0002";
+  EXPECT_EQ(survey_title(two), "SYNTHETIC: Herring and others");
+}
+
+TEST(MapItems, TracksBreakWherePositionsAreUnknown) {
+  auto p = map_example::product("obs-0001", 30);
+  p.pings[12].transducer.latitude_deg = std::nan("");
+  const MapFrame map = fit_map({60.0, 60.01, 4.99, 5.01}, {0.0, 0.0, 600.0, 600.0});
+  EXPECT_EQ(track_item(map, p.pings, {}).parts.size(), 2U);
+}
+
+}  // namespace
+}  // namespace sonar

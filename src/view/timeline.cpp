@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/timeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "view/colour_bar.h"
+#include "view/map_items.h"
+#include "view/school_look.h"
+#include "view/shapes.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kGapIntervals = 3.0;  ///< a ping fills up to the next, but no more than so many usual intervals
+constexpr double kSecondsPerDay = 86'400.0;
+
+/// Where the pings of an observation lie along x, and how far one may reach.
+struct Along {
+  std::vector<double> x;  ///< [ping]
+  double gap = 0.0;
+};
+
+/// Seconds since `zero`, or nautical miles. Unknown logs take the last known one.
+Along along(const ObservationProduct& product, TimelineAxis axis, TimeNs zero) {
+  Along a;
+  double last = std::nan("");
+  for (const PingNavigation& n : product.pings) {
+    const double v = axis == TimelineAxis::time ? static_cast<double>(n.time - zero) / 1e9 : n.distance_nmi;
+    if (std::isfinite(v)) last = std::isfinite(last) ? std::max(last, v) : v;
+    a.x.push_back(last);
+  }
+  const auto known = std::find_if(a.x.begin(), a.x.end(), [](double v) { return std::isfinite(v); });
+  if (known == a.x.end()) {
+    a.x.clear();
+    return a;
+  }
+  std::fill(a.x.begin(), known, *known);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < a.x.size(); ++i) steps.push_back(a.x[i] - a.x[i - 1]);
+  if (!steps.empty()) {
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    a.gap = kGapIntervals * *middle;
+  }
+  return a;
+}
+
+std::int16_t value_of(const EchogramCell& cell, EchogramValue value) {
+  if (cell.empty()) return kNoData;
+  if (value == EchogramValue::maximum) return cell.high;
+  return value == EchogramValue::minimum ? cell.low : cell.mean_count();
+}
+
+/// Pings under a column of pixels: [first, end). A ping fills x up to the next one.
+struct Pings {
+  std::size_t first = 0;
+  std::size_t end = 0;
+};
+Pings pings_under(std::span<const double> x, double gap, double from, double to) {
+  const auto at = [&](double v) {
+    return static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), v) - x.begin());
+  };
+  Pings p{at(from), at(to)};
+  if (p.first < p.end || p.first == 0) return p;
+  const std::size_t before = p.first - 1;
+  const double until =
+      before + 1 < x.size() ? std::min(x[before + 1], x[before] + gap) : x[before] + gap / kGapIntervals;
+  if (from < until) p = {before, before + 1};
+  return p;
+}
+
+struct Span {
+  double first = 0.0;
+  double last = 0.0;
+};
+
+struct Strip {
+  const TimelineObservation* observation;
+  Along along;
+  [[nodiscard]] Span span() const {
+    // The last ping takes its own room.
+    return {along.x.front(), along.x.back() + along.gap / kGapIntervals};
+  }
+};
+
+void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& theme) {
+  const double em = theme.text_px;
+  const Ticks ticks =
+      nice_ticks(plot.y.first, plot.y.last, std::max(2, static_cast<int>(plot.place.height / (3.5 * em))));
+  for (const double v : ticks.major) {
+    const double y = plot.at(0.0, v).y;
+    frame.items.emplace_back(line_item({plot.place.x - 0.4 * em, y}, {plot.place.x, y}, theme.axis, theme.line_px));
+    frame.items.emplace_back(
+        text_item({plot.place.x - 0.6 * em, y}, tick_text(v, ticks.decimals), em, theme.text, TextAnchor::right));
+  }
+  TextItem label = text_item({plot.place.x - 4.4 * em, plot.place.y + plot.place.height / 2.0}, plot.y.label, em,
+                             theme.muted, TextAnchor::centre);
+  label.turned_deg = -90.0;
+  frame.items.emplace_back(std::move(label));
+}
+
+void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axis, TimeNs zero, const Theme& theme) {
+  const double em = theme.text_px;
+  const double bottom = plot.place.y + plot.place.height;
+  const auto tick = [&](double x, const std::string& text) {
+    const double px = plot.at(x, 0.0).x;
+    frame.items.emplace_back(line_item({px, bottom}, {px, bottom + 0.4 * em}, theme.axis, theme.line_px));
+    const double half = text_width_px(text.c_str(), em) / 2.0;
+    if (px - half < 0.0 || px + half > frame.size.width) return;
+    frame.items.emplace_back(text_item({px, bottom + 1.1 * em}, text, em, theme.text, TextAnchor::centre));
+  };
+  const int most = std::max(2, static_cast<int>(plot.place.width / (7.0 * em)));
+  if (axis == TimelineAxis::log) {
+    const Ticks ticks = nice_ticks(plot.x.first, plot.x.last, most);
+    for (const double v : ticks.major) tick(v, tick_text(v, ticks.decimals));
+  } else {
+    const auto time_of = [&](double s) { return zero + static_cast<TimeNs>(std::llround(s * 1e9)); };
+    for (const TimeTick& t : time_ticks(time_of(plot.x.first), time_of(plot.x.last), most)) {
+      tick(static_cast<double>(t.time - zero) / 1e9, t.text);
+    }
+  }
+  frame.items.emplace_back(text_item({plot.place.x + plot.place.width / 2.0, bottom + 2.5 * em}, plot.x.label, em,
+                                     theme.muted, TextAnchor::centre));
+}
+
+/// School tracks; a number stands at the first ping where there is room.
+void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme,
+                std::vector<PixelPoint>& numbered) {
+  const double em = theme.text_px;
+  const ObservationProduct& product = *strip.observation->product;
+  for (const SchoolRow& school : product.schools) {
+    PathItem::Part part;
+    for (const SchoolPingRow& row : product.school_pings) {
+      const auto i = static_cast<std::size_t>(std::max<std::int64_t>(0, row.ping_index));
+      if (row.school_id != school.school_id || row.ping_index < 0 || i >= strip.along.x.size()) continue;
+      if (std::isfinite(row.range_m)) part.points.push_back(plot.at(strip.along.x[i], row.range_m));
+    }
+    if (part.points.empty()) continue;
+    const PixelPoint first = part.points.front();
+    const Rgba8 colour = status_colour(school.status, theme);
+    if (part.points.size() == 1) part.points.push_back({first.x + 1.0, first.y});
+    // A dark line below a bright one is seen on every colour.
+    for (const auto& [line, width] : {std::pair(theme.halo, 3.6), std::pair(colour, 1.8)}) {
+      PathItem item;
+      item.parts.push_back(part);
+      item.stroke = {line, width * theme.line_px,
+                     width > 2.0 ? std::vector<double>{} : status_dashes(school.status, theme)};
+      frame.items.emplace_back(std::move(item));
+    }
+    const PixelPoint at{first.x, first.y - 0.9 * em};
+    const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
+      return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
+    });
+    if (!free) continue;
+    numbered.push_back(at);
+    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em, theme.text, TextAnchor::left);
+    number.bold = true;
+    number.halo = theme.halo;
+    frame.items.emplace_back(std::move(number));
+  }
+}
+
+void add_names(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme) {
+  const double em = theme.text_px;
+  double free_x = -1e9;
+  for (const Strip& strip : strips) {
+    const Span s = strip.span();
+    const double from = plot.at(s.first, 0.0).x;
+    const double to = std::max(from + 1.0, plot.at(s.last, 0.0).x);
+    const double y = plot.place.y - 0.45 * em;
+    frame.items.emplace_back(rectangle_item({from, y, to - from, 0.25 * em}, theme.track));
+    const std::string& name = strip.observation->product->observation;
+    const double half = text_width_px(name.c_str(), 0.9 * em) / 2.0;
+    const double middle = std::clamp((from + to) / 2.0, plot.place.x + half, plot.place.x + plot.place.width - half);
+    if (middle - half < free_x) continue;
+    free_x = middle + half + 0.6 * em;
+    frame.items.emplace_back(text_item({middle, y - 0.75 * em}, name, 0.9 * em, theme.muted, TextAnchor::centre));
+  }
+}
+
+double reach_m(std::span<const Strip> strips) {
+  double reach = 0.0;
+  for (const Strip& s : strips) {
+    if (const EchogramPyramid* e = s.observation->echogram) {
+      reach = std::max(reach, e->range().first_m + e->range().bins * e->range().bin_m);
+    } else if (const auto& grid = s.observation->product->grid) {
+      reach = std::max(reach, grid->range.range_m(grid->range.count - 0.5));
+    }
+    if (s.observation->echogram != nullptr || s.observation->product->grid) continue;
+    for (const SchoolPingRow& row : s.observation->product->school_pings) {
+      if (std::isfinite(row.range_m)) reach = std::max(reach, 1.05 * row.range_m);
+    }
+  }
+  return reach > 0.0 ? reach : 100.0;
+}
+
+Result<std::vector<Strip>> strips_of(std::span<const TimelineObservation> observations, TimelineAxis axis,
+                                     TimeNs zero) {
+  std::vector<Strip> strips;
+  for (const TimelineObservation& o : observations) {
+    if (o.product == nullptr || o.product->pings.empty()) continue;
+    Strip strip{&o, along(*o.product, axis, zero)};
+    if (!strip.along.x.empty()) strips.push_back(std::move(strip));
+  }
+  if (strips.empty() && zero != 0 && axis == TimelineAxis::log) {
+    return fail(ErrorCode::usage, "the data have no log (distance run); draw the timeline along time");
+  }
+  if (strips.empty()) return fail(ErrorCode::not_found, "there are no pings to draw a timeline of");
+  return strips;
+}
+
+const char* value_label(EchogramValue value) {
+  if (value == EchogramValue::maximum) return "largest Sv (dB re 1 m\u207B\u00B9)";
+  return value == EchogramValue::minimum ? "smallest Sv (dB re 1 m\u207B\u00B9)" : "mean Sv (dB re 1 m\u207B\u00B9)";
+}
+
+}  // namespace
+
+std::vector<TimeTick> time_ticks(TimeNs first, TimeNs last, int most) {
+  constexpr std::array<double, 24> kSteps_s{1,      2,      5,       10,      15,      30,        60,        120,
+                                            300,    600,    900,     1800,    3600,    7200,      10'800,    21'600,
+                                            43'200, 86'400, 172'800, 432'000, 604'800, 1'209'600, 2'592'000, 7'776'000};
+  std::vector<TimeTick> ticks;
+  if (last < first || most < 1) return ticks;
+  const double span_s = static_cast<double>(last - first) / 1e9;
+  double step_s = kSteps_s.back();
+  for (const double s : kSteps_s) {
+    if (span_s / s <= most) {
+      step_s = s;
+      break;
+    }
+  }
+  while (span_s / step_s > most) step_s *= 2.0;
+  const TimeNs step = static_cast<TimeNs>(step_s) * kSecondNs;
+  for (TimeNs t = (first + step - 1) / step * step; t <= last; t += step) {
+    const std::string text = clock_text(t, true);
+    const bool day = step_s >= kSecondsPerDay || (text.substr(11) == "00:00:00" && span_s > 3'600.0);
+    ticks.push_back({t, day ? text.substr(0, 10) : text.substr(11, step_s < 60.0 ? 8 : 5)});
+  }
+  return ticks;
+}
+
+EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const double> x, double gap,
+                             const PlotFrame& plot, EchogramValue value, const SvColours& colours) {
+  EchogramImage out;
+  const PixelSize size{std::max(1, static_cast<int>(std::ceil(plot.place.width))),
+                       std::max(1, static_cast<int>(std::ceil(plot.place.height)))};
+  out.image = Image(size, {0, 0, 0, 0});
+  out.finest_level = echogram.levels();
+  x = x.first(std::min(x.size(), echogram.pings()));
+  const auto per_column = static_cast<std::size_t>(echogram.pings_per_column());
+  for (int i = 0; i < size.width; ++i) {
+    const Pings pings = pings_under(x, gap, plot.x_at(plot.place.x + i), plot.x_at(plot.place.x + i + 1));
+    if (pings.end <= pings.first) continue;
+    const std::size_t first = pings.first / per_column;
+    const std::size_t last = (pings.end - 1) / per_column;
+    int level = 0;
+    while (level + 1 < echogram.levels() && (last - first + 1) >> static_cast<unsigned>(level + 1) >= 1) ++level;
+    out.finest_level = std::min(out.finest_level, level);
+    const double bin_m = echogram.range().bin_m * echogram.range().bins / echogram.bins(level);
+    for (int j = 0; j < size.height; ++j) {
+      const double near_m = plot.y_at(plot.place.y + j) - echogram.range().first_m;
+      const double far_m = plot.y_at(plot.place.y + j + 1) - echogram.range().first_m;
+      const int from = static_cast<int>(std::floor(near_m / bin_m));
+      const int to = std::max(from + 1, static_cast<int>(std::floor(far_m / bin_m)));
+      EchogramCell cell;
+      for (std::size_t c = first >> static_cast<unsigned>(level); c <= last >> static_cast<unsigned>(level); ++c) {
+        for (int b = std::max(0, from); b < std::min(to, echogram.bins(level)); ++b) {
+          cell.add(echogram.cell(level, c, b));
+          ++out.cells_read;
+        }
+      }
+      const bool inside = from >= 0 && from < echogram.bins(level);
+      if (inside) out.image.at(i, j) = colours[value_of(cell, value)];
+    }
+  }
+  return out;
+}
+
+Result<FrameDescription> timeline(std::span<const TimelineObservation> observations, const TimelineStyle& style,
+                                  PixelSize size, const Theme& theme) {
+  if (auto ok = validate(style); !ok) return pass_on(ok);
+  const double em = theme.text_px;
+  if (size.width < 30.0 * em || size.height < 14.0 * em) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("a picture of {} x {} pixels is too small for a timeline", size.width, size.height));
+  }
+  TimeNs zero = 0;
+  TimeNs last = 0;
+  std::vector<ObservationProduct> heads;
+  bool raw_gone = false;
+  for (const TimelineObservation& o : observations) {
+    if (o.product == nullptr || o.product->pings.empty()) continue;
+    zero = zero == 0 ? o.product->pings.front().time : std::min(zero, o.product->pings.front().time);
+    last = std::max(last, o.product->pings.back().time);
+    raw_gone = raw_gone || o.echogram == nullptr;
+    ObservationProduct& head = heads.emplace_back();
+    head.title = o.product->title;
+    head.observation = o.product->observation;
+  }
+  const auto strips = strips_of(observations, style.axis, zero);
+  if (!strips) return pass_on(strips);
+  const bool any_echogram =
+      std::any_of(strips->begin(), strips->end(), [](const Strip& s) { return s.observation->echogram != nullptr; });
+  const Layout layout = lay_out(size, theme, {.title_lines = 3, .colour_bar = any_echogram, .y_label_characters = 4});
+  PlotFrame plot;
+  plot.place = layout.plot;
+  plot.place.y += 0.6 * em;
+  plot.place.height -= 0.6 * em;
+  plot.x = {strips->front().span().first, strips->front().span().last, "", false};
+  for (const Strip& s : *strips) {
+    plot.x.first = std::min(plot.x.first, s.span().first);
+    plot.x.last = std::max(plot.x.last, s.span().last);
+  }
+  if (!(plot.x.last > plot.x.first)) plot.x.last = plot.x.first + 1.0;
+  plot.x.label = style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(zero, true).substr(0, 10);
+  plot.y = {0.0, reach_m(*strips), "range (m)", false};
+  FrameDescription frame;
+  frame.size = size;
+  frame.background = theme.background;
+  frame.title = survey_title(heads);
+  frame.items.emplace_back(rectangle_item(plot.place, theme.plot));
+  const SvColours colours = sv_colours(style.scale);
+  frame.items.emplace_back(ClipItem{plot.place});
+  for (const Strip& s : *strips) {
+    const double from = plot.at(s.span().first, 0.0).x;
+    const double to = std::max(from + 1.0, plot.at(s.span().last, 0.0).x);
+    frame.items.emplace_back(rectangle_item({from, plot.place.y, to - from, plot.place.height}, theme.water));
+    if (s.observation->echogram == nullptr) continue;
+    auto image = std::make_shared<Image>(
+        echogram_image(*s.observation->echogram, s.along.x, s.along.gap, plot, style.value, colours).image);
+    const PixelRect place{plot.place.x, plot.place.y, static_cast<double>(image->size.width),
+                          static_cast<double>(image->size.height)};
+    frame.items.emplace_back(ImageItem{place, std::move(image), false});
+  }
+  std::vector<PixelPoint> numbered;
+  for (const Strip& s : *strips) {
+    if (style.schools) add_tracks(frame, s, plot, theme, numbered);
+  }
+  frame.items.emplace_back(ClipItem{});
+  frame.items.emplace_back(rectangle_item(plot.place, {0, 0, 0, 0}, theme.axis, theme.line_px));
+  add_names(frame, *strips, plot, theme);
+  add_y_axis(frame, plot, theme);
+  add_x_axis(frame, plot, style.axis, zero, theme);
+  if (any_echogram) add_colour_bar(frame, layout.colour_bar, colours, theme, value_label(style.value));
+  std::string line = time_span_text(zero, last);
+  if (raw_gone) line += any_echogram ? " · schools only where raw data are gone" : " · raw data are gone: schools only";
+  add_title(frame, layout, theme, {frame.title, line});
+  return frame;
+}
+
+}  // namespace sonar

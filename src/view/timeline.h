@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/describe.h"
+#include "base/result.h"
+#include "model/product.h"
+#include "view/axes.h"
+#include "view/echogram_pyramid.h"
+#include "view/frame_description.h"
+#include "view/sv_scale.h"
+#include "view/theme.h"
+
+namespace sonar {
+
+enum class EchogramValue : std::uint8_t { mean, maximum, minimum };
+inline constexpr std::array<std::string_view, 3> kEchogramValueNames{"mean", "maximum", "minimum"};
+enum class TimelineAxis : std::uint8_t { time, log };
+inline constexpr std::array<std::string_view, 2> kTimelineAxisNames{"time", "log"};
+
+struct TimelineStyle {
+  EchogramValue value = EchogramValue::mean;  ///< over beams (and pings and ranges, where a pixel has several)
+  TimelineAxis axis = TimelineAxis::time;
+  SvScale scale{.map = ColourMapName::ek500, .low_db = -75.0, .span_db = 36.0};
+  bool schools = true;
+  friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, TimelineStyle& p) {
+  v.choice("value", p.value, kEchogramValueNames, "what of all beams is shown");
+  v.choice("axis", p.axis, kTimelineAxisNames, "along time or the vessel's log");
+  v.group("scale", p.scale, "colours of Sv");
+  v.field("schools", p.schools, {.text = "draw school tracks in"});
+}
+
+/// One observation of a timeline.
+struct TimelineObservation {
+  const ObservationProduct* product = nullptr;
+  const EchogramPyramid* echogram = nullptr;  ///< nullptr: raw data are gone, schools only
+};
+
+/// A raster of an echogram, and what it cost.
+struct EchogramImage {
+  Image image;
+  int finest_level = 0;          ///< of the levels that were read
+  std::uint64_t cells_read = 0;  ///< grows with the picture, not with the number of pings
+};
+/// x       [ping] places of the pings on the plot's x axis, not falling
+/// gap     longest step of x that a ping fills up to the next one
+[[nodiscard]] EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const double> x, double gap,
+                                           const PlotFrame& plot, EchogramValue value, const SvColours& colours);
+
+/// Range against time (or log) for an observation or a whole survey: Sv of all beams, school tracks with their numbers
+/// in the line style of their status, observations named above, gaps left empty.
+/// observations  in time order
+/// errors        bad_parameter: a parameter out of range, or too small a picture; not_found: no pings; usage: no log
+[[nodiscard]] Result<FrameDescription> timeline(std::span<const TimelineObservation> observations,
+                                                const TimelineStyle& style, PixelSize size, const Theme& theme);
+
+/// Ticks at round times: seconds to weeks. At most `most`.
+struct TimeTick {
+  TimeNs time = 0;
+  std::string text;  ///< "08:05", with seconds where the step needs them; the date at midnight where steps are days
+};
+[[nodiscard]] std::vector<TimeTick> time_ticks(TimeNs first, TimeNs last, int most);
+
+}  // namespace sonar

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "view/map_example.h"
+
+namespace sonar {
+namespace {
+
+EchogramCell cell(double sv, double volume) {
+  const auto count = static_cast<std::int16_t>(std::lround(counts_from_db(db_from_linear(sv))));
+  return {static_cast<float>(sv * volume), static_cast<float>(volume), count, count};
+}
+
+/// Small whole numbers, so that sums in any order are exact.
+EchogramCell numbered(std::size_t ping, int bin) {
+  const auto v = static_cast<std::int16_t>((ping * 31 + static_cast<std::size_t>(bin) * 17) % 101);
+  return {static_cast<float>(v), 2.0F, static_cast<std::int16_t>(v - 5), static_cast<std::int16_t>(v + 5)};
+}
+
+TEST(EchogramColumn, IsTheVolumeWeightedLinearMeanOfWhatIsNotFlagged) {
+  const Sector sector = map_example::grid().grid.sector(map_example::grid().range);
+  Volume volume{Array3<std::int16_t>({3, 4, 60}, kNoData), Array3<SampleFlags>({3, 4, 60}, SampleFlags::none)};
+  const auto count = [](double db) { return static_cast<std::int16_t>(std::lround(counts_from_db(db))); };
+  volume.counts(0, 0, 20) = count(-60.0);
+  volume.counts(2, 3, 20) = count(-40.0);
+  volume.counts(1, 1, 20) = count(-10.0);
+  volume.flags(1, 1, 20) = SampleFlags::seabed;
+  const EchogramRange range{0.0, 2.0, 60};
+  const auto column = echogram_column(sector, volume, SampleFlags::seabed, range);
+  // Sample 20 lies at 39 m: bin 19. The shell is the same, the fans' solid angles are not.
+  const double a = sector.solid_angle_sr(0, 0);
+  const double b = sector.solid_angle_sr(2, 3);
+  const double mean_db = 10.0 * std::log10((1e-6 * a + 1e-4 * b) / (a + b));
+  EXPECT_NEAR(db_from_counts(column[19].mean_count()), mean_db, 0.02);
+  EXPECT_EQ(column[19].high, count(-40.0));
+  EXPECT_EQ(column[19].low, count(-60.0));
+  EXPECT_TRUE(column[18].empty());
+  EXPECT_EQ(column[18].mean_count(), kNoData);
+}
+
+TEST(EchogramRange, CoversEverySampleAndIsNoFinerThanThem) {
+  const EchogramRange r = echogram_range({-1.0, 2.0, 60});
+  EXPECT_EQ(r.bins, 59);  // 0 .. 118 m
+  EXPECT_DOUBLE_EQ(r.bin_m, 2.0);
+  EXPECT_EQ(echogram_range({0.0, 0.4, 2000}, 100).bins, 100);
+}
+
+TEST(EchogramPyramid, EveryLevelIsTheDirectReductionOfThePings) {
+  for (const int per_column : {1, 3}) {
+    const EchogramRange range{0.0, 0.5, 1030};
+    EchogramPyramid pyramid(range, per_column);
+    constexpr std::size_t kPings = 77;
+    for (std::size_t i = 0; i < kPings; ++i) {
+      std::vector<EchogramCell> column;
+      for (int b = 0; b < range.bins; ++b) column.push_back(numbered(i, b));
+      pyramid.add_ping(static_cast<TimeNs>(i) * kSecondNs, i == 13 ? std::span<EchogramCell>() : std::span(column));
+    }
+    ASSERT_GE(pyramid.levels(), 5);
+    EXPECT_EQ(pyramid.columns(pyramid.levels() - 1), 1U);
+    EXPECT_EQ(pyramid.bins(0), 1030);
+    EXPECT_EQ(pyramid.bins(1), 515);
+    EXPECT_EQ(pyramid.bins(2), 258);
+    EXPECT_EQ(pyramid.bins(3), 258);  // range stays fine enough to draw
+    for (int level = 0; level < pyramid.levels(); ++level) {
+      const std::size_t pings = static_cast<std::size_t>(per_column) << static_cast<unsigned>(level);
+      const int bins = level == 0 ? 1 : level == 1 ? 2 : 4;
+      for (std::size_t c = 0; c < pyramid.columns(level); ++c) {
+        for (int b = 0; b < pyramid.bins(level); b += 50) {
+          EchogramCell direct;
+          for (std::size_t i = c * pings; i < std::min(kPings, (c + 1) * pings); ++i) {
+            if (i == 13) continue;
+            for (int k = b * bins; k < std::min(range.bins, (b + 1) * bins); ++k) direct.add(numbered(i, k));
+          }
+          EXPECT_EQ(pyramid.cell(level, c, b), direct) << level << ' ' << c << ' ' << b;
+        }
+      }
+    }
+  }
+}
+
+PlotFrame plot_of(double seconds, double metres) {
+  PlotFrame plot;
+  plot.place = {0.0, 0.0, 200.0, 100.0};
+  plot.x = {0.0, seconds, "", false};
+  plot.y = {0.0, metres, "", false};
+  return plot;
+}
+
+TEST(EchogramImage, APixelIsTheMeanOfWhatLiesUnderIt) {
+  EchogramPyramid pyramid({0.0, 1.0, 100});
+  std::vector<double> x;
+  for (int i = 0; i < 400; ++i) {
+    // Two levels side by side: 1e-6 and 3e-6; their linear mean is 2e-6 = -57 dB, not -57.6 (the mean of the dB).
+    std::vector<EchogramCell> column(100, cell(i % 2 == 0 ? 1e-6 : 3e-6, 10.0));
+    pyramid.add_ping(i * kSecondNs, column);
+    x.push_back(i + 0.5);  // none on a pixel's edge
+  }
+  SvScale scale;
+  scale.map = ColourMapName::viridis;
+  const SvColours colours = sv_colours(scale);
+  const EchogramImage mean = echogram_image(pyramid, x, 3.0, plot_of(400.0, 100.0), EchogramValue::mean, colours);
+  EXPECT_EQ(mean.finest_level, 1);
+  const auto expected = static_cast<std::int16_t>(std::lround(counts_from_db(db_from_linear(2e-6))));
+  EXPECT_EQ(mean.image.at(100, 50), colours[expected]);
+  const EchogramImage most = echogram_image(pyramid, x, 3.0, plot_of(400.0, 100.0), EchogramValue::maximum, colours);
+  EXPECT_EQ(most.image.at(100, 50), colours[cell(3e-6, 1.0).high]);
+}
+
+TEST(EchogramImage, TheCostIsThatOfThePictureHoweverManyPings) {
+  std::uint64_t cost[2] = {};
+  int k = 0;
+  for (const int pings : {1'000, 30'000}) {
+    EchogramPyramid pyramid({0.0, 1.0, 100});
+    const std::vector<EchogramCell> column(100, cell(1e-6, 10.0));
+    std::vector<double> x;
+    for (int i = 0; i < pings; ++i) {
+      pyramid.add_ping(i * kSecondNs, column);
+      x.push_back(i);
+    }
+    cost[k++] =
+        echogram_image(pyramid, x, 3.0, plot_of(pings, 100.0), EchogramValue::mean, sv_colours(SvScale{})).cells_read;
+  }
+  EXPECT_LE(cost[0], 3U * 200U * 100U);
+  EXPECT_LE(cost[1], 3U * 200U * 100U);
+}
+
+TEST(EchogramImage, GapsStayEmptyAndPingsFillUpToTheNext) {
+  EchogramPyramid pyramid({0.0, 1.0, 100});
+  const std::vector<EchogramCell> column(100, cell(1e-5, 10.0));
+  const std::vector<double> x{0.0, 10.0, 20.0, 150.0, 160.0};
+  for (const double t : x) pyramid.add_ping(static_cast<TimeNs>(t) * kSecondNs, column);
+  const auto image =
+      echogram_image(pyramid, x, 30.0, plot_of(200.0, 100.0), EchogramValue::mean, sv_colours(SvScale{})).image;
+  EXPECT_EQ(image.at(5, 50).a, 255);
+  EXPECT_EQ(image.at(48, 50).a, 255);  // 30 s after the ping at 20 s it ends
+  EXPECT_EQ(image.at(51, 50).a, 0);
+  EXPECT_EQ(image.at(149, 50).a, 0);
+  EXPECT_EQ(image.at(155, 50).a, 255);
+  EXPECT_EQ(image.at(169, 50).a, 255);  // the last ping fills one usual step
+  EXPECT_EQ(image.at(172, 50).a, 0);
+}
+
+bool says(const FrameDescription& frame, const std::string& words) {
+  return std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+    const auto* t = std::get_if<TextItem>(&item);
+    return t != nullptr && t->text.find(words) != std::string::npos;
+  });
+}
+
+TEST(Timeline, WithoutRawThereAreTheSchoolsAndANote) {
+  ObservationProduct p = map_example::product("obs-0001", 40);
+  map_example::add_school(p, 9, p.pings[0].transducer, 5, 15, map_example::block(2, 1, 2, 24, 3));
+  const TimelineObservation one{&p, nullptr};
+  constexpr PixelSize kSize{900, 400};
+  TimelineStyle style;
+  auto frame = timeline(std::span(&one, 1), style, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  EXPECT_TRUE(says(*frame, "raw data are gone: schools only"));
+  EXPECT_TRUE(says(*frame, "9"));
+  EXPECT_TRUE(says(*frame, "obs-0001"));
+  EXPECT_TRUE(says(*frame, "12:27"));
+  EXPECT_TRUE(says(*frame, "SYNTHETIC"));
+  style.axis = TimelineAxis::log;
+  frame = timeline(std::span(&one, 1), style, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "log (nmi)"));
+  for (PingNavigation& n : p.pings) n.distance_nmi = std::nan("");
+  const auto none = timeline(std::span(&one, 1), style, kSize, light_theme(kSize));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text, "the data have no log (distance run); draw the timeline along time");
+  p.pings.clear();
+  EXPECT_FALSE(timeline(std::span(&one, 1), TimelineStyle{}, kSize, light_theme(kSize)));
+}
+
+TEST(Timeline, TicksStandAtRoundTimes) {
+  const TimeNs start = time_from_calendar(2009, 11, 13, 8 * 3600.0 + 11 * 60.0 + 49.0);
+  const auto minutes = time_ticks(start, start + 1800 * kSecondNs, 8);
+  ASSERT_EQ(minutes.size(), 6U);
+  EXPECT_EQ(minutes[0].text, "08:15");
+  EXPECT_EQ(minutes[1].text, "08:20");
+  const auto days = time_ticks(start, start + 7 * 86'400 * kSecondNs, 8);
+  ASSERT_EQ(days.size(), 7U);
+  EXPECT_EQ(days[0].text, "2009-11-14");
+  EXPECT_EQ(time_ticks(start, start + 10 * kSecondNs, 10)[0].text, "08:11:49");
+}
+
+}  // namespace
+}  // namespace sonar
