@@ -20,7 +20,7 @@ constexpr int kMostNodes = 500;    ///< along a side
 constexpr double kAround_m = 4'000.0;
 constexpr double kShallowest_m = 15.0;
 constexpr double kReliefGrowsOver_m = 4'000.0;
-constexpr double kRelief = 0.45;  ///< of the depth
+constexpr double kRelief = 0.8;  ///< of the depth
 /// Farther than this a place need not be known exactly: only the weight of a plane hangs on it.
 constexpr double kExact_m = 20'000.0;
 
@@ -59,11 +59,12 @@ double reach_m(const Scene& scene) {
   return count * kSoundSpeed_mps * kSampleInterval_s / 2.0;
 }
 
-/// Hills and hollows of some kilometres, -1 .. 1.
+/// Hollows of some kilometres, 0 .. 1. Never shallower than the planes: the edge of a level plain of 260 m would else be
+/// a ragged isobath of 260 m.
 double relief(double east_m, double north_m) {
   const auto wave = [](double v, double length_m) { return std::sin(2.0 * std::numbers::pi * v / length_m); };
-  return 0.5 * wave(east_m + 0.4 * north_m, 9'300.0) * wave(north_m - 0.3 * east_m, 7'100.0) +
-         0.3 * wave(0.7 * east_m + 0.7 * north_m + 1'000.0, 17'000.0) + 0.2 * wave(north_m - east_m, 4'300.0);
+  return 0.5 + 0.25 * wave(east_m + 0.4 * north_m, 9'300.0) * wave(north_m - 0.3 * east_m, 7'100.0) +
+         0.15 * wave(0.7 * east_m + 0.7 * north_m + 1'000.0, 17'000.0) + 0.1 * wave(north_m - east_m, 4'300.0);
 }
 
 double depth_m(const std::vector<Course>& courses, const Geographic& place) {
@@ -86,7 +87,7 @@ double depth_m(const std::vector<Course>& courses, const Geographic& place) {
   if (nearest_m <= 0.0) return own_m;
   const Point<Enu> p = courses.front().local(place);
   const double grown = 1.0 - std::exp(-nearest_m / kReliefGrowsOver_m);
-  return std::max(kShallowest_m, sum / weights * (1.0 - kRelief * grown * relief(p.x, p.y)));
+  return std::max(kShallowest_m, sum / weights * (1.0 + kRelief * grown * relief(p.x, p.y)));
 }
 
 }  // namespace
