@@ -12,7 +12,7 @@ build=(g++ cmake ninja-build ccache pkg-config ca-certificates
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri)
 test=(libgtest-dev libgmock-dev clang-format-16 git python3 python3-numpy python3-netcdf4)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
-bench=(libbenchmark-dev libinsighttoolkit5-dev)
+bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 
 wanted=("${build[@]}")
 for group in "${@:-build}"; do

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// sonar_bench_render FOLDER [FRAMES [REFERENCE_STEP]]: the processor's ray-caster on the four scenes of make_scene.py,
+// beside the paper's naive shader (where OpenGL can be had) and VTK's GPU mapper (where vtk_volume.py has left vtk.csv in
+// FOLDER). Every answer is checked before it is timed; ends with 1 where a check or a guard fails.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "naive_shader.h"
+#include "render/gl/context_egl.h"
+#include "render/reference/brute_force.h"
+#include "scene_files.h"
+
+namespace sonar::bench {
+namespace {
+
+/// Samples, segments and leaps of a frame at default quality, as recorded when the benchmark was made: no more than
+/// 5 % above. The numbers do not depend on the machine.
+struct Recorded {
+  const char* view;
+  const char* table;
+  std::int64_t samples;
+  std::int64_t segments;
+  std::int64_t leaps;
+};
+constexpr std::array<Recorded, 4> kRecorded{{{"overview", "schools", 14677676, 76268, 3145348},
+                                             {"closeup", "schools", 48117443, 431536, 15176416},
+                                             {"overview", "haze", 14758108, 8943294, 0},
+                                             {"closeup", "haze", 48469714, 38043011, 0}}};
+
+double cpu_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double wall_now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Times {
+  double wall_s = 0.0;  ///< medians
+  double cpu_s = 0.0;
+};
+
+template <class Body>
+Times timed(int frames, const Body& body) {
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (int i = 0; i < frames; ++i) {
+    const double w = wall_now_s();
+    const double c = cpu_now_s();
+    body();
+    wall.push_back(wall_now_s() - w);
+    cpu.push_back(cpu_now_s() - c);
+  }
+  std::sort(wall.begin(), wall.end());
+  std::sort(cpu.begin(), cpu.end());
+  return {wall[wall.size() / 2], cpu[cpu.size() / 2]};
+}
+
+Image black(const RayImage& rays) { return over(rays, Rgba8{0, 0, 0, 255}); }
+
+class Bench {
+ public:
+  Bench(std::string folder, int frames, double reference_step)
+      : folder_(std::move(folder)), frames_(frames), reference_step_(reference_step) {}
+
+  bool run() {
+    const auto context = ContextEgl::make();
+    const bool gl = context && context->make_current();
+    for (const Recorded& recorded : kRecorded) {
+      const auto scene = read_scene(folder_, recorded.view, recorded.table);
+      if (!scene) {
+        fmt::print(stderr, "{}: no scene; make_scene.py writes one\n", folder_);
+        return false;
+      }
+      fmt::print("\n{} {}\n", recorded.view, recorded.table);
+      one_scene(*scene, recorded, gl);
+    }
+    fmt::print("\n{}\n", sound_ ? "all checks passed" : "FAILED: see above");
+    return sound_;
+  }
+
+ private:
+  void expect(bool ok, const std::string& what) {
+    sound_ = sound_ && ok;
+    if (!ok) fmt::print("  FAILED: {}\n", what);
+  }
+
+  RayImage draw(VolumeRenderer& r, const VolumeView& view, const DrawQuality& quality) {
+    auto out = r.draw(view, quality, work_);
+    if (!out) {
+      fmt::print(stderr, "{}\n", to_line(out.error()));
+      std::exit(EXIT_FAILURE);
+    }
+    return std::move(*out);
+  }
+
+  void one_scene(const SceneFiles& scene, const Recorded& recorded, bool gl) {
+    const auto r = make_cpu_renderer();
+    if (!r->set_volume(scene.volume) || !r->set_transfer(scene.table)) std::exit(EXIT_FAILURE);
+    verify(*r, scene);
+    const Image reference = black(draw(*r, scene.view, {1, reference_step_, 0.0, 0}));
+    const RayImage still = draw(*r, scene.view, {});
+    const double quality_db = psnr_db(black(still), reference);
+    const Times full = timed(frames_, [&] { (void)draw(*r, scene.view, {}); });
+    report(r->name(), full, quality_db);
+    counts(still.counts, recorded);
+    const double tile = worst_tile_psnr_db(black(still), black(draw(*r, scene.view, {1, 0.5, 0.03, 0})));
+    fmt::print("  worst 64 x 64 tile between step and half step {:.1f} dB\n", tile);
+    expect(tile >= 48.0, "a tile below 48 dB between step and half step");
+    interaction(*r, scene);
+    if (gl) beside_naive(scene, full, reference);
+    beside_vtk(recorded, full, reference);
+  }
+
+  /// A small picture at the reference's step against the reference by brute force.
+  void verify(VolumeRenderer& r, const SceneFiles& scene) {
+    VolumeView small = scene.view;
+    small.size = {40, 30};
+    const Image truth = black(brute_force(*scene.volume, scene.table, {}, small, 0.125, work_));
+    const double fine = psnr_db(black(draw(r, small, {1, 0.125, 0.0, 0})), truth);
+    fmt::print("  against brute force, both at 1/8 of a sample: {:.1f} dB\n", fine);
+    expect(fine >= 58.0, "another picture than brute force");
+  }
+
+  void report(const std::string& who, const Times& t, double db) {
+    fmt::print("  {:<42} cpu {:8.3f} s  wall {:8.3f} s  PSNR {:5.1f} dB\n", who, t.cpu_s, t.wall_s, db);
+  }
+
+  void counts(const RayCounts& c, const Recorded& recorded) {
+    fmt::print("  rays {}  samples {} ({})  segments {} ({})  leaps {} ({})\n", c.rays, c.samples, recorded.samples,
+               c.segments, recorded.segments, c.leaps, recorded.leaps);
+    const auto grown = [](std::int64_t now, std::int64_t then) {
+      return static_cast<double>(now) > 1.05 * static_cast<double>(then) + 1000.0;
+    };
+    expect(
+        !grown(c.samples, recorded.samples) && !grown(c.segments, recorded.segments) && !grown(c.leaps, recorded.leaps),
+        "counts grew by more than 5 %");
+  }
+
+  void interaction(VolumeRenderer& r, const SceneFiles& scene) {
+    const DrawQuality half{2, 1.0, 0.03, 0};
+    (void)draw(r, scene.view, half);
+    const Times drag = timed(frames_, [&] { (void)draw(r, scene.view, half); });
+    VolumeView point = scene.view;
+    point.size = {1, 1};
+    const Times edit = timed(frames_, [&] {
+      (void)r.set_transfer(scene.table);
+      (void)draw(r, point, {});
+    });
+    const Times ping = timed(frames_, [&] { (void)r.set_volume(scene.volume); });
+    fmt::print(
+        "  half resolution {:.1f} ms wall, {:.1f} ms cpu; table edit {:.1f} ms wall, {:.1f} ms cpu; new ping {:.1f} ms "
+        "cpu\n",
+        1e3 * drag.wall_s, 1e3 * drag.cpu_s, 1e3 * edit.wall_s, 1e3 * edit.cpu_s, 1e3 * ping.cpu_s);
+  }
+
+  void beside_naive(const SceneFiles& scene, const Times& ours, const Image& reference) {
+    NaiveFrame frame;
+    const double wall_s = naive_frame(*scene.volume, scene.table, scene.view, scene.volume->sector.range().spacing_m,
+                                      std::min(frames_, 3), frame);
+    if (!(wall_s > 0.0)) {
+      fmt::print("  the paper's naive shader does not run here\n");
+      return;
+    }
+    report("the paper's naive shader", {wall_s, frame.cpu_s}, psnr_db(black(frame.picture), reference));
+    fmt::print("    ours is {:.1f} times as fast (cpu)\n", frame.cpu_s / ours.cpu_s);
+  }
+
+  void beside_vtk(const Recorded& scene, const Times& ours, const Image& reference) {
+    std::ifstream csv(folder_ + "/vtk.csv");
+    for (std::string line; std::getline(csv, line);) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream fields(line);
+      std::string view;
+      std::string table;
+      int size = 0;
+      Times t;
+      if (!(fields >> view >> table >> size >> t.wall_s >> t.cpu_s) || view != scene.view || table != scene.table)
+        continue;
+      const auto picture = read_rgb(fmt::format("{}/vtk_{}_{}_{}.rgb", folder_, view, table, size), reference.size);
+      report(fmt::format("VTK's GPU mapper, {}^3 voxels", size), t, picture ? psnr_db(*picture, reference) : 0.0);
+      fmt::print("    ours is {:.1f} times as fast (cpu)\n", t.cpu_s / ours.cpu_s);
+    }
+  }
+
+  std::string folder_;
+  int frames_;
+  double reference_step_;
+  Work work_{2};
+  bool sound_ = true;
+};
+
+}  // namespace
+}  // namespace sonar::bench
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: sonar_bench_render FOLDER [FRAMES [REFERENCE_STEP]]\n");
+    return 2;
+  }
+  const int frames = argc > 2 ? std::max(1, std::atoi(argv[2])) : 5;
+  const double step = argc > 3 ? std::atof(argv[3]) : 0.125;
+  return sonar::bench::Bench(argv[1], frames, step).run() ? EXIT_SUCCESS : EXIT_FAILURE;
+}
