@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "school/track.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,8 @@
 
 #include "base/check.h"
 #include "school/assign.h"
+#include "school/detection_owners.h"
+#include "school/divide.h"
 #include "school/motion.h"
 #include "school/moved_mask.h"
 #include "school/runs.h"
@@ -26,40 +26,6 @@ double seconds_between(TimeNs from, TimeNs to) {
   return static_cast<double>(to - from) / static_cast<double>(kSecondNs);
 }
 
-/// Which detection of a ping holds a voxel.
-class Owners {
- public:
-  Owners(const DetectedPing& ping, const Sector& sector) : beams_(sector.beams()) {
-    for (std::size_t d = 0; d < ping.detections.size(); ++d) {
-      for (const Run& run : ping.detections[d].mask.runs) owned_.emplace_back(run, static_cast<int>(d));
-    }
-    std::sort(owned_.begin(), owned_.end());
-    std::vector<Run> runs;
-    for (const auto& [run, detection] : owned_) runs.push_back(run);
-    rows_ = index_rows(runs, static_cast<std::size_t>(sector.fans()) * static_cast<std::size_t>(beams_));
-  }
-
-  /// -1 = none.
-  [[nodiscard]] int at(const SectorIndex& index) const {
-    const int row = static_cast<int>(std::lround(index.fan)) * beams_ + static_cast<int>(std::lround(index.beam));
-    if (row < 0 || row + 1 >= static_cast<int>(rows_.size())) return -1;
-    const auto r = static_cast<std::size_t>(row);
-    const auto sample = static_cast<std::int32_t>(std::lround(index.sample));
-    const auto begin = owned_.begin() + rows_[r];
-    const auto end = owned_.begin() + rows_[r + 1];
-    auto it =
-        std::upper_bound(begin, end, sample, [](std::int32_t s, const auto& o) { return s < o.first.first_sample; });
-    if (it == begin) return -1;
-    --it;
-    return sample < it->first.end() ? it->second : -1;
-  }
-
- private:
-  int beams_;
-  std::vector<std::pair<Run, int>> owned_;
-  std::vector<int> rows_;
-};
-
 struct OpenTrack {
   int number = 0;  ///< order of birth
   Motion motion;
@@ -69,6 +35,8 @@ struct OpenTrack {
   double reference_db = 0.0;
   int pieces_streak = 0;  ///< pings in a row with more than one detection
   bool merged = false;
+  int own_pings = 0;    ///< in which it shared its detection with no other school
+  Covariance3 shape{};  ///< east, north, up, m^2; when last alone
 };
 
 struct RawEvent {
@@ -97,7 +65,7 @@ class Tracker {
   void step(std::size_t p) {
     retire(p);
     const DetectedPing& ping = pings_[p];
-    const Owners owners(ping, sector_);
+    const DetectionOwners owners(ping, sector_);
     std::vector<std::vector<double>> shared;  // [track][detection] m^3 of the moved mask inside the detection
     std::vector<double> moved_m3;
     std::vector<std::vector<double>> cost;
@@ -118,6 +86,7 @@ class Tracker {
         taken_by[static_cast<std::size_t>(choice[t])] = static_cast<int>(t);
       }
     }
+    if (params_.divide_joined) divide_joined(p, taken_by, shared, moved_m3);
     note_merges(p, taken_by, shared, moved_m3);
     const std::vector<std::vector<int>> pieces = gather_pieces(p, taken_by, shared);
     for (std::size_t d = 0; d < taken_by.size(); ++d) {
@@ -156,13 +125,15 @@ class Tracker {
     closed_.push_back(std::move(track));
   }
 
-  [[nodiscard]] std::vector<double> overlaps(const OpenTrack& track, std::size_t p, const Owners& owners,
+  [[nodiscard]] std::vector<double> overlaps(const OpenTrack& track, std::size_t p, const DetectionOwners& owners,
                                              double& moved_m3) const {
     std::vector<double> shared(pings_[p].detections.size(), 0.0);
     const double dt = seconds_between(pings_[track.last_ping].time, pings_[p].time);
     const Point<Enu> shift = track.motion.velocity() * dt;
-    for (const int piece : track.pings.back().detections) {
-      const PingMask& mask = pings_[track.last_ping].detections[static_cast<std::size_t>(piece)].mask;
+    const TrackedDetection& last = track.pings.back();
+    for (const int piece : last.detections) {
+      const PingMask& whole = pings_[track.last_ping].detections[static_cast<std::size_t>(piece)].mask;
+      const PingMask& mask = last.part.empty() ? whole : last.part;
       for (const MovedPoint& point :
            moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, params_.overlap_samples)) {
         moved_m3 += point.volume_m3;
@@ -194,11 +165,53 @@ class Tracker {
            params_.level_weight * std::abs(d.reference_db - track.reference_db) + params_.lost_cost * missed;
   }
 
+  /// Schools that go for one detection, after each was seen alone for some time, share it: their echoes have met.
+  /// Marks the detection in taken_by with -3.
+  void divide_joined(std::size_t p, std::vector<int>& taken_by, const std::vector<std::vector<double>>& shared,
+                     const std::vector<double>& moved_m3) {
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      std::vector<std::size_t> claimants;
+      for (std::size_t t = 0; t < shared.size(); ++t) {
+        const bool owns = taken_by[d] == static_cast<int>(t);
+        const bool lost = std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) == 0;
+        const bool inside = shared[t][d] > params_.fragment_overlap * moved_m3[t];
+        if (open_[t].own_pings < params_.divide_own_pings || open_[t].merged) continue;
+        if (owns || (lost && open_[t].last_ping != p && inside)) claimants.push_back(t);
+      }
+      if (claimants.size() > 1 && share_out(p, d, claimants)) taken_by[d] = -3;
+    }
+  }
+
+  bool share_out(std::size_t p, std::size_t d, const std::vector<std::size_t>& claimants) {
+    const DetectedPing& ping = pings_[p];
+    std::vector<ExpectedBody> bodies;
+    for (const std::size_t t : claimants) bodies.push_back({open_[t].motion.position(), open_[t].shape});
+    std::vector<PingMask> parts = divide(ping.detections[d].mask, sector_, frames_[p], bodies, params_.min_position_m);
+    std::vector<MaskShape> shapes;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      shapes.push_back(shape_of(parts[i], sector_));
+      if (shapes[i].volume_m3 < params_.divide_least_share * open_[claimants[i]].volume_m3) return false;
+      if (!(shapes[i].weight > 0.0)) return false;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      OpenTrack& track = open_[claimants[i]];
+      const Covariance3 spread =
+          centre_covariance(shapes[i].centre, shapes[i].covariance, frames_[p].heading_rad(), params_.position_share,
+                            params_.min_position_m, params_.censored_m, ping.detections[d].edge_flags);
+      track.motion.update(frames_[p].to_world(shapes[i].centre), spread);
+      track.last_ping = p;
+      track.pings.push_back({ping.ping_index, {static_cast<int>(d)}, std::move(parts[i])});
+    }
+    return true;
+  }
+
   /// A school without a detection whose moved mask lies in another's has gone into it.
   void note_merges(std::size_t p, const std::vector<int>& taken_by, const std::vector<std::vector<double>>& shared,
                    const std::vector<double>& moved_m3) {
     for (std::size_t t = 0; t < shared.size(); ++t) {
-      if (open_[t].merged || std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) > 0) continue;
+      if (open_[t].last_ping == p || open_[t].merged ||
+          std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) > 0)
+        continue;
       for (std::size_t d = 0; d < taken_by.size(); ++d) {
         if (taken_by[d] < 0 || !(shared[t][d] > params_.fragment_overlap * moved_m3[t])) continue;
         open_[t].merged = true;
@@ -219,7 +232,7 @@ class Tracker {
       if (taken_by[d] >= 0) main_of[static_cast<std::size_t>(taken_by[d])] = static_cast<int>(d);
     }
     for (std::size_t d = 0; d < taken_by.size(); ++d) {
-      if (taken_by[d] >= 0) continue;
+      if (taken_by[d] != -1) continue;
       const double volume = pings_[p].detections[d].volume_m3;
       int parent = -1;
       for (std::size_t t = 0; t < shared.size(); ++t) {
@@ -241,7 +254,7 @@ class Tracker {
   void extend(OpenTrack& track, std::size_t p, int main, const std::vector<int>& pieces) {
     const DetectedPing& ping = pings_[p];
     const Detection& d = ping.detections[static_cast<std::size_t>(main)];
-    TrackedDetection tracked{ping.ping_index, {main}};
+    TrackedDetection tracked{ping.ping_index, {main}, {}};
     tracked.detections.insert(tracked.detections.end(), pieces.begin(), pieces.end());
     double volume = 0.0;
     Point<Sonar> centre;
@@ -256,6 +269,8 @@ class Tracker {
     track.reference_db = d.reference_db;
     track.last_ping = p;
     track.merged = false;
+    ++track.own_pings;
+    track.shape = turned(d.covariance, frames_[p].heading_rad());
     track.pings.push_back(std::move(tracked));
   }
 
@@ -263,12 +278,14 @@ class Tracker {
     const Detection& d = pings_[p].detections[static_cast<std::size_t>(detection)];
     OpenTrack track{next_number_++,
                     Motion(frames_[p].to_world(d.centre), spread(p, d, true), params_.initial_speed_mps),
-                    {{pings_[p].ping_index, {detection}}},
+                    {{pings_[p].ping_index, {detection}, {}}},
                     p,
                     d.volume_m3,
                     d.reference_db,
                     0,
-                    false};
+                    false,
+                    1,
+                    turned(d.covariance, frames_[p].heading_rad())};
     open_.push_back(std::move(track));
     events_.push_back({TrackEventKind::birth, pings_[p].ping_index, open_.back().number, -1});
   }
@@ -338,34 +355,6 @@ class Tracker {
 
 }  // namespace
 
-std::string_view name(TrackEventKind kind) {
-  switch (kind) {
-    case TrackEventKind::birth:
-      return "birth";
-    case TrackEventKind::death:
-      return "death";
-    case TrackEventKind::split:
-      return "split";
-    case TrackEventKind::merge:
-      return "merge";
-  }
-  return "";
-}
-
-std::string to_text(const TrackEvent& event) {
-  switch (event.kind) {
-    case TrackEventKind::birth:
-      return fmt::format("ping {}: school {} first seen", event.ping_index, event.school_id);
-    case TrackEventKind::death:
-      return fmt::format("ping {}: school {} last seen", event.ping_index, event.school_id);
-    case TrackEventKind::split:
-      return fmt::format("ping {}: school {} split from school {}", event.ping_index, event.school_id, event.other_id);
-    case TrackEventKind::merge:
-      return fmt::format("ping {}: school {} merged into school {}", event.ping_index, event.school_id, event.other_id);
-  }
-  return {};
-}
-
 Tracks track(std::span<const DetectedPing> pings, const Sector& sector, std::span<const int> channel,
              const TrackParams& params) {
   if (pings.empty()) return {};
@@ -373,6 +362,7 @@ Tracks track(std::span<const DetectedPing> pings, const Sector& sector, std::spa
 }
 
 PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping) {
+  if (!tracked.part.empty()) return tracked.part;
   PingMask mask;
   for (const int d : tracked.detections) {
     const PingMask& piece = ping.detections[static_cast<std::size_t>(d)].mask;

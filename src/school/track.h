@@ -33,6 +33,9 @@ struct TrackParams {
   double lost_cost = 1.0;
   double censored_m = 200.0;
   int overlap_samples = 8;
+  bool divide_joined = true;
+  int divide_own_pings = 3;
+  double divide_least_share = 0.25;
 };
 
 template <class Visitor>
@@ -71,6 +74,12 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
   v.field("overlap_samples", p.overlap_samples,
           {.unit = "samples", .min = 1, .max = 1000, .text = "overlaps are counted at every so-manyth sample"});
+  v.field("divide_joined", p.divide_joined,
+          {.text = "schools seen apart before that meet in one detection share it among them"});
+  v.field("divide_own_pings", p.divide_own_pings,
+          {.unit = "pings", .min = 1, .max = 100, .text = "each was seen alone so often before"});
+  v.field("divide_least_share", p.divide_least_share,
+          {.unit = "1", .min = 0, .max = 1, .text = "... and gets at least this share of its volume when last alone"});
 }
 
 /// The detections of one ping, for association.
@@ -85,6 +94,7 @@ struct DetectedPing {
 struct TrackedDetection {
   std::int64_t ping_index = 0;
   std::vector<int> detections;  ///< indices into DetectedPing::detections, rising; the main one first
+  PingMask part;                ///< the school's share of a detection in which schools met; empty = all of them
 };
 
 struct SchoolTrack {

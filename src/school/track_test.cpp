@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -185,6 +186,67 @@ TEST(Track, RecordsASplit) {
   EXPECT_EQ(split->school_id, 2);
   EXPECT_EQ(split->other_id, 1);
   EXPECT_EQ(to_text(*split), "ping " + std::to_string(split->ping_index) + ": school 2 split from school 1");
+}
+
+/// Two balls that move towards each other, touch for some pings and part again on their own ways.
+Tracks meeting(Voyage& voyage, int alone_before, const TrackParams& params,
+               std::vector<std::array<PingMask, 2>>& truth) {
+  const Geographic start{60.0, 4.0};
+  for (int p = 0; p < 15; ++p) {
+    DetectedPing ping{p, p * 5 * kSecondNs, ship_at(p, 2.0), {}};
+    const double depth = 28.0 + 3.0 * std::abs(p - 7);
+    const PingMask a = ball_mask({{-150.0, 70.0, -depth}, {}}, voyage.sector, ping.placement, start, 0.0);
+    const PingMask b =
+        ball_mask({{-150.0, 70.0, -80.0 + depth - 28.0 + 8.0}, {}}, voyage.sector, ping.placement, start, 0.0);
+    truth.push_back({a, subtract(b, a)});
+    const bool joined = p >= alone_before && p <= 9;
+    const auto add = [&](const PingMask& mask) {
+      if (!mask.empty()) ping.detections.push_back(describe_mask(mask, voyage.flags.view(), voyage.sector));
+    };
+    if (joined) {
+      add(unite(a, b));
+    } else {
+      add(a);
+      add(subtract(b, a));
+    }
+    voyage.pings_.push_back(std::move(ping));
+  }
+  return track(voyage.pings_, voyage.sector, test::grid().channel, params);
+}
+
+TEST(Track, SchoolsThatMeetShareTheirDetection) {
+  Voyage voyage;
+  std::vector<std::array<PingMask, 2>> truth;
+  const Tracks tracks = meeting(voyage, 5, {}, truth);
+  ASSERT_EQ(tracks.schools.size(), 2U);
+  for (const SchoolTrack& school : tracks.schools) {
+    EXPECT_EQ(school.pings.size(), 15U);
+    const PingMask first = mask_of(school.pings[0], voyage.pings_[0]);
+    const std::size_t own = dice(first, truth[0][0]) > 0.5 ? 0 : 1;
+    for (const TrackedDetection& seen : school.pings) {
+      const auto p = static_cast<std::size_t>(seen.ping_index);
+      EXPECT_GT(dice(mask_of(seen, voyage.pings_[p]), truth[p][own]), 0.75) << p;
+    }
+  }
+  for (std::size_t p = 5; p <= 9; ++p) {
+    EXPECT_EQ(overlap(tracks.schools[0].pings[p].part, tracks.schools[1].pings[p].part), 0U);
+    EXPECT_EQ(tracks.schools[0].pings[p].part.voxels() + tracks.schools[1].pings[p].part.voxels(),
+              voyage.pings_[p].detections[0].mask.voxels());
+  }
+}
+
+TEST(Track, OneSchoolIsNotDividedWithoutAHistory) {
+  Voyage voyage;
+  std::vector<std::array<PingMask, 2>> truth;
+  for (const SchoolTrack& school : meeting(voyage, 2, {}, truth).schools) {
+    for (const TrackedDetection& seen : school.pings) EXPECT_TRUE(seen.part.empty());
+  }
+  Voyage switched_off;
+  TrackParams params;
+  params.divide_joined = false;
+  for (const SchoolTrack& school : meeting(switched_off, 5, params, truth).schools) {
+    for (const TrackedDetection& seen : school.pings) EXPECT_TRUE(seen.part.empty());
+  }
 }
 
 TEST(Track, NoPingsNoTracks) { EXPECT_TRUE(track({}, Sector(), {}, {}).schools.empty()); }
