@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/context_egl.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace sonar {
+namespace {
+
+/// What version a driver without `kLeastGl` has, for the message.
+std::string best_found(EGLDisplay display) {
+  const EGLContext any = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+  if (any == EGL_NO_CONTEXT) {
+    return "none";
+  }
+  std::string out = "none";
+  if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, any) == EGL_TRUE) {
+    const GlVersion found = current_version();
+    out = fmt::format("{}.{} ({})", found.major, found.minor, current_driver());
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  eglDestroyContext(display, any);
+  return out;
+}
+
+EGLContext create(EGLDisplay display, GlVersion version) {
+  const std::array<EGLint, 7> wanted = {EGL_CONTEXT_MAJOR_VERSION,
+                                        version.major,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        version.minor,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_NONE};
+  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
+}
+
+}  // namespace
+
+Result<ContextEgl> ContextEgl::make(GlVersion wanted) {
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    return fail(ErrorCode::unsupported, "EGL offers no surfaceless platform; expected EGL_MESA_platform_surfaceless");
+  }
+  EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE ||
+      eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
+    return fail(ErrorCode::unsupported, "EGL cannot be started with desktop OpenGL; is a driver installed?");
+  }
+  ContextEgl out;
+  out.display_ = display;
+  for (GlVersion version = wanted; version >= kLeastGl && out.context_ == nullptr; --version.minor) {
+    out.context_ = create(display, version);
+  }
+  if (out.context_ == nullptr) {
+    return fail(ErrorCode::unsupported, fmt::format("OpenGL {}.{} core or higher is needed; the driver's best is {}",
+                                                    kLeastGl.major, kLeastGl.minor, best_found(display)));
+  }
+  return out;
+}
+
+ContextEgl::~ContextEgl() { destroy(); }
+
+ContextEgl::ContextEgl(ContextEgl&& other) noexcept
+    : display_(std::exchange(other.display_, nullptr)), context_(std::exchange(other.context_, nullptr)) {}
+
+ContextEgl& ContextEgl::operator=(ContextEgl&& other) noexcept {
+  if (this != &other) {
+    destroy();
+    display_ = std::exchange(other.display_, nullptr);
+    context_ = std::exchange(other.context_, nullptr);
+  }
+  return *this;
+}
+
+Result<void> ContextEgl::make_current() const {
+  if (context_ == nullptr || eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+    return fail(ErrorCode::unsupported, "the OpenGL context cannot be made current without a surface");
+  }
+  return {};
+}
+
+void ContextEgl::release() const {
+  if (display_ != nullptr) {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+}
+
+void ContextEgl::destroy() {
+  if (context_ != nullptr) {
+    if (eglGetCurrentContext() == context_) {
+      release();
+    }
+    // The display is shared by the whole process and stays initialised: ending it would end others' contexts too.
+    eglDestroyContext(display_, std::exchange(context_, nullptr));
+  }
+}
+
+}  // namespace sonar

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "base/result.h"
+
+namespace sonar {
+
+/// Version of an OpenGL context.
+struct GlVersion {
+  int major = 0;
+  int minor = 0;
+  friend auto operator<=>(const GlVersion&, const GlVersion&) = default;
+};
+/// What every shader here is written for (macOS stops at it).
+inline constexpr GlVersion kLeastGl{4, 1};
+
+/// errors  unsupported: below kLeastGl, with the version and driver found in the line
+[[nodiscard]] Result<void> check_version(GlVersion found, const std::string& driver);
+/// Version and driver of the context that is current; {0, 0} where none is.
+[[nodiscard]] GlVersion current_version();
+[[nodiscard]] std::string current_driver();
+
+}  // namespace sonar

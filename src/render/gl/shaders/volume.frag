@@ -1,0 +1,160 @@
+// One ray through the sonar's own grid. MODE: 0 accumulate, 1 first hit, 2 maximum.
+uniform sampler2D optics_texture;  // r, g, b, extinction at fine steps of Sv
+layout(location = 0) out vec4 colour;
+
+vec3 rgb = vec3(0.0);
+float through = 1.0;
+float largest = -1e9;  // counts
+float hit_low = 0.0;   // t of the last place below the level of first hit, and of the first one above
+float hit_high = FAR;
+
+vec4 optics(float counts) {
+  float entry = clamp(counts * ray.table.x + ray.table.y, 0.0, ray.table.z);
+  return texelFetch(optics_texture, ivec2(int(entry + 0.5), 0), 0);
+}
+
+// Emission and extinction that go on over a length, in front of what lies behind.
+void lay(vec4 emission, float length_m) {
+  float depth = emission.a * length_m;
+  // (1 - exp(-x)) / x without the loss of digits at small x, where haze lives.
+  float series = 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0 - depth * (1.0 / 120.0 - depth / 720.0))));
+  float mean = depth < 0.5 ? series : (1.0 - exp(-depth)) / max(depth, 0.5);
+  rgb += through * length_m * mean * emission.rgb;
+  through *= 1.0 - depth * mean;
+}
+
+void take_sample(float t, float length_m, uint flags, float before) {
+  vec3 p = base + t * dir;
+  vec3 g = index_of(p, sqrt(base2 + t * t));
+#if MASKS
+  vec4 sum = (flags & MASKED) != 0u ? meet_masks(g, p, rgb, through) : vec4(0.0);
+#else
+  vec4 sum = vec4(0.0);
+#endif
+#if DATA
+  float counts = sv_at(g);
+#if GAPPED
+  float share = (flags & GAPS) != 0u ? known_at(g) : 1.0;
+#else
+  const float share = 1.0;
+#endif
+#if MODE == 0
+  vec4 seen = optics(counts);
+#if LIT
+  if (seen.a > 0.0) seen.rgb = lit(seen.rgb, sv_gradient(g, p));
+#endif
+  sum += share * seen.a * vec4(seen.rgb, 1.0);
+#elif MODE == 1
+  if (share >= 0.5 && counts >= ray.range.w) {
+    hit_low = before;
+    hit_high = t;
+  }
+#else
+  largest = share >= 0.5 ? max(largest, counts) : largest;
+#endif
+#endif
+#if MODE == 0 || MASKS
+  lay(sum, length_m);
+#endif
+}
+
+void end_hit() {
+  if (hit_high >= FAR) return;
+  for (int i = 0; i < 12; ++i) {
+    float middle = 0.5 * (hit_low + hit_high);
+    bool above = sv_at(index_of(base + middle * dir, sqrt(base2 + middle * middle))) >= ray.range.w;
+    hit_high = above ? middle : hit_high;
+    hit_low = above ? hit_low : middle;
+  }
+  vec3 p = base + hit_high * dir;
+  vec3 g = index_of(p, length(p));
+  vec3 shown = optics(sv_at(g)).rgb;
+#if LIT
+  shown = lit(shown, sv_gradient(g, p));
+#endif
+  rgb += through * shown;
+  through = 0.0;
+}
+
+void end_maximum() {
+  vec4 seen = optics(largest);
+  if (largest > -1e9 && seen.a > 0.0) {
+    rgb += through * seen.rgb;
+    through = 0.0;
+  }
+}
+
+float phase_of(ivec2 pixel) {
+  if (ray.eye.w < 0.0) return 0.5;
+  float noise = fract(52.9829189 * fract(0.06711056 * float(pixel.x) + 0.00583715 * float(pixel.y)));
+  return fract(noise + ray.eye.w);
+}
+
+// Step near the transducer, where beams are narrow: halved until it is below half a beam, to an eighth at least.
+float step_at(float r) {
+  float h = ray.up.w;
+  if (r >= ray.cones.z) return h;
+  float part = r / max(ray.cones.z, 1e-6);
+  return h * (part > 0.5 ? 0.5 : (part > 0.25 ? 0.25 : 0.125));
+}
+
+bool going() { return through > 0.01 && hit_high >= FAR; }
+
+void walk(vec2 span, float phase) {
+  float t = span.x;
+  while (t < span.y && going()) {
+    float end = piece_end(t, span.y);
+    if (t >= end) continue;
+    float h = step_at(sqrt(base2 + t * t));
+    float next = min((floor(t / h + 1e-3) + 1.0) * h, end);
+    float at = mix(t, next, phase);
+    ivec3 cell = cell_of(index_of(base + at * dir, sqrt(base2 + at * at)));
+    uvec2 state = texelFetch(state_texture, cell_texel(cell), 0).rg;
+    float leave = block_exit(cell, max(int(state.r) - 1, 0), at);
+    leave = h < ray.up.w ? min(leave, at + 4.0 * h) : leave;
+#if MODE == 2
+    bool empty = state.r > 0u || ((state.g & MASKED) == 0u && float(texelFetch(largest_texture, cell_texel(cell), 0).r) <= largest);
+#else
+    bool empty = state.r > 0u;
+#endif
+    // Steps lie at multiples of h whatever is passed over, so that a picture does not hang on the transfer function.
+    float beyond = min(max(next, ceil(leave / h - phase) * h), end);
+    if (empty) {
+      t = beyond;
+      continue;
+    }
+#if MODE == 0
+    if ((state.g & THIN) != 0u) {
+      float stop = min(max(next, floor(leave / h + 0.5) * h), end);
+      lay(texelFetch(means_texture, cell_texel(cell), 0), stop - t);
+      t = stop;
+      continue;
+    }
+#endif
+    float start = t;
+    do {
+      take_sample(at, next - t, state.g, max(start, at - h));
+      t = next;
+      next = min((floor(t / h + 1e-3) + 1.0) * h, end);
+      at = mix(t, next, phase);
+    } while (at < leave && t < end && going());
+  }
+}
+
+void main() {
+  ivec2 pixel = min(ivec2(gl_FragCoord.xy) * ray.picture.z + ray.picture.z / 2, ray.picture.xy - 1);
+  vec2 size = vec2(ray.picture.xy);
+  vec2 at = (vec2(pixel) + 0.5 - 0.5 * size) * (2.0 / size.y) * ray.right.w;
+  vec3 direction = normalize(ray.forward.xyz + at.x * ray.right.xyz - at.y * ray.up.xyz);
+#if MASKS
+  for (int i = 0; i < MASK_WORDS; ++i) surface_met[i] = 0u;
+#endif
+  vec2 span = ray_in_sector(ray.eye.xyz, direction, pixel);
+  walk(span, phase_of(pixel));
+#if MODE == 1
+  end_hit();
+#elif MODE == 2
+  end_maximum();
+#endif
+  colour = vec4(rgb, 1.0 - through);
+}
