@@ -41,6 +41,7 @@ int run_program(int argc, char** argv) {
   add_score(app, run);
   add_compare(app, run);
   add_recipe(app, run);
+  add_render(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -23,6 +23,7 @@ void add_export(CLI::App& app, VerbRunner& run);
 void add_score(CLI::App& app, VerbRunner& run);
 void add_compare(CLI::App& app, VerbRunner& run);
 void add_recipe(CLI::App& app, VerbRunner& run);
+void add_render(CLI::App& app, VerbRunner& run);
 
 /// Lets Ctrl-C cancel this work while it lives; several may be watched at once (up to 8).
 class CancelOnInterrupt {

@@ -158,6 +158,8 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
       label(on_surface(radius, grid.first_azimuth_rad - 0.03, z), fmt::format("{:g} m", radius), TextAnchor::centre);
     }
     for (const double azimuth : grid.azimuths_rad) {
+      // The rings' own labels stand along the first edge.
+      if (azimuth < grid.first_azimuth_rad + rad_from_deg(3.0)) continue;
       label(on_surface(grid.radii_m.back() * 1.05, azimuth, z), bearing_text(azimuth, params), TextAnchor::centre);
     }
   }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/exit_codes.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "cli/verb.h"
+#include "pipeline/recipe.h"
+#include "publish/picture.h"
+#include "render/compare_pictures.h"
+#include "render/draw_frame.h"
+
+namespace sonar {
+namespace {
+
+Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) {
+  const auto options = picture_options(arguments);
+  if (!options) return pass_on(options);
+  std::optional<Recipe> recipe;
+  if (!arguments.recipe.empty()) {
+    auto named = named_recipe(arguments.recipe);
+    if (!named) return pass_on(named);
+    recipe = std::move(*named);
+  }
+  const std::vector<std::filesystem::path> paths(arguments.paths.begin(), arguments.paths.end());
+  auto source = PictureSource::open(paths, recipe, work);
+  if (!source) return pass_on(source);
+  // Nothing is ever written into the folder of the raw files.
+  for (const std::string& file : {arguments.out, arguments.difference}) {
+    if (file.empty()) continue;
+    if (auto outside = (*source)->require_outside_raw(file); !outside) return pass_on(outside);
+  }
+  PictureKind kind = PictureKind::slice_top;
+  for (std::size_t i = 0; i < picture_kinds().size(); ++i) {
+    if (picture_kinds()[i].name == arguments.kind) kind = static_cast<PictureKind>(i);
+  }
+  return picture_frame(kind, **source, arguments.observation, *options, work);
+}
+
+int compare_frame(const RenderArguments& arguments, const FrameDescription& frame) {
+  const auto picture = draw_frame(frame, arguments.scale);
+  if (!picture) return report(picture.error());
+  const PictureThresholds thresholds{arguments.largest_difference, arguments.mean_difference};
+  const auto verdict = compare_with_reference(*picture, arguments.reference, thresholds);
+  if (!verdict) return report(verdict.error());
+  fmt::print("{}\n", verdict->text);
+  if (!arguments.difference.empty()) {
+    const auto reference = read_png(arguments.reference);
+    if (!reference) return report(reference.error());
+    if (reference->size == picture->size) {
+      const auto written = write_png(difference_picture(*picture, *reference), arguments.difference);
+      if (!written) return report(written.error());
+    }
+  }
+  return verdict->equal ? kExitDone : kExitFailed;
+}
+
+int render_verb(const RenderArguments& arguments) {
+  Work work(arguments.jobs);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  const auto frame = frame_of(arguments, work);
+  clear_progress();
+  if (!frame) return report(frame.error());
+  if (!arguments.out.empty()) {
+    if (auto written = write_frame(*frame, arguments.out, arguments.scale); !written) return report(written.error());
+    if (arguments.reference.empty()) fmt::print("{}\n", arguments.out);
+  }
+  return arguments.reference.empty() ? kExitDone : compare_frame(arguments, *frame);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, VerbRunner& run) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* verb = app.add_subcommand("render", "Draw slices, volumes, maps and timelines; needs no display");
+  add_render_options(*verb, *arguments);
+  verb->callback([arguments, &run] {
+    if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");
+    run = [arguments] { return render_verb(*arguments); };
+  });
+}
+
+}  // namespace sonar

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/drawn_schools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sonar {
+namespace {
+
+bool wanted(std::int64_t school_id, const PictureOptions& options) {
+  return options.schools.empty() ||
+         std::find(options.schools.begin(), options.schools.end(), school_id) != options.schools.end();
+}
+
+}  // namespace
+
+Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options) {
+  const std::int64_t count = observation.pings();
+  if (count == 0) return fail(ErrorCode::usage, observation.name() + " has no pings");
+  if (options.ping) {
+    if (*options.ping >= 0 && *options.ping < count) return *options.ping;
+    return fail(ErrorCode::usage,
+                fmt::format("no ping {} in {}: it has pings 0 to {}", *options.ping, observation.name(), count - 1));
+  }
+  std::int64_t first = count;
+  if (options.masks) {
+    for (const SchoolMask& mask : observation.product().masks) {
+      if (wanted(mask.school_id, options)) first = std::min(first, mask.ping_index);
+    }
+  }
+  return first < count ? first : count / 2;
+}
+
+std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options) {
+  std::vector<MaskLayer> layers;
+  if (!options.masks) return layers;
+  for (const DrawnMask& drawn : ping.masks) {
+    if (!wanted(drawn.school_id, options)) continue;
+    const Rgba8 colour = school_colour(static_cast<int>(drawn.school_id));
+    const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
+    layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}});
+  }
+  return layers;
+}
+
+std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams) {
+  const auto largest = std::max_element(masks.begin(), masks.end(), [](const MaskLayer& a, const MaskLayer& b) {
+    return a.mask->voxels() < b.mask->voxels();
+  });
+  if (largest == masks.end() || largest->mask->empty()) return std::nullopt;
+  double fan = 0.0;
+  double beam = 0.0;
+  double sample = 0.0;
+  double count = 0.0;
+  for (const Run& run : largest->mask->runs) {
+    fan += static_cast<double>(run.row / beams) * run.count;
+    beam += static_cast<double>(run.row % beams) * run.count;
+    sample += (run.first_sample + 0.5 * (run.count - 1)) * run.count;
+    count += run.count;
+  }
+  const auto nearest = [count](double sum) { return static_cast<int>(sum / count + 0.5); };
+  return MaskMiddle{nearest(fan), nearest(beam), nearest(sample)};
+}
+
+Result<void> require_schools(const DrawnObservation& observation, const PictureOptions& options) {
+  for (const std::int64_t school : options.schools) {
+    if (!observation.has_product()) {
+      return fail(ErrorCode::usage, fmt::format("school {}: schools stand in products, and none was named", school));
+    }
+    const bool known = std::any_of(observation.product().schools.begin(), observation.product().schools.end(),
+                                   [school](const SchoolRow& row) { return row.school_id == school; });
+    if (!known) return fail(ErrorCode::usage, fmt::format("no school {} in {}", school, observation.name()));
+  }
+  return {};
+}
+
+}  // namespace sonar

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "publish/picture_options.h"
+#include "publish/picture_source.h"
+
+namespace sonar {
+
+/// The ping to draw: the one asked for, else the first with a school that is drawn, else the middle one.
+/// errors  usage: no such ping
+[[nodiscard]] Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options);
+
+/// A ping's masks that the options ask for, each in its school's colour.
+[[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
+
+/// Middle of the largest mask; empty without one.
+struct MaskMiddle {
+  int fan = 0;
+  int beam = 0;
+  int sample = 0;
+};
+[[nodiscard]] std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams);
+
+/// errors  usage: a school that the observation has not
+[[nodiscard]] Result<void> require_schools(const DrawnObservation& observation, const PictureOptions& options);
+
+}  // namespace sonar

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/picture_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "io/product.h"
+#include "pipeline/merge.h"
+#include "pipeline/observe.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_ending(const fs::path& path, std::string_view ending) {
+  std::string own = path.extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return own == ending;
+}
+
+bool is_work_folder(const fs::path& path) {
+  std::error_code absent;
+  return fs::is_directory(path / "products", absent);
+}
+
+/// What a user named, sorted into raw files and products.
+struct Inputs {
+  std::vector<fs::path> raw;
+  std::vector<fs::path> products;
+};
+
+Result<Inputs> sorted_inputs(std::span<const fs::path> paths) {
+  Inputs inputs;
+  for (const fs::path& path : paths) {
+    std::error_code absent;
+    if (!fs::exists(path, absent)) return fail(ErrorCode::not_found, "no such file or folder", {path.string()});
+    if (is_work_folder(path)) {
+      const auto files = product_files(path);
+      if (!files) return pass_on(files);
+      inputs.products.insert(inputs.products.end(), files->begin(), files->end());
+    } else if (has_ending(path, ".nc")) {
+      inputs.products.push_back(path);
+    } else {
+      inputs.raw.push_back(path);
+    }
+  }
+  return inputs;
+}
+
+Result<std::vector<ObservationProduct>> read_products(const std::vector<fs::path>& files, Work& work) {
+  std::vector<ObservationProduct> products;
+  for (const fs::path& file : files) {
+    work.progress("reading products", static_cast<std::int64_t>(products.size()),
+                  static_cast<std::int64_t>(files.size()));
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped");
+    auto product = read_product(file);
+    if (!product) return pass_on(product);
+    products.push_back(std::move(*product));
+  }
+  const auto first = [](const ObservationProduct& p) { return p.pings.empty() ? TimeNs{0} : p.pings.front().time; };
+  std::stable_sort(products.begin(), products.end(), [&](const auto& a, const auto& b) {
+    return std::pair{first(a), a.observation} < std::pair{first(b), b.observation};
+  });
+  return products;
+}
+
+/// A product belongs to the observation whose pings it has: names may have moved on when files were added.
+bool same_pings(const ObservationFiles& files, const ObservationProduct& product) {
+  const auto& pings = files.navigation;
+  return !pings.empty() && product.pings.size() == pings.size() && product.pings.front().time == pings.front().time &&
+         product.pings.back().time == pings.back().time;
+}
+
+}  // namespace
+
+DrawnObservation::DrawnObservation(const SurveyFiles* survey, const ObservationFiles* files,
+                                   const ObservationProduct* product, const Recipe& recipe)
+    : survey_(survey), files_(files), product_(product) {
+  if (product_ == nullptr) {
+    made_ = std::make_unique<const ObservationProduct>(empty_product(*survey_, *files_, recipe, {}));
+    product_ = made_.get();
+  }
+  if (files_ != nullptr && files_->grid) engine_ = std::make_unique<Engine>(*survey_, *files_, recipe);
+}
+
+std::string DrawnObservation::title() const {
+  const bool synthetic = product_->title.find("SYNTHETIC") != std::string::npos;
+  return synthetic ? name() + " SYNTHETIC" : name();
+}
+
+Result<Sector> DrawnObservation::sector() const {
+  if (files_ != nullptr && files_->grid) return files_->sector();
+  if (product_->grid) return product_->grid->grid.sector(product_->grid->range);
+  return fail(ErrorCode::unsupported, "the beams of " + name() + " make no grid of fans and beams to draw");
+}
+
+const std::vector<double>& DrawnObservation::frequency_hz() const {
+  static const std::vector<double> none;
+  if (files_ != nullptr && files_->grid) return files_->grid->frequency_hz;
+  return product_->grid ? product_->grid->grid.frequency_hz : none;
+}
+
+DrawnPing DrawnObservation::ping_without_samples(std::int64_t ping_index) const {
+  DrawnPing ping;
+  ping.ping_index = ping_index;
+  ping.navigation = product_->pings[static_cast<std::size_t>(ping_index)];
+  for (const SchoolMask& school : product_->masks) {
+    // The product outlives every picture of it: the mask is borrowed, not copied.
+    if (school.ping_index == ping_index) {
+      ping.masks.push_back({school.school_id, std::shared_ptr<const PingMask>(std::shared_ptr<void>(), &school.mask)});
+    }
+  }
+  return ping;
+}
+
+Result<DrawnPing> DrawnObservation::ping(std::int64_t ping_index, Work& work) {
+  if (ping_index < 0 || ping_index >= pings()) {
+    return fail(ErrorCode::usage,
+                fmt::format("no ping {} in {}: it has pings 0 to {}", ping_index, name(), pings() - 1));
+  }
+  DrawnPing ping = ping_without_samples(ping_index);
+  if (files_ == nullptr) return ping;
+  if (!engine_) return pass_on(sector());
+  if (auto known = engine_->estimate_background(ping_index, ping_index, work); !known) return pass_on(known);
+  auto staged = engine_->kept_or_staged(ping_index);
+  if (!staged) return pass_on(staged);
+  ping.staged = std::move(*staged);
+  return ping;
+}
+
+Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::path> paths,
+                                                           const std::optional<Recipe>& recipe, Work& work) {
+  auto inputs = sorted_inputs(paths);
+  if (!inputs) return pass_on(inputs);
+  auto source = std::make_unique<PictureSource>();
+  auto products = read_products(inputs->products, work);
+  if (!products) return pass_on(products);
+  source->products_ = std::move(*products);
+  if (recipe) {
+    source->recipe_ = *recipe;
+  } else if (!source->products_.empty()) {
+    auto own = recipe_from_text(source->products_.front().recipe_json);
+    if (!own) return pass_on(own);
+    source->recipe_ = std::move(*own);
+  }
+  if (!inputs->raw.empty()) {
+    auto survey =
+        open_survey(inputs->raw, source->recipe_.survey, source->recipe_.navigation, IndexCache::of_user(), work);
+    if (!survey) return pass_on(survey);
+    source->survey_ = std::make_unique<SurveyFiles>(std::move(*survey));
+  }
+  std::vector<bool> matched(source->products_.size());
+  if (source->survey_) {
+    for (const ObservationFiles& files : source->survey_->observations) {
+      const ObservationProduct* own = nullptr;
+      for (std::size_t i = 0; i < matched.size() && own == nullptr; ++i) {
+        if (matched[i] || !same_pings(files, source->products_[i])) continue;
+        own = &source->products_[i];
+        matched[i] = true;
+      }
+      source->observations_.emplace_back(source->survey_.get(), &files, own, source->recipe_);
+    }
+  }
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (!matched[i]) source->observations_.emplace_back(nullptr, nullptr, &source->products_[i], source->recipe_);
+  }
+  if (source->observations_.empty()) {
+    const std::string named = paths.empty() ? std::string() : paths.front().string();
+    return fail(ErrorCode::usage, "nothing to draw: neither raw files with pings nor products in it", {named});
+  }
+  return source;
+}
+
+Result<void> PictureSource::require_outside_raw(const fs::path& file) const {
+  if (!survey_) return {};
+  const fs::path folder = file.parent_path();
+  return sonar::require_outside_raw(*survey_, folder.empty() ? fs::path(".") : folder);
+}
+
+Result<DrawnObservation*> PictureSource::observation(std::string_view name) {
+  if (name.empty()) return &observations_.front();
+  std::string known;
+  for (DrawnObservation& observation : observations_) {
+    if (observation.name() == name) return &observation;
+    known += (known.empty() ? "" : ", ") + observation.name();
+  }
+  return fail(ErrorCode::usage, fmt::format("no observation {}; there is {}", name, known));
+}
+
+}  // namespace sonar

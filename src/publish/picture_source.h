@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "geo/sector.h"
+#include "model/mask.h"
+#include "model/navigation.h"
+#include "model/product.h"
+#include "model/volume.h"
+#include "pipeline/engine.h"
+#include "pipeline/recipe.h"
+#include "pipeline/survey.h"
+
+namespace sonar {
+
+/// A school's mask in one ping, to be drawn.
+struct DrawnMask {
+  std::int64_t school_id = 0;
+  std::shared_ptr<const PingMask> mask;
+};
+
+/// One ping as pictures need it. Without raw files the volume is empty and only masks are known.
+struct DrawnPing {
+  std::int64_t ping_index = 0;
+  PingNavigation navigation;
+  std::shared_ptr<const StagedPing> staged;  ///< null without raw files
+  std::vector<DrawnMask> masks;              ///< by school_id; none without a product
+};
+
+/// One observation of a source: its raw files, its product, or both (matched by ping times, never by name).
+class DrawnObservation {
+ public:
+  /// What is pointed to outlives this; files or product is there. Without a product one is made that lacks schools.
+  DrawnObservation(const SurveyFiles* survey, const ObservationFiles* files, const ObservationProduct* product,
+                   const Recipe& recipe);
+
+  [[nodiscard]] const std::string& name() const { return product_->observation; }
+  /// "obs-0001", with SYNTHETIC behind it where the data is.
+  [[nodiscard]] std::string title() const;
+  [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(product_->pings.size()); }
+  [[nodiscard]] const ObservationProduct& product() const { return *product_; }
+  /// Whether the product was read, so that its schools are all there are.
+  [[nodiscard]] bool has_product() const { return made_ == nullptr; }
+  [[nodiscard]] bool has_raw() const { return files_ != nullptr; }
+  /// errors  unsupported: the beams make no grid
+  [[nodiscard]] Result<Sector> sector() const;
+  [[nodiscard]] const std::vector<double>& frequency_hz() const;
+  /// errors  usage (no such ping, with the range there is); unsupported (no grid); as Engine::staged()
+  [[nodiscard]] Result<DrawnPing> ping(std::int64_t ping_index, Work& work);
+  /// Masks and navigation alone; costs nothing.
+  [[nodiscard]] DrawnPing ping_without_samples(std::int64_t ping_index) const;
+  /// Null without raw files or without a grid.
+  [[nodiscard]] Engine* engine() { return engine_.get(); }
+
+ private:
+  const SurveyFiles* survey_;
+  const ObservationFiles* files_;
+  std::unique_ptr<const ObservationProduct> made_;
+  const ObservationProduct* product_;
+  std::unique_ptr<Engine> engine_;
+};
+
+/// Everything that pictures are made from: a raw survey, a work folder of `run`, or both.
+class PictureSource {
+ public:
+  /// paths   folders of raw files or raw files; work folders (with products/ in them) or product files
+  /// recipe  empty = that of the products, or the default
+  /// errors  not_found, io, format; usage: nothing to draw in the paths
+  [[nodiscard]] static Result<std::unique_ptr<PictureSource>> open(std::span<const std::filesystem::path> paths,
+                                                                   const std::optional<Recipe>& recipe, Work& work);
+
+  [[nodiscard]] std::vector<DrawnObservation>& observations() { return observations_; }
+  [[nodiscard]] const std::vector<ObservationProduct>& products() const { return products_; }
+  [[nodiscard]] bool has_raw() const { return survey_ != nullptr; }
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+  /// errors  usage: the file would lie in the folder of a raw file
+  [[nodiscard]] Result<void> require_outside_raw(const std::filesystem::path& file) const;
+  /// Empty name = the only one, or the first. errors: usage, naming those that there are
+  [[nodiscard]] Result<DrawnObservation*> observation(std::string_view name);
+
+ private:
+  std::unique_ptr<SurveyFiles> survey_;
+  std::vector<ObservationProduct> products_;  ///< by first ping
+  Recipe recipe_;
+  std::vector<DrawnObservation> observations_;
+};
+
+}  // namespace sonar

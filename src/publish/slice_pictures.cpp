@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/slice_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "publish/drawn_schools.h"
+
+namespace sonar {
+namespace {
+
+struct Chosen {
+  const Sector& sector;
+  const PingNavigation& navigation;
+  std::optional<MaskMiddle> school;
+  const PictureOptions& options;
+
+  [[nodiscard]] double heading_rad() const {
+    return std::isnan(navigation.heading_deg) ? 0.0 : rad_from_deg(navigation.heading_deg);
+  }
+};
+
+Result<Slice> range_slice(const Chosen& chosen) {
+  const RangeAxis& range = chosen.sector.range();
+  if (!chosen.options.range_m) return Slice{RangeSlice{chosen.school ? chosen.school->sample : range.count / 2}};
+  const double sample = std::round(range.sample_at(*chosen.options.range_m));
+  if (!(sample >= 0 && sample <= range.count - 1)) {
+    return fail(ErrorCode::usage,
+                fmt::format("no samples at a range of {} m: they reach from {:.2f} to {:.2f} m",
+                            *chosen.options.range_m, range.range_m(0), range.range_m(range.count - 1)));
+  }
+  return Slice{RangeSlice{static_cast<int>(sample)}};
+}
+
+Result<Slice> plane_slice(const Chosen& chosen) {
+  const PlaneChoice& plane = chosen.options.plane;
+  const double depth = chosen.navigation.transducer_depth_m;
+  if (plane.depth_m) return Slice{horizontal_plane(*plane.depth_m, depth)};
+  if (plane.bearing_deg) return Slice{vertical_plane(rad_from_deg(*plane.bearing_deg) - chosen.heading_rad())};
+  if (plane.through) {
+    const auto& t = *plane.through;
+    const auto made = vertical_plane({t[0], t[1], 0.0}, {t[2], t[3], 0.0});
+    return made ? Result<Slice>(Slice{*made}) : pass_on(made);
+  }
+  if (plane.oblique) {
+    const auto& o = *plane.oblique;
+    const auto made = oblique_plane({o[0], o[1], o[2]}, {o[3], o[4], o[5]});
+    return made ? Result<Slice>(Slice{*made}) : pass_on(made);
+  }
+  // Through the school, or half way out: what one would look at first.
+  const Sector& s = chosen.sector;
+  const Point<Sonar> at = chosen.school ? s.centre(chosen.school->fan, chosen.school->beam, chosen.school->sample)
+                                        : s.centre(s.fans() / 2, s.beams() / 2, s.range().count / 2);
+  return Slice{horizontal_plane(at.z + depth, depth)};
+}
+
+Result<Slice> slice_of(PictureKind kind, const Chosen& chosen) {
+  const auto& o = chosen.options;
+  switch (kind) {
+    case PictureKind::slice_top:
+      return Slice{TopSlice{o.fan.value_or(chosen.school ? chosen.school->fan : chosen.sector.fans() / 2)}};
+    case PictureKind::slice_side:
+      return Slice{SideSlice{o.beam.value_or(chosen.school ? chosen.school->beam : chosen.sector.beams() / 2)}};
+    case PictureKind::slice_range:
+      return range_slice(chosen);
+    default:
+      return plane_slice(chosen);
+  }
+}
+
+}  // namespace
+
+Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observation, const PictureOptions& options,
+                                     Work& work) {
+  if (auto known = require_schools(observation, options); !known) return pass_on(known);
+  const auto index = chosen_ping(observation, options);
+  if (!index) return pass_on(index);
+  const auto sector = observation.sector();
+  if (!sector) return pass_on(sector);
+  const auto ping = observation.ping(*index, work);
+  if (!ping) return pass_on(ping);
+  const std::vector<MaskLayer> masks = mask_layers(*ping, options);
+  const Chosen chosen{*sector, ping->navigation, middle_of_largest(masks, sector->beams()), options};
+  const auto slice = slice_of(kind, chosen);
+  if (!slice) return pass_on(slice);
+  const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
+  const Array3<std::int16_t> nothing(ping->staged ? Shape3{} : shape, kNoData);
+  SliceData data;
+  if (ping->staged) {
+    const Volume& volume = options.filtered.value_or(false) ? *ping->staged->filtered : ping->staged->sv;
+    data.sv = volume.counts.view();
+    data.flags = ping->staged->filtered->flags.view();
+  } else {
+    data.sv = nothing.view();
+  }
+  data.masks = masks;
+  SlicePing titled;
+  titled.observation = observation.title() + (ping->staged ? "" : " (masks alone: no raw files)");
+  titled.ping_index = *index;
+  titled.time = ping->navigation.time;
+  titled.heading_rad = rad_from_deg(ping->navigation.heading_deg);
+  titled.transducer_depth_m = ping->navigation.transducer_depth_m;
+  titled.frequency_hz = observation.frequency_hz();
+  SliceView view{*slice, options.north_up ? -chosen.heading_rad() : 0.0, std::nullopt};
+  SliceStyle style;
+  style.colours = colours_of(options);
+  style.flags = options.flags;
+  style.masks.core_at = static_cast<double>(options.mask_style.core_at);
+  style.grid = options.grid_lines;
+  style.north_up = options.north_up;
+  auto picture = slice_picture(*sector, data, titled, view, style, theme_of(options), options.size);
+  if (!picture) return pass_on(picture);
+  picture->frame.title = observation.title() + ": " + picture->frame.title;
+  return std::move(picture->frame);
+}
+
+}  // namespace sonar

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every kind of picture beside its golden one, and what bad input gets.
+
+    render_test.py --look FOLDER     writes all pictures there, to be looked at before they become golden
+"""
+import json
+import os
+import struct
+import sys
+import unittest
+import zlib
+from pathlib import Path
+
+import sonarx
+
+GOLDEN = sonarx.PROJECT / "tests" / "golden"
+DEPTHS = sonarx.TRUTH / "depth.tif"
+BOTH = [sonarx.SURVEY, sonarx.OUT]
+
+# Largest and mean difference of a channel, of 255. Drawing: another Cairo or FreeType may smooth an edge a little
+# differently, never move it by a pixel, which would be 255 along it. Rays: vectors of another width sum in another
+# order, and a ray that just ends or just goes on at 99 % opacity differs by some steps.
+DRAWN, TRACED = (64, 0.2), (24, 0.2)
+
+PICTURES = {
+    "slice-top": (["slice-top", *BOTH], DRAWN),
+    "slice-top-dark-north-up": (["slice-top", *BOTH, "--dark", "--north-up", "--map", "viridis"], DRAWN),
+    "slice-side": (["slice-side", *BOTH], DRAWN),
+    "slice-range": (["slice-range", *BOTH], DRAWN),
+    "slice-plane-horizontal": (["slice-plane", *BOTH, "--filtered"], DRAWN),
+    "slice-plane-vertical": (["slice-plane", *BOTH, "--bearing-deg", "280"], DRAWN),
+    "slice-plane-oblique": (["slice-plane", *BOTH, "--point", "0,-200,60", "--normal", "1,0.4,-1"], DRAWN),
+    "slice-product-alone": (["slice-top", sonarx.OUT], DRAWN),
+    "volume": (["volume", *BOTH, "--frames", "2"], TRACED),
+    "volume-seabed": (["volume", *BOTH, "--frames", "2", "--depth-raster", DEPTHS, "--dark"], TRACED),
+    "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--lighting", "--no-masks"], TRACED),
+    "volume-maximum": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--no-masks"], TRACED),
+    "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone", "--lighting"], TRACED),
+    "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
+    "propagation-side": (["propagation", sonarx.OUT, "--ping", "3", "--side", "--neighbours", "1"], DRAWN),
+    "observation-map": (["observation-map", sonarx.OUT], DRAWN),
+    "survey-map": (["survey-map", sonarx.OUT, "--depth-raster", DEPTHS], DRAWN),
+    "timeline": (["timeline", *BOTH], DRAWN),
+    "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
+}
+SIZE = ["--size", "640x480"]
+
+
+def render(*arguments, environment=None):
+    before = dict(os.environ)
+    os.environ.update(environment or {})
+    try:
+        return sonarx.run("render", *arguments)
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
+
+
+class Goldens(unittest.TestCase):
+    maxDiff = None
+
+    def test_every_picture_is_as_it_was_looked_at(self):
+        for name, (arguments, (largest, mean)) in PICTURES.items():
+            with self.subTest(name):
+                code, out, error = render(*arguments, *SIZE, "--reference", GOLDEN / f"{name}.png",
+                                          "--largest-difference", largest, "--mean-difference", mean)
+                self.assertEqual((code, error), (0, ""), out + error)
+
+    def test_every_kind_has_a_golden_picture(self):
+        code, out, _ = render("--help")
+        self.assertEqual(code, 0)
+        drawn = {arguments[0] for arguments, _ in PICTURES.values()}
+        for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "volume", "propagation",
+                     "observation-map", "survey-map", "timeline"):
+            self.assertIn(kind, out)
+            self.assertIn(kind, drawn)
+
+    def test_a_changed_picture_is_found(self):
+        for arguments in (["slice-top", *BOTH, "--fan", "2"], ["volume", *BOTH, "--frames", "2", "--orbit-deg", "2"]):
+            kind = arguments[0]
+            code, out, _ = render(*arguments, *SIZE, "--reference", GOLDEN / f"{kind}.png", "--largest-difference", 64,
+                                  "--mean-difference", 0.2, "--difference", sonarx.WORK / "difference.png")
+            self.assertEqual(code, 1, out)
+            self.assertTrue((sonarx.WORK / "difference.png").exists())
+
+    def test_both_back_ends_draw_the_same_volume(self):
+        reference = sonarx.WORK / "cpu.png"
+        arguments = ["volume", *BOTH, "--frames", "2", *SIZE]
+        self.assertEqual(render(*arguments, "--renderer", "cpu", "--out", reference)[0], 0)
+        code, out, error = render(*arguments, "--renderer", "gl", "--reference", reference, "--largest-difference", 24,
+                                  "--mean-difference", 0.2)
+        if "EGL" in error:
+            self.skipTest(error.strip())
+        self.assertEqual((code, error), (0, ""), out)
+
+
+class Files(unittest.TestCase):
+    def test_png_svg_and_pdf(self):
+        for ending, start in ((".png", b"\x89PNG\r\n\x1a\n"), (".svg", b"<?xml"), (".pdf", b"%PDF-1.")):
+            file = sonarx.WORK / ("map" + ending)
+            code, out, error = render("survey-map", sonarx.OUT, "--out", file)
+            self.assertEqual((code, out.strip(), error), (0, str(file), ""))
+            first = file.read_bytes()
+            self.assertTrue(first.startswith(start))
+            render("survey-map", sonarx.OUT, "--out", file)
+            self.assertEqual(first, file.read_bytes(), "the same picture twice is the same file")
+
+    def test_synthetic_stands_in_every_title(self):
+        for kind in ("slice-top", "volume", "propagation", "observation-map", "survey-map", "timeline"):
+            file = sonarx.WORK / f"title-{kind}.svg"
+            self.assertEqual(render(kind, sonarx.OUT, "--frames", "0", "--out", file)[0], 0)
+            self.assertTrue("SYNTHETIC" in file.read_text(encoding="utf-8"), kind)
+
+    def test_scale_gives_more_pixels(self):
+        file = sonarx.WORK / "scaled.png"
+        self.assertEqual(render("propagation", sonarx.OUT, *SIZE, "--scale", "2", "--out", file)[0], 0)
+        self.assertEqual(struct.unpack(">II", file.read_bytes()[16:24]), (1280, 960))
+
+    def test_only_schools_that_were_asked_for(self):
+        ids = {row["school_id"] for row in sonarx.read_csv(sonarx.OUT / "schools.csv") if row["observation"] == "obs-0001"}
+        code, _, error = render("observation-map", sonarx.OUT, "--schools", "999", "--out", sonarx.WORK / "x.png")
+        self.assertEqual(code, 2)
+        self.assertIn("no school 999 in obs-0001", error)
+        self.assertEqual(render("observation-map", sonarx.OUT, "--schools", sorted(ids)[0], "--out",
+                                sonarx.WORK / "x.png")[0], 0)
+
+
+def write_png(path, side):
+    """A grey square, for a reference of the wrong size."""
+    rows = b"".join(b"\0" + b"\x80" * side for _ in range(side))
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, *arguments, code, says, environment=None):
+        got, out, error = render(*arguments, environment=environment)
+        lines = error.strip().splitlines()
+        self.assertEqual(got, code, out + error)
+        self.assertEqual(len(lines), 1, error)
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, lines[0])
+
+    def test_what_is_not_there(self):
+        picture = ["--out", sonarx.WORK / "bad.png"]
+        self.refused("slice-top", sonarx.WORK / "nowhere", *picture, code=1, says=["nowhere", "no such file"])
+        self.refused("slice-top", sonarx.WORK / "cache", *picture, code=2, says="nothing to draw")
+        self.refused("slice-top", *BOTH, "--observation", "obs-0099", *picture, code=2, says=["obs-0099", "obs-0001"])
+        self.refused("slice-top", *BOTH, "--ping", "9999", *picture, code=2, says=["no ping 9999", "0 to"])
+        self.refused("slice-top", *BOTH, "--fan", "99", *picture, code=2, says="fan")
+        self.refused("slice-range", *BOTH, "--range-m", "5000", *picture, code=2, says=["5000", "reach from"])
+        self.refused("slice-plane", *BOTH, "--depth-m", "5000", *picture, code=2, says="does not meet")
+        self.refused("survey-map", sonarx.OUT, "--depth-raster", sonarx.WORK / "none.tif", *picture, code=1,
+                     says="none.tif")
+
+    def test_a_raster_that_does_not_cover(self):
+        raster = sonarx.WORK / "far.asc"
+        raster.write_text("ncols 3\nnrows 3\nxllcorner -120\nyllcorner -40\ncellsize 0.1\n" + "-500 -500 -500\n" * 3,
+                          encoding="ascii")
+        for kind in ("survey-map", "volume"):
+            self.refused(kind, *BOTH, "--depth-raster", raster, "--out", sonarx.WORK / "bad.png", code=1,
+                         says=["far.asc", "cover"])
+
+    def test_a_raster_that_is_none(self):
+        raster = sonarx.WORK / "text.tif"
+        raster.write_text("not a raster", encoding="ascii")
+        self.refused("survey-map", sonarx.OUT, "--depth-raster", raster, "--out", sonarx.WORK / "bad.png", code=1,
+                     says="text.tif")
+
+    def test_transfer_functions(self):
+        curve = sonarx.WORK / "bad_curve.json"
+        picture = ["--transfer-function", curve, "--out", sonarx.WORK / "bad.png"]
+        for text, says in (("", "bad_curve.json"), ('{"tf_version":1,"opacity_length_m":10,"points":[]}', "point"),
+                           ('{"tf_version":99,"opacity_length_m":10,"points":[]}', "99")):
+            curve.write_text(text, encoding="utf-8")
+            for kind in ("volume", "slice-top"):
+                got, _, error = render(kind, *BOTH, *picture)
+                self.assertIn(got, (1, 2))
+                self.assertIn(says, error)
+        # A curve that shows nothing is no mistake.
+        curve.write_text(json.dumps({"tf_version": 1, "opacity_length_m": 10,
+                                     "points": [{"sv_db": -60, "opacity": 0, "rgb": [0, 0, 1]},
+                                                {"sv_db": -20, "opacity": 0, "rgb": [1, 0, 0]}]}), encoding="utf-8")
+        self.assertEqual(render("volume", *BOTH, "--no-masks", *picture)[0], 0)
+
+    def test_options(self):
+        picture = ["--out", sonarx.WORK / "bad.png"]
+        self.refused("slice-top", *BOTH, "--size", "12x12", *picture, code=2, says="--size 12x12")
+        self.refused("slice-top", *BOTH, "--size", "huge", *picture, code=2, says="--size huge")
+        self.refused("slice-plane", *BOTH, "--point", "1,2", "--normal", "0,0,1", *picture, code=2, says="--point")
+        self.refused("slice-plane", *BOTH, "--point", "1,2,3", *picture, code=2, says="--normal")
+        self.refused("volume", *BOTH, "--eye", "1,2,3", *picture, code=2, says="--target")
+        self.refused("volume", *BOTH, "--eye", "1,2,nan", "--target", "0,0,0", *picture, code=2, says="--eye")
+        self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "bad.gif", code=2, says=".png")
+        self.refused("slice-top", *BOTH, code=2, says="--out")
+        self.refused("teapot", *BOTH, *picture, code=2, says="teapot")
+
+    def test_nothing_is_written_beside_raw_files(self):
+        self.refused("slice-top", sonarx.SURVEY, "--out", sonarx.SURVEY / "x.png", code=2, says="raw")
+        self.assertFalse((sonarx.SURVEY / "x.png").exists())
+
+    def test_references(self):
+        arguments = ["propagation", sonarx.OUT, *SIZE, "--reference"]
+        self.refused(*arguments, sonarx.WORK / "no_reference.png", code=1, says="no_reference.png")
+        small = sonarx.WORK / "small.png"
+        write_png(small, 16)
+        code, out, _ = render(*arguments, small)
+        self.assertEqual(code, 1)
+        self.assertIn("16", out)
+        small.write_bytes(b"no picture")
+        self.refused(*arguments, small, code=1, says="small.png")
+
+    def test_an_old_driver(self):
+        self.refused("volume", *BOTH, "--renderer", "gl", "--frames", "0", "--out", sonarx.WORK / "bad.png", code=1,
+                     says="3.3", environment={"MESA_GL_VERSION_OVERRIDE": "3.3"})
+
+
+def look(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, (arguments, _) in PICTURES.items():
+        code, _, error = render(*arguments, *SIZE, "--out", folder / f"{name}.png")
+        print(name, code, error.strip())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) == 3 and sys.argv[1] == "--look":
+        look(Path(sys.argv[2]).resolve())
+    else:
+        unittest.main()
