@@ -67,7 +67,7 @@ void main() {
     vec3 p = eye + t * d;
     float r = length(p);
     float azimuth = atan(p.y, p.x);
-    float inclination = acos(-p.z / r);
+    float inclination = acos(p.z / r);
     vec3 g = vec3((r - range_axis.x) / range_axis.y, (azimuth - azimuth_axis.x) / azimuth_axis.y,
                   (1.57079633 - inclination - elevation_axis.x) / elevation_axis.y);
     if (any(lessThan(g, vec3(0.0))) || any(greaterThan(g, vec3(1.0)))) continue;
