@@ -65,12 +65,36 @@ void lay_channel(const ChannelPing& channel, std::span<std::int16_t> counts, std
   lose(counts.subspan(first + stored), flags.subspan(first + stored));
 }
 
+Result<Ping> load_part(const SurveyFiles& survey, const SurveyPing& part) {
+  const auto source = open_file(survey.files[part.file].path);
+  if (!source) return pass_on(source);
+  return read_ping(**source, survey.entry(part), *survey.blocks);
+}
+
+/// Adds the channels that the ping lacks.
+void join(Ping& ping, Ping part) {
+  const auto before = [](const ChannelPing& a, int channel) { return a.channel < channel; };
+  for (ChannelPing& channel : part.channels) {
+    const auto place = std::lower_bound(ping.channels.begin(), ping.channels.end(), channel.channel, before);
+    if (place == ping.channels.end() || place->channel != channel.channel) {
+      ping.channels.insert(place, std::move(channel));
+    }
+  }
+  ping.blocks.insert(ping.blocks.end(), part.blocks.begin(), part.blocks.end());
+}
+
 }  // namespace
 
-Result<Ping> load_ping(const SurveyFiles& survey, const SurveyPing& ping) {
-  const auto source = open_file(survey.files[ping.file].path);
-  if (!source) return pass_on(source);
-  return read_ping(**source, survey.entry(ping), *survey.blocks);
+Result<Ping> load_ping(const SurveyFiles& survey, const SurveyPing& first) {
+  auto ping = load_part(survey, first);
+  const auto further = survey.further_parts.find(first);
+  if (!ping || further == survey.further_parts.end()) return ping;
+  for (const SurveyPing& part : further->second) {
+    auto more = load_part(survey, part);
+    if (!more) return more;
+    join(*ping, std::move(*more));
+  }
+  return ping;
 }
 
 Result<void> load_volume(const SurveyFiles& survey, const ObservationFiles& observation, std::size_t ping_index,

@@ -30,7 +30,7 @@ struct PowerVolume {
 [[nodiscard]] Result<void> load_volume(const SurveyFiles& survey, const ObservationFiles& observation,
                                        std::size_t ping_index, PowerVolume& out);
 
-/// The ping with its own bytes (any sounder, grid or not).
-[[nodiscard]] Result<Ping> load_ping(const SurveyFiles& survey, const SurveyPing& ping);
+/// The ping with its own bytes (any sounder, grid or not), from all places where its channels lie.
+[[nodiscard]] Result<Ping> load_ping(const SurveyFiles& survey, const SurveyPing& first);
 
 }  // namespace sonar

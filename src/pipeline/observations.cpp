@@ -26,27 +26,6 @@ void add(Hasher& hasher, const T& value) {
   hasher.add(std::as_bytes(std::span(&value, 1)));
 }
 
-/// What of a configuration geometry, calibration and navigation depend on; names of survey and transect are not in it.
-Hash128 identity(const SounderConfig& config) {
-  Hasher hasher;
-  add(hasher, config.gps_offset_m);
-  for (const BeamConfig& b : config.beams) {
-    hasher.add(b.channel_id);
-    add(hasher, b.beam_type);
-    for (const double v :
-         {b.frequency_hz, b.gain_db, b.equivalent_beam_angle_db, b.width_alongship_deg, b.width_athwartship_deg,
-          b.sensitivity_alongship, b.sensitivity_athwartship, b.offset_alongship_deg, b.offset_athwartship_deg}) {
-      add(hasher, v);
-    }
-    add(hasher, b.position_m);
-    add(hasher, b.direction_deg);
-    add(hasher, b.pulse_length_s);
-    add(hasher, b.gain_table_db);
-    add(hasher, b.sa_correction_table_db);
-  }
-  return hasher.value();
-}
-
 /// What changed between two settings that may not change inside an observation; empty = nothing.
 std::string setting_change(const TransmitSet& a, const TransmitSet& b) {
   for (std::size_t c = 0; c < std::min(a.size(), b.size()); ++c) {
@@ -131,7 +110,9 @@ class Cutter {
 /// Longest rows of each channel over the settings that the observation's pings were made with.
 std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const ObservationFiles& observation) {
   std::set<std::pair<std::uint32_t, std::uint16_t>> sets;
-  for (const SurveyPing& ping : observation.pings) sets.insert({ping.file, survey.entry(ping).transmit});
+  for (const SurveyPing& ping : observation.pings) {
+    for (const SurveyPing& part : survey.parts(ping)) sets.insert({part.file, survey.entry(part).transmit});
+  }
   std::vector<std::int32_t> longest;
   for (const auto& [file, transmit] : sets) {
     const TransmitSet& set = survey.files[file].index.transmits[transmit];
@@ -142,6 +123,19 @@ std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const Obser
 }
 
 /// Why rows of these channels cannot share one range axis; empty = they can.
+/// Settings of a ping's channels, wherever they lie.
+TransmitSet transmit_of(const SurveyFiles& survey, const SurveyPing& ping) {
+  TransmitSet set;
+  for (const SurveyPing& part : survey.parts(ping)) {
+    const TransmitSet& of_part = survey.transmit(part);
+    set.resize(std::max(set.size(), of_part.size()));
+    for (std::size_t c = 0; c < of_part.size(); ++c) {
+      if (!set[c].seen()) set[c] = of_part[c];
+    }
+  }
+  return set;
+}
+
 std::string no_common_range(const TransmitSet& set, const ChannelTransmit& reference) {
   for (std::size_t c = 0; c < set.size(); ++c) {
     if (!set[c].seen()) continue;
@@ -189,6 +183,26 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
 }  // namespace
 
 std::vector<ObservationFiles> cut_sequence(const SurveyFiles& survey, const SounderSequence& sequence,
+Hash128 identity(const SounderConfig& config) {
+  Hasher hasher;
+  add(hasher, config.gps_offset_m);
+  for (const BeamConfig& b : config.beams) {
+    hasher.add(b.channel_id);
+    add(hasher, b.beam_type);
+    for (const double v :
+         {b.frequency_hz, b.gain_db, b.equivalent_beam_angle_db, b.width_alongship_deg, b.width_athwartship_deg,
+          b.sensitivity_alongship, b.sensitivity_athwartship, b.offset_alongship_deg, b.offset_athwartship_deg}) {
+      add(hasher, v);
+    }
+    add(hasher, b.position_m);
+    add(hasher, b.direction_deg);
+    add(hasher, b.pulse_length_s);
+    add(hasher, b.gain_table_db);
+    add(hasher, b.sa_correction_table_db);
+  }
+  return hasher.value();
+}
+
                                            const SurveyParams& params) {
   std::vector<ObservationFiles> observations;
   Cutter cutter(survey, params);
@@ -208,7 +222,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   const SurveyPing& first = observation.pings.front();
   const RawIndex& first_index = survey.files[first.file].index;
   observation.config = first_index.configs[survey.entry(first).config];
-  observation.transmit = first_index.transmits[survey.entry(first).transmit];
+  observation.transmit = transmit_of(survey, first);
   auto grid = derive_beam_grid(observation.config, navigation.mounting_azimuth_deg, params.grid_tolerance_deg);
   if (grid) {
     observation.grid = std::move(*grid);
@@ -222,7 +236,9 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   for (const SurveyPing& ping : observation.pings) {
     motions.push_back(ping_attitude(survey.entry(ping)));
     auto& files = observation.files;
-    if (std::find(files.rbegin(), files.rend(), ping.file) == files.rend()) files.push_back(ping.file);
+    for (const SurveyPing& part : survey.parts(ping)) {
+      if (std::find(files.rbegin(), files.rend(), part.file) == files.rend()) files.push_back(part.file);
+    }
   }
   for (const std::uint32_t file : observation.files) {
     for (const NavSeries& s : survey.files[file].index.navigation) series.push_back(&s);

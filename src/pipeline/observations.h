@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
+
+/// What of a configuration geometry, calibration and navigation depend on; names of survey and transect are not in it.
+[[nodiscard]] Hash128 identity(const SounderConfig& config);
 
 /// Pings of one sounder over all files, each instant once, in the order of the files.
 struct SounderSequence {
@@ -15,8 +19,8 @@ struct SounderSequence {
   std::vector<SurveyPing> pings;
 };
 
-/// Sorts the survey's pings by sounder, MS70 first, and drops those that another file has as well; notes into
-/// survey.diagnostics.
+/// Sorts the survey's pings by sounder, MS70 first. Channels of one instant that lie in several places make one ping
+/// (survey.further_parts); what another file has as well is dropped, with a note in survey.diagnostics.
 [[nodiscard]] std::vector<SounderSequence> sequences_of(SurveyFiles& survey);
 
 /// Cuts a sequence at gaps, at the longest duration, and where grid, settings or the direction of time change.

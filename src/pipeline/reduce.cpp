@@ -194,8 +194,9 @@ std::map<std::uint32_t, KeptOfFile> by_file(const SurveyFiles& survey, const std
   std::map<std::uint32_t, KeptOfFile> kept;
   for (const Reduced& observation : observations) {
     for (const auto& [index, ping] : observation.pings) {
-      const SurveyPing& at = observation.files->pings[index];
-      kept[at.file][survey.entry(at).time] = &ping;
+      for (const SurveyPing& at : survey.parts(observation.files->pings[index])) {
+        kept[at.file][survey.entry(at).time] = &ping;
+      }
     }
   }
   return kept;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "pipeline/observations.h"
 
@@ -19,8 +22,7 @@ bool same_content(const RawIndex& a, const RawIndex& b) {
                     [](const PingEntry& p, const PingEntry& q) { return p.time == q.time && p.offset == q.offset; });
 }
 
-/// Marks files that are whole copies of another. The one with the shortest name stays: copies are named "x (copy)",
-/// "x-old".
+/// Marks files that are whole copies of another. The first by name stays.
 std::vector<bool> find_copies(SurveyFiles& survey) {
   const auto& files = survey.files;
   std::map<std::string, std::vector<std::size_t>> by_hash;
@@ -30,10 +32,7 @@ std::vector<bool> find_copies(SurveyFiles& survey) {
   std::vector<bool> copy(files.size(), false);
   for (auto& [hash, group] : by_hash) {
     std::sort(group.begin(), group.end(), [&](std::size_t a, std::size_t b) {
-      const auto key = [&](std::size_t i) {
-        const std::string name = file_name(files[i]);
-        return std::tuple(name.size(), name, i);
-      };
+      const auto key = [&](std::size_t i) { return std::pair(file_name(files[i]), i); };
       return key(a) < key(b);
     });
     for (std::size_t k = 1; k < group.size(); ++k) {
@@ -46,8 +45,45 @@ std::vector<bool> find_copies(SurveyFiles& survey) {
   return copy;
 }
 
-/// Keeps each instant once: the ping with the most channels, else the one that comes first.
-void drop_repeats(SurveyFiles& survey, SounderSequence& sequence) {
+/// Channels of a ping's parts that are taken so far.
+struct Taken {
+  SurveyPing first;
+  std::size_t channels = 0;
+  std::set<std::size_t> seen;  ///< channels of the parts' settings: at least those that are there
+  std::size_t repeated = 0;    ///< channels that a further part has again
+};
+
+std::set<std::size_t> channels_seen(const TransmitSet& set) {
+  std::set<std::size_t> channels;
+  for (std::size_t c = 0; c < set.size(); ++c) {
+    if (set[c].seen()) channels.insert(c);
+  }
+  return channels;
+}
+
+/// Takes what another part of the same instant adds; false where it adds nothing. The index knows how many channels a
+/// part has, and which its setting has over all pings.
+bool take_part(SurveyFiles& survey, const SurveyPing& part, Taken& taken) {
+  const auto& configs = survey.files[taken.first.file].index.configs;
+  const SounderConfig& config = configs[survey.entry(taken.first).config];
+  const SounderConfig& other = survey.files[part.file].index.configs[survey.entry(part).config];
+  const std::size_t channels = survey.entry(part).channels;
+  const bool whole = !config.beams.empty() && taken.channels >= config.beams.size();
+  if (whole || identity(config) != identity(other)) return false;
+  std::set<std::size_t> seen = channels_seen(survey.transmit(part));
+  seen.insert(taken.seen.begin(), taken.seen.end());
+  if (seen == taken.seen && taken.channels == taken.seen.size()) return false;
+  const std::size_t together = std::min(seen.size(), taken.channels + channels);
+  taken.repeated += taken.channels + channels - together;
+  taken.channels = together;
+  taken.seen = std::move(seen);
+  survey.further_parts[taken.first].push_back(part);
+  return true;
+}
+
+/// Keeps each instant once: the ping with the most channels, else the one that comes first; other places add the
+/// channels that it lacks.
+void join_instants(SurveyFiles& survey, SounderSequence& sequence) {
   auto& pings = sequence.pings;
   std::vector<std::size_t> order(pings.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -58,21 +94,23 @@ void drop_repeats(SurveyFiles& survey, SounderSequence& sequence) {
   });
   std::vector<bool> drop(pings.size(), false);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::int64_t> repeats;  // (dropped, kept) file -> pings
-  std::size_t kept = 0;
-  for (std::size_t k = 1; k < order.size(); ++k) {
+  Taken taken;
+  for (std::size_t k = 0; k < order.size(); ++k) {
     const SurveyPing& ping = pings[order[k]];
-    if (survey.entry(ping).time != survey.entry(pings[order[kept]]).time) {
-      kept = k;
+    if (k == 0 || survey.entry(ping).time != survey.entry(taken.first).time) {
+      taken = {ping, survey.entry(ping).channels, {}, 0};
       continue;
     }
+    if (taken.seen.empty()) taken.seen = channels_seen(survey.transmit(taken.first));
     drop[order[k]] = true;
-    ++repeats[{ping.file, pings[order[kept]].file}];
+    const std::size_t repeated = taken.repeated;
+    if (!take_part(survey, ping, taken) || taken.repeated > repeated) ++repeats[{ping.file, taken.first.file}];
   }
   for (const auto& [files, count] : repeats) {
     const SurveyFile& other = survey.files[files.second];
     survey.diagnostics.push_back(
         {DiagnosticCode::repeated_ping, survey.files[files.first].index.name, -1, -1,
-         fmt::format("{} pings have the time stamps of others in {}", count, file_name(other))});
+         fmt::format("{} pings repeat time and channels of others in {}", count, file_name(other))});
   }
   std::size_t to = 0;
   for (std::size_t i = 0; i < pings.size(); ++i) {
@@ -101,7 +139,7 @@ std::vector<SounderSequence> sequences_of(SurveyFiles& survey) {
   }
   std::vector<SounderSequence> result;
   for (auto& [key, sequence] : sequences) {
-    drop_repeats(survey, sequence);
+    join_instants(survey, sequence);
     if (!sequence.pings.empty()) result.push_back(std::move(sequence));
   }
   return result;

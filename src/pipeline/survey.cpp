@@ -50,6 +50,14 @@ const ObservationFiles* SurveyFiles::find(std::string_view observation) const {
   return it == observations.end() ? nullptr : &*it;
 }
 
+std::vector<SurveyPing> SurveyFiles::parts(const SurveyPing& ping) const {
+  std::vector<SurveyPing> all{ping};
+  if (const auto more = further_parts.find(ping); more != further_parts.end()) {
+    all.insert(all.end(), more->second.begin(), more->second.end());
+  }
+  return all;
+}
+
 std::vector<InputFile> input_files(const SurveyFiles& survey, const ObservationFiles& observation) {
   std::vector<InputFile> files;
   for (const std::uint32_t f : observation.files) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -62,6 +63,7 @@ struct SurveyFile {
 struct SurveyPing {
   std::uint32_t file = 0;   ///< in SurveyFiles::files
   std::uint32_t entry = 0;  ///< in that file's index.pings
+  friend auto operator<=>(const SurveyPing&, const SurveyPing&) = default;
 };
 
 /// A run of pings of one sounder on one grid (INTERFACES section 1), with everything but the samples.
@@ -94,9 +96,19 @@ struct SurveyFiles {
   std::shared_ptr<BlockPool> blocks = std::make_shared<BlockPool>();
 
   [[nodiscard]] const PingEntry& entry(const SurveyPing& ping) const {
+  /// Where the other channels of a ping lie whose channels are spread over several places (two files that each hold
+  /// some, say); by the first part, which is the one with most channels.
+  std::map<SurveyPing, std::vector<SurveyPing>> further_parts;
+
     return files[ping.file].index.pings[ping.entry];
   }
   /// Datagram time of a ping, the lasting key of human decisions.
+  /// Settings of the part's channels.
+  [[nodiscard]] const TransmitSet& transmit(const SurveyPing& part) const {
+    return files[part.file].index.transmits[entry(part).transmit];
+  }
+  /// All places of a ping, the first part first.
+  [[nodiscard]] std::vector<SurveyPing> parts(const SurveyPing& ping) const;
   [[nodiscard]] TimeNs ping_time(const ObservationFiles& observation, std::size_t ping_index) const {
     return entry(observation.pings[ping_index]).time;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/simrad/test_bytes.h"
+#include "pipeline/load_volume.h"
 
 namespace sonar {
 namespace {
@@ -140,7 +141,7 @@ TEST(Survey, CopiesChangeNothing) {
   folder.write("line.raw", test::small_file(3));
   folder.write("line2.raw", test::small_file(3, kStart + 10 * kSecondNs));
   const SurveyFiles before = opened(folder);
-  folder.write("a copy of line.raw", test::small_file(3));
+  folder.write("line3, a copy.raw", test::small_file(3));
   const SurveyFiles after = opened(folder);
   EXPECT_EQ(times(after), times(before));
   ASSERT_EQ(after.observations.size(), 1U);
@@ -149,6 +150,64 @@ TEST(Survey, CopiesChangeNothing) {
   EXPECT_TRUE(after.observations[0].diagnostics.empty());
 }
 
+  folder.write("a copy of line.raw", test::small_file(3));  // the first by name is the one
+  const SurveyFiles again = opened(folder);
+  EXPECT_EQ(times(again), times(before));
+  EXPECT_EQ(input_files(again, again.observations[0]).at(0).name, "a copy of line.raw");
+  EXPECT_EQ(count(again.diagnostics, DiagnosticCode::duplicate_file), 2);
+}
+
+/// A file with some channels of small_ping() only, 1-based as in the file.
+Bytes channels_of(const std::vector<int>& channels, int pings) {
+  Bytes bytes = test::con0(test::small_ms70());
+  for (int i = 0; i < pings; ++i) {
+    for (const int channel : channels) {
+      bytes.add(test::raw0(kStart + i * kSecondNs, {.channel = channel},
+                           {static_cast<std::int16_t>(channel * 10), static_cast<std::int16_t>(channel * 10 + i)}));
+    }
+  }
+  return bytes;
+}
+
+TEST(Survey, ChannelsOfOnePingInTwoFilesMakeOnePing) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", channels_of({1, 2}, 3));
+  folder.write("b.raw", channels_of({3, 4, 5, 6}, 3));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  const ObservationFiles& o = survey.observations[0];
+  ASSERT_EQ(o.pings.size(), 3U);
+  EXPECT_EQ(o.files.size(), 2U);
+  ASSERT_TRUE(o.grid);
+  EXPECT_EQ(o.sample_count, (std::vector<std::int32_t>{2, 2}));
+  for (const ChannelTransmit& transmit : o.transmit) EXPECT_TRUE(transmit.seen());
+  EXPECT_EQ(count(survey.diagnostics, DiagnosticCode::repeated_ping), 0);
+  for (int i = 0; i < 3; ++i) {
+    const auto ping = load_ping(survey, o.pings[static_cast<std::size_t>(i)]);
+    ASSERT_TRUE(ping);
+    ASSERT_EQ(ping->channels.size(), 6U);
+    for (int c = 0; c < 6; ++c) {
+      const ChannelPing& channel = ping->channels[static_cast<std::size_t>(c)];
+      EXPECT_EQ(channel.channel, c);
+      EXPECT_EQ(channel.power_count[1], (c + 1) * 10 + i);
+    }
+  }
+  const auto volume = load_volume(survey, o, 2);
+  ASSERT_TRUE(volume);
+  for (const SampleFlags flags : volume->volume.flags.view().row(0)) EXPECT_EQ(flags, SampleFlags::none);
+}
+
+TEST(Survey, RepeatedChannelIsTakenOnceAndNoted) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", channels_of({1, 2, 3}, 2));
+  folder.write("b.raw", channels_of({3, 4, 5, 6}, 2));
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  EXPECT_EQ(survey.observations[0].pings.size(), 2U);
+  EXPECT_EQ(count(survey.diagnostics, DiagnosticCode::repeated_ping), 1);
+  const auto ping = load_ping(survey, survey.observations[0].pings[0]);
+  ASSERT_TRUE(ping);
+  EXPECT_EQ(ping->channels.size(), 6U);
 TEST(Survey, PingsInTwoFilesAreTakenOnce) {
   const test::TemporaryFolder folder;
   Bytes cut = test::small_file(5);
