@@ -62,6 +62,7 @@ void read_attributes(Reader& in, ObservationProduct& product) {
   product.recipe_hash = in.text(root, "recipe_hash");
   product.stage_versions = in.text(root, "stage_versions");
   product.input_hash = in.text(root, "input_hash");
+  if (in.has_attribute(root, "cut_after")) product.cut_after = in.whole(root, "cut_after");
   for (const std::string& text : in.texts(root, "input_files")) {
     if (text.empty()) continue;
     InputFile file;

@@ -86,6 +86,27 @@ TEST_F(Product, reads_back_what_was_written) {
   ASSERT_EQ(back->diagnostics.size(), 1U);
   EXPECT_EQ(back->diagnostics[0].code, DiagnosticCode::file_truncated);
   EXPECT_EQ(back->diagnostics[0].offset, 17);
+  EXPECT_EQ(back->next_school_id, 3);  // one above what is there
+  EXPECT_EQ(back->cut_after, 0);
+}
+
+TEST_F(Product, remembers_numbers_that_were_given_and_what_it_was_cut_from) {
+  ObservationProduct p = sample();
+  p.next_school_id = 9;
+  p.cut_after = example::kStart - kSecondNs;
+  ASSERT_TRUE(write_product(p, at("a.nc")));
+  const auto back = read_product(at("a.nc"));
+  ASSERT_TRUE(back) << to_line(back.error());
+  EXPECT_EQ(back->next_school_id, 9);
+  EXPECT_EQ(back->cut_after, example::kStart - kSecondNs);
+  const auto key = read_product_key(at("a.nc"));
+  ASSERT_TRUE(key);
+  EXPECT_EQ(key->pings, 5U);
+  EXPECT_EQ(key->first_time, p.pings.front().time);
+  EXPECT_EQ(key->last_time, p.pings.back().time);
+  p.next_school_id = -4;
+  EXPECT_TRUE(write_product(p, at("b.nc")));  // counts as unknown
+  EXPECT_EQ(read_product(at("b.nc"))->next_school_id, 3);
 }
 
 TEST_F(Product, two_writes_and_a_save_load_save_give_the_same_bytes) {

@@ -45,6 +45,8 @@ void write_attributes(Writer& out, const ObservationProduct& product) {
   text("stage_versions", product.stage_versions);
   text("input_hash", product.input_hash);
   out.attribute(root, Writer::kGlobal, "next_school_id", next_school_id(product));
+  out.attribute(root, Writer::kGlobal, "continues_cut", std::int64_t{product.cut_after != 0 ? 1 : 0});
+  if (product.cut_after != 0) out.attribute(root, Writer::kGlobal, "cut_after", product.cut_after);
   std::vector<std::string> files;
   for (const InputFile& f : product.input_files) files.push_back(fmt::format("{} {} {}", f.name, f.size, f.hash));
   out.attribute(root, Writer::kGlobal, "input_files", files);

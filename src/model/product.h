@@ -62,7 +62,9 @@ struct ObservationProduct {
   Diagnostics diagnostics;
   /// Above every number that a school of these pings ever had; 0 = only those that are here.
   std::int64_t next_school_id = 0;
-  bool continues_cut = false;  ///< begun only because the observation before it reached observation_max_s
+  /// Time of the ping before, where the observation was begun only because that one's reached observation_max_s; 0 = it
+  /// was not.
+  TimeNs cut_after = 0;
 };
 
 /// The number that the next new school of the product gets.

@@ -85,6 +85,7 @@ void compare_attributes(Differ& differ, const ObservationProduct& a, const Obser
   differ.value("/sonar_explorer_version", a.program_version, b.program_version);
   differ.value("/history", a.history, b.history);
   differ.value("/input_hash", a.input_hash, b.input_hash);
+  differ.value("/cut_after", a.cut_after, b.cut_after);
   differ.value("/next_school_id", next_school_id(a), next_school_id(b));
   differ.value("/input_files (length)", a.input_files.size(), b.input_files.size());
   for (std::size_t i = 0; i < a.input_files.size() && !differ.found(); ++i) {

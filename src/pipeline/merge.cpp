@@ -39,13 +39,10 @@ bool same_grid(const ObservationProduct& a, const ObservationProduct& b) {
   return a.grid && b.grid && a.grid->grid == b.grid->grid && a.grid->range.spacing_m == b.grid->range.spacing_m;
 }
 
-/// Whether `after` goes on where `before` was cut.
-bool is_cut(const ObservationProduct& before, const ObservationProduct& after, const MergeParams& params) {
-  if (before.pings.empty() || after.pings.empty() || before.source != after.source || !same_grid(before, after)) {
-    return false;
-  }
-  const double gap_s = static_cast<double>(after.pings.front().time - before.pings.back().time) / 1e9;
-  return gap_s > 0.0 && gap_s <= params.cut_gap_s;
+/// Whether `after` goes on where `before` was cut because it had become too long; nothing else is a cut.
+bool is_cut(const ObservationProduct& before, const ObservationProduct& after) {
+  if (before.pings.empty() || before.source != after.source || !same_grid(before, after)) return false;
+  return after.cut_after != 0 && after.cut_after == before.pings.back().time;
 }
 
 const SchoolPingRow* end_row(const ObservationProduct& product, std::int64_t school_id, bool last) {
@@ -137,7 +134,7 @@ Result<Survey> merge(std::vector<ObservationProduct> products, const std::option
     product.background_db.clear();
   }
   for (std::size_t i = 1; i < products.size(); ++i) {
-    if (is_cut(products[i - 1], products[i], params)) join_over_cut(products[i - 1], products[i], params);
+    if (is_cut(products[i - 1], products[i])) join_over_cut(products[i - 1], products[i], params);
   }
   Survey survey;
   for (const ObservationProduct& product : products) {

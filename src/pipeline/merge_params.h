@@ -7,7 +7,6 @@ namespace sonar {
 
 /// How a school is followed over a cut made by observation_max_s. Depends on products alone.
 struct MergeParams {
-  double cut_gap_s = 120.0;
   double gate_m = 20.0;
   double length_share = 0.25;
   double depth_gate_m = 10.0;
@@ -16,8 +15,6 @@ struct MergeParams {
 
 template <class Visitor>
 void describe(Visitor& v, MergeParams& p) {
-  v.field("cut_gap_s", p.cut_gap_s,
-          {.unit = "s", .min = 0, .max = 100000, .text = "observations of one sounder no further apart were one"});
   v.field("gate_m", p.gate_m,
           {.unit = "m", .min = 0, .max = 10000, .text = "the predicted place may miss the found one by this ..."});
   v.field("length_share", p.length_share,

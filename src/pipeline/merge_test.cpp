@@ -37,6 +37,7 @@ ObservationProduct after_cut() {
   const Geographic start = destination({60.0, 5.0}, 10 * example::kPingSeconds * example::kShip_mps, 0.0);
   const TimeNs first = example::kStart + static_cast<TimeNs>(10 * example::kPingSeconds * 1e9);
   ObservationProduct p = example::empty("obs-0002", 10, start, first);
+  p.cut_after = first - static_cast<TimeNs>(example::kPingSeconds * 1e9);
   example::add_school(p, 1, 0, 4, example::block(1, 1, 2, 20, 10));
   p.schools[0].length_m = 20.0;
   example::add_school(p, 2, 0, 4, example::block(0, 1, 2, 50, 5));
@@ -71,13 +72,16 @@ TEST(Merge, gates_are_those_of_the_products_recipe) {
   EXPECT_EQ(merge({before, after}, MergeParams{})->schools[1].continues, "obs-0001/3");
 }
 
-TEST(Merge, a_gap_or_another_grid_is_no_cut) {
-  ObservationProduct late = after_cut();
-  for (PingNavigation& ping : late.pings) ping.time += 200 * kSecondNs;
-  EXPECT_EQ(merge({before_cut(), late})->schools[1].continues, "");
-  ObservationProduct other = after_cut();
-  other.grid->range.spacing_m = 1.0;
-  EXPECT_EQ(merge({before_cut(), other})->schools[1].continues, "");
+TEST(Merge, only_what_the_longest_duration_cut_is_joined) {
+  ObservationProduct other_cause = after_cut();  // as near in time, but begun for another reason
+  other_cause.cut_after = 0;
+  EXPECT_EQ(merge({before_cut(), other_cause})->schools[1].continues, "");
+  ObservationProduct next_but_one = after_cut();  // what it goes on from is not there
+  next_but_one.cut_after += kSecondNs;
+  EXPECT_EQ(merge({before_cut(), next_but_one})->schools[1].continues, "");
+  ObservationProduct other_grid = after_cut();
+  other_grid.grid->range.spacing_m = 1.0;
+  EXPECT_EQ(merge({before_cut(), other_grid})->schools[1].continues, "");
 }
 
 TEST(Merge, a_school_that_ended_before_the_cut_is_not_continued) {

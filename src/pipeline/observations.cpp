@@ -84,6 +84,7 @@ class Cutter {
     if (n.time - b.time > gap_) cut = true;
     if (cut) return true;
     fresh.continues_cut = longest_ > 0 && n.time - f.time > longest_;
+    if (fresh.continues_cut) fresh.cut_after = b.time;
     return fresh.continues_cut;
   }
 
@@ -122,7 +123,6 @@ std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const Obser
   return longest;
 }
 
-/// Why rows of these channels cannot share one range axis; empty = they can.
 /// Settings of a ping's channels, wherever they lie.
 TransmitSet transmit_of(const SurveyFiles& survey, const SurveyPing& ping) {
   TransmitSet set;
@@ -136,6 +136,7 @@ TransmitSet transmit_of(const SurveyFiles& survey, const SurveyPing& ping) {
   return set;
 }
 
+/// Why rows of these channels cannot share one range axis; empty = they can.
 std::string no_common_range(const TransmitSet& set, const ChannelTransmit& reference) {
   for (std::size_t c = 0; c < set.size(); ++c) {
     if (!set[c].seen()) continue;
@@ -182,7 +183,6 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
 
 }  // namespace
 
-std::vector<ObservationFiles> cut_sequence(const SurveyFiles& survey, const SounderSequence& sequence,
 Hash128 identity(const SounderConfig& config) {
   Hasher hasher;
   add(hasher, config.gps_offset_m);
@@ -203,6 +203,7 @@ Hash128 identity(const SounderConfig& config) {
   return hasher.value();
 }
 
+std::vector<ObservationFiles> cut_sequence(const SurveyFiles& survey, const SounderSequence& sequence,
                                            const SurveyParams& params) {
   std::vector<ObservationFiles> observations;
   Cutter cutter(survey, params);

@@ -213,6 +213,10 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   product.input_hash = observation_key(survey, observation, recipe, options);
   product.input_files = input_files(survey, observation);
   product.pings = observation.navigation;
+  if (observation.continues_cut) {
+    // On the clock of the product's own pings.
+    product.cut_after = observation.cut_after + (product.pings.front().time - survey.ping_time(observation, 0));
+  }
   product.next_school_id = options.earlier != nullptr ? options.earlier->next_school_id : 1;
   product.diagnostics = observation.diagnostics;
   for (const std::uint32_t file : observation.files) {

@@ -83,6 +83,7 @@ struct ObservationFiles {
   Talkers talkers;
   double gps_minus_clock_s = 0.0;  ///< median; NaN = unknown
   bool continues_cut = false;      ///< begun only because the one before reached observation_max_s
+  TimeNs cut_after = 0;            ///< datagram time of the ping before such a cut; 0 = no cut
   Diagnostics diagnostics;         ///< of the observation; those of its files are in their indexes
 
   [[nodiscard]] Sector sector() const { return grid->sector(range); }  ///< only with a grid
@@ -95,20 +96,20 @@ struct SurveyFiles {
   Diagnostics diagnostics;                     ///< duplicate files, repeated pings, unreadable files
   std::shared_ptr<BlockPool> blocks = std::make_shared<BlockPool>();
 
-  [[nodiscard]] const PingEntry& entry(const SurveyPing& ping) const {
   /// Where the other channels of a ping lie whose channels are spread over several places (two files that each hold
   /// some, say); by the first part, which is the one with most channels.
   std::map<SurveyPing, std::vector<SurveyPing>> further_parts;
 
+  [[nodiscard]] const PingEntry& entry(const SurveyPing& ping) const {
     return files[ping.file].index.pings[ping.entry];
   }
-  /// Datagram time of a ping, the lasting key of human decisions.
   /// Settings of the part's channels.
   [[nodiscard]] const TransmitSet& transmit(const SurveyPing& part) const {
     return files[part.file].index.transmits[entry(part).transmit];
   }
   /// All places of a ping, the first part first.
   [[nodiscard]] std::vector<SurveyPing> parts(const SurveyPing& ping) const;
+  /// Datagram time of a ping, the lasting key of human decisions.
   [[nodiscard]] TimeNs ping_time(const ObservationFiles& observation, std::size_t ping_index) const {
     return entry(observation.pings[ping_index]).time;
   }

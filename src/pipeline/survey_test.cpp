@@ -117,6 +117,8 @@ TEST(Survey, LongestDurationCutsAndSaysSo) {
   EXPECT_EQ(survey.observations[2].pings.size(), 3U);
   EXPECT_FALSE(survey.observations[0].continues_cut);
   EXPECT_TRUE(survey.observations[1].continues_cut);
+  EXPECT_EQ(survey.observations[0].cut_after, 0);
+  EXPECT_EQ(survey.observations[1].cut_after, kStart + 10 * kSecondNs);
   EXPECT_TRUE(survey.observations[1].diagnostics.empty());
   EXPECT_EQ(opened(folder, {.observation_max_s = 0.0}).observations.size(), 1U);
 }
@@ -148,8 +150,6 @@ TEST(Survey, CopiesChangeNothing) {
   EXPECT_EQ(input_files(after, after.observations[0]), input_files(before, before.observations[0]));
   EXPECT_EQ(count(after.diagnostics, DiagnosticCode::duplicate_file), 1);
   EXPECT_TRUE(after.observations[0].diagnostics.empty());
-}
-
   folder.write("a copy of line.raw", test::small_file(3));  // the first by name is the one
   const SurveyFiles again = opened(folder);
   EXPECT_EQ(times(again), times(before));
@@ -208,6 +208,8 @@ TEST(Survey, RepeatedChannelIsTakenOnceAndNoted) {
   const auto ping = load_ping(survey, survey.observations[0].pings[0]);
   ASSERT_TRUE(ping);
   EXPECT_EQ(ping->channels.size(), 6U);
+}
+
 TEST(Survey, PingsInTwoFilesAreTakenOnce) {
   const test::TemporaryFolder folder;
   Bytes cut = test::small_file(5);
