@@ -39,6 +39,31 @@ Tracks choose(std::span<const NavSeries* const> series, const NavigationParams& 
           choose_track(series, NavQuantity::clock, p.clock_talker)};
 }
 
+/// A talker that was asked for and said nothing.
+void note_silent_talkers(const Tracks& tracks, const NavigationParams& p, Diagnostics& notes) {
+  const auto note = [&](const std::string& wanted, const NavTrack& track, DiagnosticCode code, const char* what) {
+    if (wanted.empty() || !track.samples.empty()) return;
+    notes.push_back({code, "", -1, -1, fmt::format("talker {} was asked for, but it gives no {}", wanted, what)});
+  };
+  note(p.position_talker, tracks.position, DiagnosticCode::no_position, "position");
+  note(p.heading_talker, tracks.heading, DiagnosticCode::no_heading, "heading");
+  note(p.speed_talker, tracks.velocity, DiagnosticCode::bad_nmea, "speed");
+  note(p.log_talker, tracks.log, DiagnosticCode::bad_nmea, "log");
+  note(p.clock_talker, tracks.clock, DiagnosticCode::bad_nmea, "time");
+}
+
+/// Positions that stayed the antenna's because nobody knows which way the ship lay.
+void note_unmoved(std::span<const PingNavigation> pings, const Point<Vessel>& arm, Diagnostics& notes) {
+  if (arm == Point<Vessel>{}) return;
+  const auto unmoved = [](const PingNavigation& p) { return p.has_position() && std::isnan(p.heading_deg); };
+  const auto count = std::count_if(pings.begin(), pings.end(), unmoved);
+  if (count == 0) return;
+  const auto first = std::find_if(pings.begin(), pings.end(), unmoved) - pings.begin();
+  notes.push_back(
+      {DiagnosticCode::no_heading, "", -1, first,
+       fmt::format("without a heading the positions of {} pings are the antenna's, not the transducer's", count)});
+}
+
 bool usable(const std::array<double, 3>& place) {
   return std::all_of(place.begin(), place.end(), [](double v) { return std::abs(v) <= kLargestArm_m; });
 }
@@ -171,6 +196,8 @@ Navigation navigate(std::span<const NavSeries* const> series, std::span<const Pi
   note_lack(
       result.pings, [](const PingNavigation& p) { return std::isnan(p.heading_deg); }, DiagnosticCode::no_heading,
       "heading", result.diagnostics);
+  note_silent_talkers(tracks, params, result.diagnostics);
+  note_unmoved(result.pings, arm.value_or(Point<Vessel>{}), result.diagnostics);
   return result;
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/units.h"
 #include "geo/geodesic.h"
@@ -182,6 +184,46 @@ TEST(NavSeriesTable, EachSentenceGoesWhereItBelongs) {
   EXPECT_EQ(all[2].quantity, NavQuantity::clock);
   EXPECT_EQ(all[2].samples.at(0).first, 10.0);
   EXPECT_EQ(all[3].quantity, NavQuantity::heading);
+}
+
+TEST(Navigation, TalkersThatSayNothingAreNamed) {
+  NavigationParams wanted;
+  wanted.heading_talker = "HE";
+  wanted.log_talker = "VD";
+  const auto n = run({series(NavQuantity::position, "GP", "GGA", {{at(0), 60.0, 5.0}}),
+                      series(NavQuantity::heading, "IN", "HDT", {{at(0), 90.0, 0}})},
+                     {{.time = at(0), .heading_deg = 12.0}}, wanted);
+  int named = 0;
+  for (const Diagnostic& note : n.diagnostics) {
+    const bool heading = note.code == DiagnosticCode::no_heading && note.text.find("HE") != std::string::npos;
+    const bool log = note.code == DiagnosticCode::bad_nmea && note.text.find("VD") != std::string::npos;
+    named += heading || log ? 1 : 0;
+  }
+  EXPECT_EQ(named, 2);
+  EXPECT_EQ(n.pings[0].heading_deg, 12.0);  // the sample data's own
+  wanted.heading_talker = "IN";
+  wanted.log_talker = "";
+  EXPECT_TRUE(run({series(NavQuantity::position, "GP", "GGA", {{at(0), 60.0, 5.0}}),
+                   series(NavQuantity::heading, "IN", "HDT", {{at(0), 90.0, 0}})},
+                  {{.time = at(0)}}, wanted)
+                  .diagnostics.empty());
+}
+
+TEST(Navigation, LeverArmWithoutAHeadingIsNotAppliedAndNoted) {
+  NavigationParams params;
+  params.lever_arm = LeverArmSource::settings;
+  params.lever_arm_x_m = 10.0;
+  const std::vector<NavSeries> all{series(NavQuantity::position, "GP", "GGA", {{at(0), 60.0, 5.0}})};
+  const auto unmoved = [](const Navigation& n) {
+    return std::count_if(n.diagnostics.begin(), n.diagnostics.end(),
+                         [](const Diagnostic& d) { return d.text.find("antenna's") != std::string::npos; });
+  };
+  const auto n = run(all, {{.time = at(0)}}, params);
+  EXPECT_EQ(n.pings[0].transducer.latitude_deg, 60.0);
+  EXPECT_EQ(unmoved(n), 1);
+  EXPECT_EQ(unmoved(run(all, {{.time = at(0), .heading_deg = 90.0}}, params)), 0);
+  params.lever_arm_x_m = 0.0;
+  EXPECT_EQ(unmoved(run(all, {{.time = at(0)}}, params)), 0);
 }
 
 }  // namespace

@@ -123,6 +123,13 @@ CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> he
 
 Diagnostics CalibrationTables::diagnostics() const {
   Diagnostics notes;
+  for (const BeamCalibration& beam : params_.beams) {
+    const auto channel = static_cast<std::size_t>(beam.channel);
+    if (beam.channel >= 0 && channel < row_of_channel_.size() && row_of_channel_[channel] >= 0) continue;
+    notes.push_back({DiagnosticCode::not_calibrated, "", -1, -1,
+                     fmt::format("the calibration names channel {}, the grid has 0 to {}; the line changes nothing",
+                                 beam.channel, row_of_channel_.size() - 1)});
+  }
   for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
     const ChannelTransmit& sent = observation_.transmit[channel];
     if (!sent.seen() || channel >= observation_.config.beams.size()) continue;

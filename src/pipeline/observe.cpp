@@ -123,6 +123,18 @@ void note_events(const std::vector<TrackEvent>& events, const std::vector<School
   }
 }
 
+/// A grid that is narrower than any school that is looked for shows none.
+void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
+  if (!product.grid) return;
+  const int fans = product.grid->grid.fans();
+  const int beams = product.grid->grid.beams();
+  if (fans >= params.min_fans && beams >= params.min_beams) return;
+  product.diagnostics.push_back(
+      {DiagnosticCode::no_grid, "", -1, -1,
+       fmt::format("fans x beams: {} x {}; schools are looked for where there are {} x {} at least", fans, beams,
+                   params.min_fans, params.min_beams)});
+}
+
 void note_schools_without_place(ObservationProduct& product) {
   const auto lost = std::count_if(product.pings.begin(), product.pings.end(),
                                   [](const PingNavigation& ping) { return !ping.has_position(); });
@@ -236,6 +248,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
                                    const ObserveOptions& options, Work& work) {
   ObservationProduct product = empty_product(survey, observation, recipe, options);
   const PingReach reach = selected(observation, options);
+  if (recipe.automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;
   Engine engine(survey, observation, recipe);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "io/simrad/test_bytes.h"
 #include "pipeline/compare.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
@@ -263,6 +264,37 @@ TEST_F(Observe, ChannelWithoutCalibrationIsNotedAndNotUsed) {
   const int row = altered.grid->row_of_channel()[7];
   for (const SampleFlags flags : ping->sv.flags.view().row(row)) ASSERT_TRUE(any(flags & SampleFlags::lost));
   for (const std::int16_t sv : ping->sv.counts.view().row(row)) ASSERT_EQ(sv, kNoData);
+}
+
+TEST_F(Observe, CalibrationOfAChannelThatIsNotThereIsNoted) {
+  Recipe recipe;
+  recipe.calibration.beams.push_back({700, 20.0, kUnknown, kUnknown});
+  Work work(2);
+  const auto product = observe(*survey_, observation(), recipe, {PingSelection{0, 0}, {}, "test"}, work);
+  ASSERT_TRUE(product);
+  ASSERT_EQ(count(*product, DiagnosticCode::not_calibrated), 1);
+  for (const Diagnostic& note : product->diagnostics) {
+    if (note.code != DiagnosticCode::not_calibrated) continue;
+    EXPECT_THAT(note.text, testing::HasSubstr("names channel 700, the grid has 0 to 499"));
+  }
+}
+
+TEST_F(Observe, OneFanShowsNoSchoolsAndSaysWhy) {
+  const test::TemporaryFolder folder;
+  test::Con0Spec one_fan;
+  for (const float azimuth : {-2.5F, 0.0F, 2.5F}) one_fan.beams.push_back({100'000.0F, -10.0F, azimuth, 20.0F});
+  test::Bytes bytes = test::con0(one_fan);
+  for (int channel = 1; channel <= 3; ++channel) bytes.add(test::raw0(test::kStart, {.channel = channel}, {1, 2, 3}));
+  folder.write("one fan.raw", bytes);
+  Work work(1);
+  const std::vector<std::filesystem::path> paths{folder.path()};
+  const auto survey = open_survey(paths, {}, {}, {}, work);
+  ASSERT_TRUE(survey);
+  const auto product = observe(*survey, survey->observations.at(0), {}, {{}, {}, "test"}, work);
+  ASSERT_TRUE(product);
+  EXPECT_TRUE(product->schools.empty());
+  ASSERT_EQ(count(*product, DiagnosticCode::no_grid), 1);
+  EXPECT_EQ(count(*product_, DiagnosticCode::no_grid), 0);
 }
 
 TEST_F(Observe, CancelledWorkGivesNoProduct) {

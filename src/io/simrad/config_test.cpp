@@ -167,7 +167,10 @@ TEST(Raw0, ImpossibleOnesAreNotUsed) {
   EXPECT_EQ(code({.offset = 2'147'483'647}), DiagnosticCode::bad_sample_counts);
   EXPECT_EQ(code({.interval_s = 0.0F}), DiagnosticCode::bad_value);
   EXPECT_EQ(code({.interval_s = std::numeric_limits<float>::quiet_NaN()}), DiagnosticCode::bad_value);
+  EXPECT_EQ(code({.interval_s = 0.5F}), DiagnosticCode::bad_value);  // 375 m a sample
+  EXPECT_EQ(code({.interval_s = 1e-8F}), DiagnosticCode::bad_value);
   EXPECT_EQ(code({.sound_speed_mps = -1500.0F}), DiagnosticCode::bad_value);
+  EXPECT_EQ(code({.sound_speed_mps = 330.0F}), DiagnosticCode::bad_value);  // air
   EXPECT_EQ(code({.mode = 2}), DiagnosticCode::no_power);
   const auto bytes = test::raw0(test::kStart, {}, {});
   EXPECT_NE(parse_raw0(body_of(bytes).first(71)).problem, nullptr);

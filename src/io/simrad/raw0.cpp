@@ -11,6 +11,12 @@
 namespace sonar::simrad {
 namespace {
 
+// A quarter of the shortest and of the longest pulse of any echo sounder, with room; and sound in water, with room.
+constexpr double kLeastInterval_s = 1e-6;
+constexpr double kMostInterval_s = 0.02;
+constexpr double kLeastSpeed_mps = 1000.0;
+constexpr double kMostSpeed_mps = 2000.0;
+
 Raw0 unusable(Raw0 raw, const char* problem, DiagnosticCode code) {
   raw.problem = problem;
   raw.code = code;
@@ -79,9 +85,11 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
       promised_bytes(head.mode, count) > static_cast<std::int64_t>(body.size() - kRaw0HeadBytes)) {
     return unusable(raw, "offset and count do not fit the body", DiagnosticCode::bad_sample_counts);
   }
-  if (!(head.sample_interval_s > 0.0) || !(head.sound_speed_mps > 0.0) || head.sample_interval_s > 1.0 ||
-      head.sound_speed_mps > 1e4 || head.sound_speed_mps < 1e2 || head.sample_interval_s < 1e-7) {
-    return unusable(raw, "sample interval or sound speed is impossible", DiagnosticCode::bad_value);
+  if (!(head.sample_interval_s >= kLeastInterval_s && head.sample_interval_s <= kMostInterval_s)) {
+    return unusable(raw, "the sample interval is impossible, 1e-6 to 0.02 s were expected", DiagnosticCode::bad_value);
+  }
+  if (!(head.sound_speed_mps >= kLeastSpeed_mps && head.sound_speed_mps <= kMostSpeed_mps)) {
+    return unusable(raw, "the sound speed is impossible, 1000 to 2000 m/s were expected", DiagnosticCode::bad_value);
   }
   if ((head.mode & 1) == 0) return unusable(raw, "no power samples in this mode", DiagnosticCode::no_power);
   raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
