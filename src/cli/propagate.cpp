@@ -219,7 +219,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   }
   if (auto written = write_outcome(*clicked, line, *product, *recipe, options); !written)
     return report(written.error());
-  const auto merged = merge_folder(options.out, {});
+  const auto merged = merge_after(options.out, RunReport{}, work);
   if (!merged) return report(merged.error());
   print_school(*product);
   return kExitDone;

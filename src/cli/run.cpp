@@ -118,7 +118,17 @@ Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
   return opened;
 }
 
+/// What a newer program planned here is not ours to replace.
+Result<void> require_no_newer_plan(const std::filesystem::path& out) {
+  std::error_code absent;
+  if (!std::filesystem::exists(out / "plan.json", absent)) return {};
+  const auto plan = read_plan(out / "plan.json");
+  if (!plan && plan.error().code == ErrorCode::newer_version) return pass_on(plan);
+  return {};
+}
+
 Result<void> write_plan(Opened& opened, const RunArguments& arguments, const RunOptions& options) {
+  if (auto ours = require_no_newer_plan(options.out); !ours) return ours;
   const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
   opened.plan = make_plan(opened.survey, paths, arguments.session, opened.plan.recipe,
                           {options.pings, opened.journal, options.program_version});
@@ -153,16 +163,17 @@ void print_failures(const SurveyFiles& survey, const RunReport& report) {
   }
 }
 
-int finish(const Opened& opened, const RunOptions& options, RunReport report) {
-  clear_progress();
+int finish(const Opened& opened, const RunOptions& options, RunReport report, Work& work) {
   if (options.task) {
+    clear_progress();
     print_failures(opened.survey, report);
     return report.failures.empty() ? kExitDone : kExitFailed;
   }
   const std::vector<RunFailure> files = failed_files(opened.survey);
   report.failures.insert(report.failures.end(), files.begin(), files.end());
+  const auto merged = merge_after(options.out, report, work, options.only);
+  clear_progress();
   print_failures(opened.survey, report);
-  const auto merged = merge_folder(options.out, report);
   if (!merged) return sonar::report(merged.error());
   fmt::print("{}", *merged);
   if (report.failures.empty()) return kExitDone;
@@ -198,7 +209,7 @@ int run_verb(const RunArguments& arguments) {
     clear_progress();
     return report(done.error());
   }
-  return finish(*opened, options, *done);
+  return finish(*opened, options, *done, work);
 }
 
 }  // namespace

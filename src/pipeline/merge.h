@@ -40,8 +40,11 @@ struct MergeReport {
   Survey survey;
   std::vector<MergeFailure> failures;  ///< those handed in, and products that could not be read
   std::vector<std::string> missing;    ///< in plan.json, but without a product
+  std::vector<std::string> not_run;    ///< those of them that were not asked for
   std::vector<std::string> unplanned;  ///< products that plan.json does not know; left out
-  [[nodiscard]] bool complete() const { return failures.empty() && missing.empty(); }
+  Diagnostics notes;                   ///< of the survey as a whole, from plan.json
+  bool all_planned = false;            ///< there is a plan, and each of its observations has its product
+  [[nodiscard]] bool complete() const { return failures.empty() && missing.empty() && not_run.empty(); }
 };
 
 /// Product files of a result: OUT/products/obs-*.nc, or OUT/obs-*.nc where there is no such folder; by name.
@@ -51,14 +54,17 @@ struct MergeReport {
 /// Reads OUT/products and OUT/plan.json (where there is one) and writes schools.csv, school_pings.csv, survey.gpkg and
 /// survey.json into OUT, each whole or not at all. Raw data are not needed.
 /// failures  of the observations that were just run
+/// only      the one observation that was asked for; that others have no product is no fault then
 /// errors    not_found: neither products nor plan; mismatch; io; no_space; cancelled
 /// memory    masks of one observation at a time
-Result<MergeReport> merge_folder(const std::filesystem::path& out, std::vector<MergeFailure> failures, Work& work);
+Result<MergeReport> merge_folder(const std::filesystem::path& out, std::vector<MergeFailure> failures, Work& work,
+                                 const std::optional<std::string>& only = {});
 
 /// What a merge made, for people: counts, what is missing or failed, where the files lie. Ends with a line break.
 [[nodiscard]] std::string merge_text(const MergeReport& report, const std::filesystem::path& out);
 
 /// Merges after a run; its failures come along. Gives merge_text().
-Result<std::string> merge_folder(const std::filesystem::path& out, const RunReport& run);
+Result<std::string> merge_after(const std::filesystem::path& out, const RunReport& run, Work& work,
+                                const std::optional<std::string>& only = {});
 
 }  // namespace sonar

@@ -68,6 +68,10 @@ std::string survey_json(const MergeReport& report) {
   for (const MergeFailure& f : report.failures) {
     failures.push_back({{"observation", f.observation}, {"error", f.text}});
   }
+  json notes = json::array();
+  for (const Diagnostic& note : report.notes) {
+    notes.push_back({{"code", name(note.code)}, {"file", note.file}, {"text", note.text}});
+  }
   const auto continued = std::count_if(report.survey.schools.begin(), report.survey.schools.end(),
                                        [](const SchoolRow& s) { return !s.continues.empty(); });
   json provenance = nullptr;
@@ -91,18 +95,23 @@ std::string survey_json(const MergeReport& report) {
                     {"observations", observations},
                     {"failures", failures},
                     {"missing", report.missing},
+                    {"not_run", report.not_run},
+                    {"notes", notes},
                     {"unplanned", report.unplanned}};
   // Texts may come from damaged files: what is no UTF-8 is replaced, never thrown over.
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 /// Finds what the plan has and the folder has not, and drops products that the plan does not know.
-Result<void> hold_against_plan(const fs::path& out, std::vector<fs::path>& files, MergeReport& report) {
+Result<void> hold_against_plan(const fs::path& out, const std::optional<std::string>& only,
+                               std::vector<fs::path>& files, MergeReport& report) {
   const fs::path path = out / "plan.json";
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   const auto plan = read_plan(path);
   if (!plan) return pass_on(plan);
+  report.notes = plan->notes;
+  report.all_planned = true;
   const auto planned = [&](const fs::path& file) {
     return std::any_of(plan->tasks.begin(), plan->tasks.end(),
                        [&](const PlanTask& task) { return task.observation == file.stem().string(); });
@@ -125,9 +134,11 @@ Result<void> hold_against_plan(const fs::path& out, std::vector<fs::path>& files
   for (const PlanTask& task : plan->tasks) {
     const bool there = std::any_of(files.begin(), files.end(),
                                    [&](const fs::path& file) { return file.stem().string() == task.observation; });
+    report.all_planned = report.all_planned && there;
     const bool failed = std::any_of(report.failures.begin(), report.failures.end(),
                                     [&](const MergeFailure& f) { return f.observation == task.observation; });
-    if (!there && !failed) report.missing.push_back(task.observation);
+    const bool asked = !only || *only == task.observation;
+    if (!there && !failed) (asked ? report.missing : report.not_run).push_back(task.observation);
   }
   return {};
 }
@@ -171,7 +182,8 @@ Result<std::vector<fs::path>> product_files(const fs::path& out) {
   return files;
 }
 
-Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> failures, Work& work) {
+Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> failures, Work& work,
+                                 const std::optional<std::string>& only) {
   MergeReport report;
   report.failures = std::move(failures);
   auto files = product_files(out);
@@ -180,7 +192,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   if (files->empty() && !fs::exists(out / "plan.json", error)) {
     return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
   }
-  if (auto held = hold_against_plan(out, *files, report); !held) return pass_on(held);
+  if (auto held = hold_against_plan(out, only, *files, report); !held) return pass_on(held);
   std::vector<ObservationProduct> products;
   std::vector<std::pair<std::string, fs::path>> sound;
   for (const fs::path& file : *files) {
@@ -188,6 +200,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
     auto product = read_product(file);
     if (!product) {
       report.failures.push_back({file.stem().string(), to_line(product.error())});
+      report.all_planned = false;
       continue;
     }
     product->masks = {};
@@ -211,7 +224,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   if (!written) return pass_on(written);
   remove_leftovers(out);
   remove_leftovers(out / "products");
-  if (report.complete()) forget_superseded(out, report.survey.observations);
+  if (report.all_planned) forget_superseded(out, report.survey.observations);
   return report;
 }
 
@@ -224,6 +237,7 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
     if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
   };
   list("missing", report.missing);
+  list("not asked for", report.not_run);
   list("left out, not in plan.json", report.unplanned);
   for (const char* name : {"schools.csv", "school_pings.csv", "survey.gpkg", "survey.json"}) {
     text += (out / name).string() + "\n";
@@ -231,11 +245,11 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   return text;
 }
 
-Result<std::string> merge_folder(const fs::path& out, const RunReport& run) {
+Result<std::string> merge_after(const fs::path& out, const RunReport& run, Work& work,
+                                const std::optional<std::string>& only) {
   std::vector<MergeFailure> failures;
   for (const RunFailure& failure : run.failures) failures.push_back({failure.observation, to_line(failure.error)});
-  Work work(1);
-  const auto report = merge_folder(out, std::move(failures), work);
+  const auto report = merge_folder(out, std::move(failures), work, only);
   if (!report) return pass_on(report);
   return merge_text(*report, out);
 }

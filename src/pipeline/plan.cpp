@@ -52,6 +52,30 @@ Result<PlanTask> task_from_json(const nlohmann::json& json, std::size_t number) 
   return task;
 }
 
+nlohmann::json notes_to_json(const Diagnostics& notes) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Diagnostic& note : notes) {
+    list.push_back({{"code", std::string(name(note.code))}, {"file", note.file}, {"text", note.text}});
+  }
+  return list;
+}
+
+/// Notes are for reading only: one that is not understood is passed over.
+Diagnostics notes_from_json(const nlohmann::json& json) {
+  Diagnostics notes;
+  if (!json.is_array()) return notes;
+  for (const auto& entry : json) {
+    const auto text = [&](const char* member) {
+      return entry.is_object() && entry.contains(member) && entry[member].is_string() ? entry[member].get<std::string>()
+                                                                                      : std::string{};
+    };
+    for (const DiagnosticEntry& known : diagnostic_table()) {
+      if (known.name == text("code")) notes.push_back({known.code, text("file"), -1, -1, text("text")});
+    }
+  }
+  return notes;
+}
+
 Result<Plan> plan_from_json(const nlohmann::json& json) {
   if (!json.is_object()) return fail(ErrorCode::format, "a plan is a JSON object");
   if (auto version = check_version(json, "plan_version", kPlanVersion); !version) return pass_on(version);
@@ -71,6 +95,7 @@ Result<Plan> plan_from_json(const nlohmann::json& json) {
     if (!whole) return fail(ErrorCode::format, "pings: expected two whole numbers");
     plan.pings = PingSelection{(*pings)[0].get<std::int64_t>(), (*pings)[1].get<std::int64_t>()};
   }
+  if (const auto notes = json.find("notes"); notes != json.end()) plan.notes = notes_from_json(*notes);
   if (!json.contains("tasks") || !json["tasks"].is_array()) return fail(ErrorCode::format, "tasks: expected an array");
   for (const auto& entry : json["tasks"]) {
     auto task = task_from_json(entry, plan.tasks.size());
@@ -91,6 +116,8 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
   if (!session.empty()) plan.session = std::filesystem::absolute(session).lexically_normal().string();
   plan.recipe = recipe;
   plan.pings = options.pings;
+  plan.notes = survey.diagnostics;
+  for (Diagnostic& note : plan.notes) note.file = std::filesystem::path(note.file).filename().string();
   for (const ObservationFiles& observation : survey.observations) {
     PlanTask task;
     task.observation = observation.name;
@@ -112,6 +139,7 @@ std::string plan_text(const Plan& plan) {
                          {"survey", plan.survey},
                          {"session", plan.session},
                          {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
+                         {"notes", notes_to_json(plan.notes)},
                          {"tasks", std::move(tasks)}};
   if (plan.pings) json["pings"] = {plan.pings->first, plan.pings->last};
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -35,6 +35,7 @@ struct Plan {
   Recipe recipe;
   std::optional<PingSelection> pings;  ///< of each observation; empty = all
   std::vector<PlanTask> tasks;
+  Diagnostics notes;  ///< of the survey as a whole: copies, repeated pings, files that cannot be read; without folders
 };
 
 /// From headers only.

@@ -64,6 +64,11 @@ class Damage(Case):
         shutil.copy(self.raw, folder / "copy.raw")
         twice = self.info(folder)
         self.assertEqual([o["pings"] for o in twice["observations"]], [o["pings"] for o in once["observations"]])
+        out = self.fresh("twice-out")
+        self.sonarx("run", folder, "--out", out, "--pings", "0:1")
+        notes = json.loads((out / "survey.json").read_text())["notes"]
+        self.assertEqual([n["code"] for n in notes], ["duplicate-file"])
+        self.assertNotIn("/", notes[0]["file"])
 
     def test_output_that_cannot_be_written(self):
         folder = self.fresh("blocked")

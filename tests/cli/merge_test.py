@@ -48,10 +48,23 @@ class Merge(Case):
 
     def test_only_one_observation_then_the_rest(self):
         out = self.fresh("only")
-        self.sonarx("run", SURVEY, "--out", out, "--only", "obs-0002")
+        said = self.sonarx("run", SURVEY, "--out", out, "--only", "obs-0002")
+        self.assertNotIn("missing", said)
+        survey = json.loads((out / "survey.json").read_text())
+        self.assertEqual((survey["missing"], survey["not_run"], survey["failures"]), ([], ["obs-0001"], []))
         self.assertEqual([p.name for p in (out / "products").glob("*.nc")], ["obs-0002.nc"])
         self.sonarx("run", SURVEY, "--out", out)
         self.same_results(out)
+
+    def test_a_newer_programs_plan_is_not_replaced(self):
+        out = self.fresh("newer-plan")
+        self.sonarx("plan", SURVEY, "--out", out)
+        plan = json.loads((out / "plan.json").read_text())
+        plan["plan_version"] += 1
+        (out / "plan.json").write_text(json.dumps(plan))
+        for verb in ("run", "plan"):
+            self.one_line_error(verb, SURVEY, "--out", out, code=1, names="plan_version")
+        self.assertEqual(json.loads((out / "plan.json").read_text()), plan)
 
     def test_compare_names_a_difference(self):
         self.sonarx("compare", OUT / "products/obs-0001.nc", OUT / "products/obs-0001.nc")
