@@ -61,8 +61,8 @@ def contents(folder):
 
 
 class Case(unittest.TestCase):
-    def sonarx(self, *arguments, code=0):
-        got, out, err = run(*arguments)
+    def sonarx(self, *arguments, code=0, timeout=600):
+        got, out, err = run(*arguments, timeout=timeout)
         self.assertEqual(got, code, f"sonarx {' '.join(map(str, arguments))}\n{out[-2000:]}\n{err[-2000:]}")
         return out
 

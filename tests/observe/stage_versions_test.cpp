@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+// Products of different stage versions are not merged, so a stage whose results change must have its number raised. Here
+// fixed pings go through every stage; the hash of each stage's result stands beside the number it was made under.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/hash.h"
+#include "io/columns.h"
+#include "io/simrad/test_bytes.h"
+#include "pipeline/engine.h"
+#include "pipeline/load_volume.h"
+#include "pipeline/manual.h"
+#include "pipeline/observe.h"
+#include "school/detect.h"
+#include "school/track.h"
+
+namespace sonar {
+namespace {
+
+struct Recorded {
+  std::string_view stage;
+  int version;
+  std::string_view hash;
+};
+
+// In the order of the stages: where one changes, those after it change with it and keep their numbers.
+constexpr std::array<Recorded, 11> kRecorded{{
+    {"decode", 1, "67a30992438549e29295a79665f21403"},
+    {"flags", 1, "51ed733ca50c62dd8fb52f71b6b77001"},
+    {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
+    {"background", 1, "8c60b37cfa4e58e0acef53480cabfa66"},
+    {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
+    {"seabed", 1, "83bff1da2ba360f5c46043e344309578"},
+    {"detect", 1, "ccc44b9443e584e22db20886484d607b"},
+    {"track", 2, "91393a19123f317dd64eee83037c0240"},
+    {"propagate", 1, "796c2390f6457277936c4d7907e65301"},
+    {"measure", 1, "102308de312c144ddf2f87605dbce079"},
+    {"summarise", 1, "0b4f3a0bd1512c0bbf6b6cb5a9c8ce74"},
+}};
+
+constexpr int kFans = 8;
+constexpr int kBeams = 12;
+constexpr int kSamples = 300;
+constexpr int kPings = 7;
+constexpr int kSchoolSample = 130;
+// 40 m below the transducer at 20, 17.5, 15 and 12.5 degrees down, 0.75 m a sample; the other fans pass over it.
+constexpr std::array<int, 4> kSeabedSample{156, 177, 206, 246};
+
+/// Whole numbers only, so that the pings are the same on any machine.
+std::int16_t speckle(int ping, int channel, int sample) {
+  auto x = static_cast<std::uint32_t>(ping * 1'000'003 + channel * 7919 + sample * 104'729 + 12'345);
+  for (int i = 0; i < 3; ++i) x = (x ^ (x >> 15U)) * 0x2C1B3C6DU;
+  return static_cast<std::int16_t>(static_cast<int>(x % 601U) - 300);  // +- 3.5 dB
+}
+
+/// Counts of 10 log10(2)/256 dB re 1 W: noise at -150 dB, a school at -112 dB that comes nearer by two samples a ping,
+/// the seabed under the deepest fans, a lost packet's hot beam, a wall.
+std::int16_t power(int ping, int fan, int beam, int sample) {
+  int counts = -12'757;
+  const int off_beam = beam - 5;
+  const int off_fan = 2 * (fan - 4);
+  const int off_sample = (sample - kSchoolSample + 2 * ping) / 4;
+  if (off_beam * off_beam + off_fan * off_fan + off_sample * off_sample <= 16) counts = -9'525;
+  const int seabed = fan < 4 ? kSeabedSample[static_cast<std::size_t>(fan)] : kSamples;
+  if (sample >= seabed && sample < seabed + 40) counts = -7'500;
+  if (ping == 3 && fan == 4 && beam == 2 && sample > 60) counts = -7'000;
+  if (ping == 4 && sample >= 95 && sample < 98) counts = -9'800;
+  return static_cast<std::int16_t>(counts + speckle(ping, fan * kBeams + beam, sample));
+}
+
+test::Bytes fixed_file() {
+  test::Con0Spec config;
+  for (int fan = 0; fan < kFans; ++fan) {
+    for (int beam = 0; beam < kBeams; ++beam) {
+      config.beams.push_back(
+          {100'000.0F, -20.0F + 2.5F * static_cast<float>(fan), -13.75F + 2.5F * static_cast<float>(beam), 20.0F});
+    }
+  }
+  test::Bytes bytes = test::con0(config);
+  for (int ping = 0; ping < kPings; ++ping) {
+    const TimeNs time = test::kStart + ping * 2 * kSecondNs;
+    const double minutes = 0.003 * ping;  // 0.003' of latitude in 2 s: 5.4 knots to the north
+    bytes.add(test::nme0(
+        time, test::with_checksum(fmt::format("GPGGA,000000,60{:07.4f},N,00500.0000,E,1,8,1,0,M,0,M,,", minutes))));
+    bytes.add(test::nme0(time, test::with_checksum("INHDT,10.0,T")));
+    for (int channel = 0; channel < kFans * kBeams; ++channel) {
+      if (ping == 5 && channel == 17) continue;  // lost
+      std::vector<std::int16_t> samples;
+      for (int s = 0; s < kSamples; ++s) samples.push_back(power(ping, channel / kBeams, channel % kBeams, s));
+      bytes.add(test::raw0(time, {.channel = channel + 1, .interval_s = 0.001F}, samples));
+    }
+  }
+  return bytes;
+}
+
+class Digest {
+ public:
+  template <class T>
+  void array(const Array3<T>& values) {
+    const auto view = values.view();
+    for (int row = 0; row < static_cast<int>(values.shape().rows()); ++row) hasher_.add(std::as_bytes(view.row(row)));
+  }
+  void mask(const PingMask& mask) {
+    for (const Run& run : mask.runs) text(fmt::format("{} {} {},", run.row, run.first_sample, run.count));
+    hasher_.add(std::as_bytes(std::span(mask.confidence)));
+  }
+  /// Six digits: the last bits of a logarithm may differ from one processor to another.
+  void number(double value) { text(fmt::format("{:.6g} ", value)); }
+  void text(std::string_view value) { hasher_.add(value); }
+  template <class Row>
+  void rows(const std::vector<Row>& all) {
+    for (const Column& column : columns_of(all)) {
+      text(column.name);
+      std::visit(
+          [&](const auto& values) {
+            for (const auto& value : values) one(value);
+          },
+          column.values);
+    }
+  }
+  [[nodiscard]] std::string hex() const { return to_hex(hasher_.value()); }
+
+ private:
+  void one(double value) { number(value); }
+  void one(const std::string& value) { text(value + ";"); }
+  void one(std::int64_t value) { text(fmt::format("{};", value)); }
+  Hasher hasher_;
+};
+
+/// Detected pings, and the hashes of what came before.
+std::vector<DetectedPing> detected(Engine& engine, std::map<std::string, Digest>& digests) {
+  std::vector<DetectedPing> pings;
+  for (std::int64_t i = 0; i < engine.pings(); ++i) {
+    const auto volume = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(i));
+    const auto ping = engine.staged(i);
+    EXPECT_TRUE(volume && ping);
+    if (!volume || !ping) return pings;
+    digests["decode"].array(volume->volume.counts);
+    digests["decode"].array(volume->volume.flags);
+    digests["flags"].array(ping->sv.flags);
+    digests["calibrate"].array(ping->sv.counts);
+    for (const float level : engine.background_db(i)) digests["background"].number(static_cast<double>(level));
+    digests["median"].array(ping->filtered->counts);
+    digests["seabed"].array(ping->filtered->flags);
+    EXPECT_TRUE(ping->seabed.found) << "ping " << i;
+    DetectedPing found;
+    found.ping_index = i;
+    found.time = engine.observation().navigation[static_cast<std::size_t>(i)].time;
+    found.placement = engine.placement(i);
+    found.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
+                              ping->background(), engine.recipe().detect);
+    for (const Detection& detection : found.detections) digests["detect"].mask(detection.mask);
+    pings.push_back(std::move(found));
+  }
+  return pings;
+}
+
+JournalLine click(const Engine& engine, GrowMode mode) {
+  PropagateCommand command;
+  command.mode = mode;
+  command.grow.mode = mode;
+  command.grow.tolerance_opacity = 0.25;
+  command.seeds = {{engine.grid().channel[4 * kBeams + 5], kSchoolSample - 4}};
+  JournalLine line;
+  line.n = 1;
+  line.command = "propagate";
+  line.ping_time = test::kStart + 4 * kSecondNs;  // ping 2
+  line.args = to_json(command);
+  return line;
+}
+
+std::map<std::string, Digest> digests_of(const SurveyFiles& survey) {
+  std::map<std::string, Digest> digests;
+  Work work(1);
+  const ObservationFiles& observation = survey.observations.front();
+  Engine engine(survey, observation, {});
+  EXPECT_TRUE(engine.estimate_background(0, kPings - 1, work));
+  const auto pings = detected(engine, digests);
+  const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, engine.recipe().track);
+  EXPECT_EQ(tracks.schools.size(), 1U);
+  for (const SchoolTrack& school : tracks.schools) {
+    for (const TrackedDetection& in_ping : school.pings) {
+      digests["track"].text(fmt::format("{} {} {};", school.school_id, in_ping.ping_index, in_ping.detections.size()));
+    }
+  }
+  for (const TrackEvent& event : tracks.events) digests["track"].text(to_text(event));
+  for (const GrowMode mode : {GrowMode::tracked, GrowMode::paper}) {
+    Diagnostics notes;
+    const std::vector<JournalLine> lines{click(engine, mode)};
+    const auto schools = replay(engine, lines, {0, kPings - 1}, notes);
+    EXPECT_EQ(schools.size(), 1U);
+    for (const SchoolMasks& school : schools) {
+      for (const SchoolMasks::InPing& in_ping : school.pings) digests["propagate"].mask(in_ping.mask);
+    }
+  }
+  const auto product = observe(survey, observation, {}, {{}, {}, "test"}, work);
+  EXPECT_TRUE(product);
+  if (!product) return digests;
+  digests["measure"].rows(product->school_pings);
+  digests["summarise"].rows(product->schools);
+  return digests;
+}
+
+std::map<std::string, int> current_versions() {
+  std::map<std::string, int> versions;
+  std::istringstream in{std::string(kStageVersions)};
+  std::string stage;
+  std::string number;
+  while (in >> stage >> number) versions[stage] = std::stoi(number);
+  return versions;
+}
+
+TEST(StageVersions, AreRaisedWhenResultsChange) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::filesystem::path> paths{folder.write("fixed.raw", fixed_file())};
+  Work work(1);
+  const auto survey = open_survey(paths, {}, {}, {}, work);
+  ASSERT_TRUE(survey);
+  ASSERT_EQ(survey->observations.size(), 1U);
+  const auto digests = digests_of(*survey);
+  const auto versions = current_versions();
+  std::string table;
+  std::string changed;  // the first stage whose results are not those that its number stands for
+  bool same = versions.size() == kRecorded.size();
+  for (const Recorded& recorded : kRecorded) {
+    const std::string stage(recorded.stage);
+    ASSERT_TRUE(versions.contains(stage)) << "kStageVersions has no stage '" << stage << "'";
+    ASSERT_TRUE(digests.contains(stage)) << "no result of stage '" << stage << "' is looked at";
+    const std::string hash = digests.at(stage).hex();
+    table += fmt::format("    {{\"{}\", {}, \"{}\"}},\n", stage, versions.at(stage), hash);
+    same = same && hash == recorded.hash && versions.at(stage) == recorded.version;
+    if (changed.empty() && hash != recorded.hash) changed = versions.at(stage) == recorded.version ? stage : "-";
+  }
+  if (!changed.empty() && changed != "-") {
+    ADD_FAILURE() << "The results of stage '" << changed << "' changed, but its number in kStageVersions "
+                  << "(src/pipeline/observe.h) did not. If the change is meant, raise the number, so that old and new "
+                  << "products are never merged; then record the new hashes here.";
+  }
+  EXPECT_TRUE(same) << "Record these in kRecorded (tests/observe/stage_versions_test.cpp):\n" << table;
+}
+
+}  // namespace
+}  // namespace sonar
