@@ -21,7 +21,7 @@ namespace sonar {
 
 // Any struct with a `columns(Visitor&, Row&)` (model/school.h shows two) is written and read by these templates:
 // one header row, shortest round-trip numbers, eight decimals for DegreesColumn, ISO 8601 for TimeColumn (millisecond),
-// NaN and time 0 as an empty field.
+// what is not finite and time 0 as an empty field.
 
 /// Visitor that collects the header.
 class CsvHeader {
@@ -42,9 +42,11 @@ class CsvLine {
  public:
   void operator()(std::string_view, std::string_view, const std::string& v) { add(csv_field(v)); }
   void operator()(std::string_view, std::string_view, const std::int64_t& v) { add(std::to_string(v)); }
-  void operator()(std::string_view, std::string_view, const double& v) { add(shortest(v)); }
+  void operator()(std::string_view, std::string_view, const double& v) { add(std::isfinite(v) ? shortest(v) : ""); }
   void operator()(std::string_view, std::string_view, TimeColumn v) { add(v.value == 0 ? "" : iso_time(v.value)); }
-  void operator()(std::string_view, std::string_view, DegreesColumn v) { add(degrees_text(v.value)); }
+  void operator()(std::string_view, std::string_view, DegreesColumn v) {
+    add(std::isfinite(v.value) ? degrees_text(v.value) : "");
+  }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:

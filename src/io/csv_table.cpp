@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -112,7 +113,10 @@ Result<double> CsvTable::number(const CsvRecord& record, std::size_t column) con
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return bad_field(*this, record, column, "a number");
+  // "inf" and "nan" are numbers to from_chars; what is unknown stands as an empty field.
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+    return bad_field(*this, record, column, "a number");
+  }
   return value;
 }
 

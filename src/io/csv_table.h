@@ -31,7 +31,7 @@ struct CsvTable {
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
   /// Column that must be there. errors: format, naming file and column
   [[nodiscard]] Result<std::size_t> require_column(std::string_view name) const;
-  /// Number in a field; NaN where it is empty. errors: format, naming file, line, column
+  /// Number in a field; NaN where it is empty. errors: format, naming file, line, column (not finite too)
   [[nodiscard]] Result<double> number(const CsvRecord& record, std::size_t column) const;
   /// Whole number in a field. errors: format (empty too)
   [[nodiscard]] Result<std::int64_t> whole(const CsvRecord& record, std::size_t column) const;

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace sonar {
 namespace {
@@ -58,6 +61,23 @@ TEST(Csv, quotes_line_ends_and_byte_order_mark) {
   EXPECT_EQ(table->records[1].fields, (std::vector<std::string>{"1\n2", "3"}));
   EXPECT_EQ(table->records[1].line, 4);
   EXPECT_TRUE(std::isnan(*table->number(table->records[0], 1)));
+}
+
+TEST(Csv, what_is_not_finite_is_unknown) {
+  for (const char* text : {"inf", "-inf", "nan", "infinity", "1e999"}) {
+    const auto table = parse_csv(std::string("a\n") + text + "\n", "t.csv");
+    ASSERT_TRUE(table);
+    EXPECT_FALSE(table->number(table->records[0], 0)) << text;
+  }
+  SchoolRow row;
+  row.sv_mean_db = -std::numeric_limits<double>::infinity();  // 10 log10 of nothing
+  row.latitude = std::numeric_limits<double>::infinity();
+  const auto table = parse_csv(csv_text(std::vector<SchoolRow>{row}), "t.csv");
+  ASSERT_TRUE(table);
+  const auto back = csv_rows<SchoolRow>(*table);
+  ASSERT_TRUE(back) << to_line(back.error());
+  EXPECT_TRUE(std::isnan((*back)[0].sv_mean_db));
+  EXPECT_TRUE(std::isnan((*back)[0].latitude));
 }
 
 TEST(Csv, errors_name_file_and_line) {

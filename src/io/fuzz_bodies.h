@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "io/csv.h"
 #include "io/csv_table.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
@@ -20,6 +21,7 @@
 #include "io/simrad/index_cache.h"
 #include "io/simrad/indexer.h"
 #include "io/simrad/ping_reader.h"
+#include "model/school.h"
 
 namespace sonar::fuzz {
 
@@ -90,8 +92,36 @@ inline void csv(std::string_view text) {
   const auto again = parse_csv(written, "fuzz");
   SONAR_CHECK(table->header.size() < 2 || (again.has_value() && again->records.size() == table->records.size()));
   for (const CsvRecord& record : table->records) {
-    if (const auto number = table->number(record, 0)) SONAR_CHECK(!std::isinf(*number));
+    if (const auto number = table->number(record, 0)) {
+      SONAR_CHECK(std::isfinite(*number) || (std::isnan(*number) && record.fields[0].empty()));
+    }
   }
+}
+
+/// Rows that are taken say the same when they are written and read again. What the tables of truth and result are.
+template <class Row>
+void table_rows(const CsvTable& table) {
+  const auto rows = csv_rows<Row>(table);
+  if (!rows) return;
+  SONAR_CHECK(rows->size() == table.records.size());
+  // The first writing cuts times to milliseconds.
+  const auto rewritten = [](const std::string& text) {
+    const auto again = parse_csv(text, "fuzz");
+    SONAR_CHECK(again.has_value());
+    const auto read = csv_rows<Row>(*again);
+    SONAR_CHECK(read.has_value());
+    return csv_text(*read);
+  };
+  const std::string once = rewritten(csv_text(*rows));
+  SONAR_CHECK(rewritten(once) == once);
+}
+
+/// schools.csv or school_pings.csv
+inline void school_tables(std::string_view text) {
+  const auto table = parse_csv(text, "fuzz");
+  if (!table) return;
+  table_rows<SchoolRow>(*table);
+  table_rows<SchoolPingRow>(*table);
 }
 
 /// A stored index is taken whole or not at all.

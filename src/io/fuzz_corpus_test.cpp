@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "io/fuzz_bodies.h"
+#include "io/fuzz_product.h"
 
 namespace sonar {
 namespace {
@@ -45,6 +47,18 @@ TEST(FuzzCorpus, Csv) {
 
 TEST(FuzzCorpus, IndexCache) {
   replay("index_cache", [](const std::string& bytes) { fuzz::index_cache(std::as_bytes(std::span(bytes))); });
+}
+
+TEST(FuzzCorpus, SchoolTables) {
+  replay("school_tables", [](const std::string& text) { fuzz::school_tables(text); });
+}
+
+TEST(FuzzCorpus, Product) {
+  const fs::path folder = fs::temp_directory_path() / ("sonar_fuzz_corpus_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const fuzz::ProductFuzz product(folder);
+  replay("product", [&](const std::string& bytes) { product(std::as_bytes(std::span(bytes))); });
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -102,6 +102,10 @@ class Reader {
   /// Number of values of a variable.
   [[nodiscard]] std::size_t size(int group, const std::string& name);
 
+  /// Refuses rows that an honest file of this size has no room for, beside what was read of it before. Whoever makes
+  /// room for rows asks first; values() asks itself.
+  bool can_hold(std::size_t rows, std::size_t bytes_a_row);
+
   void refuse(ErrorCode code, std::string text);
   [[nodiscard]] bool ok() const { return status_.has_value(); }
   [[nodiscard]] const Result<void>& status() const { return status_; }
@@ -112,6 +116,7 @@ class Reader {
   std::unique_lock<std::mutex> lock_;
   std::string named_;
   std::uint64_t file_size_ = 0;
+  std::uint64_t bytes_left_ = 0;
   int file_ = -1;
   Result<void> status_;
 };

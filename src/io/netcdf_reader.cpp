@@ -11,8 +11,11 @@
 namespace sonar::netcdf {
 namespace {
 
-/// Deflate never shrinks further than about 1030 to 1, so that an honest file cannot hold more values than this a byte.
-constexpr std::uint64_t kValuesPerByte = 1100;
+/// Deflate never shrinks further than about 1030 to 1: an honest file holds no more bytes of values than this a byte,
+/// in all its variables together.
+constexpr std::uint64_t kBytesPerByte = 1100;
+/// A text is a reference of 16 bytes that hardly shrinks, and takes more than that in memory.
+constexpr std::size_t kBytesOfText = 64;
 
 bool is_text(nc_type type) { return type == NC_STRING || type == NC_CHAR; }
 
@@ -29,6 +32,8 @@ int get(int group, int variable, T* values) {
 Reader::Reader(const std::filesystem::path& path, std::string named) : lock_(lock()), named_(std::move(named)) {
   std::error_code error;
   file_size_ = std::filesystem::file_size(path, error);
+  if (error) file_size_ = 0;
+  bytes_left_ = file_size_ * kBytesPerByte;
   const int status = nc_open(path.c_str(), NC_NOWRITE, &file_);
   if (status != NC_NOERR) {
     file_ = -1;
@@ -76,11 +81,17 @@ std::size_t Reader::dimension(int group, const std::string& name) {
   std::size_t length = 0;
   if (!status_ || !check(nc_inq_dimid(group, name.c_str(), &id), name)) return 0;
   if (!check(nc_inq_dimlen(group, id, &length), name)) return 0;
-  if (length > file_size_ * kValuesPerByte) {
+  if (length > file_size_ * kBytesPerByte) {
     refuse(ErrorCode::format, fmt::format("dimension '{}' of {} is more than the file can hold", name, length));
     return 0;
   }
   return length;
+}
+
+bool Reader::can_hold(std::size_t rows, std::size_t bytes_a_row) {
+  if (bytes_a_row == 0 || rows <= bytes_left_ / bytes_a_row) return true;
+  refuse(ErrorCode::format, fmt::format("{} values of {} bytes are more than the file can hold", rows, bytes_a_row));
+  return false;
 }
 
 std::string Reader::text(int group, const std::string& name) {
@@ -146,7 +157,7 @@ std::size_t Reader::size(int group, const std::string& name) {
   for (int i = 0; i < count; ++i) {
     std::size_t length = 0;
     if (!check(nc_inq_dimlen(group, ids[static_cast<std::size_t>(i)], &length), name)) return 0;
-    if (length != 0 && product > file_size_ * kValuesPerByte / length) {
+    if (length != 0 && product > file_size_ * kBytesPerByte / length) {
       refuse(ErrorCode::format, fmt::format("'{}' has more values than the file can hold", name));
       return 0;
     }
@@ -171,6 +182,11 @@ std::vector<T> Reader::values(int group, const std::string& name, std::size_t ex
     return {};
   }
   if (expected == 0) return {};
+  std::size_t width = 0;
+  if (!check(nc_inq_type(group, type, nullptr, &width), name)) return {};
+  if (kWantsText) width = kBytesOfText;
+  if (!can_hold(expected, width)) return {};
+  bytes_left_ -= expected * width;
   std::vector<T> out(expected);
   if constexpr (kWantsText) {
     std::vector<char*> pointers(expected, nullptr);

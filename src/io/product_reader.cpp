@@ -19,7 +19,8 @@ using netcdf::Reader;
 
 constexpr std::size_t kMostBeams = 1 << 16;
 constexpr int kMostSamples = 1 << 24;
-constexpr std::size_t kPingColumns = 11;  ///< numbers a ping, beside its time
+constexpr double kLeastSpacing_deg = 1e-6;  ///< angles that rise by less may be equal in radians
+constexpr std::size_t kPingColumns = 11;    ///< numbers a ping, beside its time
 constexpr std::int64_t kMostSchools = std::int64_t{1} << 53;
 
 bool check_version(Reader& in) {
@@ -104,7 +105,7 @@ void read_pings(Reader& in, ObservationProduct& product) {
   const int group = in.group(in.root(), "pings");
   const std::size_t n = in.dimension(group, "ping");
   const auto time = in.values<std::int64_t>(group, "time", n);
-  if (!in.ok()) return;
+  if (!in.ok() || !in.can_hold(n, kPingColumns * sizeof(double))) return;
   product.pings.resize(n);
   for (std::size_t i = 0; i < n; ++i) product.pings[i].time = time[i];
   const auto fill = [&](const char* name, auto&& put) {
@@ -134,7 +135,8 @@ double scalar(Reader& in, int group, const char* name) {
 
 bool rises(const std::vector<double>& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x) && std::abs(x) <= 720.0; }) &&
-         std::adjacent_find(v.begin(), v.end(), [](double a, double b) { return a >= b; }) == v.end();
+         std::adjacent_find(v.begin(), v.end(), [](double a, double b) { return b - a < kLeastSpacing_deg; }) ==
+             v.end();
 }
 
 /// What Sector and the voxel loops rely on.
@@ -225,11 +227,20 @@ class RowFiller {
 };
 
 template <class Row>
+std::size_t column_count() {
+  std::size_t count = 0;
+  const auto add = [&](std::string_view, std::string_view, auto&&) { ++count; };
+  Row blank;
+  columns(add, blank);
+  return count;
+}
+
+template <class Row>
 void read_rows(Reader& in, const char* group_name, const char* dimension, std::vector<Row>& rows) {
   const int group = in.group(in.root(), group_name);
   const std::size_t n = in.dimension(group, dimension);
   if (n > 0 && in.size(group, "school_id") != n) in.refuse(ErrorCode::format, "'school_id' has another length");
-  if (!in.ok()) return;
+  if (!in.ok() || !in.can_hold(n, column_count<Row>() * sizeof(double))) return;
   rows.resize(n);
   RowFiller<Row>(in, group, rows).fill();
 }
@@ -239,7 +250,9 @@ void restore_nanoseconds(ObservationProduct& product) {
   const auto exact = [&](std::int64_t ping, TimeNs& time) {
     if (ping < 0 || ping >= static_cast<std::int64_t>(product.pings.size())) return;
     const TimeNs of_ping = product.pings[static_cast<std::size_t>(ping)].time;
-    if (of_ping >= time && of_ping - time < 1'000'000) time = of_ping;
+    // Unsigned, for the file's times may be as far apart as no difference can say.
+    const auto later = static_cast<std::uint64_t>(of_ping) - static_cast<std::uint64_t>(time);
+    if (of_ping >= time && later < 1'000'000) time = of_ping;
   };
   for (SchoolPingRow& row : product.school_pings) exact(row.ping_index, row.time_utc);
   for (SchoolRow& school : product.schools) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/product_seal.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -23,7 +24,7 @@ constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
 /// Hash of the first `size` bytes; empty when they cannot be read.
 std::string hash_of_head(std::ifstream& in, std::uint64_t size) {
   Hasher hasher;
-  std::vector<char> block(1 << 20);
+  std::vector<char> block(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1 << 20)));
   while (size > 0) {
     const std::uint64_t part = size < block.size() ? size : block.size();
     if (!in.read(block.data(), static_cast<std::streamsize>(part))) return {};

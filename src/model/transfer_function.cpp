@@ -13,6 +13,9 @@
 namespace sonar {
 namespace {
 
+/// Further apart, and the slope between two points would overflow.
+constexpr double kMostDecibels = 1000.0;
+
 struct Bracket {
   const TransferPoint* below;
   const TransferPoint* above;
@@ -39,7 +42,11 @@ Result<TransferFunction> TransferFunction::make(std::vector<TransferPoint> point
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const TransferPoint& p = points[i];
-    if (!std::isfinite(p.sv_db) || !(p.opacity >= 0.0 && p.opacity <= 1.0)) {
+    if (!(std::abs(p.sv_db) <= kMostDecibels)) {
+      return fail(ErrorCode::bad_parameter,
+                  fmt::format("point {}: sv_db {} is outside -{} .. {}", i, p.sv_db, kMostDecibels, kMostDecibels));
+    }
+    if (!(p.opacity >= 0.0 && p.opacity <= 1.0)) {
       return fail(ErrorCode::bad_parameter,
                   fmt::format("point {}: opacity {} at {} dB is outside 0 .. 1", i, p.opacity, p.sv_db));
     }

@@ -3,13 +3,18 @@
 
 // What the fuzz targets of this room's parsers do; the plain tests replay the corpora through the same functions.
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "base/check.h"
+#include "io/csv_table.h"
 #include "pipeline/journal.h"
+#include "pipeline/json_file.h"
 #include "pipeline/manual.h"
+#include "pipeline/plan.h"
 #include "pipeline/recipe.h"
+#include "pipeline/transfer_function_json.h"
 
 namespace sonar::fuzz {
 
@@ -33,6 +38,44 @@ inline void journal(std::string_view text) {
   for (const JournalLine& line : effective_lines(read->lines)) {
     if (const auto command = propagate_from_json(line.args)) SONAR_CHECK(!command->seeds.empty());
   }
+}
+
+/// A plan that is taken says the same when it is written and read again.
+inline void plan(std::string_view text) {
+  const auto read = plan_from_text(text);
+  if (!read) return;
+  const std::string written = plan_text(*read);
+  const auto again = plan_from_text(written);
+  SONAR_CHECK(again.has_value() && plan_text(*again) == written);
+  if (read->pings) SONAR_CHECK(read->pings->first >= 0 && read->pings->first <= read->pings->last);
+  for (const PlanTask& task : read->tasks) SONAR_CHECK(task.pings >= 0);
+}
+
+/// A curve that is taken gives opacities at every Sv and says the same when it is written and read again.
+inline void transfer_function(std::string_view text) {
+  const auto json = parse_json(text);
+  const auto curve = json ? transfer_function_from_json(*json) : Result<TransferFunction>(pass_on(json));
+  if (!curve) return;
+  const auto holds = [](double opacity) { return opacity >= 0.0 && opacity <= 1.0 + 1e-12; };
+  for (double sv_db = -200.0; sv_db < 100.0; sv_db += 7.3) SONAR_CHECK(holds(curve->opacity(sv_db)));
+  for (const TransferPoint& point : curve->points()) {
+    SONAR_CHECK(holds(curve->opacity(point.sv_db)) && holds(curve->opacity(point.sv_db + 0.1)));
+    for (const double part : curve->colour(point.sv_db)) SONAR_CHECK(part >= 0.0 && part <= 1.0);
+  }
+  const std::string written = to_json(*curve).dump();
+  const auto again = transfer_function_from_json(*parse_json(written));
+  SONAR_CHECK(again.has_value() && to_json(*again).dump() == written);
+}
+
+/// A calibration that is taken is one that a recipe may hold.
+inline void calibration_csv(std::string_view text) {
+  const auto table = parse_csv(text, "fuzz");
+  Recipe with;
+  if (!table || !take_calibration_table(with, *table)) return;
+  SONAR_CHECK(with.calibration.beams.size() == table->records.size());
+  const std::string written = recipe_text(with);
+  const auto again = recipe_from_text(written);
+  SONAR_CHECK(again.has_value() && recipe_text(*again) == written);
 }
 
 }  // namespace sonar::fuzz

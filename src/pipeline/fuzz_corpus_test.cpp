@@ -30,5 +30,17 @@ TEST(FuzzCorpus, Journal) {
   replay("journal", [](const std::string& text) { fuzz::journal(text); });
 }
 
+TEST(FuzzCorpus, Plan) {
+  replay("plan", [](const std::string& text) { fuzz::plan(text); });
+}
+
+TEST(FuzzCorpus, TransferFunction) {
+  replay("transfer_function", [](const std::string& text) { fuzz::transfer_function(text); });
+}
+
+TEST(FuzzCorpus, CalibrationCsv) {
+  replay("calibration_csv", [](const std::string& text) { fuzz::calibration_csv(text); });
+}
+
 }  // namespace
 }  // namespace sonar

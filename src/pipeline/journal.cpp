@@ -46,14 +46,15 @@ std::optional<JournalLine> line_from_json(const nlohmann::json& json) {
   const auto has = [&](const char* member, bool (nlohmann::json::*test)() const noexcept) {
     return json.contains(member) && (json[member].*test)();
   };
-  if (!has("n", &nlohmann::json::is_number_integer) || !has("cmd", &nlohmann::json::is_string) ||
-      !has("ping_time", &nlohmann::json::is_number_integer) || !has("args", &nlohmann::json::is_object)) {
+  const auto n = json.contains("n") ? whole_number(json["n"]) : std::nullopt;
+  const auto ping_time = json.contains("ping_time") ? whole_number(json["ping_time"]) : std::nullopt;
+  if (!n || !ping_time || !has("cmd", &nlohmann::json::is_string) || !has("args", &nlohmann::json::is_object)) {
     return std::nullopt;
   }
   JournalLine line;
-  line.n = json["n"].get<std::int64_t>();
+  line.n = *n;
   line.command = json["cmd"].get<std::string>();
-  line.ping_time = json["ping_time"].get<TimeNs>();
+  line.ping_time = *ping_time;
   line.args = json["args"];
   if (has("operator", &nlohmann::json::is_string)) line.operator_name = json["operator"].get<std::string>();
   if (has("t", &nlohmann::json::is_string)) line.decided = time_from_iso(json["t"].get<std::string>()).value_or(0);
@@ -154,9 +155,8 @@ std::vector<JournalLine> effective_lines(const std::vector<JournalLine>& lines) 
   std::map<std::int64_t, bool> undone;
   for (const JournalLine& line : lines) {
     if (line.command != "undo" && line.command != "redo") continue;
-    if (line.args.contains("target") && line.args["target"].is_number_integer()) {
-      undone[line.args["target"].get<std::int64_t>()] = line.command == "undo";
-    }
+    const auto target = line.args.contains("target") ? whole_number(line.args["target"]) : std::nullopt;
+    if (target) undone[*target] = line.command == "undo";
   }
   std::vector<JournalLine> kept;
   for (const JournalLine& line : lines) {

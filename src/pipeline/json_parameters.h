@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "base/describe.h"
 #include "base/result.h"
+#include "pipeline/json_file.h"
 
 namespace sonar {
 
@@ -50,7 +52,13 @@ class JsonReader {
     if (const auto* found = take(name, &nlohmann::json::is_boolean, "true or false")) value = found->get<bool>();
   }
   void field(std::string_view name, int& value, const FieldInfo&) {
-    if (const auto* found = take(name, &nlohmann::json::is_number_integer, "a whole number")) value = found->get<int>();
+    const auto* found = take(name, &nlohmann::json::is_number_integer, "a whole number");
+    if (found == nullptr) return;
+    if (const auto whole = whole_number(*found, std::numeric_limits<int>::min(), std::numeric_limits<int>::max())) {
+      value = static_cast<int>(*whole);
+    } else {
+      note(prefix_ + std::string(name), "a whole number of 32 bits");
+    }
   }
   void field(std::string_view name, double& value, const FieldInfo&) {
     if (const auto* found = take(name, &nlohmann::json::is_number, "a number")) value = found->get<double>();

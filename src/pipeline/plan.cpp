@@ -43,8 +43,9 @@ Result<PlanTask> task_from_json(const nlohmann::json& json, std::size_t number) 
   if (task.observation.empty()) return wrong("the name of an observation");
   if (!json.contains("files") || !is_text_array(json["files"])) return wrong("an array files");
   task.files = json["files"].get<std::vector<std::string>>();
-  if (!json.contains("pings") || !json["pings"].is_number_integer()) return wrong("a whole number pings");
-  task.pings = json["pings"].get<std::int64_t>();
+  const auto pings = json.contains("pings") ? whole_number(json["pings"], 0) : std::nullopt;
+  if (!pings) return wrong("a whole number pings");
+  task.pings = *pings;
   task.first_time = time_from_iso(text("first_time_utc")).value_or(0);
   task.last_time = time_from_iso(text("last_time_utc")).value_or(0);
   task.continues_cut = json.contains("continues_cut") && json["continues_cut"] == true;
@@ -90,10 +91,11 @@ Result<Plan> plan_from_json(const nlohmann::json& json) {
   if (!recipe) return pass_on(recipe);
   plan.recipe = std::move(*recipe);
   if (const auto pings = json.find("pings"); pings != json.end()) {
-    const bool whole =
-        pings->is_array() && pings->size() == 2 && (*pings)[0].is_number_integer() && (*pings)[1].is_number_integer();
-    if (!whole) return fail(ErrorCode::format, "pings: expected two whole numbers");
-    plan.pings = PingSelection{(*pings)[0].get<std::int64_t>(), (*pings)[1].get<std::int64_t>()};
+    const bool two = pings->is_array() && pings->size() == 2;
+    const auto first = two ? whole_number((*pings)[0], 0) : std::nullopt;
+    const auto last = first ? whole_number((*pings)[1], *first) : std::nullopt;
+    if (!last) return fail(ErrorCode::format, "pings: expected the first and the last as whole numbers");
+    plan.pings = PingSelection{*first, *last};
   }
   if (const auto notes = json.find("notes"); notes != json.end()) plan.notes = notes_from_json(*notes);
   if (!json.contains("tasks") || !json["tasks"].is_array()) return fail(ErrorCode::format, "tasks: expected an array");
@@ -143,6 +145,12 @@ std::string plan_text(const Plan& plan) {
                          {"tasks", std::move(tasks)}};
   if (plan.pings) json["pings"] = {plan.pings->first, plan.pings->last};
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Result<Plan> plan_from_text(std::string_view text) {
+  const auto json = parse_json(text);
+  if (!json) return pass_on(json);
+  return plan_from_json(*json);
 }
 
 Result<Plan> read_plan(const std::filesystem::path& path) {

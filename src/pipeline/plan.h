@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -42,7 +43,9 @@ struct Plan {
 [[nodiscard]] Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                              const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options);
 [[nodiscard]] std::string plan_text(const Plan& plan);
-/// errors  not_found, io, format, newer_version
+/// errors  format, newer_version
+[[nodiscard]] Result<Plan> plan_from_text(std::string_view text);
+/// errors  also not_found, io
 [[nodiscard]] Result<Plan> read_plan(const std::filesystem::path& path);
 
 }  // namespace sonar

@@ -148,14 +148,13 @@ Result<Recipe> named_recipe(const std::string& path_or_preset) {
   return read_recipe(path_or_preset);
 }
 
-Result<void> take_calibration_file(Recipe& recipe, const std::string& path) {
-  const auto table = read_csv(path);
-  if (!table) return pass_on(table);
+Result<void> take_calibration_table(Recipe& recipe, const CsvTable& table) {
+  const std::string& path = table.file;
   std::vector<BeamCalibration> beams;
-  const auto channel = table->require_column("channel");
+  const auto channel = table.require_column("channel");
   if (!channel) return pass_on(channel);
-  for (const CsvRecord& record : table->records) {
-    const auto number = table->whole(record, *channel);
+  for (const CsvRecord& record : table.records) {
+    const auto number = table.whole(record, *channel);
     if (!number) return pass_on(number);
     if (*number < 0 || *number >= kMaxChannels) {
       return fail(ErrorCode::format, fmt::format("line {}: channel {} is not 0-based", record.line, *number), {path});
@@ -164,9 +163,9 @@ Result<void> take_calibration_file(Recipe& recipe, const std::string& path) {
     for (const auto& [name, value] : {std::pair<const char*, double*>{"gain_db", &beam.gain_db},
                                       {"sa_correction_db", &beam.sa_correction_db},
                                       {"extra_factor_db", &beam.extra_factor_db}}) {
-      const auto column = table->column(name);
+      const auto column = table.column(name);
       if (!column) continue;
-      const auto read = table->number(record, *column);
+      const auto read = table.number(record, *column);
       if (!read) return pass_on(read);
       if (!std::isfinite(*read) && !record.fields[*column].empty()) {
         return fail(ErrorCode::format, fmt::format("line {}: {} is no number", record.line, name), {path});
@@ -178,6 +177,12 @@ Result<void> take_calibration_file(Recipe& recipe, const std::string& path) {
   if (auto valid = check_beams(beams); !valid) return fail(valid.error().code, valid.error().text, {path});
   recipe.calibration.beams = std::move(beams);
   return {};
+}
+
+Result<void> take_calibration_file(Recipe& recipe, const std::string& path) {
+  const auto table = read_csv(path);
+  if (!table) return pass_on(table);
+  return take_calibration_table(recipe, *table);
 }
 
 std::string recipe_hash(const Recipe& recipe) { return to_hex(hash_text(recipe_text(recipe))); }

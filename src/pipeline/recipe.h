@@ -134,7 +134,10 @@ void describe(Visitor& v, Recipe& r) {
 /// Hexadecimal XXH3-128 of recipe_text().
 [[nodiscard]] std::string recipe_hash(const Recipe& recipe);
 
-/// Takes a calibration file (channel,gain_db,sa_correction_db,extra_factor_db) into the recipe.
+/// Takes a calibration table (channel,gain_db,sa_correction_db,extra_factor_db) into the recipe.
+/// errors  format, bad_parameter, naming the line or the channel
+[[nodiscard]] Result<void> take_calibration_table(Recipe& recipe, const CsvTable& table);
+/// errors  also not_found, io
 [[nodiscard]] Result<void> take_calibration_file(Recipe& recipe, const std::string& path);
 
 }  // namespace sonar

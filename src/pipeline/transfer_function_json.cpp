@@ -32,6 +32,9 @@ Result<TransferPoint> point_from_json(const nlohmann::json& json, std::size_t in
     return wrong("rgb with three numbers");
   }
   point.rgb = {(*rgb)[0].get<double>(), (*rgb)[1].get<double>(), (*rgb)[2].get<double>()};
+  if (std::any_of(point.rgb.begin(), point.rgb.end(), [](double c) { return !(c >= 0.0 && c <= 255.0); })) {
+    return wrong("rgb within 0 .. 1 or 0 .. 255");
+  }
   if (std::any_of(point.rgb.begin(), point.rgb.end(), [](double c) { return c > 1.0; })) {
     for (double& c : point.rgb) c /= 255.0;
   }

@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 #include "base/units.h"
+#include "io/atomic_file.h"
 
 namespace sonar::synth {
 namespace {
@@ -97,6 +99,8 @@ constexpr std::array<Column, 10> kColumns = {{
 }};
 constexpr int kMaxChannels = 10000;
 constexpr int kMaxCount = 100000;
+/// More is no table of kMaxChannels lines.
+constexpr std::uint64_t kMostBytes = 16U << 20U;
 
 std::vector<std::string_view> split(std::string_view line) {
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
@@ -127,6 +131,16 @@ Result<double> number(const std::vector<std::string_view>& fields, const Fields&
   return value;
 }
 
+Result<int> whole(const std::vector<std::string_view>& fields, const Fields& header, std::string_view name, int min,
+                  int max) {
+  const auto value = number(fields, header, name, min, max);
+  if (!value) return pass_on(value);
+  if (*value != std::floor(*value)) {
+    return fail(ErrorCode::format, fmt::format("{} = {} is no whole number", name, *value));
+  }
+  return static_cast<int>(*value);
+}
+
 Result<void> read_row(const std::vector<std::string_view>& fields, const Fields& header, std::map<int, Beam>& beams) {
   Beam beam;
   for (const Column& column : kColumns) {
@@ -134,15 +148,26 @@ Result<void> read_row(const std::vector<std::string_view>& fields, const Fields&
     if (!value) return pass_on(value);
     beam.*column.member = *value;
   }
-  const auto count = number(fields, header, "count", 1, kMaxCount);
+  const auto count = whole(fields, header, "count", 1, kMaxCount);
   if (!count) return pass_on(count);
-  beam.count = static_cast<int>(*count);
-  const auto channel = number(fields, header, "channel", 0, kMaxChannels - 1);
+  beam.count = *count;
+  const auto channel = whole(fields, header, "channel", 0, kMaxChannels - 1);
   if (!channel) return pass_on(channel);
-  if (!beams.emplace(static_cast<int>(*channel), beam).second) {
+  if (!beams.emplace(*channel, beam).second) {
     return fail(ErrorCode::format, fmt::format("channel {} stands there twice", *channel));
   }
   return {};
+}
+
+/// The table's first line, before any of its numbers is looked at.
+Result<void> check_header(const Fields& header) {
+  std::string expected = "channel,count";
+  for (const Column& column : kColumns) expected += fmt::format(",{}", column.name);
+  const auto has = [&](std::string_view name) { return header.contains(name); };
+  const bool all = has("channel") && has("count") &&
+                   std::all_of(kColumns.begin(), kColumns.end(), [&](const Column& c) { return has(c.name); });
+  if (all) return {};
+  return fail(ErrorCode::format, fmt::format("line 1: expected the columns {} in any order", expected));
 }
 
 }  // namespace
@@ -155,28 +180,35 @@ std::vector<Beam> ms70_beams() {
   return beams;
 }
 
-Result<std::vector<Beam>> read_beam_table(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) return fail(ErrorCode::not_found, "cannot read the beam table", {.file = path.string()});
+Result<std::vector<Beam>> parse_beam_table(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
   std::string header_line;
   std::getline(in, header_line);
   Fields header;
   const auto names = split(header_line);
   for (std::size_t i = 0; i < names.size(); ++i) header.emplace(names[i], i);
+  if (auto checked = check_header(header); !checked)
+    return fail(checked.error().code, checked.error().text, {.file = file});
   std::map<int, Beam> beams;
   std::string line;
   for (int number = 2; std::getline(in, line); ++number) {
     if (line.empty() || line == "\r") continue;
     if (auto read = read_row(split(line), header, beams); !read) {
-      return fail(read.error().code, fmt::format("line {}: {}", number, read.error().text), {.file = path.string()});
+      return fail(read.error().code, fmt::format("line {}: {}", number, read.error().text), {.file = file});
     }
   }
   if (beams.empty() || beams.rbegin()->first + 1 != static_cast<int>(beams.size())) {
-    return fail(ErrorCode::format, "the channels are not 0, 1, ... each once", {.file = path.string()});
+    return fail(ErrorCode::format, "the channels are not 0, 1, ... each once", {.file = file});
   }
   std::vector<Beam> in_order;
   for (const auto& [channel, beam] : beams) in_order.push_back(beam);
   return in_order;
+}
+
+Result<std::vector<Beam>> read_beam_table(const std::filesystem::path& path) {
+  const auto text = read_file(path, kMostBytes);
+  if (!text) return pass_on(text);
+  return parse_beam_table(*text, path.string());
 }
 
 SounderConfig sounder_config(const std::vector<Beam>& beams, const std::string& survey_name) {

@@ -37,7 +37,10 @@ inline constexpr double kPulseLength_s = 0.002048;
 /// Reads a user's table: CSV with a header that names the columns channel, elevation_deg, azimuth_deg, frequency_hz,
 /// vertical_width_deg, horizontal_width_deg, gain_db, psi_db, sa_correction_db, power_w, absorption_db_per_m, count,
 /// in any order; channels 0, 1, ... each once.
-/// errors  not_found, io; format: a column is missing or a value is no number; bad_parameter: a value out of range
+/// errors  format: a column is missing or a value is no number; bad_parameter: a value out of range
+/// file    stands in messages
+[[nodiscard]] Result<std::vector<Beam>> parse_beam_table(const std::string& text, const std::string& file);
+/// errors  also not_found, io
 [[nodiscard]] Result<std::vector<Beam>> read_beam_table(const std::filesystem::path& path);
 
 /// What CON0 and CON1 say of these beams.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "synth/beam_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -59,11 +60,14 @@ TEST_F(BeamTableFile, RefusesWhatMakesNoSense) {
   const std::string header = kHeader;
   EXPECT_FALSE(read(""));
   EXPECT_FALSE(read(header));
-  EXPECT_FALSE(read("channel,count\n0,3\n"));
-  EXPECT_FALSE(read(header + "1,-10,5,80000,6,3,20,-21,-1,40,0.03,900\n"));   // no channel 0
-  EXPECT_FALSE(read(header + "0,-10,5,80000,6,3,20,-21,-1,40,0.03\n"));       // a field is missing
-  EXPECT_FALSE(read(header + "0,-10,5,nan,6,3,20,-21,-1,40,0.03,900\n"));     // no frequency
-  EXPECT_FALSE(read(header + "0,-10,5,80000,6,3,20,-21,-1,40,0.03,1e12\n"));  // too many samples
+  EXPECT_THAT(read("channel,count\n0,3\n").error().text,
+              testing::HasSubstr("line 1: expected the columns channel,count,elevation_deg"));
+  EXPECT_FALSE(read(header + "1,-10,5,80000,6,3,20,-21,-1,40,0.03,900\n"));    // no channel 0
+  EXPECT_FALSE(read(header + "0,-10,5,80000,6,3,20,-21,-1,40,0.03\n"));        // a field is missing
+  EXPECT_FALSE(read(header + "0,-10,5,nan,6,3,20,-21,-1,40,0.03,900\n"));      // no frequency
+  EXPECT_FALSE(read(header + "0,-10,5,80000,6,3,20,-21,-1,40,0.03,1e12\n"));   // too many samples
+  EXPECT_FALSE(read(header + "0.5,-10,5,80000,6,3,20,-21,-1,40,0.03,900\n"));  // no channel
+  EXPECT_FALSE(read(header + "0,-10,5,80000,6,3,20,-21,-1,40,0.03,900.5\n"));  // no number of samples
   EXPECT_FALSE(read_beam_table("does/not/exist.csv"));
 }
 
