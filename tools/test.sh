@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sets everything up and passes the tests: what the README and continuous integration call.
 #   tools/test.sh           g++, format, layers, unit, data and command-line tests
-#   tools/test.sh --full    also clang 16, clang-tidy, address + undefined-behaviour and thread sanitizers, lone headers,
-#                           the slow tests
+#   tools/test.sh --full    also the slow tests, lone headers, the headless build, clang 16, clang-tidy, address +
+#                           undefined-behaviour and thread sanitizers, some seconds of each fuzz target, and the
+#                           benchmarks' build where ITK is installed
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
@@ -14,7 +15,7 @@ full=false
 for argument in "$@"; do
   case "$argument" in
     --full) full=true ;;
-    -h | --help) sed -n '3,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -h | --help) sed -n '3,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     *) echo "test.sh: unknown argument '$argument' (there is --full)" >&2; exit 2 ;;
   esac
 done
@@ -67,14 +68,53 @@ run_ctest() {
 
 tidy() {
   tracked 'src/*.cpp' 'fuzz/*.cpp' | while read -r file; do
-    # Only what the clang build compiles has flags to be read with.
-    if grep -q "/$file\"" build/clang/compile_commands.json; then echo "$file"; fi
-  done | xargs -P "$jobs" -n 4 clang-tidy-16 -p build/clang --quiet --warnings-as-errors='*'
+    # Only what is compiled has flags to be read with; of clang's builds this one has the most.
+    if grep -q "/$file\"" build/asan/compile_commands.json; then echo "$file"; fi
+  done | xargs -P "$jobs" -n 2 clang-tidy-16 -p build/asan --quiet --warnings-as-errors='*'
 }
 
 threaded_tests() {
-  build tsan && run_ctest tsan -L unit -R '[Tt]hread|Work|[Pp]arallel|[Jj]obs'
+  # Only the programs that hold such tests: with this sanitizer every file takes twice as long.
+  build tsan --target "${threaded_programs[@]}" && run_ctest tsan -L unit -R "$threaded" &&
+    build/tsan/tests/sonar_observe_test --gtest_brief=1 --gtest_filter='*Threads*:*Cancel*'
 }
+
+headless() {
+  build headless --target sonarx && build/headless/src/cli/sonarx --version || return 1
+  # Neither the compiler nor the linker may have been told of Qt.
+  ! grep -n 'Qt[56]' build/headless/build.ninja && ! ldd build/headless/src/cli/sonarx | grep -i 'libqt\|not found'
+}
+
+fuzz_a_little() {
+  # The corpora, replayed in the tests already, and what a few seconds find beside them. A finding stays in build/fuzzed.
+  local seconds=$1 target name
+  # netCDF and HDF5 keep what they allocate until the program ends.
+  export ASAN_OPTIONS=quarantine_size_mb=8:malloc_context_size=4:detect_leaks=0
+  mkdir -p build/fuzzed
+  for target in build/asan/fuzz/fuzz_*; do
+    name=${target##*/fuzz_}
+    mkdir -p "build/fuzzed/$name"
+    if ! "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -seed=1 -verbosity=0 \
+      -artifact_prefix="build/fuzzed/$name-" "build/fuzzed/$name" "tests/data/fuzz/$name" >"build/fuzzed/$name.log" 2>&1; then
+      tail -n 40 "build/fuzzed/$name.log"
+      echo "fuzz_$name: the input stands in build/fuzzed/$name-*" >&2
+      return 1
+    fi
+    rm -rf "build/fuzzed/$name"
+  done
+}
+
+benchmarks() {
+  if ! compgen -G '/usr/lib/cmake/ITK-*' >/dev/null; then
+    echo "ITK is not installed (tools/setup.sh bench): left out"
+    return 0
+  fi
+  build bench --target bench_median bench_stages
+}
+
+# Tests in which several threads work on the same things, and the programs that hold them.
+threaded='[Tt]hreads?([A-Z_]|$)|Work\.'
+threaded_programs=(sonar_base_test sonar_signal_test sonar_io_test sonar_synth_test sonar_observe_test)
 
 mkdir -p build
 if $full; then part "packages" tools/setup.sh full; else part "packages" tools/setup.sh test; fi
@@ -86,10 +126,13 @@ if $full; then
   part "every header alone" tools/check_headers build/dev
   part "build with clang 16" build clang
   part "tests of the clang build" run_ctest clang -LE slow
-  part "clang-tidy" tidy
   part "build with address and undefined-behaviour sanitizers" build asan
+  part "clang-tidy" tidy
   part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE slow
+  part "fuzzing" fuzz_a_little 5
   part "threaded tests with the thread sanitizer" threaded_tests
+  part "headless build" headless
+  part "build of the benchmarks" benchmarks
 else
   part "tests" run_ctest dev -LE slow
 fi
