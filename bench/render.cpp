@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// sonar_bench_render FOLDER [FRAMES [REFERENCE_STEP]]: the processor's ray-caster on the four scenes of make_scene.py,
-// beside the paper's naive shader (where OpenGL can be had) and VTK's GPU mapper (where vtk_volume.py has left vtk.csv in
-// FOLDER). Every answer is checked before it is timed; ends with 1 where a check or a guard fails.
+// sonar_bench_render FOLDER [FRAMES [REFERENCE_STEP]]: both ray-casters on the four scenes of make_scene.py, beside the
+// paper's naive shader (where OpenGL can be had) and VTK's GPU mapper (where vtk_volume.py has left vtk.csv in FOLDER).
+// Every answer is checked before it is timed; ends with 1 where a check or a guard fails. Pictures are left in FOLDER.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +11,15 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "naive_shader.h"
+#include "render/draw_frame.h"
 #include "render/gl/context_egl.h"
+#include "render/gl/gl_renderer.h"
 #include "render/reference/brute_force.h"
 #include "scene_files.h"
 
@@ -82,6 +85,7 @@ class Bench {
       fmt::print("\n{} {}\n", recorded.view, recorded.table);
       one_scene(*scene, recorded, gl);
     }
+    along_the_beams(gl);
     fmt::print("\n{}\n", sound_ ? "all checks passed" : "FAILED: see above");
     return sound_;
   }
@@ -115,7 +119,9 @@ class Bench {
     fmt::print("  worst 64 x 64 tile between step and half step {:.1f} dB\n", tile);
     expect(tile >= 48.0, "a tile below 48 dB between step and half step");
     interaction(*r, scene);
-    if (gl) beside_naive(scene, full, reference);
+    keep(black(still), recorded, "ours");
+    keep(reference, recorded, "reference");
+    if (gl) beside_naive(scene, recorded, full, reference);
     beside_vtk(recorded, full, reference);
   }
 
@@ -161,16 +167,74 @@ class Bench {
         1e3 * drag.wall_s, 1e3 * drag.cpu_s, 1e3 * edit.wall_s, 1e3 * edit.cpu_s, 1e3 * ping.cpu_s);
   }
 
-  void beside_naive(const SceneFiles& scene, const Times& ours, const Image& reference) {
+  struct Naive {
+    Times times;
+    Image picture;
+  };
+  std::optional<Naive> naive(const SceneFiles& scene, double step_samples, int frames) {
     NaiveFrame frame;
-    const double wall_s = naive_frame(*scene.volume, scene.table, scene.view, scene.volume->sector.range().spacing_m,
-                                      std::min(frames_, 3), frame);
-    if (!(wall_s > 0.0)) {
+    const double step_m = step_samples * scene.volume->sector.range().spacing_m;
+    const double wall_s = naive_frame(*scene.volume, scene.table, scene.view, step_m, frames, frame);
+    if (!(wall_s > 0.0)) return std::nullopt;
+    return Naive{{wall_s, frame.cpu_s}, black(frame.picture)};
+  }
+
+  void beside_naive(const SceneFiles& scene, const Recorded& recorded, const Times& ours, const Image& reference) {
+    const auto same_step = naive(scene, 1.0, std::min(frames_, 3));
+    if (!same_step) {
       fmt::print("  the paper's naive shader does not run here\n");
       return;
     }
-    report("the paper's naive shader", {wall_s, frame.cpu_s}, psnr_db(black(frame.picture), reference));
-    fmt::print("    ours is {:.1f} times as fast (cpu)\n", frame.cpu_s / ours.cpu_s);
+    report("the paper's naive shader", same_step->times, psnr_db(same_step->picture, reference));
+    const double ratio = same_step->times.cpu_s / ours.cpu_s;
+    fmt::print("    ours is {:.1f} times as fast (cpu)\n", ratio);
+    // As many samples as it has time for in one of our frames: what a user would see who waits as long.
+    if (const auto same_time = naive(scene, std::max(1.0, ratio), 1)) {
+      report(fmt::format("the same in our time (step x {:.1f})", ratio), same_time->times,
+             psnr_db(same_time->picture, reference));
+      keep(same_time->picture, recorded, "naive_in_our_time");
+    }
+    beside_own_gl(scene, same_step->times, reference);
+  }
+
+  void beside_own_gl(const SceneFiles& scene, const Times& naive_times, const Image& reference) {
+    auto made = make_gl_renderer();
+    if (!made || !(*made)->set_volume(scene.volume) || !(*made)->set_transfer(scene.table)) {
+      fmt::print("  our OpenGL back-end does not run here\n");
+      return;
+    }
+    const Image first = black(draw(**made, scene.view, {}));
+    const Times t = timed(std::min(frames_, 3), [&] { (void)draw(**made, scene.view, {}); });
+    report("our OpenGL back-end", t, psnr_db(first, reference));
+    fmt::print("    it is {:.1f} times as fast as the naive shader (cpu)\n", naive_times.cpu_s / t.cpu_s);
+  }
+
+  /// Where the paper saw artefacts: rays that run along the beams, close to the transducer. Quality only.
+  void along_the_beams(bool gl) {
+    auto scene = read_scene(folder_, "closeup", "haze");
+    const auto r = make_cpu_renderer();
+    if (!scene || !r->set_volume(scene->volume) || !r->set_transfer(scene->table)) std::exit(EXIT_FAILURE);
+    const Sector& sector = scene->volume->sector;
+    scene->view.camera.target = sector.centre(sector.fans() / 2, sector.beams() / 2, 200);
+    scene->view.camera.eye = scene->view.camera.target * -0.3 + Point<Sonar>{0.0, 0.0, -6.0};
+    fmt::print("\nalong the beams, from 23 m behind the transducer\n");
+    const Image step = black(draw(*r, scene->view, {}));
+    const double tile = worst_tile_psnr_db(step, black(draw(*r, scene->view, {1, 0.5, 0.03, 0})));
+    fmt::print("  ours: worst 64 x 64 tile between step and half step {:.1f} dB\n", tile);
+    expect(tile >= 48.0, "a tile below 48 dB along the beams");
+    const Recorded name{"along", "haze", 0, 0, 0};
+    keep(step, name, "ours");
+    if (!gl) return;
+    const auto coarse = naive(*scene, 1.0, 1);
+    const auto fine = naive(*scene, 0.5, 1);
+    if (!coarse || !fine) return;
+    fmt::print("  the paper's naive shader: {:.1f} dB\n", worst_tile_psnr_db(coarse->picture, fine->picture));
+    keep(coarse->picture, name, "naive");
+  }
+
+  void keep(const Image& picture, const Recorded& scene, const std::string& what) {
+    const std::string file = fmt::format("{}/{}_{}_{}.png", folder_, scene.view, scene.table, what);
+    if (auto written = write_png(picture, file); !written) fmt::print(stderr, "{}\n", to_line(written.error()));
   }
 
   void beside_vtk(const Recorded& scene, const Times& ours, const Image& reference) {

@@ -15,7 +15,8 @@ namespace sonar {
 // Steps. A ray's parameter t is metres from its point nearest to the transducer. Intervals are [k h, (k + 1) h] with
 // h = step_samples x spacing_m, cut at the sector's faces; the sample stands at the fraction `phase` of its interval and
 // counts for the interval's length. Nearer than where half the narrowest beam spacing is below h, h is shortened to that,
-// to h / 8 at least.
+// to h / 8 at least. Where a ray runs along the beams (|dr/dt| above kAlongBeams) h is halved: it meets every range sample
+// just once, and speckle, white along range, would show as wood grain.
 // Masks. Confidence of a layer = interpolated over its own voxels. Where a layer first reaches fuzzy_above (half a
 // quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
 // reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
@@ -23,6 +24,7 @@ namespace sonar {
 // Sv behind the masks' light.
 
 inline constexpr double kOpaqueEnough = 0.99;
+inline constexpr float kAlongBeams = 0.9F;
 
 /// Column or row of the full picture whose ray stands for pixel i of a picture divided by `divisor`.
 [[nodiscard]] int full_pixel(int i, int divisor, int count);

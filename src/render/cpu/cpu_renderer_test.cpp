@@ -120,6 +120,24 @@ TEST_P(Against, SkippingChangesNothing) {
 INSTANTIATE_TEST_SUITE_P(CpuRenderer, Against, testing::ValuesIn(cases()),
                          [](const auto& named) { return std::string(named.param.name); });
 
+/// Rays that run along the beams graze the cells' faces all the way: none may pass over what it has not seen.
+TEST(CpuRenderer, RaysAlongTheBeamsLoseNothing) {
+  const Sector sector(even(-45.0, 0.0, 20), even(240.0, 300.0, 25), RangeAxis{0.0, 0.38, 1319});
+  const auto data = volume(sector);
+  VolumeView view = small({});
+  view.size = {256, 192};
+  view.camera.target = sector.centre(10, 12, 200);
+  view.camera.eye = view.camera.target * -0.3 + Point<Sonar>{0.0, 0.0, -6.0};
+  const auto r = renderer(data, table(true));
+  const RayImage leaping = draw(*r, view, {1, 1.0, 0.03, 0});
+  const RayImage walking = draw(*r, view, {1, 1.0, 0.0, 0});
+  float worst = 0.0F;
+  for (std::size_t i = 0; i < leaping.rgba.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(leaping.rgba[i][c] - walking.rgba[i][c]));
+  }
+  EXPECT_LT(worst, 0.05F) << "a cell of one segment is right to a few steps of 255; a lost stretch of ray is not";
+}
+
 TEST(CpuRenderer, FirstHitAgainstBruteForce) {
   VolumeView view = small(overview(fan()));
   view.mode = RayMode::first_hit;

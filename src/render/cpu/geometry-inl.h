@@ -124,7 +124,24 @@ HWY_INLINE W cell_of(const TraceGrid& grid, const Place& p) {
   return hn::Add(hn::Mul(row, seti(grid.cell_ranges)), hn::ShiftRight<4>(p.sample0));
 }
 
-/// Where the rays leave the block of `reach` cells to each side of their cell.
+/// Lanes that stand at a face of their block, within what indices are wrong by, and move towards it: they may be past it
+/// already, and then its root lies behind them and would be missed, the whole way along a face that a ray grazes.
+HWY_INLINE M at_exit(const Rays& ray, const Place& p, V u, W b0, W b1, W f0, W f1, V k0, V k1) {
+  const V near = set(4e-3F);
+  const auto close = [&](V rate, V at, V low, V high) {
+    return hn::Or(hn::And(hn::Lt(rate, zero()), hn::Lt(hn::Sub(at, low), near)),
+                  hn::And(hn::Gt(rate, zero()), hn::Lt(hn::Sub(high, at), near)));
+  };
+  const auto number = [](W i) { return hn::ConvertTo(D(), i); };
+  const V azimuth_rate = hn::MulSub(ray.nx, ray.dy, hn::Mul(ray.ny, ray.dx));
+  const V elevation_rate = hn::MulSub(p.z, u, hn::Mul(ray.dz, hn::Mul(p.r, p.r)));
+  const M beam = close(azimuth_rate, hn::Add(number(p.beam0), p.beam), number(b0), number(b1));
+  const M fan = close(elevation_rate, hn::Add(number(p.fan0), p.fan), number(f0), number(f1));
+  const M sample = close(u, hn::Add(number(p.sample0), p.sample), k0, k1);
+  return hn::Or(hn::Or(beam, fan), sample);
+}
+
+/// Where the rays leave the block of `reach` cells to each side of their cell; `u` where they stand at its face.
 HWY_INLINE V block_exit(const TraceGrid& grid, const Rays& ray, const Place& p, W reach, V u, V best) {
   const W b0 = hn::Max(hn::Sub(p.beam0, reach), seti(0));
   const W b1 = hn::Min(hn::Add(p.beam0, hn::Add(reach, seti(1))), seti(grid.beams - 1));
@@ -144,7 +161,8 @@ HWY_INLINE V block_exit(const TraceGrid& grid, const Rays& ray, const Place& p, 
   best = nearer_root(
       best, plane_root(ray, hn::GatherIndex(D(), grid.sin_azimuth, b1), hn::GatherIndex(D(), grid.cos_azimuth, b1)), u);
   best = nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, f0), best, u);
-  return nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, f1), best, u);
+  best = nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, f1), best, u);
+  return hn::IfThenElse(at_exit(ray, p, u, b0, b1, f0, f1, k0, k1), u, best);
 }
 
 }  // namespace sonar::HWY_NAMESPACE

@@ -101,7 +101,7 @@ class Packet {
     counts.samples += static_cast<std::int64_t>(hn::CountTrue(D(), ready));
     sample(ready, p, word, u, length);
     from_ = hn::IfThenElse(ready, end, from_);
-    shorten(ready, p);
+    shorten(ready, p, u);
   }
 
   void move(M empty, M thin, W cell, W word, const Place& p, V u, V end, RayCounts& counts) {
@@ -312,11 +312,13 @@ class Packet {
     left_ = hn::Sub(left_, share);
   }
 
-  /// Steps fit the narrow cells near the transducer.
-  void shorten(M lanes, const Place& p) {
-    const V narrow =
+  /// Steps fit the narrow cells near the transducer, and rays along the beams.
+  void shorten(M lanes, const Place& p, V u) {
+    const V across =
         hn::Mul(set(0.5F), hn::Min(hn::Mul(p.r, set(grid_.least_fan_rad)), hn::Mul(p.rho, set(grid_.least_beam_rad))));
     const V full = set(view_.step_m);
+    const M along = hn::Gt(hn::Abs(u), hn::Mul(set(kAlongBeams), p.r));
+    const V narrow = hn::IfThenElse(along, hn::Min(across, hn::Mul(full, set(0.75F))), across);
     if (!any(hn::And(lanes, hn::Or(hn::Lt(narrow, full), hn::Lt(step_, full))))) return;
     V part = set(1.0F);
     for (const float p2 : {0.5F, 0.25F, 0.125F}) {

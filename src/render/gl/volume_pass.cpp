@@ -7,6 +7,7 @@
 #include "render/gl/grid_textures.h"
 #include "render/gl/hull.h"
 #include "render/gl/shader_source.h"
+#include "render/ray_rules.h"
 
 namespace sonar {
 namespace {
@@ -28,7 +29,8 @@ std::string defines(const RayVariant& v) {
          flag("FOLDED", v.folded) + flag("OPAQUE", v.opaque) + flag("MASKS", v.mask_words > 0) +
          flag("MASK_WORDS", v.mask_words) + flag("INNER", v.inner) + flag("WIDE", v.wide) +
          flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) + flag("ANGLE_ENTRIES", kAngleEntries) +
-         flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow);
+         flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow) +
+         fmt::format("#define ALONG_BEAMS {:.3f}\n", kAlongBeams);
 }
 
 void set_slots(const Program& program) {

@@ -20,8 +20,16 @@ ivec2 cell_texel(ivec3 cell) {
 // The smaller of both t that lies behind `now`.
 float next_root(float now, float a, float b) { return min(a > now ? a : FAR, b > now ? b : FAR); }
 
-// Where a ray leaves the block of cells that reach `around` cells to each side of one; never later than that.
-float block_exit(ivec3 cell, int around, float now) {
+// At a face, within what indices are wrong by, and moving towards it.
+bool at_face(float rate, float index, int low, int high) {
+  return (rate < 0.0 && index - float(low) < 4e-3) || (rate > 0.0 && float(high) - index < 4e-3);
+}
+
+// Where a ray leaves the block of cells that reach `around` cells to each side of the one of index g; never later than
+// that. `now` where it stands at the block's face: it may be past it already, and then the root lies behind it and would
+// be missed, the whole way along a face that a ray grazes.
+float block_exit(vec3 g, int around, float now) {
+  ivec3 cell = cell_of(g);
   ivec3 low = max(cell - around, ivec3(0));
   ivec3 high = min(cell + 1 + around, ray.cells.xyz);
   float near_r = ray.range.x + float(low.x * CELL_SAMPLES) * ray.range.z;
@@ -32,7 +40,14 @@ float block_exit(ivec3 cell, int around, float now) {
   t = near_r > 0.0 && in2 > 0.0 && inner > now ? min(t, inner) : t;
 
   // Along a straight ray the azimuth turns one way only.
-  bool rising = base.x * dir.y - base.y * dir.x > 0.0;
+  float turning = base.x * dir.y - base.y * dir.x;
+  bool rising = turning > 0.0;
+  vec3 p = base + now * dir;
+  float climbing = p.z * now - dir.z * (base2 + now * now);
+  if (at_face(turning, g.y, low.y, high.y) || at_face(climbing, g.z, low.z, high.z) ||
+      at_face(now, g.x, low.x * CELL_SAMPLES, high.x * CELL_SAMPLES)) {
+    return now;
+  }
   vec2 side = texelFetch(faces_texture, ivec2(rising ? high.y : low.y, 0), 0).xy;
   float v1 = side.x * dir.x - side.y * dir.y;
   float at_side = v1 == 0.0 ? FAR : -(side.x * base.x - side.y * base.y) / v1;

@@ -91,8 +91,9 @@ float phase_of(ivec2 pixel) {
 }
 
 // Step near the transducer, where beams are narrow: halved until it is below half a beam, to an eighth at least.
-float step_at(float r) {
-  float h = ray.up.w;
+// Rays along the beams take half steps, see ray_rules.h.
+float step_at(float r, float t) {
+  float h = abs(t) > ALONG_BEAMS * r ? 0.5 * ray.up.w : ray.up.w;
   if (r >= ray.cones.z) return h;
   float part = r / max(ray.cones.z, 1e-6);
   return h * (part > 0.5 ? 0.5 : (part > 0.25 ? 0.25 : 0.125));
@@ -105,13 +106,15 @@ void walk(vec2 span, float phase) {
   while (t < span.y && going()) {
     float end = piece_end(t, span.y);
     if (t >= end) continue;
-    float h = step_at(sqrt(base2 + t * t));
+    float r = sqrt(base2 + t * t);
+    float h = step_at(r, t);
     float next = min((floor(t / h + 1e-3) + 1.0) * h, end);
     float at = mix(t, next, phase);
-    ivec3 cell = cell_of(index_of(base + at * dir, sqrt(base2 + at * at)));
+    vec3 g = index_of(base + at * dir, sqrt(base2 + at * at));
+    ivec3 cell = cell_of(g);
     uvec2 state = texelFetch(state_texture, cell_texel(cell), 0).rg;
-    float leave = block_exit(cell, max(int(state.r) - 1, 0), at);
-    leave = h < ray.up.w ? min(leave, at + 4.0 * h) : leave;
+    float leave = block_exit(g, max(int(state.r) - 1, 0), at);
+    leave = r < ray.cones.z ? min(leave, at + 4.0 * h) : leave;
 #if MODE == 2
     bool empty = state.r > 0u || ((state.g & MASKED) == 0u && float(texelFetch(largest_texture, cell_texel(cell), 0).r) <= largest);
 #else
