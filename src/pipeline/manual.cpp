@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/json_parameters.h"
+#include "pipeline/commands/json_members.h"
+#include "pipeline/commands/state.h"
 #include "pipeline/transfer_function_json.h"
 #include "school/propagate_tracked.h"
 
@@ -17,61 +19,19 @@ namespace {
 
 constexpr std::int64_t kMaxReach = 1'000'000;
 
-template <class P>
-nlohmann::json described(P parameters) {
-  JsonWriter writer;
-  describe(writer, parameters);
-  return writer.json();
+PingReach reach_round(std::int64_t ping_index, const PropagateCommand& command, PingReach limits) {
+  const std::int64_t back = command.reach_backward.value_or(command.reach);
+  const std::int64_t forward = command.reach_forward.value_or(command.reach);
+  return {back < 0 ? limits.first : std::max(limits.first, ping_index - back),
+          forward < 0 ? limits.last : std::min(limits.last, ping_index + forward)};
 }
 
-template <class P>
-std::string read_described(const nlohmann::json& args, const char* member, P& parameters) {
+Result<std::int64_t> read_reach(const nlohmann::json& args, const char* member, std::int64_t otherwise) {
   const auto found = args.find(member);
-  if (found == args.end()) return {};
-  JsonReader reader(*found, std::string(member) + ".");
-  describe(reader, parameters);
-  reader.finish();
-  if (!reader.problem().empty()) return reader.problem();
-  const auto valid = validate(parameters);
-  return valid ? std::string{} : valid.error().text;
-}
-
-Result<std::vector<SeedKey>> seeds_from_json(const nlohmann::json& args) {
-  const auto list = args.find("seeds");
-  if (list == args.end() || !list->is_array() || list->empty()) {
-    return fail(ErrorCode::format, "seeds: expected an array of voxels");
-  }
-  std::vector<SeedKey> seeds;
-  for (const auto& seed : *list) {
-    if (!seed.is_object() || !seed.contains("channel") || !seed["channel"].is_number_integer() ||
-        !seed.contains("sample") || !seed["sample"].is_number_integer()) {
-      return fail(ErrorCode::format, fmt::format("seeds[{}]: expected channel and sample", seeds.size()));
-    }
-    seeds.push_back({seed["channel"].get<int>(), seed["sample"].get<int>()});
-  }
-  return seeds;
-}
-
-Result<PingMask> grow_seeds(const Engine& engine, const FilteredPing& ping, const PropagateCommand& command) {
-  const std::vector<int> rows = engine.grid().row_of_channel();
-  PingMask selection;
-  for (const SeedKey& seed : command.seeds) {
-    if (seed.channel < 0 || static_cast<std::size_t>(seed.channel) >= rows.size() ||
-        rows[static_cast<std::size_t>(seed.channel)] < 0) {
-      return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", seed.channel));
-    }
-    auto grown = grow_from_click(ping.volume->counts.view(), ping.volume->flags.view(),
-                                 {rows[static_cast<std::size_t>(seed.channel)], seed.sample}, command.growth_curve,
-                                 command.grow);
-    if (!grown) return grown;
-    selection = unite(selection, *grown);
-  }
-  return subtract(selection, ping.taken);
-}
-
-PingReach reach_round(std::int64_t ping_index, std::int64_t reach, PingReach limits) {
-  if (reach < 0) return limits;
-  return {std::max(limits.first, ping_index - reach), std::min(limits.last, ping_index + reach)};
+  if (found == args.end()) return otherwise;
+  const auto pings = whole_number(*found);
+  if (!pings) return fail(ErrorCode::format, fmt::format("{}: expected a whole number", member));
+  return std::clamp<std::int64_t>(*pings, -1, kMaxReach);
 }
 
 SchoolMasks school_of(Propagation& propagation) {
@@ -83,70 +43,105 @@ SchoolMasks school_of(Propagation& propagation) {
   return school;
 }
 
-Result<ManualSchool> replay_line(Engine& engine, const JournalLine& line, std::int64_t ping_index,
-                                 std::span<const SchoolMasks> taken, PingReach limits) {
-  const auto command = propagate_from_json(line.args);
-  if (!command) return pass_on(command);
-  auto made = propagate(engine, ping_index, *command, taken, limits);
-  if (!made) return made;
-  made->school.decided.operator_name = line.operator_name;
-  return made;
-}
-
 }  // namespace
 
 nlohmann::json to_json(const PropagateCommand& command) {
-  nlohmann::json seeds = nlohmann::json::array();
-  for (const SeedKey& seed : command.seeds) seeds.push_back({{"channel", seed.channel}, {"sample", seed.sample}});
-  return {{"mode", kGrowModeNames[static_cast<std::size_t>(command.mode)]},
-          {"grow", described(command.grow)},
-          {"seeds", std::move(seeds)},
-          {"growth_curve", to_json(command.growth_curve)},
-          {"propagate_paper", described(command.paper)},
-          {"propagate_tracked", described(command.tracked)},
-          {"reach", command.reach}};
+  nlohmann::json args = {{"mode", kGrowModeNames[static_cast<std::size_t>(command.mode)]},
+                         {"grow", members::described(command.grow)},
+                         {"growth_curve", to_json(command.growth_curve)},
+                         {"propagate_paper", members::described(command.paper)},
+                         {"propagate_tracked", members::described(command.tracked)},
+                         {"reach", command.reach}};
+  if (command.reach_backward) args["reach_backward"] = *command.reach_backward;
+  if (command.reach_forward) args["reach_forward"] = *command.reach_forward;
+  if (command.school) {
+    args["school"] = members::from_school(*command.school);
+  } else {
+    args["seeds"] = members::from_seeds(command.seeds);
+  }
+  return args;
 }
 
-Result<PropagateCommand> propagate_from_json(const nlohmann::json& args) {
+Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time) {
   PropagateCommand command;
-  auto seeds = seeds_from_json(args);
-  if (!seeds) return pass_on(seeds);
-  command.seeds = std::move(*seeds);
-  std::string problem = read_described(args, "grow", command.grow);
-  if (const auto mode = args.find("mode"); mode != args.end()) {
-    if (*mode != "tracked" && *mode != "paper") return fail(ErrorCode::format, "mode: expected tracked or paper");
-    command.mode = *mode == "paper" ? GrowMode::paper : GrowMode::tracked;
+  const auto school = members::read_optional_school(args, ping_time);
+  if (!school) return pass_on(school);
+  command.school = *school;
+  if (!command.school) {
+    auto seeds = members::read_seeds(args);
+    if (!seeds) return pass_on(seeds);
+    command.seeds = std::move(*seeds);
   }
-  if (problem.empty()) problem = read_described(args, "propagate_paper", command.paper);
-  if (problem.empty()) problem = read_described(args, "propagate_tracked", command.tracked);
-  if (!problem.empty()) return fail(ErrorCode::bad_parameter, problem);
-  if (const auto curve = args.find("growth_curve"); curve != args.end()) {
-    auto made = transfer_function_from_json(*curve);
-    if (!made) return pass_on(made);
-    command.growth_curve = std::move(*made);
+  const auto grow = members::read_described<GrowParams>(args, "grow");
+  if (!grow) return pass_on(grow);
+  if (args.contains("mode")) {
+    const auto mode = members::read_choice(args, "mode", kGrowModeNames);
+    if (!mode) return pass_on(mode);
+    command.mode = static_cast<GrowMode>(*mode);
   }
-  if (const auto reach = args.find("reach"); reach != args.end()) {
-    if (!reach->is_number_integer()) return fail(ErrorCode::format, "reach: expected a whole number");
-    command.reach = std::clamp<std::int64_t>(reach->get<std::int64_t>(), -1, kMaxReach);
+  const auto paper = members::read_described<PaperPropagationParams>(args, "propagate_paper");
+  if (!paper) return pass_on(paper);
+  const auto tracked = members::read_described<TrackedPropagationParams>(args, "propagate_tracked");
+  if (!tracked) return pass_on(tracked);
+  auto curve = members::read_growth_curve(args);
+  if (!curve) return pass_on(curve);
+  const auto reach = read_reach(args, "reach", -1);
+  if (!reach) return pass_on(reach);
+  for (const auto& [member, side] :
+       {std::pair("reach_backward", &command.reach_backward), {"reach_forward", &command.reach_forward}}) {
+    if (!args.contains(member)) continue;
+    const auto pings = read_reach(args, member, -1);
+    if (!pings) return pass_on(pings);
+    *side = *pings;
   }
+  command.grow = *grow;
+  command.paper = *paper;
+  command.tracked = *tracked;
+  command.growth_curve = std::move(*curve);
+  command.reach = *reach;
   return command;
 }
 
-Result<ManualSchool> propagate(Engine& engine, std::int64_t ping_index, const PropagateCommand& command,
-                               std::span<const SchoolMasks> taken, PingReach limits) {
+CommandGround ground_of(Engine& engine, PingReach limits) {
+  CommandGround ground;
+  ground.ping = [&engine](std::int64_t ping_index) { return engine.filtered(ping_index); };
+  ground.sector = &engine.sector();
+  ground.grid = &engine.grid();
+  for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
+  ground.limits = limits;
+  ground.human_share = engine.recipe().detect.human_share;
+  ground.least_pings = engine.recipe().track.confirm_pings;
+  return ground;
+}
+
+Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping, std::span<const SeedKey> seeds,
+                            const TransferFunction& growth_curve, const GrowParams& params) {
+  const std::vector<int> rows = ground.grid->row_of_channel();
+  PingMask selection;
+  for (const SeedKey& seed : seeds) {
+    if (seed.channel < 0 || static_cast<std::size_t>(seed.channel) >= rows.size() ||
+        rows[static_cast<std::size_t>(seed.channel)] < 0) {
+      return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", seed.channel));
+    }
+    auto grown = grow_from_click(ping.volume->counts.view(), ping.volume->flags.view(),
+                                 {rows[static_cast<std::size_t>(seed.channel)], seed.sample}, growth_curve, params);
+    if (!grown) return grown;
+    selection = unite(selection, *grown);
+  }
+  return subtract(selection, ping.taken);
+}
+
+Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index, const PingMask& selection,
+                           const PropagateCommand& command, const TakenVoxels& taken) {
   const PingProvider provider = [&](std::int64_t i) {
-    auto ping = engine.filtered(i);
-    if (ping) ping->taken = voxels_in_ping(taken, i);
+    auto ping = ground.ping(i);
+    if (ping) ping->taken = taken(i);
     return ping;
   };
-  const auto clicked = provider(ping_index);
-  if (!clicked) return pass_on(clicked);
-  const auto selection = grow_seeds(engine, *clicked, command);
-  if (!selection) return fail(selection.error().code, selection.error().text, {"", -1, ping_index});
-  const PingReach reach = reach_round(ping_index, command.reach, limits);
+  const PingReach reach = reach_round(ping_index, command, ground.limits);
   auto propagation = command.mode == GrowMode::paper
-                         ? propagate_paper(provider, ping_index, *selection, reach, command.growth_curve, command.paper)
-                         : propagate_tracked(provider, engine.sector(), ping_index, *selection, reach, command.tracked);
+                         ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper)
+                         : propagate_tracked(provider, *ground.sector, ping_index, selection, reach, command.tracked);
   if (!propagation) return pass_on(propagation);
   ManualSchool made;
   made.school = school_of(*propagation);
@@ -157,42 +152,9 @@ Result<ManualSchool> propagate(Engine& engine, std::int64_t ping_index, const Pr
 
 std::vector<SchoolMasks> replay(Engine& engine, std::span<const JournalLine> lines, PingReach limits,
                                 Diagnostics& diagnostics) {
-  std::vector<SchoolMasks> schools;
-  for (const JournalLine& line : lines) {
-    const auto ping_index = ping_at(engine.survey(), engine.observation(), line.ping_time);
-    if (!ping_index || *ping_index < limits.first || *ping_index > limits.last) continue;
-    const auto lost = [&](const std::string& why) {
-      diagnostics.push_back({DiagnosticCode::decision_lost, "", -1, *ping_index,
-                             fmt::format("journal line {} ({}): {}", line.n, line.command, why)});
-    };
-    if (line.command != "propagate") {
-      lost("this version does not know the command");
-      continue;
-    }
-    auto made = replay_line(engine, line, *ping_index, schools, limits);
-    if (!made) {
-      lost(made.error().text);
-      continue;
-    }
-    for (const auto& [side, note] : {std::pair("backwards", made->note_backward), {"forwards", made->note_forward}}) {
-      if (note.empty()) continue;
-      diagnostics.push_back(
-          {DiagnosticCode::propagation_ended, "", -1, *ping_index, fmt::format("{}: {}", side, note)});
-    }
-    schools.push_back(std::move(made->school));
-  }
-  return schools;
-}
-
-PingMask voxels_in_ping(std::span<const SchoolMasks> schools, std::int64_t ping_index) {
-  PingMask voxels;
-  for (const SchoolMasks& school : schools) {
-    const auto found =
-        std::lower_bound(school.pings.begin(), school.pings.end(), ping_index,
-                         [](const SchoolMasks::InPing& a, std::int64_t wanted) { return a.ping_index < wanted; });
-    if (found != school.pings.end() && found->ping_index == ping_index) voxels = unite(voxels, found->mask);
-  }
-  return voxels;
+  const JournalState state = fold(lines, {}, ground_of(engine, limits));
+  diagnostics.insert(diagnostics.end(), state.notes.begin(), state.notes.end());
+  return masks_of(state);
 }
 
 std::optional<std::int64_t> ping_at(const SurveyFiles& survey, const ObservationFiles& observation, TimeNs time) {

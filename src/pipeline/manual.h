@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -21,6 +24,14 @@ struct SeedKey {
   int sample = 0;
 };
 
+/// A school by one of its voxels: display names may change, this does not.
+struct SchoolKey {
+  TimeNs ping_time = 0;  ///< of the datagram
+  int channel = 0;
+  int sample = 0;
+  friend bool operator==(const SchoolKey&, const SchoolKey&) = default;
+};
+
 /// The command `propagate`: clicks on one ping, grown, joined and carried through time both ways. Its journal line holds
 /// everything it used, so that the recipe's later defaults do not change it.
 struct PropagateCommand {
@@ -31,11 +42,17 @@ struct PropagateCommand {
   PaperPropagationParams paper;
   TrackedPropagationParams tracked;
   std::int64_t reach = -1;  ///< pings to each side; -1 = as far as the observation goes
+  /// Pings to one side, where it differs: what a stopped propagation had reached.
+  std::optional<std::int64_t> reach_backward;
+  std::optional<std::int64_t> reach_forward;
+  /// Instead of seeds: a school is carried on from the mask that it has in this ping, over what it had on either side.
+  std::optional<SchoolKey> school;
 };
 
 [[nodiscard]] nlohmann::json to_json(const PropagateCommand& command);
 /// errors  format, bad_parameter: naming the member
-[[nodiscard]] Result<PropagateCommand> propagate_from_json(const nlohmann::json& args);
+/// ping_time  of the line: that of `school` where it names none
+[[nodiscard]] Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time = 0);
 
 /// A school that a human selected, and why its propagation ended on either side.
 struct ManualSchool {
@@ -44,19 +61,36 @@ struct ManualSchool {
   std::string note_forward;
 };
 
-/// Carries out one command on the ping of that index.
-/// taken   masks of schools that humans selected before, [school]: their voxels stay theirs
-/// errors  bad_parameter: the seed, in one line; those of the pings
-[[nodiscard]] Result<ManualSchool> propagate(Engine& engine, std::int64_t ping_index, const PropagateCommand& command,
-                                             std::span<const SchoolMasks> taken, PingReach limits);
+/// What commands need of an observation. Views: what they show outlives the commands.
+struct CommandGround {
+  PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
+  const Sector* sector = nullptr;
+  const BeamGrid* grid = nullptr;
+  std::vector<TimeNs> times;  ///< [ping_index], datagram times
+  PingReach limits;           ///< pings that may be visited
+  double human_share = 0.25;  ///< DetectParams::human_share
+  int least_pings = 1;        ///< a detected school of which humans left fewer is gone
+};
+[[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);
 
-/// Carries out all lines that concern the engine's observation, in order. A line whose ping is not in it is passed over;
-/// one that cannot be applied is a diagnostic decision_lost.
+/// Grows from all seeds and joins what they give.
+/// errors  bad_parameter: the seed, in one line
+[[nodiscard]] Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping,
+                                          std::span<const SeedKey> seeds, const TransferFunction& growth_curve,
+                                          const GrowParams& params);
+
+/// Voxels of a ping that are others'.
+using TakenVoxels = std::function<PingMask(std::int64_t ping_index)>;
+
+/// Carries a mask of one ping through time.
+/// errors  bad_parameter: an empty mask; those of the pings
+[[nodiscard]] Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
+                                         const PingMask& selection, const PropagateCommand& command,
+                                         const TakenVoxels& taken);
+
+/// Masks of the schools that the lines make where nothing was detected; see pipeline/commands/state.h.
 [[nodiscard]] std::vector<SchoolMasks> replay(Engine& engine, std::span<const JournalLine> lines, PingReach limits,
                                               Diagnostics& diagnostics);
-
-/// All voxels of some schools in one ping.
-[[nodiscard]] PingMask voxels_in_ping(std::span<const SchoolMasks> schools, std::int64_t ping_index);
 
 /// Index of the ping with this datagram time; empty where there is none.
 [[nodiscard]] std::optional<std::int64_t> ping_at(const SurveyFiles& survey, const ObservationFiles& observation,

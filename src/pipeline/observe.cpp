@@ -7,9 +7,13 @@
 #include <atomic>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include "base/hash.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/commands/state.h"
 #include "pipeline/earlier.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
@@ -37,28 +41,7 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
   }
 }
 
-/// What a human selected is his: a detection that shares much with it is the same fish, not a school on its rim; of one
-/// that only touches it the rest stays.
-std::vector<Detection> beside_humans(std::vector<Detection> detections, const PingMask& humans,
-                                     View3<const SampleFlags> flags, const Sector& sector, double same_share) {
-  std::vector<Detection> kept;
-  for (Detection& detection : detections) {
-    const auto shared = static_cast<double>(overlap(detection.mask, humans));
-    const auto smaller = static_cast<double>(std::min(detection.mask.voxels(), humans.voxels()));
-    if (shared > 0.0 && shared >= same_share * smaller) continue;
-    if (shared > 0.0) {
-      Detection rest = describe_mask(subtract(detection.mask, humans), flags, sector);
-      rest.reference_db = detection.reference_db;
-      rest.threshold_db = detection.threshold_db;
-      detection = std::move(rest);
-    }
-    kept.push_back(std::move(detection));
-  }
-  return kept;
-}
-
-std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<const SchoolMasks> taken,
-                                     ObservationProduct& product, Work& work) {
+std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
@@ -72,11 +55,8 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, std::span<
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
-      const PingMask humans = voxels_in_ping(taken, ping_index);
-      detected.detections =
-          beside_humans(detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
-                               ping->background(), engine.recipe().detect),
-                        humans, ping->filtered->flags.view(), engine.sector(), engine.recipe().detect.human_share);
+      detected.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
+                                   ping->background(), engine.recipe().detect);
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }
@@ -110,13 +90,15 @@ std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const D
   return schools;
 }
 
-/// Events name schools by the tracker's numbers; rows by those they got among all schools.
+/// Events name schools by the tracker's numbers; rows by those they got among all schools. What happened to a school that
+/// a human took away is no event any more.
 void note_events(const std::vector<TrackEvent>& events, const std::vector<SchoolMasks>& schools,
                  ObservationProduct& product) {
   std::map<std::int64_t, std::int64_t> number;
   for (const SchoolMasks& school : schools) number[school.track_id] = school.decided.school_id;
   number[0] = 0;
   for (TrackEvent event : events) {
+    if (!number.contains(event.school_id) || !number.contains(event.other_id)) continue;
     event.school_id = number[event.school_id];
     event.other_id = number[event.other_id];
     product.diagnostics.push_back({DiagnosticCode::track_event, "", -1, event.ping_index, to_text(event)});
@@ -174,6 +156,31 @@ void number(std::vector<SchoolMasks>& schools, const Engine& engine, const Obser
   product.next_school_id = keep_numbers(schools, engine.grid(), times, *options.earlier);
 }
 
+/// Whether a line says something about pings of the observation.
+bool concerns(const JournalLine& line, const SurveyFiles& survey, const ObservationFiles& observation) {
+  if (observation.pings.empty()) return false;
+  const TimeNs begin = survey.entry(observation.pings.front()).time;
+  const TimeNs end = survey.entry(observation.pings.back()).time;
+  const std::vector<TimeSpan> spans = times_of(line);
+  return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {
+    if (span.first == span.last) return ping_at(survey, observation, span.first).has_value();
+    return span.first <= end && span.last >= begin;
+  });
+}
+
+/// Pings that a human called bad have no place in any table.
+void mark_bad_pings(std::span<const JournalLine> journal, std::span<const TimeNs> times, ObservationProduct& product) {
+  JournalState said;
+  for (const JournalLine& line : journal) {
+    const auto act = act_of(line);
+    const auto* bad = act ? std::get_if<BadPingsCommand>(&act->command) : nullptr;
+    if (bad != nullptr) said.bad_pings.push_back(*bad);
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (is_bad(said, times[i])) product.pings[i].bad = true;
+  }
+}
+
 }  // namespace
 
 std::string source_of(const ObservationFiles& observation) {
@@ -203,9 +210,9 @@ std::string observation_key(const SurveyFiles& survey, const ObservationFiles& o
   add_number(hasher, static_cast<double>(reach.first));
   add_number(hasher, static_cast<double>(reach.last));
   for (const JournalLine& line : options.journal) {
-    if (!ping_at(survey, observation, line.ping_time)) continue;
+    if (!concerns(line, survey, observation)) continue;
     JournalLine undated = line;
-    undated.decided = 0;  // when a choice was made does not change what it gives
+    if (line.command == "propagate") undated.decided = 0;  // no column tells when
     hasher.add(journal_text(undated));
   }
   return to_hex(hasher.value());
@@ -225,6 +232,7 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   product.input_hash = observation_key(survey, observation, recipe, options);
   product.input_files = input_files(survey, observation);
   product.pings = observation.navigation;
+  mark_bad_pings(options.journal, datagram_times(survey, observation), product);
   if (observation.continues_cut) {
     // On the clock of the product's own pings.
     product.cut_after = observation.cut_after + (product.pings.front().time - survey.ping_time(observation, 0));
@@ -252,13 +260,16 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   if (!observation.grid || reach.last < reach.first) return product;
   Engine engine(survey, observation, recipe);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
-  std::vector<SchoolMasks> schools = replay(engine, options.journal, reach, product.diagnostics);
+  JournalState state;
   std::vector<TrackEvent> events;
   if (recipe.automatic) {
-    const std::vector<DetectedPing> detected = detect_all(engine, reach, schools, product, work);
+    const std::vector<DetectedPing> detected = detect_all(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    for (SchoolMasks& school : tracked_schools(engine, detected, events)) schools.push_back(std::move(school));
+    state = state_of_detected(numbered(tracked_schools(engine, detected, events), engine.grid()));
   }
+  state = fold(options.journal, std::move(state), ground_of(engine, reach));
+  product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
+  std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
   note_events(events, schools, product);
   if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);

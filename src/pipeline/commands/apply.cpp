@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "pipeline/commands/edit.h"
+#include "pipeline/commands/state.h"
+
+namespace sonar {
+namespace {
+
+std::string place_of(const SchoolKey& key) {
+  return fmt::format("{}, channel {}, sample {}", iso_time(key.ping_time), key.channel, key.sample);
+}
+
+/// What a propagation replaces of a school that is carried on: the sides that it was asked for.
+std::vector<SchoolMasks::InPing> kept_pings(const SchoolMasks& school, std::int64_t from,
+                                            const PropagateCommand& command, PingReach limits) {
+  const bool backward = command.reach_backward.value_or(command.reach) != 0;
+  const bool forward = command.reach_forward.value_or(command.reach) != 0;
+  std::vector<SchoolMasks::InPing> kept;
+  for (const SchoolMasks::InPing& there : school.pings) {
+    const bool within = there.ping_index >= limits.first && there.ping_index <= limits.last;
+    const bool replaced = there.ping_index == from || (there.ping_index < from ? backward : forward);
+    if (!within || !replaced) kept.push_back(there);
+  }
+  return kept;
+}
+
+void note_ends(Edit& edit, const ManualSchool& made) {
+  for (const auto& [side, note] : {std::pair("backwards", made.note_backward), {"forwards", made.note_forward}}) {
+    if (!note.empty()) edit.note(DiagnosticCode::propagation_ended, fmt::format("{}: {}", side, note));
+  }
+}
+
+Result<PingMask> selection_of(const Edit& edit, const PropagateCommand& command, std::optional<std::size_t> school) {
+  if (school) {
+    if (in_ping(edit.masks(*school), edit.ping()) == nullptr) {
+      return fail(ErrorCode::bad_parameter, "the school is not in this ping");
+    }
+    return edit.mask(*school, edit.ping());
+  }
+  auto ping = edit.ground().ping(edit.ping());
+  if (!ping) return pass_on(ping);
+  ping->taken = edit.taken(edit.ping(), {});
+  return grow_seeds(edit.ground(), *ping, command.seeds, command.growth_curve, command.grow);
+}
+
+Result<void> apply_to_ping(Edit& edit, const Command& command) {
+  return std::visit(
+      [&](const auto& one) -> Result<void> {
+        using C = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<C, EventCommand> || std::is_same_v<C, BadPingsCommand>) {
+          return {};
+        } else {
+          return carry_out(edit, one);
+        }
+      },
+      command);
+}
+
+/// Acts that say something about times, not about the ping that they were done on.
+bool about_times(const Command& command) {
+  return std::holds_alternative<EventCommand>(command) || std::holds_alternative<BadPingsCommand>(command) ||
+         std::holds_alternative<DecideCommand>(command);
+}
+
+bool overlaps(const CommandGround& ground, TimeNs first, TimeNs last) {
+  return !ground.times.empty() && first <= ground.times.back() && last >= ground.times.front();
+}
+
+}  // namespace
+
+Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
+  std::optional<std::size_t> school;
+  if (command.school) {
+    const auto found = edit.find(*command.school);
+    if (!found) return pass_on(found);
+    school = *found;
+  }
+  const auto selection = selection_of(edit, command, school);
+  if (!selection) return pass_on(selection);
+  const TakenVoxels taken = [&](std::int64_t ping_index) { return edit.taken(ping_index, school); };
+  auto made = carry(edit.ground(), edit.ping(), *selection, command, taken);
+  if (!made) return pass_on(made);
+  note_ends(edit, *made);
+  const std::vector<SchoolMasks::InPing> carried = made->school.pings;
+  if (school) {
+    edit.touch(*school);
+    edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), command, edit.ground().limits));
+    for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
+  } else {
+    school = edit.add(std::move(made->school));
+  }
+  for (const auto& there : carried) edit.take(there.ping_index, there.mask, *school, true);
+  return {};
+}
+
+Result<void> carry_out(Edit& edit, const DecideCommand& command) {
+  int lost = 0;
+  int found = 0;
+  for (const Decision& decision : command.decisions) {
+    if (!ping_at(edit.ground(), decision.school.ping_time)) continue;  // another observation's
+    if (const auto school = edit.find(decision.school)) {
+      edit.decide(*school, decision);
+      ++found;
+    } else {
+      edit.note(DiagnosticCode::decision_lost,
+                fmt::format("{}: there is no school any more", place_of(decision.school)));
+      ++lost;
+    }
+  }
+  if (lost > 0 && found == 0 && command.decisions.size() == 1) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("{}: there is no school any more", place_of(command.decisions.front().school)));
+  }
+  return {};
+}
+
+Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
+  const auto ping = ping_at(ground, act.ping_time);
+  if (!ping && !about_times(act.command)) return state;
+  Edit edit(act, ping.value_or(-1), state, ground);
+  if (const auto* event = std::get_if<EventCommand>(&act.command)) {
+    if (overlaps(ground, event->time, event->time)) edit.add_event(*event);
+  } else if (const auto* bad = std::get_if<BadPingsCommand>(&act.command)) {
+    if (overlaps(ground, bad->first, bad->last)) edit.add_bad(*bad);
+  }
+  if (auto done = apply_to_ping(edit, act.command); !done) {
+    Error error = done.error();
+    if (error.where.ping < 0) error.where.ping = ping.value_or(-1);
+    return tl::unexpected<Error>(std::move(error));
+  }
+  return edit.done();
+}
+
+JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& ground) {
+  for (const JournalLine& line : lines) {
+    const auto spans = times_of(line);
+    const bool concerns = std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {
+      return span.first == span.last ? ping_at(ground, span.first).has_value()
+                                     : overlaps(ground, span.first, span.last);
+    });
+    const auto act = act_of(line);
+    auto next = act ? apply(*act, state, ground) : Result<JournalState>(pass_on(act));
+    if (next) {
+      state = std::move(*next);
+    } else if (concerns) {
+      state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(ground, line.ping_time).value_or(-1),
+                             fmt::format("journal line {} ({}): {}", line.n, line.command, next.error().text)});
+    }
+  }
+  return state;
+}
+
+}  // namespace sonar

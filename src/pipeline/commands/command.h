@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "base/time.h"
+#include "pipeline/journal.h"
+#include "pipeline/manual.h"
+
+namespace sonar {
+
+// What a human may do, one struct a journal command. A line's ping_time is the ping that it was done on; schools are
+// named by any one of their voxels. Each struct holds the outcome of a choice, never the way to it.
+
+/// Voxels of one channel, by their lasting keys.
+struct RunKey {
+  int channel = 0;
+  int sample = 0;  ///< the first
+  int count = 1;
+  friend bool operator==(const RunKey&, const RunKey&) = default;
+};
+
+/// What a growth does to a school.
+enum class GrowTo { school, add, take_away };
+inline constexpr std::array<std::string_view, 3> kGrowToNames{"new", "add", "take_away"};
+
+/// `grow`: clicks on one ping, grown and joined: a new school, or more or less of one that is there.
+struct GrowCommand {
+  GrowTo to = GrowTo::school;
+  GrowParams grow;
+  TransferFunction growth_curve;
+  std::vector<SeedKey> seeds;
+  std::optional<SchoolKey> school;  ///< for add and take_away
+};
+
+/// `brush`: voxels join a school, or make a new one; whoever had them loses them.
+struct BrushCommand {
+  std::vector<RunKey> runs;
+  std::optional<SchoolKey> school;  ///< empty = a new school
+};
+
+/// `erase`: voxels leave a school, or all schools of the ping.
+struct EraseCommand {
+  std::vector<RunKey> runs;
+  std::optional<SchoolKey> school;  ///< empty = every school
+};
+
+enum class Reshaping { fill_holes, smooth, largest_part };
+inline constexpr std::array<std::string_view, 3> kReshapingNames{"fill_holes", "smooth", "largest_part"};
+
+/// `fill_holes`, `smooth`, `largest_part`: of a school in the line's ping, or in all its pings.
+struct ReshapeCommand {
+  Reshaping what = Reshaping::fill_holes;
+  SchoolKey school;
+  bool all_pings = false;
+};
+
+/// `merge`: all become the first.
+struct MergeCommand {
+  std::vector<SchoolKey> schools;  ///< 2 or more
+};
+
+/// `split`: without a seed the line's ping and all later ones become a new school; with one the piece that holds it, and
+/// the pieces of other pings that lie upon it.
+struct SplitCommand {
+  SchoolKey school;
+  std::optional<SeedKey> seed;
+};
+
+/// `delete`: the school is no more.
+struct DeleteCommand {
+  SchoolKey school;
+};
+
+inline constexpr std::array<std::string_view, 4> kStatusNames{"unreviewed", "accepted", "corrected", "rejected"};
+
+/// One school's review. Members that are empty leave what is there.
+struct Decision {
+  SchoolKey school;
+  std::optional<std::string> status;  ///< one of kStatusNames
+  std::optional<std::string> species;
+  std::optional<std::string> comment;
+};
+
+/// `decide`, `species`, `comment`: one decision; `bulk_decide`: what a rule chose, school by school.
+struct DecideCommand {
+  std::vector<Decision> decisions;
+  std::string rule;  ///< of bulk_decide, for people
+};
+
+inline constexpr std::array<std::string_view, 4> kEventKindNames{"trawl", "station", "noise", "other"};
+
+/// `event`: a mark on the timeline.
+struct EventCommand {
+  std::string kind = "other";
+  TimeNs time = 0;  ///< datagram clock
+  std::string text;
+};
+
+/// `bad_ping`, `bad_interval`: pings of these times (datagram clock, both included) take no part in measures.
+struct BadPingsCommand {
+  TimeNs first = 0;
+  TimeNs last = 0;
+};
+
+using Command = std::variant<PropagateCommand, GrowCommand, BrushCommand, EraseCommand, ReshapeCommand, MergeCommand,
+                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand>;
+
+/// A command as a journal holds it.
+struct JournalAct {
+  std::int64_t n = 0;
+  TimeNs decided = 0;
+  std::string operator_name;
+  TimeNs ping_time = 0;
+  Command command;
+};
+
+/// Its name in the journal, "propagate" ...
+[[nodiscard]] std::string command_name(const Command& command);
+/// Members of a journal line's args.
+[[nodiscard]] nlohmann::json to_json(const Command& command);
+/// errors  format, bad_parameter: naming the member; unsupported: a command of another version
+[[nodiscard]] Result<Command> command_from_json(std::string_view name, const nlohmann::json& args, TimeNs ping_time);
+
+[[nodiscard]] JournalLine line_of(const JournalAct& act);
+/// errors  as command_from_json()
+[[nodiscard]] Result<JournalAct> act_of(const JournalLine& line);
+
+/// Where on the clock of the datagrams a line says something: its ping, the schools that it names, its interval.
+struct TimeSpan {
+  TimeNs first = 0;
+  TimeNs last = 0;
+};
+[[nodiscard]] std::vector<TimeSpan> times_of(const JournalLine& line);
+
+}  // namespace sonar

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/commands/state.h"
+#include "pipeline/commands/test_ground.h"
+#include "school/mask_edit.h"
+
+namespace sonar {
+namespace {
+
+using namespace test;  // NOLINT(google-build-using-namespace)
+
+constexpr int kSizeA = 3 * 3 * 8;
+
+SchoolKey key_a(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 33}; }
+SchoolKey key_b(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 47}; }
+SeedKey seed_a() { return {channel_at(2, 3), 33}; }
+
+Decision decision(const SchoolKey& school, std::optional<std::string> status, std::optional<std::string> species = {},
+                  std::optional<std::string> comment = {}) {
+  return {school, std::move(status), std::move(species), std::move(comment)};
+}
+
+PropagateCommand propagate_from(const SeedKey& seed) {
+  PropagateCommand command;
+  command.seeds = {seed};
+  return command;
+}
+
+/// One of every command, each of which can be carried out upon detected().
+std::vector<std::pair<int, Command>> every_command() {
+  GrowCommand grow;
+  grow.seeds = {seed_a()};
+  GrowCommand more = grow;
+  more.to = GrowTo::add;
+  more.school = key_b(3);
+  GrowCommand less = grow;
+  less.to = GrowTo::take_away;
+  less.school = key_a(3);
+  PropagateCommand on;
+  on.school = key_b(4);
+  on.reach_backward = 0;
+  const RunKey stroke{channel_at(2, 3), 38, 3};
+  return {{4, propagate_from(seed_a())},
+          {4, on},
+          {3, grow},
+          {3, more},
+          {3, less},
+          {3, BrushCommand{{stroke}, key_a(3)}},
+          {3, BrushCommand{{stroke}, {}}},
+          {3, EraseCommand{{{channel_at(2, 3), 31, 2}}, key_a(3)}},
+          {3, EraseCommand{{{channel_at(2, 3), 31, 20}}, {}}},
+          {3, ReshapeCommand{Reshaping::fill_holes, key_a(3), false}},
+          {3, ReshapeCommand{Reshaping::smooth, key_a(3), true}},
+          {3, ReshapeCommand{Reshaping::largest_part, key_b(3), true}},
+          {3, MergeCommand{{key_a(), key_b()}}},
+          {3, SplitCommand{key_a(), {}}},
+          {3, DeleteCommand{key_b()}},
+          {3, DecideCommand{{decision(key_a(), "accepted")}, ""}},
+          {3, DecideCommand{{decision(key_a(), {}, "herring")}, ""}},
+          {3, DecideCommand{{decision(key_a(), {}, {}, "near the \"wreck\"")}, ""}},
+          {3, DecideCommand{{decision(key_a(), "accepted"), decision(key_b(), "rejected")}, "5 pings or more"}},
+          {3, EventCommand{"trawl", ping_time(2), "haul 12"}},
+          {3, BadPingsCommand{ping_time(3), ping_time(3)}},
+          {3, BadPingsCommand{ping_time(5), ping_time(6)}}};
+}
+
+JournalLine line(std::int64_t n, int ping, const Command& command) {
+  return line_of({n, kBegin + n * kSecondNs, "someone", ping_time(ping), command});
+}
+
+/// Everything that a state says.
+std::string told(const JournalState& state) {
+  std::string text;
+  for (const auto& school : state.schools) {
+    const SchoolRow& row = school->masks.decided;
+    text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment +
+            row.operator_name + std::to_string(row.decided_utc) + (school->by_hand ? "h" : "d");
+    for (const auto& there : school->masks.pings) {
+      text += "|" + std::to_string(there.ping_index) + ":" + std::to_string(there.threshold_db);
+      for (const Run& run : there.mask.runs) {
+        text +=
+            " " + std::to_string(run.row) + "," + std::to_string(run.first_sample) + "," + std::to_string(run.count);
+      }
+      text.append(there.mask.confidence.begin(), there.mask.confidence.end());
+    }
+    text += "\n";
+  }
+  for (const auto& event : state.events) text += event.kind + event.text + std::to_string(event.time);
+  for (const auto& bad : state.bad_pings) text += std::to_string(bad.first) + "-" + std::to_string(bad.last);
+  for (const auto& note : state.notes) text += note.text + "\n";
+  return text;
+}
+
+JournalState after(const std::vector<std::pair<int, Command>>& acts) {
+  const SmallSea sea;
+  std::vector<JournalLine> lines;
+  for (const auto& [ping, command] : acts)
+    lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
+  return fold(lines, SmallSea::detected(), sea.ground());
+}
+
+const PingMask& mask_of(const JournalState& state, std::size_t school, std::int64_t ping) {
+  return in_ping(state.schools[school]->masks, ping)->mask;
+}
+
+TEST(Commands, EveryCommandIsReadBackAsItWasWritten) {
+  for (const auto& [ping, command] : every_command()) {
+    const JournalLine written = line(1, ping, command);
+    const auto read = act_of(written);
+    ASSERT_TRUE(read) << written.command << ": " << read.error().text;
+    const JournalLine again = line_of(*read);
+    EXPECT_EQ(again.command, written.command);
+    EXPECT_EQ(again.args, written.args) << written.command;
+    EXPECT_EQ(read->command.index(), command.index());
+  }
+}
+
+TEST(Commands, EveryCommandChangesTheStateAndUndoRestoresIt) {
+  const SmallSea sea;
+  const std::string before = told(SmallSea::detected());
+  for (const auto& [ping, command] : every_command()) {
+    const JournalLine act = line(1, ping, command);
+    JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
+    JournalLine redo{3, 0, "", "redo", 0, {{"target", 1}}};
+    const auto fold_all = [&](const std::vector<JournalLine>& lines) {
+      return fold(effective_lines(lines), SmallSea::detected(), sea.ground());
+    };
+    const JournalState done = fold_all({act});
+    for (const Diagnostic& note : done.notes) EXPECT_NE(note.code, DiagnosticCode::decision_lost) << note.text;
+    EXPECT_NE(told(done), before) << act.command;
+    EXPECT_EQ(told(fold_all({act, undo})), before) << act.command;
+    EXPECT_EQ(told(fold_all({act, undo, redo})), told(done)) << act.command;
+  }
+}
+
+TEST(Commands, FoldOfAPrefixAndTheRestIsTheFoldOfAll) {
+  const SmallSea sea;
+  std::vector<JournalLine> lines;
+  for (const auto& [ping, command] : every_command()) {
+    lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
+  }
+  const std::string all = told(fold(lines, SmallSea::detected(), sea.ground()));
+  for (std::size_t cut = 0; cut <= lines.size(); ++cut) {
+    const std::span<const JournalLine> every(lines);
+    const JournalState first = fold(every.first(cut), SmallSea::detected(), sea.ground());
+    ASSERT_EQ(told(fold(every.subspan(cut), first, sea.ground())), all) << "cut at " << cut;
+  }
+}
+
+TEST(Commands, NoVoxelEverBelongsToTwoSchools) {
+  const SmallSea sea;
+  JournalState state = SmallSea::detected();
+  for (const auto& [ping, command] : every_command()) {
+    const auto next = apply({1, 0, "", ping_time(ping), command}, state, sea.ground());
+    if (next) state = *next;
+    for (std::size_t a = 0; a < state.schools.size(); ++a) {
+      for (std::size_t b = a + 1; b < state.schools.size(); ++b) {
+        for (const auto& there : state.schools[a]->masks.pings) {
+          const auto* other = in_ping(state.schools[b]->masks, there.ping_index);
+          ASSERT_TRUE(other == nullptr || overlap(there.mask, other->mask) == 0) << command_name(command);
+        }
+      }
+    }
+  }
+}
+
+TEST(Commands, PropagationTakesTheDetectedSchoolsPlace) {
+  const JournalState state = after({{4, propagate_from(seed_a())}});
+  ASSERT_EQ(state.schools.size(), 2U);  // B, and A as the human's
+  EXPECT_EQ(state.schools[0]->number, 2);
+  EXPECT_EQ(state.schools[1]->masks.decided.origin, "manual");
+  EXPECT_EQ(state.schools[1]->masks.pings.size(), static_cast<std::size_t>(kPings));
+  EXPECT_EQ(mask_of(state, 1, 0).voxels(), static_cast<std::size_t>(kSizeA));
+}
+
+TEST(Commands, PropagationReachesAsFarAsItWasTold) {
+  PropagateCommand stopped = propagate_from(seed_a());
+  stopped.reach_backward = 1;
+  stopped.reach_forward = 2;
+  const JournalState state = after({{4, stopped}});
+  ASSERT_EQ(state.schools.size(), 3U);  // the detected A keeps the pings that were not reached
+  const auto& pings = state.schools[2]->masks.pings;
+  ASSERT_EQ(pings.size(), 4U);
+  EXPECT_EQ(pings.front().ping_index, 3);
+  EXPECT_EQ(pings.back().ping_index, 6);
+  EXPECT_EQ(state.schools[0]->masks.pings.size(), 5U);
+}
+
+TEST(Commands, CarryingOnReplacesOneSideAndKeepsTheOther) {
+  const RunKey stroke{channel_at(2, 5), 30, 8};  // one more beam by hand in ping 4
+  PropagateCommand on;
+  on.school = key_a(4);
+  on.reach_backward = 0;
+  const JournalState state = after({{4, BrushCommand{{stroke}, key_a(4)}}, {4, on}});
+  ASSERT_EQ(state.schools.size(), 2U);
+  EXPECT_EQ(state.schools[0]->masks.pings.size(), static_cast<std::size_t>(kPings));
+  EXPECT_EQ(mask_of(state, 0, 3), block_mask(kA));
+  EXPECT_EQ(mask_of(state, 0, 4).voxels(), static_cast<std::size_t>(kSizeA + 8));
+  EXPECT_EQ(mask_of(state, 0, 5).voxels(), static_cast<std::size_t>(kSizeA));  // the water there is no fish
+  EXPECT_EQ(state.schools[0]->masks.decided.status, "corrected");
+}
+
+TEST(Commands, GrowingAddsAndTakesAway) {
+  GrowCommand join;
+  join.to = GrowTo::add;
+  join.school = key_b(3);
+  join.seeds = {seed_a()};
+  const JournalState joined = after({{3, join}});
+  EXPECT_EQ(mask_of(joined, 1, 3).voxels(), static_cast<std::size_t>(2 * kSizeA));
+  EXPECT_EQ(in_ping(joined.schools[0]->masks, 3), nullptr);
+  GrowCommand away = join;
+  away.to = GrowTo::take_away;
+  const JournalState apart = after({{3, join}, {3, away}});
+  EXPECT_EQ(mask_of(apart, 1, 3), block_mask(kB));
+}
+
+TEST(Commands, BrushTakesVoxelsFromWhoeverHadThem) {
+  const RunKey stroke{channel_at(2, 3), 36, 10};  // two samples of A, two of B
+  const JournalState state = after({{3, BrushCommand{{stroke}, key_a(3)}}});
+  EXPECT_EQ(mask_of(state, 0, 3).voxels(), static_cast<std::size_t>(kSizeA + 8));
+  EXPECT_EQ(mask_of(state, 1, 3).voxels(), static_cast<std::size_t>(kSizeA - 2));
+  EXPECT_EQ(mask_of(state, 1, 2), block_mask(kB));
+}
+
+TEST(Commands, HoleIsErasedFilledAndGone) {
+  const EraseCommand hole{{{channel_at(2, 3), 33, 2}}, key_a(3)};
+  const SchoolKey rim{ping_time(3), channel_at(1, 2), 30};
+  const JournalState open = after({{3, hole}});
+  EXPECT_EQ(mask_of(open, 0, 3).voxels(), static_cast<std::size_t>(kSizeA - 2));
+  const JournalState filled = after({{3, hole}, {3, ReshapeCommand{Reshaping::fill_holes, rim, false}}});
+  EXPECT_EQ(mask_of(filled, 0, 3).voxels(), static_cast<std::size_t>(kSizeA));
+}
+
+TEST(Commands, MergeAndSplitInTimeAndInSpace) {
+  const MergeCommand merge{{key_a(), key_b()}};
+  const JournalState one = after({{3, merge}});
+  ASSERT_EQ(one.schools.size(), 1U);
+  EXPECT_EQ(mask_of(one, 0, 8), unite(block_mask(kA), block_mask(kB)));
+
+  const JournalState halves = after({{3, merge}, {3, SplitCommand{key_a(), {}}}});
+  ASSERT_EQ(halves.schools.size(), 2U);
+  EXPECT_EQ(halves.schools[0]->masks.pings.size(), 3U);
+  EXPECT_EQ(halves.schools[1]->masks.pings.front().ping_index, 3);
+
+  const JournalState again = after({{3, merge}, {3, SplitCommand{key_a(), SeedKey{channel_at(2, 3), 47}}}});
+  ASSERT_EQ(again.schools.size(), 2U);
+  for (int ping = 0; ping < kPings; ++ping) {
+    EXPECT_EQ(mask_of(again, 0, ping), block_mask(kA));
+    EXPECT_EQ(mask_of(again, 1, ping), block_mask(kB));
+  }
+}
+
+TEST(Commands, DecisionsFillTheHumanColumns) {
+  const JournalState state = after({{3, DecideCommand{{decision(key_b(5), "accepted", "herring", "dense")}, ""}}});
+  const SchoolRow& row = state.schools[1]->masks.decided;
+  EXPECT_EQ(row.status, "accepted");
+  EXPECT_EQ(row.species, "herring");
+  EXPECT_EQ(row.comment, "dense");
+  EXPECT_EQ(row.operator_name, "someone");
+  EXPECT_EQ(row.decided_utc, kBegin + kSecondNs);
+  EXPECT_EQ(row.origin, "automatic");
+  EXPECT_EQ(state.schools[0]->masks.decided.status, "unreviewed");
+}
+
+TEST(Commands, DecisionWithoutItsSchoolIsListedAndNeverMoved) {
+  SchoolKey nowhere = key_a();
+  nowhere.sample = 41;
+  const auto bulk = DecideCommand{{decision(nowhere, "accepted"), decision(key_b(), "rejected")}, "all"};
+  const JournalState state = after({{0, bulk}, {0, DeleteCommand{nowhere}}});
+  ASSERT_EQ(state.notes.size(), 2U);
+  for (const Diagnostic& note : state.notes) EXPECT_EQ(note.code, DiagnosticCode::decision_lost);
+  EXPECT_EQ(state.schools[0]->masks.decided.status, "unreviewed");
+  EXPECT_EQ(state.schools[1]->masks.decided.status, "rejected");
+  EXPECT_EQ(state.schools.size(), 2U);
+}
+
+TEST(Commands, BadPingsKeepTheirMasksButAreNotMeasured) {
+  const JournalState state = after({{0, BadPingsCommand{ping_time(2), ping_time(4)}}});
+  EXPECT_EQ(state.schools[0]->masks.pings.size(), 9U);
+  const auto measured = measured_masks_of(state, SmallSea{}.ground().times);
+  ASSERT_EQ(measured.size(), 2U);
+  EXPECT_EQ(measured[0].pings.size(), 6U);
+  for (const auto& there : measured[0].pings) EXPECT_TRUE(there.ping_index < 2 || there.ping_index > 4);
+}
+
+TEST(Commands, LinesOfOtherPingsChangeNothing) {
+  std::vector<JournalLine> lines;
+  for (const auto& [ping, command] : every_command()) {
+    if (std::holds_alternative<DecideCommand>(command) || std::holds_alternative<EventCommand>(command) ||
+        std::holds_alternative<BadPingsCommand>(command)) {
+      continue;
+    }
+    JournalLine other = line(1, ping, command);
+    other.ping_time += kSecondNs;
+    lines.push_back(other);
+  }
+  EXPECT_EQ(told(fold(lines, SmallSea::detected(), SmallSea{}.ground())), told(SmallSea::detected()));
+}
+
+TEST(Commands, SchoolIsFoundByTheVoxelThatNamesIt) {
+  const SmallSea sea;
+  const JournalState state = SmallSea::detected();
+  for (std::size_t i = 0; i < state.schools.size(); ++i) {
+    EXPECT_EQ(school_at(state, sea.ground(), key_of(state.schools[i]->masks, sea.ground())), i);
+  }
+}
+
+struct Hostile {
+  const char* command;
+  const char* args;
+  const char* says;
+};
+
+TEST(Commands, HostileLinesAreRefusedByTheNameOfTheMember) {
+  const std::vector<Hostile> lines{
+      {"paint", "{}", "does not know"},
+      {"grow", R"({})", "to: expected"},
+      {"grow", R"({"to":"new","seeds":[]})", "seeds: expected"},
+      {"grow", R"({"to":"new","seeds":[{"channel":-1,"sample":3}]})", "seeds[0]"},
+      {"grow", R"({"to":"new","seeds":[{"channel":1e99,"sample":3}]})", "seeds[0]"},
+      {"grow", R"({"to":"add","seeds":[{"channel":1,"sample":3}]})", "school: expected"},
+      {"grow", R"({"to":"new","seeds":[{"channel":1,"sample":3}],"grow":{"tolerance_db":1e9}})", "tolerance_db"},
+      {"brush", R"({"runs":"all"})", "runs: expected"},
+      {"brush", R"({"runs":[[1,2]]})", "runs[0]"},
+      {"brush", R"({"runs":[[1,2147483647,2147483647]]})", "runs[0]"},
+      {"erase", R"({"runs":[[1,2,0]]})", "runs[0]"},
+      {"smooth", R"({"school":7})", "school: expected"},
+      {"fill_holes", R"({"school":{"channel":1,"sample":2,"ping_time":"now"}})", "school.ping_time"},
+      {"merge", R"({"schools":[{"channel":1,"sample":2}]})", "schools: expected"},
+      {"merge", R"({"schools":[{"channel":1,"sample":2},{}]})", "schools[1]"},
+      {"split", R"({"school":{"channel":1,"sample":2},"seed":[]})", "seed: expected"},
+      {"delete", R"({})", "school: expected"},
+      {"decide", R"({"school":{"channel":1,"sample":2},"status":"maybe"})", "status: expected"},
+      {"decide", R"({"school":{"channel":1,"sample":2}})", "status, species or comment"},
+      {"species", R"({"school":{"channel":1,"sample":2},"species":"her\u0000ring"})", "control characters"},
+      {"bulk_decide", R"({"rule":"x","decisions":[3]})", "decisions[0]"},
+      {"event", R"({"kind":"party","time":1,"text":""})", "kind: expected"},
+      {"bad_interval", R"({"first":5,"last":4})", "last: lies before"},
+      {"propagate", R"({"seeds":[{"channel":1,"sample":2}],"reach_forward":"far"})", "reach_forward"}};
+  for (const Hostile& hostile : lines) {
+    const auto read = command_from_json(hostile.command, nlohmann::json::parse(hostile.args), 0);
+    ASSERT_FALSE(read) << hostile.command << hostile.args;
+    EXPECT_THAT(read.error().text, testing::HasSubstr(hostile.says));
+  }
+}
+
+TEST(Commands, WhatCannotBeDoneIsADiagnosticAndChangesNothing) {
+  GrowCommand ringing;
+  ringing.seeds = {{channel_at(2, 3), 2}};
+  GrowCommand nowhere;
+  nowhere.seeds = {{700, 33}};
+  PropagateCommand off;
+  off.school = key_a(3);
+  const std::vector<std::pair<int, Command>> acts{{3, ringing},
+                                                  {3, nowhere},
+                                                  {3, BrushCommand{{{channel_at(2, 3), 78, 3}}, {}}},
+                                                  {3, BrushCommand{{{channel_at(2, 3), 0, 3}}, {}}},
+                                                  {3, BrushCommand{{{99, 30, 3}}, key_a()}},
+                                                  {3, MergeCommand{{key_a(), key_a(2)}}},
+                                                  {0, SplitCommand{key_a(), {}}},
+                                                  {3, SplitCommand{key_a(), seed_a()}},
+                                                  {3, SplitCommand{key_a(), SeedKey{100000, 3}}},
+                                                  {3, EraseCommand{{{channel_at(0, 0), 0, 2'000'000'000}}, {}}}};
+  JournalState state = after(acts);
+  EXPECT_EQ(state.notes.size(), acts.size());
+  for (const Diagnostic& note : state.notes) EXPECT_EQ(note.code, DiagnosticCode::decision_lost);
+  state.notes.clear();
+  EXPECT_EQ(told(state), told(SmallSea::detected()));
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/commands/edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace sonar {
+namespace {
+
+/// Of a detected mask what a human's voxels leave.
+PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole, double same_share) {
+  const auto shared = static_cast<double>(overlap(mask, voxels));
+  const auto smaller = static_cast<double>(std::min(mask.voxels(), voxels.voxels()));
+  if (whole && shared >= same_share * smaller) return {};
+  return subtract(mask, voxels);
+}
+
+}  // namespace
+
+Result<std::size_t> Edit::find(const SchoolKey& key) const {
+  const auto found = school_at(state_, ground_, key);
+  if (found) return *found;
+  return fail(ErrorCode::bad_parameter,
+              fmt::format("there is no school at channel {}, sample {} of that ping", key.channel, key.sample));
+}
+
+Result<std::vector<Run>> Edit::rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const {
+  const std::vector<int> rows = ground_.grid->row_of_channel();
+  std::vector<Run> out;
+  for (const RunKey& run : runs) {
+    const auto channel = static_cast<std::size_t>(run.channel);
+    if (run.channel < 0 || channel >= rows.size() || rows[channel] < 0) {
+      return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", run.channel));
+    }
+    if (run.sample < 0 || run.count < 1 || run.count > shape.samples - run.sample) {
+      return fail(ErrorCode::bad_parameter, fmt::format("channel {} has no samples {} to {}", run.channel, run.sample,
+                                                        static_cast<std::int64_t>(run.sample) + run.count - 1));
+    }
+    out.push_back({rows[channel], run.sample, run.count});
+  }
+  return out;
+}
+
+PingMask Edit::taken(std::int64_t ping_index, std::optional<std::size_t> but) const {
+  PingMask voxels;
+  for (std::size_t i = 0; i < state_.schools.size(); ++i) {
+    if (i == but || !state_.schools[i]->by_hand) continue;
+    if (const auto* there = in_ping(masks(i), ping_index)) voxels = unite(voxels, there->mask);
+  }
+  return voxels;
+}
+
+const PingMask& Edit::mask(std::size_t school, std::int64_t ping_index) const {
+  static const PingMask none;
+  const auto* there = in_ping(masks(school), ping_index);
+  return there == nullptr ? none : there->mask;
+}
+
+StateSchool& Edit::writable(std::size_t school) {
+  auto copy = std::make_shared<StateSchool>(*state_.schools[school]);
+  StateSchool& changed = *copy;
+  state_.schools[school] = std::move(copy);
+  return changed;
+}
+
+std::size_t Edit::add(SchoolMasks masks) {
+  auto school = std::make_shared<StateSchool>();
+  school->number = state_.next_number++;
+  school->made_by = act_.n;
+  school->by_hand = true;
+  school->masks = std::move(masks);
+  school->masks.decided.operator_name = act_.operator_name;
+  state_.schools.push_back(std::move(school));
+  return state_.schools.size() - 1;
+}
+
+void Edit::touch(std::size_t school) {
+  StateSchool& changed = writable(school);
+  changed.by_hand = true;
+  SchoolRow& row = changed.masks.decided;
+  if (row.origin == "automatic") row.status = "corrected";
+  row.operator_name = act_.operator_name;
+  row.decided_utc = act_.decided;
+}
+
+void Edit::decide(std::size_t school, const Decision& decision) {
+  SchoolRow& row = writable(school).masks.decided;
+  if (decision.status) row.status = *decision.status;
+  if (decision.species) row.species = *decision.species;
+  if (decision.comment) row.comment = *decision.comment;
+  row.operator_name = act_.operator_name;
+  row.decided_utc = act_.decided;
+}
+
+void Edit::set_mask(std::size_t school, std::int64_t ping_index, PingMask mask, double threshold_db) {
+  std::vector<SchoolMasks::InPing>& pings = writable(school).masks.pings;
+  auto at = std::lower_bound(pings.begin(), pings.end(), ping_index,
+                             [](const auto& a, std::int64_t wanted) { return a.ping_index < wanted; });
+  const bool there = at != pings.end() && at->ping_index == ping_index;
+  if (mask.empty()) {
+    if (there) pings.erase(at);
+    return;
+  }
+  if (!there) at = pings.insert(at, {ping_index, {}, kUnknown});
+  at->mask = std::move(mask);
+  at->threshold_db = std::fmin(at->threshold_db, threshold_db);  // of two growths the lower; NaN counts as none
+}
+
+void Edit::set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings) {
+  writable(school).masks.pings = std::move(pings);
+}
+
+void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole) {
+  for (std::size_t i = 0; i < state_.schools.size(); ++i) {
+    const PingMask& there = mask(i, ping_index);
+    if (i == owner || overlap(there, voxels) == 0) continue;
+    const bool detected = !state_.schools[i]->by_hand;
+    PingMask left = left_beside(there, voxels, whole && detected, ground_.human_share);
+    if (detected) reduced_.push_back(state_.schools[i]->number);
+    set_mask(i, ping_index, std::move(left));
+  }
+}
+
+void Edit::note(DiagnosticCode code, std::string text) {
+  state_.notes.push_back({code, "", -1, ping_, std::move(text)});
+}
+
+void Edit::add_event(const EventCommand& event) {
+  const auto at = std::upper_bound(state_.events.begin(), state_.events.end(), event,
+                                   [](const EventCommand& a, const EventCommand& b) { return a.time < b.time; });
+  state_.events.insert(at, event);
+}
+
+JournalState Edit::done() {
+  std::erase_if(state_.schools, [&](const std::shared_ptr<const StateSchool>& school) {
+    const auto pings = static_cast<int>(school->masks.pings.size());
+    if (pings == 0) return true;
+    const bool reduced = std::find(reduced_.begin(), reduced_.end(), school->number) != reduced_.end();
+    return reduced && !school->by_hand && pings < ground_.least_pings;
+  });
+  return std::move(state_);
+}
+
+}  // namespace sonar

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "pipeline/commands/state.h"
+
+namespace sonar {
+
+/// One act at work on a copy of the state: what the commands have in common.
+class Edit {
+ public:
+  Edit(const JournalAct& act, std::int64_t ping_index, const JournalState& state, const CommandGround& ground)
+      : act_(act), ping_(ping_index), ground_(ground), state_(state) {}
+
+  [[nodiscard]] std::int64_t ping() const { return ping_; }
+  [[nodiscard]] const CommandGround& ground() const { return ground_; }
+  [[nodiscard]] const JournalState& state() const { return state_; }
+  [[nodiscard]] const SchoolMasks& masks(std::size_t school) const { return state_.schools[school]->masks; }
+  /// Index of the school that a key names. errors: bad_parameter
+  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key) const;
+  /// The act's runs by rows of the grid. errors: bad_parameter: a run outside the grid
+  [[nodiscard]] Result<std::vector<Run>> rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const;
+  /// Voxels that humans gave to other schools than this one.
+  [[nodiscard]] PingMask taken(std::int64_t ping_index, std::optional<std::size_t> but) const;
+  [[nodiscard]] const PingMask& mask(std::size_t school, std::int64_t ping_index) const;
+
+  /// A new school of the line's operator; nobody has decided about it yet.
+  std::size_t add(SchoolMasks masks);
+  /// Notes that a human changed a school; a detected one is `corrected` from now on.
+  void touch(std::size_t school);
+  void decide(std::size_t school, const Decision& decision);
+  /// An empty mask takes the ping away. threshold_db: NaN = as it was
+  void set_mask(std::size_t school, std::int64_t ping_index, PingMask mask, double threshold_db = kUnknown);
+  void set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings);
+  /// All other schools lose these voxels. whole: a detected mask that shares much with them is the same fish and goes.
+  void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
+  void note(DiagnosticCode code, std::string text);
+  void add_event(const EventCommand& event);
+  void add_bad(const BadPingsCommand& bad) { state_.bad_pings.push_back(bad); }
+  void remove(std::size_t school) { set_pings(school, {}); }
+
+  /// The state without the schools that have nothing left.
+  [[nodiscard]] JournalState done();
+
+ private:
+  StateSchool& writable(std::size_t school);
+
+  const JournalAct& act_;
+  std::int64_t ping_;
+  const CommandGround& ground_;
+  JournalState state_;
+  std::vector<std::int64_t> reduced_;  ///< numbers of detected schools of which a human took voxels
+};
+
+// One function a command; each is pure.
+[[nodiscard]] Result<void> carry_out(Edit& edit, const PropagateCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const GrowCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const BrushCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const EraseCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const ReshapeCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const MergeCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const SplitCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const DeleteCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const DecideCommand& command);
+
+}  // namespace sonar

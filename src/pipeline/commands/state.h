@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/result.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/journal.h"
+#include "pipeline/manual.h"
+#include "pipeline/measure_schools.h"
+
+namespace sonar {
+
+/// A school as the journal has left it.
+struct StateSchool {
+  std::int64_t number = 0;   ///< 1, 2, ... in the order in which schools came to be; for people
+  std::int64_t made_by = 0;  ///< the journal line that made it; 0 = detected
+  bool by_hand = false;      ///< a human made or changed its mask: other growths leave its voxels alone
+  SchoolMasks masks;
+};
+
+/// What one observation's journal says up to some line. A value: a later state shares what did not change.
+struct JournalState {
+  std::vector<std::shared_ptr<const StateSchool>> schools;  ///< rising number
+  std::int64_t next_number = 1;
+  std::vector<EventCommand> events;        ///< in time order
+  std::vector<BadPingsCommand> bad_pings;  ///< as they were said
+  Diagnostics notes;                       ///< decisions that could not be applied, why propagations ended
+};
+
+/// The state before the first line: what was detected.
+[[nodiscard]] JournalState state_of_detected(std::vector<SchoolMasks> schools);
+
+/// The state after one more act. An act on other pings changes nothing.
+/// errors   bad_parameter: what it needs is not there, in one line; those of the pings. The state stands.
+/// threads  pure, as far as ground.ping is
+[[nodiscard]] Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground);
+
+/// The state after all lines (undo and redo already worked in, see effective_lines()). A line that cannot be applied is a
+/// diagnostic decision_lost and changes nothing else.
+[[nodiscard]] JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& ground);
+
+/// Index in state.schools of the school that has a voxel; empty where nobody has it.
+[[nodiscard]] std::optional<std::size_t> school_at(const JournalState& state, const CommandGround& ground,
+                                                   const SchoolKey& key);
+/// A voxel that names a school: of its middle ping one of the surest.
+[[nodiscard]] SchoolKey key_of(const SchoolMasks& school, const CommandGround& ground);
+
+/// Index of the ping with this datagram time; empty where there is none within the ground's limits.
+[[nodiscard]] std::optional<std::int64_t> ping_at(const CommandGround& ground, TimeNs time);
+[[nodiscard]] bool is_bad(const JournalState& state, TimeNs ping_time);
+
+[[nodiscard]] std::vector<SchoolMasks> masks_of(const JournalState& state);
+/// The same without bad pings: what is measured.
+[[nodiscard]] std::vector<SchoolMasks> measured_masks_of(const JournalState& state, std::span<const TimeNs> times);
+
+/// A school's mask in a ping; null where it has none.
+[[nodiscard]] const SchoolMasks::InPing* in_ping(const SchoolMasks& school, std::int64_t ping_index);
+
+}  // namespace sonar

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/units.h"
+#include "geo/sector.h"
+#include "pipeline/commands/state.h"
+
+// A small still sea for tests of commands: 6 fans, 8 beams, 80 samples, 9 pings two seconds apart. Two schools of -40 dB
+// lie in -90 dB of water in every ping: A and B, six samples apart. Channels count
+// against the rows.
+namespace sonar::test {
+
+inline constexpr int kFans = 6;
+inline constexpr int kBeams = 8;
+inline constexpr int kSamples = 80;
+inline constexpr int kPings = 9;
+inline constexpr TimeNs kBegin = 1'600'000'000 * kSecondNs;
+
+struct Block {
+  int first_fan, last_fan, first_beam, last_beam, first_sample, last_sample;
+};
+inline constexpr Block kA{1, 3, 2, 4, 30, 37};
+inline constexpr Block kB{1, 3, 2, 4, 44, 51};
+
+inline TimeNs ping_time(int ping) { return kBegin + 2 * ping * kSecondNs; }
+inline int channel_at(int fan, int beam) { return kFans * kBeams - 1 - (fan * kBeams + beam); }
+
+inline BeamGrid small_grid() {
+  BeamGrid grid;
+  for (int f = 0; f < kFans; ++f) grid.elevation_deg.push_back(-30.0 + 5.0 * f);
+  for (int b = 0; b < kBeams; ++b) grid.azimuth_deg.push_back(255.0 + 4.0 * b);
+  grid.frequency_hz.assign(kFans, 90000.0);
+  for (int row = 0; row < kFans * kBeams; ++row) grid.channel.push_back(kFans * kBeams - 1 - row);
+  grid.vertical_width_deg.assign(kFans * kBeams, 6.0);
+  grid.horizontal_width_deg.assign(kFans * kBeams, 4.0);
+  return grid;
+}
+
+inline std::shared_ptr<const Volume> small_sea() {
+  const Shape3 shape{kFans, kBeams, kSamples};
+  auto volume = std::make_shared<Volume>(Volume{
+      Array3<std::int16_t>(shape, static_cast<std::int16_t>(counts_from_db(-90.0))), Array3<SampleFlags>(shape)});
+  for (const Block& block : {kA, kB}) {
+    for (int f = block.first_fan; f <= block.last_fan; ++f) {
+      for (int b = block.first_beam; b <= block.last_beam; ++b) {
+        for (int s = block.first_sample; s <= block.last_sample; ++s) {
+          volume->counts(f, b, s) = static_cast<std::int16_t>(counts_from_db(-40.0));
+        }
+      }
+    }
+  }
+  for (int row = 0; row < kFans * kBeams; ++row) {
+    for (int s = 0; s < 5; ++s) volume->flags.view().row(row)[static_cast<std::size_t>(s)] = SampleFlags::near_field;
+  }
+  return volume;
+}
+
+/// All voxels of a block, confidence 1.
+inline PingMask block_mask(const Block& block) {
+  PingMask mask;
+  for (int f = block.first_fan; f <= block.last_fan; ++f) {
+    for (int b = block.first_beam; b <= block.last_beam; ++b) {
+      const int count = block.last_sample - block.first_sample + 1;
+      mask.runs.push_back({f * kBeams + b, block.first_sample, count});
+      mask.confidence.insert(mask.confidence.end(), static_cast<std::size_t>(count), 255);
+    }
+  }
+  return mask;
+}
+
+/// The ground and what it stands on.
+struct SmallSea {
+  BeamGrid grid = small_grid();
+  Sector sector = grid.sector({-0.2, 0.5, kSamples});
+  std::shared_ptr<const Volume> volume = small_sea();
+
+  [[nodiscard]] CommandGround ground() const {
+    CommandGround made;
+    made.ping = [this](std::int64_t ping_index) -> Result<FilteredPing> {
+      FilteredPing ping;
+      ping.volume = volume;
+      ping.placement.transducer = {60.0, 5.0};
+      ping.time = ping_time(static_cast<int>(ping_index));
+      return ping;
+    };
+    made.sector = &sector;
+    made.grid = &grid;
+    for (int i = 0; i < kPings; ++i) made.times.push_back(ping_time(i));
+    made.limits = {0, kPings - 1};
+    made.least_pings = 3;
+    return made;
+  }
+
+  /// A and B as a detection would have found them, in all pings.
+  [[nodiscard]] static JournalState detected() {
+    std::vector<SchoolMasks> schools(2);
+    for (int i = 0; i < kPings; ++i) {
+      schools[0].pings.push_back({i, block_mask(kA), -50.0});
+      schools[1].pings.push_back({i, block_mask(kB), -50.0});
+    }
+    schools[0].track_id = 1;
+    schools[1].track_id = 2;
+    return state_of_detected(std::move(schools));
+  }
+};
+
+}  // namespace sonar::test
