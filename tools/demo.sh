@@ -46,10 +46,19 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i
 echo "== against the known truth"
 "$sonarx" score "$folder/out" --truth "$folder/survey/truth"
 
+echo "== pictures"
+pictures=$folder/pictures
+mkdir -p "$pictures"
+"$sonarx" render survey-map "$folder/out" --depth-raster "$folder/survey/truth/depth.tif" --out "$pictures/survey-map.pdf"
+"$sonarx" render timeline "$folder/survey" "$folder/out" --whole-survey --out "$pictures/timeline.png"
+"$sonarx" render volume "$folder/survey" "$folder/out" --lighting --out "$pictures/volume.png"
+"$sonarx" render slice-top "$folder/survey" "$folder/out" --out "$pictures/slice-top.png"
+
 echo "== where it is"
 echo "raw survey         $folder/survey"
 echo "table of schools   $folder/out/schools.csv"
 echo "school by ping     $folder/out/school_pings.csv"
 echo "map for QGIS       $folder/out/survey.gpkg"
 echo "masks              $folder/out/products"
+echo "pictures           $pictures"
 echo "the program        $sonarx --help"
