@@ -18,9 +18,30 @@
 namespace sonar {
 namespace {
 
+/// What would be found out only after the drawing.
+Result<void> check_output(const RenderArguments& arguments) {
+  namespace fs = std::filesystem;
+  std::error_code absent;
+  for (const std::string& name : {arguments.out, arguments.difference}) {
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, absent)) {
+      return fail(ErrorCode::not_found, "no such folder to write to", {folder.string()});
+    }
+  }
+  if (!arguments.out.empty() && !is_picture_file(arguments.out)) {
+    return fail(ErrorCode::usage, "expected a name that ends in .png, .svg or .pdf", {arguments.out});
+  }
+  if (!arguments.reference.empty() && !fs::is_regular_file(arguments.reference, absent)) {
+    return fail(ErrorCode::not_found, "no reference picture; look at one and put it there first",
+                {arguments.reference});
+  }
+  return {};
+}
+
 Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) {
   const auto options = picture_options(arguments);
   if (!options) return pass_on(options);
+  if (auto possible = check_output(arguments); !possible) return pass_on(possible);
   std::optional<Recipe> recipe;
   if (!arguments.recipe.empty()) {
     auto named = named_recipe(arguments.recipe);
@@ -80,8 +101,11 @@ void add_render(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* verb = app.add_subcommand("render", "Draw slices, volumes, maps and timelines; needs no display");
   add_render_options(*verb, *arguments);
-  verb->callback([arguments, &run] {
+  verb->callback([arguments, verb, &run] {
     if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");
+    if (const std::string option = unsuited_option(*verb, arguments->kind); !option.empty()) {
+      throw CLI::ValidationError(option, arguments->kind + " does not know this option");
+    }
     run = [arguments] { return render_verb(*arguments); };
   });
 }

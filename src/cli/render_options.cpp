@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -13,6 +15,18 @@
 
 namespace sonar {
 namespace {
+
+/// A number in its range; CLI11's own check lets NaN pass.
+CLI::Validator between(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double value = 0.0;
+    const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = problem == std::errc() && after == text.data() + text.size() && std::isfinite(value);
+    if (number && value >= low && value <= high) return {};
+    return fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
+  };
+  return {check, fmt::format("[{:g} - {:g}]", low, high)};
+}
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
@@ -37,11 +51,19 @@ Result<std::array<double, count>> numbers(std::string_view option, const std::st
   return out;
 }
 
-Result<PixelSize> size_of(const std::string& text) {
+constexpr double kMostPixels = 64e6;
+
+Result<PixelSize> size_of(const std::string& text, double scale) {
   const auto sides = whole_numbers(text, 'x');
-  if (!sides || sides->size() != 2 || (*sides)[0] < 160 || (*sides)[1] < 120 || (*sides)[0] > 16384 ||
+  if (!sides || sides->size() != 2 || (*sides)[0] < 320 || (*sides)[1] < 240 || (*sides)[0] > 16384 ||
       (*sides)[1] > 16384) {
-    return fail(ErrorCode::usage, fmt::format("--size {}: expected WIDTHxHEIGHT from 160x120 to 16384x16384", text));
+    return fail(ErrorCode::usage, fmt::format("--size {}: expected WIDTHxHEIGHT from 320x240 to 16384x16384", text));
+  }
+  const double pixels = static_cast<double>((*sides)[0]) * static_cast<double>((*sides)[1]) * scale * scale;
+  if (pixels > kMostPixels) {
+    return fail(ErrorCode::usage,
+                fmt::format("--size {} at --scale {:g} makes {:.0f} million pixels; expected {:.0f} at most", text,
+                            scale, pixels / 1e6, kMostPixels / 1e6));
   }
   return PixelSize{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
 }
@@ -87,12 +109,12 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--ping", a.picture.ping, "Ping index; default: the first with a school, else the middle one");
   verb.add_option("--schools", a.schools, "School ids between commas; default: all");
   verb.add_flag("--no-masks{false}", a.picture.masks, "Leave schools out");
-  verb.add_flag("--filtered,!--unfiltered", a.picture.filtered,
-                "Noise removed or as recorded; default: volumes filtered, slices not");
+  auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");
+  verb.add_flag("--unfiltered", a.unfiltered, "As recorded; default of slices")->excludes(filtered);
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT, pixels")->capture_default_str();
   verb.add_option("--scale", a.scale, "Pixels per unit of --size: 2 for print or high-density screens")
-      ->check(CLI::Range(0.25, 8.0));
+      ->check(between(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   verb.add_option("--jobs", a.jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
 }
@@ -101,16 +123,14 @@ void add_colours(CLI::App& verb, RenderArguments& a) {
   std::vector<std::string> maps;
   for (const std::string_view name : colour_map_names()) maps.emplace_back(name);
   verb.add_option("--map", a.map, "Colour map")->check(CLI::IsMember(maps))->capture_default_str()->group("Colours");
-  verb.add_option("--low-db", a.picture.scale.low_db, "Display limit: the first colour begins here")
-      ->check(CLI::Range(-190.0, 100.0))
-      ->capture_default_str()
+  verb.add_option("--low-db", a.low_db, "Display limit: the first colour begins here; default -60, timeline -75")
+      ->check(between(-190.0, 100.0))
       ->group("Colours");
-  verb.add_option("--span-db", a.picture.scale.span_db, "From the first colour to the last")
-      ->check(CLI::Range(1.0, 200.0))
-      ->capture_default_str()
+  verb.add_option("--span-db", a.span_db, "From the first colour to the last; default 36")
+      ->check(between(1.0, 200.0))
       ->group("Colours");
   verb.add_option("--threshold-db", a.picture.scale.threshold_db, "Analysis threshold: nothing below it is shown")
-      ->check(CLI::Range(-200.0, 100.0))
+      ->check(between(-200.0, 100.0))
       ->group("Colours");
   verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of the map's")
       ->group("Colours");
@@ -123,10 +143,15 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--beam", a.picture.beam,
                   "slice-side: beam from 0, the most aft; default: through the largest school")
       ->group(group);
-  verb.add_option("--range-m", a.picture.range_m, "slice-range: slant range, m")->group(group);
-  verb.add_option("--depth-m", a.picture.plane.depth_m, "slice-plane: horizontal, at this depth")->group(group);
+  verb.add_option("--range-m", a.picture.range_m, "slice-range: slant range, m")
+      ->check(between(-1e6, 1e6))
+      ->group(group);
+  verb.add_option("--depth-m", a.picture.plane.depth_m, "slice-plane: horizontal, at this depth")
+      ->check(between(-1e6, 1e6))
+      ->group(group);
   verb.add_option("--bearing-deg", a.picture.plane.bearing_deg,
                   "slice-plane: vertical through the sonar along a true bearing")
+      ->check(between(-1e6, 1e6))
       ->group(group);
   verb.add_option("--through", a.plane_through, "slice-plane: vertical through X,Y,X,Y (m towards bow and starboard)")
       ->group(group);
@@ -144,6 +169,7 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--first-hit-db", a.picture.first_hit_db, "first-hit: Sv of the surface")
+      ->check(between(-200.0, 100.0))
       ->capture_default_str()
       ->group(group);
   verb.add_flag("--lighting", a.picture.lighting, "Light by the gradient of Sv in metres")->group(group);
@@ -151,19 +177,19 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->group(group);
   verb.add_option("--target", a.target, "What the camera looks at, X,Y,Z")->group(group);
   verb.add_option("--orbit-deg", a.picture.orbit_deg, "Turn the camera about its target")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(between(-360.0, 360.0))
       ->group(group);
   verb.add_option("--rise-deg", a.picture.rise_deg, "Lift the camera about its target")
-      ->check(CLI::Range(-180.0, 180.0))
+      ->check(between(-180.0, 180.0))
       ->group(group);
-  verb.add_option("--zoom", a.picture.zoom, "Above 1: nearer")->check(CLI::Range(0.01, 100.0))->group(group);
+  verb.add_option("--zoom", a.picture.zoom, "Above 1: nearer")->check(between(0.01, 100.0))->group(group);
   verb.add_flag("--masks-alone{false}", a.picture.mask_style.data_too, "Schools' masks without the data")->group(group);
   verb.add_option("--core", a.picture.mask_style.core_at, "Confidence from which a voxel is core")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->capture_default_str()
       ->group(group);
   verb.add_option("--fuzzy", a.picture.mask_style.fuzzy_above, "Confidence of the fuzzy area's surface")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->group(group);
   verb.add_option("--table-entries", a.picture.table_entries, "Steps of the transfer function's table")
       ->check(CLI::Range(2, kMostTableEntries))
@@ -173,6 +199,9 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->group(group);
+  verb.add_option("--seconds", a.picture.seconds, "No further frame is begun after this time; 0 = no limit")
+      ->check(between(0.0, 1e6))
+      ->group(group);
   verb.add_option("--renderer", a.renderer, "auto, cpu or gl")
       ->check(CLI::IsMember({"auto", "cpu", "gl"}))
       ->capture_default_str()
@@ -180,7 +209,7 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
   verb.add_flag("--no-context{false}", a.picture.context, "Without frame, rings, sea surface, ship and axes")
       ->group(group);
   verb.add_option("--ship-length-m", a.picture.ship_length_m, "Length of the drawn ship")
-      ->check(CLI::Range(1.0, 500.0))
+      ->check(between(1.0, 500.0))
       ->capture_default_str()
       ->group(group);
 }
@@ -212,11 +241,11 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")
       ->group("Comparing");
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(between(0.0, 255.0))
       ->capture_default_str()
       ->group("Comparing");
   verb.add_option("--mean-difference", a.mean_difference, "Allowed mean difference, 0..255")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(between(0.0, 255.0))
       ->capture_default_str()
       ->group("Comparing");
   verb.add_option("--difference", a.difference, "Write what differs as a PNG")->group("Comparing");
@@ -227,10 +256,66 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   add_maps(verb, a);
 }
 
+std::string unsuited_option(const CLI::App& verb, const std::string& kind) {
+  struct Suits {
+    const char* option;
+    const char* kinds;  ///< each begins one of these
+  };
+  constexpr const char* kSlices = "slice-";
+  static constexpr std::array<Suits, 27> kSuits{{
+      {"--fan", "slice-top"},
+      {"--beam", "slice-side"},
+      {"--range-m", "slice-range"},
+      {"--depth-m", "slice-plane"},
+      {"--bearing-deg", "slice-plane"},
+      {"--through", "slice-plane"},
+      {"--point", "slice-plane"},
+      {"--normal", "slice-plane"},
+      {"--north-up", kSlices},
+      {"--grid", kSlices},
+      {"--mode", "volume"},
+      {"--first-hit-db", "volume"},
+      {"--lighting", "volume"},
+      {"--eye", "volume"},
+      {"--target", "volume"},
+      {"--orbit-deg", "volume"},
+      {"--rise-deg", "volume"},
+      {"--zoom", "volume"},
+      {"--masks-alone", "volume"},
+      {"--fuzzy", "volume"},
+      {"--table-entries", "volume"},
+      {"--frames", "volume"},
+      {"--seconds", "volume"},
+      {"--renderer", "volume"},
+      {"--neighbours", "propagation"},
+      {"--side", "propagation"},
+      {"--depth-raster", "volume survey-map"},
+  }};
+  const auto suits = [&kind](std::string_view kinds) {
+    for (std::size_t at = 0; at < kinds.size();) {
+      const std::size_t end = std::min(kinds.find(' ', at), kinds.size());
+      if (kind.starts_with(kinds.substr(at, end - at))) return true;
+      at = end + 1;
+    }
+    return false;
+  };
+  for (const Suits& one : kSuits) {
+    if (verb.get_option(one.option)->count() > 0 && !suits(one.kinds)) return one.option;
+  }
+  for (const char* option : {"--along-log", "--maximum", "--whole-survey"}) {
+    if (verb.get_option(option)->count() > 0 && kind != "timeline") return option;
+  }
+  return {};
+}
+
 Result<PictureOptions> picture_options(const RenderArguments& arguments) {
   PictureOptions out = arguments.picture;
-  const auto size = size_of(arguments.size);
+  const auto size = size_of(arguments.size, arguments.scale);
   if (!size) return pass_on(size);
+  out.scale.low_db = arguments.low_db.value_or(out.scale.low_db);
+  out.scale.span_db = arguments.span_db.value_or(out.scale.span_db);
+  if (arguments.filtered || arguments.unfiltered) out.filtered = arguments.filtered;
+  out.limits_given = arguments.low_db || arguments.span_db;
   out.size = *size;
   out.scale.map = colour_map_named(arguments.map).value_or(ColourMapName::ek500);
   if (!arguments.transfer.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct RenderArguments {
   std::string size = "1200x900";
   double scale = 1.0;
   std::string map = "ek500";
+  bool filtered = false;
+  bool unfiltered = false;
+  std::optional<double> low_db;
+  std::optional<double> span_db;
   std::string transfer;
   std::string plane_through;
   std::string plane_point;
@@ -41,6 +46,9 @@ struct RenderArguments {
 
 /// Adds every option of the verb, in groups.
 void add_render_options(CLI::App& verb, RenderArguments& arguments);
+
+/// The first option given that this kind of picture does not know; empty where all suit.
+[[nodiscard]] std::string unsuited_option(const CLI::App& verb, const std::string& kind);
 
 /// The texts turned into values.
 /// errors  usage, naming the option and what was expected; as read_transfer_function()

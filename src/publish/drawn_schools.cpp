@@ -6,14 +6,11 @@
 #include <algorithm>
 
 namespace sonar {
-namespace {
 
 bool wanted(std::int64_t school_id, const PictureOptions& options) {
   return options.schools.empty() ||
          std::find(options.schools.begin(), options.schools.end(), school_id) != options.schools.end();
 }
-
-}  // namespace
 
 Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options) {
   const std::int64_t count = observation.pings();
@@ -61,6 +58,15 @@ std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks,
   }
   const auto nearest = [count](double sum) { return static_cast<int>(sum / count + 0.5); };
   return MaskMiddle{nearest(fan), nearest(beam), nearest(sample)};
+}
+
+ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options) {
+  ObservationProduct chosen = product;
+  const auto unwanted = [&](std::int64_t id) { return !options.masks || !wanted(id, options); };
+  std::erase_if(chosen.schools, [&](const SchoolRow& row) { return unwanted(row.school_id); });
+  std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
+  std::erase_if(chosen.masks, [&](const SchoolMask& mask) { return unwanted(mask.school_id); });
+  return chosen;
 }
 
 Result<void> require_schools(const DrawnObservation& observation, const PictureOptions& options) {

@@ -10,6 +10,9 @@
 
 namespace sonar {
 
+/// Whether the options ask for a school.
+[[nodiscard]] bool wanted(std::int64_t school_id, const PictureOptions& options);
+
 /// The ping to draw: the one asked for, else the first with a school that is drawn, else the middle one.
 /// errors  usage: no such ping
 [[nodiscard]] Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options);
@@ -24,6 +27,9 @@ struct MaskMiddle {
   int sample = 0;
 };
 [[nodiscard]] std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams);
+
+/// The product with the schools that the options ask for; rows and masks of the others are left out.
+[[nodiscard]] ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options);
 
 /// errors  usage: a school that the observation has not
 [[nodiscard]] Result<void> require_schools(const DrawnObservation& observation, const PictureOptions& options);

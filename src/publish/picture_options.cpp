@@ -26,7 +26,8 @@ Theme theme_of(const PictureOptions& options) {
 
 Result<TransferFunction> view_curve(const PictureOptions& options) {
   if (options.transfer) return *options.transfer;
-  return transfer_function(options.scale);
+  // Strong enough that a school some tens of metres thick is opaque at its heart.
+  return transfer_function(options.scale, 0.9);
 }
 
 SvColours colours_of(const PictureOptions& options) {

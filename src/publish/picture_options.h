@@ -59,6 +59,7 @@ struct PictureOptions {
   PixelSize size{1200, 900};
   bool dark = false;
   SvScale scale;
+  bool limits_given = false;  ///< scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
   std::optional<int> ping;                   ///< empty = the first with a school, else the middle one
   std::vector<std::int64_t> schools;         ///< empty = all
@@ -86,7 +87,8 @@ struct PictureOptions {
   bool lighting = false;
   MaskStyle mask_style;
   int table_entries = kMostTableEntries;
-  int frames = 8;  ///< jittered frames that are averaged; 0 = one plain frame
+  int frames = 8;        ///< jittered frames that are averaged; 0 = one plain frame
+  double seconds = 0.0;  ///< no new frame is begun after this time; 0 = no limit
   RendererChoice renderer = RendererChoice::automatic;
   bool context = true;  ///< sector frame, rings, sea surface, ship, axes
   double ship_length_m = 60.0;

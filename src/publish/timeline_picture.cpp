@@ -16,9 +16,14 @@ namespace {
 constexpr std::int64_t kAtOnce = 32;
 
 /// Columns of every ping; empty for those that cannot be read.
-Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation, Work& work) {
+Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation, const PictureOptions& options,
+                                                  Work& work) {
   Engine* engine = observation.engine();
+  if (engine == nullptr && observation.has_raw()) return pass_on(observation.sector());
   if (engine == nullptr) return std::unique_ptr<EchogramPyramid>();
+  if (options.filtered.value_or(false)) {
+    if (auto known = engine->estimate_background(0, observation.pings() - 1, work); !known) return pass_on(known);
+  }
   const std::int64_t pings = observation.pings();
   // Flags need no background: the echogram is of Sv as recorded.
   const EchogramRange range = echogram_range(engine->sector().range());
@@ -29,7 +34,8 @@ Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation,
     work.for_each(count, [&](std::int64_t i) {
       const auto ping = engine->staged(first + i);
       if (!ping) return;
-      const Volume shown{ping->sv.counts, ping->filtered->flags};
+      const bool filtered = options.filtered.value_or(false);
+      const Volume shown{filtered ? ping->filtered->counts : ping->sv.counts, ping->filtered->flags};
       columns[static_cast<std::size_t>(i)] = echogram_column(engine->sector(), shown, kNotFiltered, range);
     });
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
@@ -46,22 +52,35 @@ Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation,
 
 Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& observations,
                                         const PictureOptions& options, Work& work) {
+  if (observations.size() == 1) {
+    if (auto known = require_schools(*observations.front(), options); !known) return pass_on(known);
+  }
   std::vector<std::unique_ptr<EchogramPyramid>> echograms;
-  std::vector<TimelineObservation> drawn;
+  std::vector<ObservationProduct> products;
   for (DrawnObservation* observation : observations) {
-    auto made = echogram(*observation, work);
+    // Among several observations those without a grid have nothing to show; alone they are told about.
+    const bool drawable = !observation->has_raw() || observation->engine() != nullptr;
+    if (!drawable && observations.size() > 1) continue;
+    auto made = echogram(*observation, options, work);
     if (!made) return pass_on(made);
     echograms.push_back(std::move(*made));
-    drawn.push_back({&observation->product(), echograms.back().get()});
+    products.push_back(with_chosen_schools(observation->product(), options));
   }
+  if (products.empty()) return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams to draw");
+  std::vector<TimelineObservation> drawn;
+  for (std::size_t i = 0; i < products.size(); ++i) drawn.push_back({&products[i], echograms[i].get()});
   TimelineStyle style;
   style.value = options.maximum ? EchogramValue::maximum : EchogramValue::mean;
   style.axis = options.along_log ? TimelineAxis::log : TimelineAxis::time;
   style.schools = options.masks;
-  // Means over all beams are weaker than a beam's own Sv; the timeline's own limits hold unless the user moved them.
-  if (options.scale.low_db != SvScale{}.low_db || options.scale.span_db != SvScale{}.span_db)
+  // Means over all beams are weaker than a beam's own Sv: the timeline has limits of its own unless some were chosen.
+  if (options.transfer) {
+    style.scale = sv_scale(*options.transfer, options.scale.map);
+  } else if (options.limits_given) {
     style.scale = options.scale;
+  }
   style.scale.map = options.scale.map;
+  style.scale.threshold_db = options.scale.threshold_db;
   return timeline(drawn, style, options.size, theme_of(options));
 }
 

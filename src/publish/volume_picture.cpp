@@ -17,6 +17,7 @@
 #include "render/refinement.h"
 #include "view/axes.h"
 #include "view/colour_bar.h"
+#include "view/shapes.h"
 
 namespace sonar {
 namespace {
@@ -90,11 +91,57 @@ Result<RayImage> traced(const Prepared& prepared, const VolumeView& view, const 
   if (auto set = renderer.set_transfer(*table); !set) return pass_on(set);
   if (auto set = renderer.set_masks(prepared.masks); !set) return pass_on(set);
   if (options.frames <= 0) return renderer.draw(view, {}, work);
-  Refinement refinement(renderer, {.most_frames = options.frames});
+  Refinement refinement(renderer, {.most_frames = options.frames, .rest_budget_s = options.seconds});
   refinement.restart(view);
-  auto frame = refinement.converged(work);
-  if (!frame) return pass_on(frame);
-  return std::move(frame->image);
+  for (;;) {
+    auto frame = refinement.next(work);
+    if (!frame) return pass_on(frame);
+    if (frame->done) return std::move(frame->image);
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    work.progress("drawing", frame->averaged, options.frames);
+  }
+}
+
+/// "2020-01-04 08:00:00.350 UTC"
+std::string time_text(TimeNs time) {
+  std::string text = iso_time(time);
+  text[text.find('T')] = ' ';
+  text.back() = ' ';
+  return text + "UTC";
+}
+
+/// How the picture was made, for its second line.
+std::string view_line(const PictureOptions& options, bool data_too) {
+  if (!data_too) return "masks of schools";
+  std::string line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
+  if (options.mode == RayMode::accumulate) line += ", accumulated";
+  if (options.mode == RayMode::maximum) line += ", maximum along each ray";
+  if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
+  return options.lighting ? line + ", lit" : line;
+}
+
+/// Which colour is which school, in the lower left corner.
+void add_school_legend(FrameDescription& frame, const Prepared& prepared, const PictureOptions& options,
+                       const PixelRect& place, const Theme& theme) {
+  constexpr std::size_t kMostEntries = 12;
+  if (!options.masks || prepared.masks.empty() || prepared.masks.size() > kMostEntries) return;
+  const double line = 1.5 * theme.text_px;
+  double y = place.y + place.height - line * static_cast<double>(prepared.masks.size());
+  for (const DrawnMask& drawn : prepared.ping.masks) {
+    if (!wanted(drawn.school_id, options)) continue;
+    const double x = place.x + line;
+    frame.items.emplace_back(rectangle_item({x, y - 0.4 * theme.text_px, 0.8 * theme.text_px, 0.8 * theme.text_px},
+                                            school_colour(static_cast<int>(drawn.school_id))));
+    frame.items.emplace_back(TextItem{{x + line, y},
+                                      fmt::format("school {}", drawn.school_id),
+                                      theme.text_px,
+                                      theme.text,
+                                      TextAnchor::left,
+                                      0.0,
+                                      false,
+                                      theme.halo});
+    y += line;
+  }
 }
 
 ContextParams context_params(const Prepared& prepared, const PictureOptions& options) {
@@ -166,12 +213,14 @@ Result<FrameDescription> volume_frame(DrawnObservation& observation, const Pictu
       frame.items.emplace_back(std::move(*text));
     }
   }
-  add_colour_bar(frame, layout.colour_bar, colours_of(options), theme);
+  add_school_legend(frame, *prepared, options, place, theme);
+  if (view.masks.data_too) add_colour_bar(frame, layout.colour_bar, colours_of(options), theme);
   const PingNavigation& navigation = prepared->ping.navigation;
   const std::string what = prepared->ping.staged ? "" : " (masks alone: no raw files)";
-  add_title(
-      frame, layout, theme,
-      {fmt::format("{}{}, ping {}", observation.title(), what, prepared->ping.ping_index), iso_time(navigation.time)});
+  add_title(frame, layout, theme,
+            {fmt::format("{}{}   ping {}", observation.title(), what, prepared->ping.ping_index),
+             view_line(options, view.masks.data_too)},
+            time_text(navigation.time));
   return frame;
 }
 

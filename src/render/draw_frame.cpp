@@ -87,6 +87,13 @@ Result<std::string> pdf_of(const FrameDescription& frame, PixelSize size, double
   return undated_pdf(std::move(*pdf));
 }
 
+/// In small letters.
+std::string picture_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
 }  // namespace
 
 Result<Image> draw_frame(const FrameDescription& frame, double scale) {
@@ -101,8 +108,13 @@ Result<Image> draw_frame(const FrameDescription& frame, double scale) {
   return image_of(surface.get());
 }
 
+bool is_picture_file(const std::filesystem::path& file) {
+  const std::string ending = picture_ending(file);
+  return ending == ".png" || ending == ".svg" || ending == ".pdf";
+}
+
 Result<void> write_frame(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
-  const std::string ending = file.extension().string();
+  const std::string ending = picture_ending(file);
   if (ending != ".png" && ending != ".svg" && ending != ".pdf") {
     return fail(ErrorCode::usage, fmt::format("'{}' is no kind of picture; expected .png, .svg or .pdf", ending),
                 {file.string()});

@@ -52,7 +52,10 @@ void Refinement::restart(const VolumeView& view) {
   divisor_ = 0;
   frames_ = 0;
   sum_.clear();
+  started_s_ = clock_();
 }
+
+bool Refinement::late() const { return params_.rest_budget_s > 0.0 && clock_() - started_s_ > params_.rest_budget_s; }
 
 int Refinement::divisor_within(double seconds) const {
   int divisor = 1;
@@ -80,7 +83,8 @@ Result<Refinement::Frame> Refinement::next(Work& work) {
   auto image = timed(quality, work);
   if (!image) return pass_on(image);
   divisor_ = divisor;
-  return Frame{enlarged(*image, view_->size, divisor), quality, 0, params_.most_frames <= 0 && divisor == 1};
+  const bool done = divisor == 1 && (params_.most_frames <= 0 || late());
+  return Frame{enlarged(*image, view_->size, divisor), quality, 0, done};
 }
 
 Result<Refinement::Frame> Refinement::average(Work& work) {
@@ -100,7 +104,7 @@ Result<Refinement::Frame> Refinement::average(Work& work) {
       mean[c] = static_cast<float>(now);
     }
   }
-  const bool done = frames_ >= params_.most_frames || change < params_.converged;
+  const bool done = frames_ >= params_.most_frames || change < params_.converged || late();
   return Frame{std::move(*image), quality, frames_, done};
 }
 

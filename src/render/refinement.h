@@ -18,6 +18,7 @@ struct RefinementParams {
   double step_samples = 1.0;        ///< as DrawQuality
   double homogeneous_limit = 0.03;  ///< as DrawQuality
   int most_frames = 32;             ///< jittered frames that are averaged at rest
+  double rest_budget_s = 0.0;       ///< no further frame is begun later than this after restart(); 0 = no limit
   double converged = 0.25 / 255.0;  ///< largest change of a colour by one more frame; below it the picture is done
 };
 
@@ -49,6 +50,7 @@ class Refinement {
   [[nodiscard]] Result<Frame> converged(Work& work);
 
  private:
+  [[nodiscard]] bool late() const;
   [[nodiscard]] int divisor_within(double seconds) const;
   [[nodiscard]] Result<RayImage> timed(const DrawQuality& quality, Work& work);
   [[nodiscard]] Result<Frame> average(Work& work);
@@ -58,6 +60,7 @@ class Refinement {
   Clock clock_;
   std::optional<VolumeView> view_;
   double seconds_per_pixel_ = 1e-7;  ///< of full resolution; a guess until the first frame
+  double started_s_ = 0.0;           ///< when restart() was called
   int divisor_ = 0;                  ///< of the last frame; 0 = none yet
   std::vector<std::array<double, 4>> sum_;
   int frames_ = 0;

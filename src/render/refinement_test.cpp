@@ -82,6 +82,18 @@ TEST(Refinement, AtRestItBecomesTheMeanOfItsFrames) {
   EXPECT_NEAR(frame->image.rgba[0][0], 0.5, 1e-6) << "five frames above, five below";
 }
 
+TEST(Refinement, AtRestItEndsInItsTimeWithAWholePicture) {
+  PacedRenderer renderer;  // 0.1 s a full frame
+  Work work(1);
+  Refinement refinement(renderer, {.most_frames = 1000, .rest_budget_s = 1.05}, [&] { return renderer.now; });
+  refinement.restart(view_of(400, 250));
+  const auto frame = refinement.converged(work);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->quality.divisor, 1);
+  EXPECT_GE(frame->averaged, 7);
+  EXPECT_LE(renderer.now, 1.05 + 0.11);
+}
+
 TEST(Refinement, EndsEarlyWhereNothingChanges) {
   PacedRenderer renderer;
   renderer.waver = 0.0;

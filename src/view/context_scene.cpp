@@ -107,7 +107,8 @@ void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_d
   };
   const auto add = [&](const std::array<Point<Sonar>, 3>& c) {
     const double mean_depth = (c[0].z + c[1].z + c[2].z) / 3.0 + transducer_depth_m;
-    if (std::isnan(mean_depth)) return;
+    // Land would hide the water that it stands beside.
+    if (!(mean_depth > 0.0)) return;
     scene.opaque.push_back({c, lit(map.at(high > low ? 0.15 + 0.6 * (mean_depth - low) / (high - low) : 0.4), c)});
   };
   for (int iy = 0; iy + 1 < bed.ny; ++iy) {
@@ -159,7 +160,7 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
     }
     for (const double azimuth : grid.azimuths_rad) {
       // The rings' own labels stand along the first edge.
-      if (azimuth < grid.first_azimuth_rad + rad_from_deg(3.0)) continue;
+      if (azimuth < grid.first_azimuth_rad + rad_from_deg(8.0)) continue;
       label(on_surface(grid.radii_m.back() * 1.05, azimuth, z), bearing_text(azimuth, params), TextAnchor::centre);
     }
   }

@@ -29,11 +29,11 @@ PICTURES = {
     "slice-range": (["slice-range", *BOTH], DRAWN),
     "slice-plane-horizontal": (["slice-plane", *BOTH, "--filtered"], DRAWN),
     "slice-plane-vertical": (["slice-plane", *BOTH, "--bearing-deg", "280"], DRAWN),
-    "slice-plane-oblique": (["slice-plane", *BOTH, "--point", "0,-200,60", "--normal", "1,0.4,-1"], DRAWN),
+    "slice-plane-oblique": (["slice-plane", *BOTH, "--point", "75,-140,86", "--normal", "0.6,0.4,-1"], DRAWN),
     "slice-product-alone": (["slice-top", sonarx.OUT], DRAWN),
     "volume": (["volume", *BOTH, "--frames", "2"], TRACED),
     "volume-seabed": (["volume", *BOTH, "--frames", "2", "--depth-raster", DEPTHS, "--dark"], TRACED),
-    "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--lighting", "--no-masks"], TRACED),
+    "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--first-hit-db", "-42", "--map", "grey", "--lighting", "--no-masks"], TRACED),
     "volume-maximum": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--no-masks"], TRACED),
     "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone", "--lighting"], TRACED),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
@@ -106,9 +106,10 @@ class Files(unittest.TestCase):
             self.assertEqual(first, file.read_bytes(), "the same picture twice is the same file")
 
     def test_synthetic_stands_in_every_title(self):
-        for kind in ("slice-top", "volume", "propagation", "observation-map", "survey-map", "timeline"):
+        for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "volume", "propagation", "observation-map",
+                     "survey-map", "timeline"):
             file = sonarx.WORK / f"title-{kind}.svg"
-            self.assertEqual(render(kind, sonarx.OUT, "--frames", "0", "--out", file)[0], 0)
+            self.assertEqual(render(kind, sonarx.OUT, "--out", file)[0], 0)
             self.assertTrue("SYNTHETIC" in file.read_text(encoding="utf-8"), kind)
 
     def test_scale_gives_more_pixels(self):
@@ -142,6 +143,14 @@ class BadInput(unittest.TestCase):
         self.assertEqual(len(lines), 1, error)
         for text in [says] if isinstance(says, str) else says:
             self.assertIn(text, lines[0])
+
+    def test_a_survey_without_a_grid(self):
+        data = Path(os.environ.get("SONAR_DATA", sonarx.PROJECT.parent / "shared" / "data"))
+        file = next(iter(sorted(data.glob("raw/**/D2007*.raw"))), None)
+        if file is None:
+            self.skipTest("no recorded EK60 file here")
+        for kind in ("slice-top", "volume", "propagation", "timeline"):
+            self.refused(kind, file, "--out", sonarx.WORK / "bad.png", code=1, says="make no grid")
 
     def test_what_is_not_there(self):
         picture = ["--out", sonarx.WORK / "bad.png"]
@@ -188,6 +197,13 @@ class BadInput(unittest.TestCase):
     def test_options(self):
         picture = ["--out", sonarx.WORK / "bad.png"]
         self.refused("slice-top", *BOTH, "--size", "12x12", *picture, code=2, says="--size 12x12")
+        self.refused("slice-top", *BOTH, "--size", "8000x8000", "--scale", "4", *picture, code=2, says="million pixels")
+        for option in ("--core", "--zoom", "--ship-length-m", "--threshold-db", "--low-db", "--first-hit-db"):
+            self.refused("volume", *BOTH, option, "nan", *picture, code=2, says=[option, "nan", "expected a number"])
+        self.refused("slice-top", *BOTH, "--zoom", "3", *picture, code=2, says=["--zoom", "slice-top"])
+        self.refused("timeline", *BOTH, "--depth-raster", DEPTHS, *picture, code=2, says="--depth-raster")
+        self.refused("timeline", *BOTH, "--schools", "999", *picture, code=2, says="no school 999")
+        self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "nofolder" / "x.png", code=1, says="nofolder")
         self.refused("slice-top", *BOTH, "--size", "huge", *picture, code=2, says="--size huge")
         self.refused("slice-plane", *BOTH, "--point", "1,2", "--normal", "0,0,1", *picture, code=2, says="--point")
         self.refused("slice-plane", *BOTH, "--point", "1,2,3", *picture, code=2, says="--normal")
