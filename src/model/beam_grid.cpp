@@ -28,6 +28,30 @@ std::vector<double> cluster(std::vector<double> values, double tolerance) {
   return centres;
 }
 
+/// Azimuths within -180 .. 180 on one continuous arc: those of an arc that crosses +-180 degrees go on above 180, so that
+/// the widest gap between neighbours lies outside the arc. A whole circle, whose widest gap is like the others, stays.
+std::vector<double> unwrapped(std::vector<double> azimuths, double tolerance) {
+  std::vector<double> sorted = azimuths;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> gaps;
+  double widest = 0.0;
+  double arc_begins = sorted.front();
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double gap = sorted[i] - sorted[i - 1];
+    if (gap > tolerance) gaps.push_back(gap);
+    if (gap <= widest + tolerance) continue;
+    widest = gap;
+    arc_begins = sorted[i];
+  }
+  const double across_180 = 360.0 - (sorted.back() - sorted.front());
+  if (gaps.empty() || widest <= across_180 + tolerance) return azimuths;
+  std::sort(gaps.begin(), gaps.end());
+  // With two directions there is no usual gap to compare with, and no circle either.
+  if (gaps.size() > 1 && widest <= 1.5 * gaps[(gaps.size() - 1) / 2]) return azimuths;
+  for (double& azimuth : azimuths) azimuth += azimuth < arc_begins ? 360.0 : 0.0;
+  return azimuths;
+}
+
 std::size_t nearest(const std::vector<double>& centres, double value) {
   const auto after = std::lower_bound(centres.begin(), centres.end(), value);
   if (after == centres.begin()) return 0;
@@ -40,7 +64,10 @@ tl::unexpected<Error> no_grid(std::string why) {
   return fail(ErrorCode::unsupported, "the beams make no product grid: " + std::move(why));
 }
 
-Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vector<double>& azimuth_from_abeam) {
+/// from_abeam_deg      azimuth of each of the config's beams, unwrapped
+/// azimuth_from_abeam  [beam] of the grid
+Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vector<double>& from_abeam_deg,
+                      const std::vector<double>& azimuth_from_abeam) {
   const auto beams = azimuth_from_abeam.size();
   const auto cells = grid.elevation_deg.size() * beams;
   if (cells != config.beams.size()) {
@@ -54,7 +81,7 @@ Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vec
   for (std::size_t i = 0; i < config.beams.size(); ++i) {
     const BeamConfig& beam = config.beams[i];
     const std::size_t fan = nearest(grid.elevation_deg, beam.direction_deg[0]);
-    const std::size_t row = fan * beams + nearest(azimuth_from_abeam, beam.direction_deg[1]);
+    const std::size_t row = fan * beams + nearest(azimuth_from_abeam, from_abeam_deg[i]);
     if (grid.channel[row] >= 0) {
       return no_grid(fmt::format("channels {} and {} share a direction", grid.channel[row], i));
     }
@@ -104,10 +131,11 @@ Result<BeamGrid> derive_beam_grid(const SounderConfig& config, double mounting_a
   }
   BeamGrid grid;
   grid.elevation_deg = cluster(std::move(elevations), tolerance_deg);
-  const std::vector<double> from_abeam = cluster(std::move(azimuths), tolerance_deg);
+  azimuths = unwrapped(std::move(azimuths), tolerance_deg);
+  const std::vector<double> from_abeam = cluster(azimuths, tolerance_deg);
   grid.mounting_azimuth_deg = mounting_azimuth_deg;
   for (const double azimuth : from_abeam) grid.azimuth_deg.push_back(mounting_azimuth_deg + azimuth);
-  return fill(config, std::move(grid), from_abeam);
+  return fill(config, std::move(grid), azimuths, from_abeam);
 }
 
 }  // namespace sonar

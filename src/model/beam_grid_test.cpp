@@ -114,6 +114,68 @@ TEST(BeamGrid, OtherSizes) {
   }
 }
 
+/// Two fans of these azimuths from abeam.
+SounderConfig fans_of(const std::vector<double>& azimuths_deg) {
+  SounderConfig config = regular(2, static_cast<int>(azimuths_deg.size()));
+  for (std::size_t i = 0; i < config.beams.size(); ++i) {
+    config.beams[i].direction_deg[1] = azimuths_deg[i % azimuths_deg.size()];
+  }
+  return config;
+}
+
+std::vector<double> steps(double first_deg, double last_deg, double step_deg) {
+  std::vector<double> out;
+  for (int i = 0; first_deg + i * step_deg <= last_deg; ++i) out.push_back(first_deg + i * step_deg);
+  return out;
+}
+
+TEST(BeamGrid, AnArcThatCrossesTheLimitOf180DegreesIsShort) {
+  std::vector<double> azimuths = steps(-177.5, -150.0, 2.5);                          // 12
+  for (const double azimuth : steps(150.0, 180.0, 2.5)) azimuths.push_back(azimuth);  // 13
+  const Result<BeamGrid> grid = derive_beam_grid(fans_of(azimuths), 270.0);
+  ASSERT_TRUE(grid);
+  ASSERT_EQ(grid->fans(), 2);
+  ASSERT_EQ(grid->beams(), 25);
+  for (int beam = 0; beam < 25; ++beam) {
+    EXPECT_NEAR(grid->azimuth_deg[static_cast<std::size_t>(beam)], 420.0 + 2.5 * beam, 1e-9);
+    // The table has the arc's second half first.
+    EXPECT_EQ(grid->channel[static_cast<std::size_t>(beam)], beam < 13 ? beam + 12 : beam - 13);
+  }
+  const Sector sector = grid->sector({0.0, 0.5, 10});
+  // Abeam (270) lies opposite the arc's middle (270 + 180).
+  EXPECT_FALSE(sector.contains(sector.index_of({0.0, -3.0, 0.01})));
+  EXPECT_TRUE(sector.contains(sector.index_of({0.0, 3.0, 0.01})));
+}
+
+TEST(BeamGrid, TheSameDirectionAsPlusAndMinus180DegreesIsOne) {
+  SounderConfig config = fans_of({170.0, 175.0, 180.0, -175.0});
+  config.beams[6].direction_deg[1] = -180.0;
+  const Result<BeamGrid> grid = derive_beam_grid(config, 90.0);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->azimuth_deg, (std::vector<double>{260.0, 265.0, 270.0, 275.0}));
+}
+
+TEST(BeamGrid, WideArcsTurnAwayFromTheirHole) {
+  // 270 degrees of water with the hole from -90 to 0.
+  std::vector<double> azimuths = steps(-180.0, -90.0, 10.0);
+  for (const double azimuth : steps(0.0, 170.0, 10.0)) azimuths.push_back(azimuth);
+  const Result<BeamGrid> grid = derive_beam_grid(fans_of(azimuths), 270.0);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->azimuth_deg, steps(270.0, 540.0, 10.0));
+  const Result<BeamGrid> two = derive_beam_grid(fans_of({-170.0, 170.0}), 0.0);
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->azimuth_deg, (std::vector<double>{170.0, 190.0}));
+}
+
+TEST(BeamGrid, WholeCirclesStayAsTheyAre) {
+  for (const double last_deg : {170.0, 180.0}) {
+    const std::vector<double> azimuths = steps(-180.0, last_deg, 10.0);
+    const Result<BeamGrid> grid = derive_beam_grid(fans_of(azimuths), 270.0);
+    ASSERT_TRUE(grid) << last_deg;
+    EXPECT_EQ(grid->azimuth_deg, steps(90.0, last_deg + 270.0, 10.0));
+  }
+}
+
 TEST(BeamGrid, WhatIsNoGridIsRefusedWithASentence) {
   const auto refused = [](const SounderConfig& config) {
     const Result<BeamGrid> grid = derive_beam_grid(config, 270.0);

@@ -23,6 +23,12 @@ RowBeam row_beam(const Beam& beam, int channel, double mounting_azimuth_deg) {
   return row;
 }
 
+void unwrap(RowBeam& beam, const BeamGrid& grid, std::size_t row) {
+  const double turn = 2.0 * std::numbers::pi;
+  const double azimuth = rad_from_deg(grid.azimuth_deg[row % grid.azimuth_deg.size()]);
+  beam.azimuth_rad += turn * std::round((azimuth - beam.azimuth_rad) / turn);
+}
+
 void record_grid(Layout& layout, BeamGrid grid) {
   layout.shape.fans = grid.fans();
   layout.shape.beams = grid.beams();
@@ -56,6 +62,8 @@ Layout make_layout(std::vector<Beam> beams) {
     const int channel = layout.grid ? layout.grid->grid.channel[row] : static_cast<int>(row);
     layout.rows.push_back(
         row_beam(layout.beams[static_cast<std::size_t>(channel)], channel, layout.mounting_azimuth_deg));
+    // An arc that crosses +-180 degrees goes on above, as the grid's azimuths do.
+    if (layout.grid) unwrap(layout.rows.back(), layout.grid->grid, row);
     layout.max_sigma_v_rad = std::max(layout.max_sigma_v_rad, layout.rows.back().sigma_v_rad);
     layout.max_sigma_h_rad = std::max(layout.max_sigma_h_rad, layout.rows.back().sigma_h_rad);
   }
