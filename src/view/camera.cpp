@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "base/units.h"
 
@@ -32,26 +34,103 @@ Point<Sonar> right_of(const Point<Sonar>& forward, const Point<Sonar>& up) {
   return unit(other - forward * dot(other, forward), {0.0, 1.0, 0.0});
 }
 
-/// Rectangle of the picture that the sector's outline takes, pixels.
-struct Extent {
-  double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
-};
+using Points = std::vector<Point<Sonar>>;
 
-Extent extent(const Sector& sector, const CameraBasis& b) {
-  Extent out;
+/// Places whose outline the picture is centred on: the ends of the beams, and the ship.
+Points beam_ends(const Sector& sector) {
+  Points out{{0.0, 0.0, 0.0}};
   for (int fan = 0; fan < sector.fans(); ++fan) {
     for (int beam = 0; beam < sector.beams(); ++beam) {
       for (const int sample : {0, std::max(0, sector.range().count - 1)}) {
-        const auto seen = b.project(sector.centre(fan, beam, sample));
-        if (!seen) continue;
-        out.left = std::min(out.left, seen->pixel.x);
-        out.right = std::max(out.right, seen->pixel.x);
-        out.top = std::min(out.top, seen->pixel.y);
-        out.bottom = std::max(out.bottom, seen->pixel.y);
+        out.push_back(sector.centre(fan, beam, sample));
       }
     }
   }
-  return out.left <= out.right ? out : Extent{0.0, 0.0, 1.0 * b.size.width, 1.0 * b.size.height};
+  return out;
+}
+
+/// The ship and the outer surface of the sector's cells, a place every few degrees however wide the cells are.
+Points outline(const Sector& sector, double far_m) {
+  const auto angles = [](double lower, double upper) {
+    const int steps = std::clamp(static_cast<int>((upper - lower) / rad_from_deg(4.0)) + 1, 1, 100);
+    std::vector<double> out;
+    for (int i = 0; i <= steps; ++i) out.push_back(lower + (upper - lower) * i / steps);
+    return out;
+  };
+  Points out{{0.0, 0.0, 0.0}};
+  const auto azimuths = angles(sector.azimuth_bounds(0).lower, sector.azimuth_bounds(sector.beams() - 1).upper);
+  for (const double elevation :
+       angles(sector.elevation_bounds(0).lower, sector.elevation_bounds(sector.fans() - 1).upper)) {
+    for (const double azimuth : azimuths) out.push_back(Sector::direction(elevation, azimuth) * far_m);
+  }
+  return out;
+}
+
+/// Rectangle of the picture that the points take, pixels.
+struct Extent {
+  double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
+
+  [[nodiscard]] bool inside(PixelSize size) const {
+    return left > 0.0 && top > 0.0 && right < size.width && bottom < size.height;
+  }
+};
+
+/// Empty where a point lies behind the eye: such a picture cannot be measured.
+std::optional<Extent> extent(const Points& points, const CameraBasis& b) {
+  Extent out;
+  for (const Point<Sonar>& point : points) {
+    const auto seen = b.project(point);
+    if (!seen) return std::nullopt;
+    out.left = std::min(out.left, seen->pixel.x);
+    out.right = std::max(out.right, seen->pixel.x);
+    out.top = std::min(out.top, seen->pixel.y);
+    out.bottom = std::max(out.bottom, seen->pixel.y);
+  }
+  return out;
+}
+
+bool shows(const Camera& camera, PixelSize size, const Points& points) {
+  const auto seen = extent(points, basis(camera, size));
+  return seen && seen->inside(size);
+}
+
+/// Comes nearer along the line of sight until the points take nine tenths of the picture, and no nearer than told.
+/// Empty where a point comes to lie behind the eye.
+std::optional<Camera> closed_in(Camera camera, PixelSize size, const Points& points, double nearest_m) {
+  double distance = norm(camera.eye - camera.target);
+  const Point<Sonar> from = (camera.eye - camera.target) * (1.0 / distance);
+  for (int i = 0; i < 8; ++i) {
+    camera.eye = camera.target + from * distance;
+    const CameraBasis b = basis(camera, size);
+    const auto seen = extent(points, b);
+    if (!seen) return std::nullopt;
+    const double metres = 2.0 * b.tan_half_fov * distance / size.height;
+    const double right = 0.5 * (seen->left + seen->right) - 0.5 * size.width;
+    const double down = 0.5 * (seen->top + seen->bottom) - 0.5 * size.height;
+    camera.target = camera.target + b.right * (right * metres) - b.up * (down * metres);
+    distance *= std::max((seen->right - seen->left) / size.width, (seen->bottom - seen->top) / size.height) / 0.9;
+    distance = std::max(distance, nearest_m);
+  }
+  camera.eye = camera.target + from * distance;
+  return camera;
+}
+
+/// Sees the sphere about the points' box, whatever their shape.
+Camera round_all(const Points& points, const Point<Sonar>& from, PixelSize size) {
+  Point<Sonar> least = points.front();
+  Point<Sonar> most = points.front();
+  for (const Point<Sonar>& p : points) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+  }
+  Camera camera;
+  camera.target = (least + most) * 0.5;
+  double radius = 0.0;
+  for (const Point<Sonar>& p : points) radius = std::max(radius, norm(p - camera.target));
+  const double half_height = std::tan(0.5 * camera.vertical_fov_rad);
+  const double half_width = half_height * size.width / size.height;
+  camera.eye = camera.target + from * (1.1 * radius / std::sin(std::atan(std::min(half_height, half_width))));
+  return camera;
 }
 
 }  // namespace
@@ -122,20 +201,14 @@ Camera overview(const Sector& sector, PixelSize size) {
       (0.55 * far_m);
   // From outside and beside the fan, so that it opens across the picture.
   const Point<Sonar> from = Sector::direction(rad_from_deg(32.0), azimuth + rad_from_deg(115.0));
-  double distance = 2.0 * far_m;
-  for (int i = 0; i < 8; ++i) {
-    camera.eye = camera.target + from * distance;
-    const CameraBasis b = basis(camera, size);
-    const Extent seen = extent(sector, b);
-    const double metres = 2.0 * b.tan_half_fov * distance / size.height;
-    const double right = 0.5 * (seen.left + seen.right) - 0.5 * size.width;
-    const double down = 0.5 * (seen.top + seen.bottom) - 0.5 * size.height;
-    camera.target = camera.target + b.right * (right * metres) - b.up * (down * metres);
-    distance *= std::max((seen.right - seen.left) / size.width, (seen.bottom - seen.top) / size.height) / 0.9;
-    distance = std::max(distance, 0.5 * far_m);
-  }
-  camera.eye = camera.target + from * distance;
-  return camera;
+  camera.eye = camera.target + from * (2.0 * far_m);
+  const Points all = outline(sector, far_m);
+  const auto near = closed_in(camera, size, beam_ends(sector), 0.5 * far_m);
+  if (near && shows(*near, size, all)) return *near;
+  // Wide sectors lie round the eye so close; from outside their sphere none of it can be behind.
+  const Camera outside = round_all(all, from, size);
+  const auto nearer = closed_in(outside, size, all, 0.5 * far_m);
+  return nearer && shows(*nearer, size, all) ? *nearer : outside;
 }
 
 }  // namespace sonar

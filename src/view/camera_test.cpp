@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "base/units.h"
 
@@ -88,6 +90,68 @@ TEST(Camera, OverviewShowsTheWholeSector) {
       }
     }
   }
+}
+
+/// Sector of a span of azimuths and 30 degrees of elevation.
+Sector sector_of(double span_deg, double middle_deg, double elevation_deg, double first_m) {
+  std::vector<double> elevation;
+  std::vector<double> azimuth;
+  for (int i = 0; i < 7; ++i) elevation.push_back(rad_from_deg(elevation_deg - 9.0 + 3.0 * i));
+  for (int i = 0; i < 21; ++i) azimuth.push_back(rad_from_deg(middle_deg + span_deg * (i / 20.0 - 0.5)));
+  return {elevation, azimuth, {first_m, 0.5, 800}};
+}
+
+/// Part of the picture that the sector and the ship take, the larger of width and height; over 1 where one is outside.
+double part_taken(const Sector& sector, PixelSize size) {
+  const CameraBasis b = basis(overview(sector, size), size);
+  std::vector<Point<Sonar>> points{{0.0, 0.0, 0.0}};
+  for (const double elevation : {sector.elevation_bounds(0).lower, sector.elevation_bounds(sector.fans() - 1).upper}) {
+    const double first = sector.azimuth_bounds(0).lower;
+    const double last = sector.azimuth_bounds(sector.beams() - 1).upper;
+    for (int i = 0; i <= 200; ++i) {
+      for (const int sample : {0, sector.range().count - 1}) {
+        points.push_back(Sector::direction(elevation, first + (last - first) * i / 200.0) *
+                         sector.range().range_m(sample));
+      }
+    }
+  }
+  double left = 1e9;
+  double right = -1e9;
+  double top = 1e9;
+  double bottom = -1e9;
+  for (const Point<Sonar>& p : points) {
+    const auto seen = b.project(p);
+    if (!seen) return 1e9;
+    left = std::min(left, seen->pixel.x);
+    right = std::max(right, seen->pixel.x);
+    top = std::min(top, seen->pixel.y);
+    bottom = std::max(bottom, seen->pixel.y);
+  }
+  if (left < 0.0 || top < 0.0 || right > size.width || bottom > size.height) return 1e9;
+  return std::max((right - left) / size.width, (bottom - top) / size.height);
+}
+
+TEST(Camera, OverviewFitsTheShipAndSectorsOfAnyWidth) {
+  for (const double span_deg : {20.0, 60.0, 150.0, 200.0, 360.0}) {
+    for (const double elevation_deg : {-80.0, -45.0, -20.0, 0.0, 45.0, 80.0}) {
+      for (const double middle_deg : {270.0, 0.0, 450.0}) {
+        for (const double first_m : {-0.4, 100.0}) {
+          for (const PixelSize size : {PixelSize{1024, 768}, PixelSize{300, 900}}) {
+            const double part = part_taken(sector_of(span_deg, middle_deg, elevation_deg, first_m), size);
+            EXPECT_TRUE(part > 0.6 && part <= 1.0)
+                << part << " of the picture: span " << span_deg << ", elevation " << elevation_deg << ", azimuth "
+                << middle_deg << ", from " << first_m << " m, width " << size.width;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Camera, OverviewFitsTwoBeamsWhoseCellsBulge) {
+  const Sector two({rad_from_deg(-10.0), rad_from_deg(0.0)}, {rad_from_deg(0.0), rad_from_deg(90.0)}, {0.0, 0.5, 100});
+  const double part = part_taken(two, {640, 480});
+  EXPECT_TRUE(part > 0.6 && part <= 1.0) << part;
 }
 
 }  // namespace
