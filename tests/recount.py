@@ -8,11 +8,21 @@ Needs numpy and netCDF4 only. Reads the raw files with a parser of its own, take
 background levels from the products, works the columns of school_pings.csv and schools.csv out anew, and prints the
 worst deviation of each. Exit code 1 where one is beyond its tolerance.
 
-Edges are those of the sector, the near field and the surface, from the recipe; which samples were faulty or seabed is
-not in the product, so Sv columns are recounted where every member is valid (valid_fraction 1), the bits 64 (seabed) and
-256 (flagged) of edge_flags are taken as they stand, and 32 (far) as well beside faulty samples, because a beam may end
-in lost ones; edge_fraction is recounted where these are the same. Left
-out: the corrected extents (the figures that follow from them are checked), threshold_db, bottom_depth_m.
+Which members were faulty is in the product (/mask/fault), so the columns of Sv and valid_fraction are recounted in
+every row; of an older product only where all members are valid. That a fault was one is not judged, but for samples that
+no file holds, which must be faults. Which samples beyond the masks were faulty or seabed is not in the product. Hence:
+
+- edge_flags: those of the sector, the near field and the surface, from the recipe. The bits 64 (seabed) and 256 (flagged)
+  are taken as they stand, and 32 (far) as well beside faulty samples, because a beam may end in lost ones; edge_fraction
+  is recounted where these are the same.
+- length_corrected_m, width_corrected_m, height_corrected_m: not recounted. They are moments of the echo round the mask,
+  with the filtered volume at faults and nothing at the seabed. What follows from them is: volume_corrected_m3 (the
+  ellipsoid of these extents), sv_corrected_db.
+- threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and
+  confidences follow from it, not the other way round.
+- bottom_depth_m: not recounted. It is a plane through echoes of the seabed, no sample of which is a member.
+- schools.csv: origin, status, operator, decided_utc, species, comment and continues are no measures; the table only has
+  to say what the product says (continues excepted, which the merge may fill in).
 """
 import argparse
 import csv
@@ -191,9 +201,12 @@ class Observation:
             mask["confidence"].set_auto_scale(False)
             q = mask["confidence"][:]
             runs = [mask[k][:] for k in ("school_id", "ping_index", "channel", "first_sample", "sample_count")]
-            self.masks, at = {}, 0
+            fault = mask["fault"][:] if "fault" in mask.variables else None
+            self.masks, self.faults, at = {}, {}, 0
             for school, ping, channel, first, count in zip(*(r.tolist() for r in runs)):
                 self.masks.setdefault((school, ping), []).append((channel, first, q[at:at + count]))
+                if fault is not None:
+                    self.faults.setdefault((school, ping), []).append(fault[at:at + count])
                 at += count
 
     @staticmethod
@@ -209,6 +222,11 @@ class Observation:
         fan = np.array([self.place[int(c)][0] for c in channel])
         beam = np.array([self.place[int(c)][1] for c in channel])
         return channel, fan, beam, sample, weight
+
+    def valid(self, school, ping):
+        """Which voxels count for Sv; None where an older product does not tell."""
+        parts = self.faults.get((school, ping))
+        return None if parts is None else np.concatenate(parts) == 0
 
     def cell_volumes(self, fan, beam, sample):
         r = self.first + sample * self.dr
@@ -324,15 +342,26 @@ def calibration(o, beam, head, channel, samples):
 
 
 def echo(o, row, beams, channels):
-    """Sv columns of a row whose members are all valid."""
+    """Sv columns, over the members without a fault."""
     school, ping = int(row["school_id"]), int(row["ping_index"])
     channel, fan, beam, sample, _ = o.voxels(school, ping)
     volume = o.cell_volumes(fan, beam, sample)
+    whole, valid = volume.sum(), o.valid(school, ping)
+    columns = ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "sv_corrected_db")
+    out = dict.fromkeys(columns, math.nan)
+    if valid is not None:
+        channel, sample, volume = channel[valid], sample[valid], volume[valid]
+        out["valid_fraction"] = volume.sum() / whole
+        if not volume.sum() > 0:
+            return out
     sv, noise = np.empty(len(sample)), np.zeros(len(sample))
     levels = o.pings.get("background_db")
+    nothing = {"offset": 0, "counts": []}
     for c in set(channel.tolist()):
         of = channel == c
-        head = channels[c]
+        head = channels.get(c, nothing)
+        if (sample[of] < head["offset"]).any() or (sample[of] - head["offset"] >= len(head["counts"])).any():
+            return out | {"valid_fraction": math.nan}  # a member without a sample, and no fault
         table = calibration(o, beams[c], head, c, sample[of])
         power = np.clip(head["counts"][sample[of] - head["offset"]], -32766, 32766)
         sv[of] = 2.0**(np.clip(power + table, -32766, 32766) / 256)
@@ -342,10 +371,11 @@ def echo(o, row, beams, channels):
     mean = (rest * volume).sum() / volume.sum()
     db = lambda v: 10 * math.log10(v) if v > 0 else math.nan
     p95 = np.sort(rest)[math.ceil(0.95 * len(rest)) - 1]
-    out = {"sv_mean_db": db(mean), "sv_p95_db": db(p95), "sv_max_db": db(rest.max()),
-           "backscatter_m2": mean * volume.sum()}
+    out |= {"sv_mean_db": db(mean), "sv_p95_db": db(p95), "sv_max_db": db(rest.max()), "backscatter_m2": mean * whole}
     if noise.any():
         out["snr_db"] = db((rest * volume).sum() / (noise * volume).sum())
+    if math.isfinite(row["volume_corrected_m3"]):
+        out["sv_corrected_db"] = db(out["backscatter_m2"] / row["volume_corrected_m3"])
     return out
 
 
@@ -377,11 +407,12 @@ def summary(o, rows):
         out["latitude"], out["longitude"] = travel(lat, lon, math.hypot(*xy), math.atan2(*xy))
     moving = [r for r in rows if not r["edge_flags"] & (1 | 2 | 16 | 32) and math.isfinite(r["latitude"])]
     out |= dict.fromkeys(("speed_mps", "speed_se_mps", "course_deg", "vertical_speed_mps"), math.nan)
-    if len(moving) < 4:
+    speed = o.recipe.get("summarise", {})
+    if len(moving) < speed.get("min_speed_pings", 4):
         return out
     time = np.array([int(o.pings["time"][r["ping_index"]]) for r in moving])
     t = (time - time[0]) / 1e9
-    if t[-1] < 15:
+    if t[-1] < speed.get("min_speed_span_s", 15):
         return out
     lat, lon = moving[0]["latitude"], moving[0]["longitude"]
     xy = np.array([plane(lat, lon, r["latitude"], r["longitude"]) for r in moving])
@@ -418,7 +449,7 @@ class Deviations:
             off = abs(got - wanted)
             if name in TURN:
                 off = min(off, abs(TURN[name] - off))
-        limit = TOLERANCE.get(name, 1e-7 * max(1.0, abs(wanted)) if math.isfinite(wanted) else 0.0)
+        limit = TOLERANCE.get(name, 1e-7 * max(1e-3, abs(wanted)) if math.isfinite(wanted) else 0.0)
         count, worst, _, _ = self.worst.get((table, name), (0, -1.0, limit, ""))
         if off / limit > worst if limit else off > 0:
             self.worst[(table, name)] = (count + 1, off / limit if limit else math.inf, limit,
@@ -426,6 +457,10 @@ class Deviations:
         else:
             self.worst[(table, name)] = (count + 1,) + self.worst[(table, name)][1:]
         self.failed |= not off <= limit
+
+    def beyond(self):
+        """(table, column) of all that are."""
+        return {key for key, (_, worst, _, _) in self.worst.items() if worst > 1}
 
     def show(self):
         for (table, name), (count, worst, limit, where) in self.worst.items():
@@ -458,11 +493,10 @@ def recount_observation(o, survey, every, deviations):
         add("touches_edge", float(int(row["edge_flags"]) & 255 != 0))
         add("provisional", 0)
         check_time(o, row["time_utc"], row["ping_index"], where, deviations)
-        if row["backscatter_m2"] > 0 and math.isfinite(row["volume_corrected_m3"]):
-            add("sv_corrected_db", 10 * math.log10(row["backscatter_m2"] / row["volume_corrected_m3"]))
+        if math.isfinite(row["volume_corrected_m3"]):
             add("volume_corrected_m3", math.pi / 6 * row["length_corrected_m"] * row["width_corrected_m"]
                 * row["height_corrected_m"])
-        if abs(row["valid_fraction"] - 1) > 1e-9:
+        if abs(row["valid_fraction"] - 1) > 1e-9 and not o.faults:
             skipped += 1
         elif i % every == 0:
             wanted.setdefault(int(o.pings["time"][row["ping_index"]]), []).append((row, where))

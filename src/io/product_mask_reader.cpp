@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <tuple>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct RunTable {
   std::vector<std::int32_t> first_sample;
   std::vector<std::int32_t> sample_count;
   std::vector<std::uint8_t> confidence;
+  std::vector<std::uint8_t> fault;  ///< empty = not known
   std::vector<std::size_t> first_voxel;
 };
 
@@ -43,6 +45,11 @@ bool check_runs(Reader& in, const ObservationProduct& product, RunTable& table) 
     voxels += static_cast<std::size_t>(count);
   }
   if (voxels != table.confidence.size()) in.refuse(ErrorCode::format, "the mask has voxels without a run");
+  const auto no_fault = std::find_if(table.fault.begin(), table.fault.end(), [](auto f) { return f > 1; });
+  if (no_fault != table.fault.end()) {
+    in.refuse(ErrorCode::format, fmt::format("'fault' of voxel {} of the mask is {}, expected 0 or 1",
+                                             no_fault - table.fault.begin(), *no_fault));
+  }
   return in.ok();
 }
 
@@ -58,6 +65,10 @@ void append_runs(const RunTable& table, const std::vector<std::size_t>& order, c
         {row_of_channel[static_cast<std::size_t>(table.channel[i])], table.first_sample[i], table.sample_count[i]});
     const auto first = table.confidence.begin() + static_cast<std::ptrdiff_t>(table.first_voxel[i]);
     mask.confidence.insert(mask.confidence.end(), first, first + table.sample_count[i]);
+    if (table.fault.empty()) continue;
+    const auto fault = table.fault.begin() + static_cast<std::ptrdiff_t>(table.first_voxel[i]);
+    std::vector<bool>& faults = product.masks.back().fault;
+    std::transform(fault, fault + table.sample_count[i], std::back_inserter(faults), [](auto f) { return f == 1; });
   }
 }
 
@@ -73,6 +84,7 @@ void read_mask(netcdf::Reader& in, ObservationProduct& product) {
   table.first_sample = in.values<std::int32_t>(group, "first_sample", runs);
   table.sample_count = in.values<std::int32_t>(group, "sample_count", runs);
   table.confidence = in.values<std::uint8_t>(group, "confidence", in.dimension(group, "voxel"));
+  if (in.has_variable(group, "fault")) table.fault = in.values<std::uint8_t>(group, "fault", table.confidence.size());
   if (!in.ok() || runs == 0 || !check_runs(in, product, table)) return;
   const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
   std::vector<std::size_t> order(runs);

@@ -154,6 +154,8 @@ struct ChannelRun {
   std::int32_t first_sample;
   std::int32_t count;
   const std::uint8_t* confidence;
+  const SchoolMask* school;  ///< for the faults, which have no address of their own
+  std::size_t first_voxel;
   [[nodiscard]] auto key() const { return std::tuple(school_id, ping_index, channel, first_sample); }
 };
 
@@ -180,13 +182,26 @@ Result<std::vector<ChannelRun>> channel_runs(const ObservationProduct& product, 
       }
       if (count > m.mask.voxels() - voxel) return wrong(m, "fewer confidences than voxels");
       runs.push_back({m.school_id, m.ping_index, record.grid.channel[static_cast<std::size_t>(run.row)],
-                      run.first_sample, run.count, m.mask.confidence.data() + voxel});
+                      run.first_sample, run.count, m.mask.confidence.data() + voxel, &m, voxel});
       voxel += count;
     }
     if (voxel != m.mask.voxels()) return wrong(m, "more confidences than voxels");
+    if (!m.fault.empty() && m.fault.size() != voxel) return wrong(m, "faults and voxels differ in number");
   }
   std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
   return runs;
+}
+
+/// Left out where they are not known of every mask.
+void write_faults(Writer& out, int group, const Dimension& voxel, const std::vector<ChannelRun>& runs) {
+  std::vector<std::uint8_t> fault;
+  for (const ChannelRun& run : runs) {
+    if (run.school->fault.empty()) return;
+    const auto first = run.school->fault.begin() + static_cast<std::ptrdiff_t>(run.first_voxel);
+    fault.insert(fault.end(), first, first + run.count);
+  }
+  const int id = out.variable(group, "fault", "1", {voxel}, fault, Storage::packed);
+  out.attribute(group, id, "long_name", "1 = a faulty sample, which takes no part in Sv; in run order");
 }
 
 void write_mask(Writer& out, const std::vector<ChannelRun>& runs) {
@@ -216,6 +231,7 @@ void write_mask(Writer& out, const std::vector<ChannelRun>& runs) {
   const int id = out.variable(group, "confidence", "1", {voxel}, confidence, Storage::packed);
   out.attribute(group, id, "scale_factor", 1.0 / 255.0);
   named(id, "confidence of each voxel, in run order");
+  write_faults(out, group, voxel, runs);
 }
 
 void write_diagnostics(Writer& out, const Diagnostics& notes) {

@@ -37,6 +37,9 @@ struct SchoolMask {
   std::int64_t school_id = 0;
   std::int64_t ping_index = 0;
   PingMask mask;  ///< rows = fan * beams + beam of the grid; the file stores channels
+  /// For each voxel of the mask, in its order: a faulty sample, which takes no part in Sv. Empty = not known: older
+  /// products, and truths, which know of no faults.
+  std::vector<bool> fault = {};
 };
 
 /// Everything known about one observation; one self-contained netCDF file (INTERFACES section 4).

@@ -159,6 +159,8 @@ void compare_masks(Differ& differ, const ObservationProduct& a, const Observatio
     }
     differ.values(fmt::format("/mask/confidence (school {}, ping {})", m.school_id, m.ping_index), m.mask.confidence,
                   n.mask.confidence);
+    const auto place_of_fault = fmt::format("/mask/fault (school {}, ping {})", m.school_id, m.ping_index);
+    differ.values(place_of_fault, m.fault, n.fault);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <string>
 #include <tuple>
@@ -40,8 +39,14 @@ PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
   return others;
 }
 
-SchoolPingRow measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all,
-                          std::size_t index) {
+/// A row, and which members of its mask are faulty.
+struct Measured {
+  SchoolPingRow row;
+  std::vector<bool> fault;
+};
+
+Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all,
+                     std::size_t index) {
   const ObservationFiles& observation = engine.observation();
   const PingMask others = others_than(all, index);
   MeasureInput input;
@@ -61,12 +66,12 @@ SchoolPingRow measure_one(const Engine& engine, const StagedPing& ping, const st
   row.school_id = all[index].school->decided.school_id;
   row.ping_index = ping.ping_index;
   row.time_utc = observation.navigation[static_cast<std::size_t>(ping.ping_index)].time;
-  return row;
+  return {std::move(row), faulty_members(input, all[index].in_ping->mask)};
 }
 
-std::vector<SchoolPingRow> measure_ping(const StagedPing& ping, const Engine& engine,
-                                        const std::vector<InPingRef>& schools) {
-  std::vector<SchoolPingRow> rows;
+std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine,
+                                   const std::vector<InPingRef>& schools) {
+  std::vector<Measured> rows;
   for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i));
   return rows;
 }
@@ -112,11 +117,16 @@ void note_unreadable(std::int64_t ping_index, const std::string& why, Observatio
   product.diagnostics.push_back({DiagnosticCode::unreadable, "", -1, ping_index, why});
 }
 
-void take_masks(std::vector<SchoolMasks>& schools, ObservationProduct& product) {
+/// By school and ping.
+using Faults = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<bool>>;
+
+void take_masks(std::vector<SchoolMasks>& schools, Faults& faults, ObservationProduct& product) {
   for (SchoolMasks& school : schools) {
     for (SchoolMasks::InPing& in_ping : school.pings) {
       if (product.pings[static_cast<std::size_t>(in_ping.ping_index)].bad) continue;
-      product.masks.push_back({school.decided.school_id, in_ping.ping_index, std::move(in_ping.mask)});
+      const std::int64_t id = school.decided.school_id;
+      product.masks.push_back(
+          {id, in_ping.ping_index, std::move(in_ping.mask), std::move(faults[{id, in_ping.ping_index}])});
     }
   }
 }
@@ -137,7 +147,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::sort(schools.begin(), schools.end(),
             [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
   const std::vector<MeasuredPing> pings = by_ping(schools);
-  std::vector<std::vector<SchoolPingRow>> rows(pings.size());
+  std::vector<std::vector<Measured>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
@@ -150,15 +160,19 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  Faults faults;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);
-    std::move(rows[i].begin(), rows[i].end(), std::back_inserter(product.school_pings));
+    for (Measured& one : rows[i]) {
+      faults[{one.row.school_id, one.row.ping_index}] = std::move(one.fault);
+      product.school_pings.push_back(std::move(one.row));
+    }
   }
   std::sort(product.school_pings.begin(), product.school_pings.end(), [](const auto& a, const auto& b) {
     return std::pair(a.school_id, a.ping_index) < std::pair(b.school_id, b.ping_index);
   });
   summarise_schools(schools, engine.recipe(), product);
-  take_masks(schools, product);
+  take_masks(schools, faults, product);
   return {};
 }
 

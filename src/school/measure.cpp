@@ -95,6 +95,8 @@ void count_voxels(const PingMask& mask, int beams, SchoolPingRow& row) {
   row.n_fans = std::count(fan_seen.begin(), fan_seen.end(), true);
 }
 
+bool is_faulty(SampleFlags flags, std::int16_t count) { return any(flags & kFault) || count == kNoData; }
+
 /// Echo of the valid members. The 95th percentile is the nearest rank over voxels.
 void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow& row) {
   const Sector& sector = *ping.sector;
@@ -113,7 +115,7 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
       const auto i = static_cast<std::size_t>(s);
       const double volume = solid_angle * sector.shell_m3_per_sr(s);
       whole_m3 += volume;
-      if (any(flags[i] & kFault) || counts[i] == kNoData) continue;
+      if (is_faulty(flags[i], counts[i])) continue;
       const double behind = background(s);
       const double sv = linear_from_count(counts[i]) - behind;
       sum += sv * volume;
@@ -135,6 +137,20 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
 }
 
 }  // namespace
+
+std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask) {
+  std::vector<bool> faulty;
+  faulty.reserve(mask.voxels());
+  for (const Run& run : mask.runs) {
+    const auto counts = ping.sv.row(run.row);
+    const auto flags = ping.flags.row(run.row);
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      faulty.push_back(is_faulty(flags[i], counts[i]));
+    }
+  }
+  return faulty;
+}
 
 SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   SONAR_CHECK(ping.sector != nullptr && ping.grid != nullptr && !mask.empty());

@@ -88,6 +88,9 @@ struct MeasureInput {
   double threshold_db = kUnknown;    ///< the mask's, for the record
 };
 
+/// Which members are faulty samples and take no part in Sv, in the mask's order.
+[[nodiscard]] std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask);
+
 /// A school's row of school_pings.csv; observation, school_id, ping_index, time and provisional are left to the caller.
 /// mask     not empty; one without a voxel of known volume gives a row of unknowns
 /// threads  pure; fixed order of sums

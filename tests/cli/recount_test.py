@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Independent recount: numpy, netCDF4 and a reader of its own take masks and raw samples and work out every column that
-needs no background again. Formulas from docs/interfaces.md, not from the program."""
+needs no background again. Formulas from docs/interfaces.md, not from the program. Then the other recount, recount.py, is
+itself tested: a survey with faults in its schools passes, and one changed value of any column is noticed."""
+import contextlib
+import csv
+import io
 import math
+import re
+import shutil
 import sys
 
 import sonarx
@@ -11,6 +17,8 @@ try:
     import netCDF4
     import numpy as np
     import raw_reader
+    sys.path.insert(0, str(sonarx.PROJECT / "tests"))
+    import recount as whole_recount
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -168,6 +176,193 @@ class Recount(Case):
                                        10 ** (float(row["sv_mean_db"]) / 10) * volume.sum(),
                                        delta=1e-6 * float(row["backscatter_m2"]))
         self.assertGreater(judged, len(chosen) // 2)
+
+
+# What a recount holds the columns to, by family. Not here: threshold_db and bottom_depth_m, see recount.py.
+PING_FAMILIES = {
+    "counts": ("n_voxels", "n_beams", "n_fans"),
+    "place": ("latitude", "longitude", "depth_m", "range_m", "bearing_deg"),
+    "sizes": ("volume_m3", "length_m", "width_m", "height_m", "axis_deg", "depth_min_m", "depth_max_m"),
+    "echo": ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "valid_fraction"),
+    "corrected": ("volume_corrected_m3", "sv_corrected_db"),
+    "edges": ("edge_flags", "edge_fraction", "touches_edge"),
+    "others": ("provisional",),
+}
+SCHOOL_FAMILIES = {
+    "counts": ("n_pings", "n_pings_whole", "touches_edge_fraction"),
+    "place": ("latitude", "longitude", "depth_m"),
+    "sizes": ("volume_m3", "volume_corrected_m3", "length_m", "width_m", "height_m"),
+    "echo": ("sv_mean_db", "sv_corrected_db", "backscatter_m2"),
+    "motion": ("speed_mps", "speed_se_mps", "course_deg", "vertical_speed_mps"),
+}
+# Changes that matter to somebody: 1 cm on the map, a tenth of a degree, 1 mm/s; all others a ten-thousandth.
+CHANGE = {"latitude": 1e-7, "longitude": 2e-7, "course_deg": 0.1, "axis_deg": 0.1, "speed_mps": 1e-3, "speed_se_mps": 1e-3,
+          "vertical_speed_mps": 1e-3, "edge_flags": 128}
+
+
+class Read:
+    """The pings of a survey, read once."""
+
+    def __init__(self, survey, times):
+        self.pings = list(whole_recount.Survey(survey).load(times))
+
+    def load(self, wanted):
+        return (ping for ping in self.pings if ping[0] in wanted)
+
+
+def times_of(o):
+    return {int(o.pings["time"][int(r["ping_index"])]) for r in o.rows}
+
+
+def deviations_of(o, pings):
+    deviations = whole_recount.Deviations()
+    with contextlib.redirect_stdout(io.StringIO()):
+        whole_recount.recount_observation(o, pings, 1, deviations)
+    return deviations
+
+
+class RecountNotices(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = cls.fresh("recount")
+        cls.product = OUT / "products" / "obs-0001.nc"
+        cls.sound = whole_recount.Observation(cls.product)
+        cls.pings = Read(SURVEY, times_of(cls.sound))
+
+    def changed(self, change):
+        """What is beyond tolerance in a copy of the product that `change` has had its way with; None = something."""
+        copy = self.folder / self.product.name
+        shutil.copy(self.product, copy)
+        with netCDF4.Dataset(copy, "r+") as data:
+            data.set_auto_mask(False)
+            change(data)
+        deviations = deviations_of(whole_recount.Observation(copy), self.pings)
+        return deviations.beyond() or ({None} if deviations.failed else set())
+
+    def test_a_sound_product_passes(self):
+        self.assertEqual(self.changed(lambda data: None), set())
+
+    def each(self, table, families):
+        """One value of each column of a family is changed, each in a row of its own: these columns and no others."""
+        for family, columns in families.items():
+            def change(data, columns=columns):
+                for k, name in enumerate(columns):
+                    variable = data[table][name]
+                    known = [i for i in range(len(variable)) if math.isfinite(variable[i])]
+                    at = known[k % len(known)]
+                    old = variable[at]
+                    step = CHANGE.get(name, 1 if variable.dtype.kind == "i" else 1e-4 * max(abs(old), 1e-2))
+                    variable[at] = old ^ step if name == "edge_flags" else old + step
+            with self.subTest(table=table, family=family):
+                self.assertEqual({name for at, name in self.changed(change) if at == table}, set(columns))
+
+    def test_any_column_of_school_pings(self):
+        self.each("school_pings", PING_FAMILIES)
+
+    def test_any_column_of_schools(self):
+        self.each("schools", SCHOOL_FAMILIES)
+
+    def test_known_and_unknown(self):
+        """A number where there should be none, and none where there should be one."""
+        def forget(data):
+            data["schools"]["speed_mps"][0] = math.nan
+            data["school_pings"]["sv_mean_db"][0] = math.nan
+        self.assertLessEqual({("schools", "speed_mps"), ("school_pings", "sv_mean_db")}, self.changed(forget))
+
+    def test_extents_do_not_change_alone(self):
+        for row, name in enumerate(("length_corrected_m", "width_corrected_m", "height_corrected_m")):
+            def change(data, row=row, name=name):
+                data["school_pings"][name][row] *= 1.0001
+            with self.subTest(column=name):
+                self.assertIn(("school_pings", "volume_corrected_m3"), self.changed(change))
+
+    def test_times(self):
+        for table, name in (("school_pings", "time_utc"), ("schools", "first_time_utc"), ("schools", "last_time_utc")):
+            def change(data, table=table, name=name):
+                data[table][name][0] = data[table][name][0].replace("Z", "1Z")
+            with self.subTest(table=table, column=name):
+                self.assertEqual(self.changed(change), {None})
+
+    def test_masks(self):
+        def other(data, name, change):
+            data["mask"][name].set_auto_scale(False)
+            data["mask"][name][0] = change(data["mask"][name][0])
+        cases = {"confidence": (lambda q: 255 if q < 128 else 1, "depth_m"), "first_sample": (lambda s: s - 1, "volume_m3"),
+                 "fault": (lambda f: 1 - f, "valid_fraction")}
+        for name, (change, column) in cases.items():
+            with self.subTest(variable=name):
+                self.assertIn(("school_pings", column), self.changed(lambda data: other(data, name, change)))
+
+    def test_any_column_of_the_tables(self):
+        for table, rows, ignored in (("schools.csv", "schools", {"continues"}), ("school_pings.csv", "rows", set())):
+            products = sorted((OUT / "products").glob("obs-*.nc"))
+            told = [r for p in products for r in getattr(whole_recount.Observation(p), rows)]
+            with open(OUT / table, newline="", encoding="utf-8") as stream:
+                lines = list(csv.reader(stream))
+            for i, name in [(i, n) for i, n in enumerate(lines[0]) if n not in ignored] + [(None, "nothing")]:
+                changed = [list(line) for line in lines]
+                if i is not None:
+                    digit = re.search("[0-9]", text := changed[1][i])
+                    other = digit and str((int(digit[0]) + 1) % 10)
+                    changed[1][i] = text[:digit.start()] + other + text[digit.end():] if digit else text + "1"
+                with open(self.folder / table, "w", newline="", encoding="utf-8") as stream:
+                    csv.writer(stream).writerows(changed)
+                deviations = whole_recount.Deviations()
+                with contextlib.redirect_stdout(io.StringIO()), self.subTest(table=table, column=name):
+                    try:
+                        whole_recount.compare_table(self.folder / table, told, deviations)
+                    except ValueError:
+                        deviations.failed = True  # no number any more
+                    self.assertEqual(deviations.failed, i is not None)
+
+
+class Faults(Case):
+    """A noisy survey: walls, hot beams and impulses lie in the schools, so that members are no valid ones."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = cls.fresh("faults")
+        flags = ["--preset", "hard", "--seed", "2", "--observations", "1", "--pings", "12", "--schools", "3", "--noise",
+                 "2"]
+        for arguments in (["simulate", cls.folder / "survey", *flags],
+                          ["run", cls.folder / "survey", "--out", cls.folder / "out"]):
+            code, out, err = sonarx.run(*arguments)
+            assert code == 0, out + err
+        cls.product = cls.folder / "out" / "products" / "obs-0001.nc"
+        cls.observation = whole_recount.Observation(cls.product)
+        cls.pings = Read(cls.folder / "survey", times_of(cls.observation))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_rows_with_faults_are_recounted(self):
+        partly = [r for r in self.observation.rows if 0 < r["valid_fraction"] < 1 - 1e-9]
+        self.assertGreater(len(partly), 2)
+        self.assertEqual(deviations_of(self.observation, self.pings).beyond(), set())
+        count = deviations_of(self.observation, self.pings).worst[("school_pings", "valid_fraction")][0]
+        self.assertEqual(count, len(self.observation.rows))
+
+    def test_a_fault_that_is_none_is_noticed(self):
+        """Both ways: the first fault taken for a sound sample, the first sound sample for a fault."""
+        for value in (1, 0):
+            copy = self.folder / "changed.nc"
+            shutil.copy(self.product, copy)
+            with netCDF4.Dataset(copy, "r+") as data:
+                fault = data["mask"]["fault"]
+                at = int(np.flatnonzero(np.asarray(fault[:]) == value)[0])
+                fault[at] = 1 - value
+            beyond = deviations_of(whole_recount.Observation(copy), self.pings).beyond()
+            with self.subTest(value=value):
+                self.assertIn(("school_pings", "valid_fraction"), beyond)
+                self.assertIn(("school_pings", "sv_mean_db"), beyond)
+
+    def test_remeasured_products_know_their_faults(self):
+        again = self.folder / "again"
+        shutil.copytree(self.folder / "out", again)
+        self.sonarx("run", self.folder / "survey", "--out", again, "--remeasure")
+        with netCDF4.Dataset(self.product) as a, netCDF4.Dataset(again / "products" / "obs-0001.nc") as b:
+            np.testing.assert_array_equal(a["mask"]["fault"][:], b["mask"]["fault"][:])
 
 
 if __name__ == "__main__":

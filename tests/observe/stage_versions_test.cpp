@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 1, "ccc44b9443e584e22db20886484d607b"},
     {"track", 2, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 1, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 1, "102308de312c144ddf2f87605dbce079"},
+    {"measure", 2, "102308de312c144ddf2f87605dbce079"},
     {"summarise", 1, "0b4f3a0bd1512c0bbf6b6cb5a9c8ce74"},
 }};
 
