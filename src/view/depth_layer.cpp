@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "base/units.h"
 #include "view/axes.h"
 #include "view/shapes.h"
 
@@ -27,15 +29,16 @@ Rgba8 mixed(Rgba8 a, Rgba8 b, double t) {
   return {m(a.r, b.r), m(a.g, b.g), m(a.b, b.b), 255};
 }
 
-/// Every third pixel of the field.
-ScalarField thinned(const ScalarField& field) {
-  ScalarField out;
-  out.size = {(field.size.width + kContourStep - 1) / kContourStep,
-              (field.size.height + kContourStep - 1) / kContourStep};
-  for (int y = 0; y < out.size.height; ++y) {
-    for (int x = 0; x < out.size.width; ++x) out.values.push_back(field.at(x * kContourStep, y * kContourStep));
-  }
-  return out;
+/// Whether a place lies between known nodes.
+bool enclosed(const DepthGrid& grid, const Geographic& place) {
+  if (grid.rows < 2 || grid.columns < 2) return false;
+  const double y = (place.latitude_deg - grid.south_deg) / grid.step_latitude_deg;
+  const double x = wrap_360(place.longitude_deg - grid.west_deg) / grid.step_longitude_deg;
+  if (!(y >= 0.0 && y <= grid.rows - 1 && x >= 0.0 && x <= grid.columns - 1)) return false;
+  const int row = std::min(static_cast<int>(y), grid.rows - 2);
+  const int column = std::min(static_cast<int>(x), grid.columns - 2);
+  return !std::isnan(grid.at(row, column) + grid.at(row, column + 1) + grid.at(row + 1, column) +
+                     grid.at(row + 1, column + 1));
 }
 
 std::shared_ptr<const Image> painted(const ScalarField& field, const DepthBands& bands, const Theme& theme) {
@@ -115,6 +118,23 @@ ScalarField depth_field(const MapFrame& map, const DepthGrid& grid) {
   return field;
 }
 
+ScalarField contour_field(const MapFrame& map, const DepthGrid& grid, int step) {
+  const PixelSize size{std::max(1, static_cast<int>(std::ceil(map.place.width))),
+                       std::max(1, static_cast<int>(std::ceil(map.place.height)))};
+  const PixelPlaces places(map, size, 1.0);
+  ScalarField out;
+  out.size = {(size.width + step - 1) / step, (size.height + step - 1) / step};
+  out.values.reserve(out.size.count());
+  for (int y = 0; y < out.size.height; ++y) {
+    for (int x = 0; x < out.size.width; ++x) {
+      const Geographic place = places.at(x * step, y * step);
+      out.values.push_back(enclosed(grid, place) ? static_cast<float>(grid.depth_at(place))
+                                                 : std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  return out;
+}
+
 DepthBands depth_bands(const ScalarField& field, const Theme& theme) {
   DepthBands bands;
   double low = 0.0;
@@ -147,7 +167,8 @@ DepthBands depth_bands(const ScalarField& field, const Theme& theme) {
   return bands;
 }
 
-DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const DepthGrid& grid, const Theme& theme) {
+DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const DepthGrid& grid, const Theme& theme,
+                           std::vector<PixelPoint> taken) {
   const ScalarField field = depth_field(map, grid);
   DepthBands bands = depth_bands(field, theme);
   if (bands.levels_m.empty() && !bands.land) return bands;
@@ -155,10 +176,9 @@ DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const D
   const PixelRect place{map.place.x, map.place.y, static_cast<double>(field.size.width),
                         static_cast<double>(field.size.height)};
   frame.items.emplace_back(ImageItem{place, painted(field, bands, theme), false});
-  const ScalarField coarse = thinned(field);
+  const ScalarField coarse = contour_field(map, grid, kContourStep);
   std::vector<double> levels = bands.levels_m;
   if (bands.land) levels.insert(levels.begin(), 0.0);
-  Taken taken;
   for (const double level : levels) {
     PathItem path;
     for (ContourLine& line : contour_lines(coarse, level)) {

@@ -27,7 +27,12 @@ struct DepthBands {
 /// Levels that suit what is seen. No known depth: no levels.
 [[nodiscard]] DepthBands depth_bands(const ScalarField& field, const Theme& theme);
 
-/// Coloured bands, isobaths and their labels, cut to the map; unknown stays as it was.
-DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const DepthGrid& grid, const Theme& theme);
+/// Coloured bands, isobaths and their labels, cut to the map; unknown stays as it was. Isobaths
+/// end where the grid's known nodes do.
+/// taken  where the isobaths' labels keep off
+DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const DepthGrid& grid, const Theme& theme,
+                           std::vector<PixelPoint> taken = {});
+/// Depths at every `step`-th pixel, only where the four nodes about it are known: nothing is continued.
+[[nodiscard]] ScalarField contour_field(const MapFrame& map, const DepthGrid& grid, int step);
 
 }  // namespace sonar

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace sonar {
@@ -114,6 +115,9 @@ std::string survey_title(std::span<const ObservationProduct> products) {
   for (const ObservationProduct& product : products) {
     std::string own = product.title;
     if (own.ends_with(" " + product.observation)) own.resize(own.size() - product.observation.size() - 1);
+    // A survey without a name: "Fish schools of ".
+    while (own.ends_with(' ')) own.pop_back();
+    if (own.ends_with(" of")) own.resize(own.size() - 3);
     synthetic = synthetic || own.find("SYNTHETIC") != std::string::npos;
     if (title.empty()) title = own;
     several = several || (!own.empty() && own != title);
@@ -122,6 +126,14 @@ std::string survey_title(std::span<const ObservationProduct> products) {
   if (several) title += " and others";
   if (synthetic && title.find("SYNTHETIC") == std::string::npos) title = "SYNTHETIC: " + title;
   return title;
+}
+
+std::string observation_title(const ObservationProduct& product) {
+  constexpr std::string_view kSchools = "Fish schools of ";
+  std::string survey = survey_title(std::span(&product, 1));
+  if (product.title.empty() || survey == "Fish schools") return product.observation;
+  if (survey.starts_with(kSchools)) survey.erase(0, kSchools.size());
+  return product.observation + " of " + survey;
 }
 
 }  // namespace sonar

@@ -28,6 +28,9 @@ namespace sonar {
 /// The products' common title, without the observations' names; says SYNTHETIC where one of them does.
 [[nodiscard]] std::string survey_title(std::span<const ObservationProduct> products);
 
+/// "obs-0001 of <survey>", from a product's title; the name alone where the survey has none.
+[[nodiscard]] std::string observation_title(const ObservationProduct& product);
+
 /// Green: where an observation begins.
 inline constexpr Rgba8 kStartColour{30, 170, 70, 255};
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -32,6 +33,24 @@ std::uint8_t from_above(const Sector& sector, const PingMask& mask, double u, do
     }
   }
   return best;
+}
+
+TEST(MaskPlan, NoBinInsideARunIsLostWhereCellsEndOnBinMiddles) {
+  // The first range is two whole samples below zero, as real files have it: every cell's edge is a bin's middle.
+  for (const double spacing_m : {0.377, 0.1887, 0.4715}) {
+    GridRecord record = map_example::grid();
+    record.range = {-2.0 * spacing_m, spacing_m, 2000};
+    const Sector sector = record.grid.sector(record.range);
+    for (int first = 4; first < 1500; first += 37) {
+      const int n = 300;
+      const MaskPlan plan = plan_from_side(sector, block(1, 0, 1, first, n), spacing_m);
+      ASSERT_EQ(plan.wedges.size(), 1U);
+      const MaskWedge& w = plan.wedges[0];
+      EXPECT_GE(w.bins.size(), static_cast<std::size_t>(n));
+      EXPECT_LE(w.bins.size(), static_cast<std::size_t>(n + 1));
+      EXPECT_EQ(std::count(w.bins.begin(), w.bins.end(), 0), 0) << spacing_m << " m, from sample " << first;
+    }
+  }
 }
 
 TEST(MaskPlan, ThePatchIsTheMaximumOverAllVoxelsThere) {

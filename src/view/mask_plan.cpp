@@ -19,9 +19,11 @@ struct Interval {
 class Profile {
  public:
   void put(const Interval& i, double bin_m, std::uint8_t confidence) {
-    // Bins whose middle lies in the interval; at least the one that holds its middle.
-    auto first = static_cast<std::int32_t>(std::ceil(i.near_m / bin_m - 0.5));
-    auto end = static_cast<std::int32_t>(std::ceil(i.far_m / bin_m - 0.5));
+    // Bins whose middle lies in the interval; at least the one that holds its middle. Where edges fall on middles (a
+    // first range of a whole number of samples) rounding must not lose a bin: both neighbours take it.
+    constexpr double kTie = 1e-6;
+    auto first = static_cast<std::int32_t>(std::ceil(i.near_m / bin_m - 0.5 - kTie));
+    auto end = static_cast<std::int32_t>(std::floor(i.far_m / bin_m - 0.5 + kTie)) + 1;
     if (end <= first) {
       first = static_cast<std::int32_t>(std::floor((i.near_m + i.far_m) / 2.0 / bin_m));
       end = first + 1;

@@ -22,6 +22,7 @@ constexpr double kMargin = 0.05;  ///< of the hull's size
 constexpr double kLeastMargin_m = 30.0;
 constexpr double kMostCells = 1000.0;  ///< of the mosaic along a side
 constexpr double kShip_m = 78.0;       ///< a large research vessel
+constexpr double kLeastShips = 8.0;    ///< lengths that the map shows at least: the ship never fills it
 
 bool placed(const PingNavigation& n) { return n.has_position() && std::isfinite(n.heading_deg); }
 
@@ -97,14 +98,16 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   if (!extent) return fail(ErrorCode::not_found, fmt::format("{}: no ping has a position", product.observation));
   const double size_m =
       geodesic({extent->south_deg, extent->west_deg}, {extent->north_deg, extent->east_deg}).distance_m;
-  ObservationMapBase base{fit_map(widened(*extent, std::max(kLeastMargin_m, kMargin * size_m)), map_place(size, theme)),
-                          size,
-                          theme,
-                          {},
-                          {},
-                          {},
-                          {}};
-  base.title = survey_title(std::span(&product, 1));
+  ObservationMapBase base{
+      fit_map(widened(*extent, std::max({kLeastMargin_m, kMargin * size_m, (kLeastShips * kShip_m - size_m) / 2.0})),
+              map_place(size, theme)),
+      size,
+      theme,
+      {},
+      {},
+      {},
+      {}};
+  base.title = observation_title(product);
   base.track = track_item(base.map, product.pings, {theme.track, 1.6 * theme.line_px, {}});
   base.footprints.resize(product.pings.size());
   std::vector<PlanePoint> corners;
@@ -144,7 +147,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   FrameDescription frame;
   frame.size = base.size;
   frame.background = theme.background;
-  frame.title = base.title + ": " + product.observation;
+  frame.title = base.title;
   frame.items.emplace_back(rectangle_item(base.map.place, theme.plot));
   frame.items.emplace_back(ClipItem{base.map.place});
   frame.items.emplace_back(polyline_item(base.hull, true, theme.outline, theme.line_px, theme.water));
@@ -153,6 +156,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
       painted(mosaic, palette),
       false});
   frame.items.emplace_back(base.track);
+  if (current) add_current(frame, base, product, *current);
   for (const PingNavigation& n : product.pings) {
     if (!n.has_position()) continue;
     if (const auto at = base.map.at(n.transducer)) {
@@ -160,14 +164,13 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
     }
     break;
   }
-  if (current) add_current(frame, base, product, *current);
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, base.map, theme);
   add_scale_and_north(frame, base.map, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
-  std::string line = fmt::format("{} · {} pings, {} school{} · {}", product.observation, product.pings.size(),
-                                 product.schools.size(), product.schools.size() == 1 ? "" : "s", span);
+  std::string line = fmt::format("{} pings, {} school{} · {}", product.pings.size(), product.schools.size(),
+                                 product.schools.size() == 1 ? "" : "s", span);
   if (current && *current < product.pings.size()) {
     line += fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
   }

@@ -66,23 +66,27 @@ std::vector<PlanePoint> sector_outline(const Sector& sector, MaskAspect aspect) 
   return out;
 }
 
+/// Widens a window over what a plan lights.
+void include(Window& w, const MaskPlan& plan, MaskAspect aspect) {
+  for (const MaskWedge& wedge : plan.wedges) {
+    const double near_m = wedge.first_bin * plan.bin_m;
+    const double far_m = (wedge.first_bin + static_cast<double>(wedge.bins.size())) * plan.bin_m;
+    for (const double a : {wedge.first_rad, (wedge.first_rad + wedge.last_rad) / 2.0, wedge.last_rad}) {
+      for (const double d : {near_m, far_m}) {
+        const PlanePoint p = seen(aspect, a, d);
+        w.add(p.x, p.y);
+      }
+    }
+  }
+}
+
 Window window_of(const Sector& sector, std::span<const PropagationPanel> panels, const PropagationStyle& style) {
   Window w;
   if (!style.whole_sector) {
     for (const PropagationPanel& panel : panels) {
       for (const MosaicMask& m : panel.masks) {
         if (m.mask == nullptr) continue;
-        const MaskPlan plan = plan_of(sector, *m.mask, style.aspect);
-        for (const MaskWedge& wedge : plan.wedges) {
-          const double near_m = wedge.first_bin * plan.bin_m;
-          const double far_m = (wedge.first_bin + static_cast<double>(wedge.bins.size())) * plan.bin_m;
-          for (const double a : {wedge.first_rad, (wedge.first_rad + wedge.last_rad) / 2.0, wedge.last_rad}) {
-            for (const double d : {near_m, far_m}) {
-              const PlanePoint p = seen(style.aspect, a, d);
-              w.add(p.x, p.y);
-            }
-          }
-        }
+        include(w, plan_of(sector, *m.mask, style.aspect), style.aspect);
       }
     }
   }
@@ -184,31 +188,51 @@ std::shared_ptr<const Image> mask_image(const Sector& sector, const PropagationP
 }
 
 std::string state_of(const PropagationPanel& panel) {
-  if (!panel.there) return "no such ping";
   if (panel.bad) return "bad ping";
   const bool empty = std::all_of(panel.masks.begin(), panel.masks.end(),
                                  [](const MosaicMask& m) { return m.mask == nullptr || m.mask->empty(); });
   return empty ? "no school" : "";
 }
 
+/// Schools' numbers to the right of their masks, to the left where there is no room.
+void add_numbers(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
+                 const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
+  const double size = 0.9 * theme.text_px;
+  const double gap = 0.4 * size;
+  for (std::size_t i = 0; i < std::min(panel.masks.size(), panel.school_ids.size()); ++i) {
+    const PingMask* mask = panel.masks[i].mask;
+    if (mask == nullptr || mask->empty()) continue;
+    Window w;
+    include(w, plan_of(sector, *mask, style.aspect), style.aspect);
+    if (w.empty()) continue;
+    const std::string words = fmt::format("{}", panel.school_ids[i]);
+    const PixelPoint right = scale.at({w.right, (w.low + w.high) / 2.0}, place);
+    const PixelPoint left = scale.at({w.left, (w.low + w.high) / 2.0}, place);
+    const bool fits = right.x + gap + text_width_px(words.c_str(), size) < place.x + place.width;
+    TextItem text = text_item({fits ? right.x + gap : left.x - gap, right.y}, words, size, theme.text,
+                              fits ? TextAnchor::left : TextAnchor::right);
+    text.halo = theme.halo;
+    frame.items.emplace_back(std::move(text));
+  }
+}
+
 void add_panel(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
                const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
   const double em = theme.text_px;
   const std::string state = state_of(panel);
-  frame.items.emplace_back(rectangle_item(place, panel.there && !panel.bad ? theme.plot : theme.no_data));
+  frame.items.emplace_back(rectangle_item(place, !panel.bad ? theme.plot : theme.no_data));
   frame.items.emplace_back(ClipItem{place});
-  if (panel.there) {
-    std::vector<PixelPoint> outline;
-    for (const PlanePoint& p : sector_outline(sector, style.aspect)) outline.push_back(scale.at(p, place));
-    if (!outline.empty()) {
-      frame.items.emplace_back(polyline_item(std::move(outline), true, theme.outline, theme.line_px,
-                                             panel.bad ? Rgba8{0, 0, 0, 0} : theme.water));
-    }
-    if (state.empty()) {
-      frame.items.emplace_back(ImageItem{{place.x, place.y, std::ceil(place.width), std::ceil(place.height)},
-                                         mask_image(sector, panel, style, scale, place),
-                                         false});
-    }
+  std::vector<PixelPoint> outline;
+  for (const PlanePoint& p : sector_outline(sector, style.aspect)) outline.push_back(scale.at(p, place));
+  if (!outline.empty()) {
+    frame.items.emplace_back(polyline_item(std::move(outline), true, theme.outline, theme.line_px,
+                                           panel.bad ? Rgba8{0, 0, 0, 0} : theme.water));
+  }
+  if (state.empty()) {
+    frame.items.emplace_back(ImageItem{{place.x, place.y, std::ceil(place.width), std::ceil(place.height)},
+                                       mask_image(sector, panel, style, scale, place),
+                                       false});
+    add_numbers(frame, sector, panel, style, scale, place, theme);
   }
   frame.items.emplace_back(ClipItem{});
   frame.items.emplace_back(rectangle_item(place, {0, 0, 0, 0}, panel.current ? theme.accent : theme.axis,
@@ -223,7 +247,7 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
                             em, theme.text, TextAnchor::centre);
   name.bold = panel.current;
   frame.items.emplace_back(std::move(name));
-  if (panel.there && panel.time != 0) {
+  if (panel.time != 0) {
     frame.items.emplace_back(text_item({place.x + place.width / 2.0, place.y - 0.8 * em},
                                        clock_text(panel.time, true).substr(11), 0.9 * em, theme.muted,
                                        TextAnchor::centre));
@@ -263,11 +287,10 @@ std::vector<PropagationPanel> propagation_panels(const ObservationProduct& produ
                                                  const PropagationStyle& style) {
   std::vector<PropagationPanel> panels;
   for (std::int64_t i = current - style.before; i <= current + style.after; ++i) {
+    if (i < 0 || i >= static_cast<std::int64_t>(product.pings.size())) continue;
     PropagationPanel& panel = panels.emplace_back();
     panel.ping_index = i;
     panel.current = i == current;
-    panel.there = i >= 0 && i < static_cast<std::int64_t>(product.pings.size());
-    if (!panel.there) continue;
     const PingNavigation& n = product.pings[static_cast<std::size_t>(i)];
     panel.time = n.time;
     panel.bad = n.bad;
@@ -276,6 +299,7 @@ std::vector<PropagationPanel> propagation_panels(const ObservationProduct& produ
       const auto at = std::find_if(product.schools.begin(), product.schools.end(),
                                    [&](const SchoolRow& s) { return s.school_id == m.school_id; });
       panel.masks.push_back({static_cast<int>(at - product.schools.begin()), &m.mask});
+      panel.school_ids.push_back(m.school_id);
     }
   }
   return panels;

@@ -46,18 +46,18 @@ void describe(Visitor& v, PropagationStyle& p) {
 /// One ping of the view.
 struct PropagationPanel {
   std::int64_t ping_index = 0;
-  bool there = true;  ///< false: the observation has no such ping
-  bool bad = false;   ///< the ping was not used
+  bool bad = false;  ///< the ping was not used
   bool current = false;
   TimeNs time = 0;
-  std::vector<MosaicMask> masks;  ///< point into what the panel was made from
+  std::vector<MosaicMask> masks;         ///< point into what the panel was made from
+  std::vector<std::int64_t> school_ids;  ///< of `masks`, written beside them; may be empty
 };
-/// The current ping of a product and its neighbours.
+/// The current ping of a product and its neighbours, as far as there are such pings.
 [[nodiscard]] std::vector<PropagationPanel> propagation_panels(const ObservationProduct& product, std::int64_t current,
                                                                const PropagationStyle& style);
 
 /// The current ping and its neighbours side by side, each a projection of its masks, all at one scale about one place in
-/// the sonar's frame; each labelled with ping and time; pings without a school, bad and missing ones say so.
+/// the sonar's frame; each labelled with ping and time; pings without a school, and bad ones say so.
 /// title   first line of the picture
 /// errors  bad_parameter: a parameter out of range, no panels, or a picture too small for them
 [[nodiscard]] Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,

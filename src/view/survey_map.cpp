@@ -103,24 +103,50 @@ void add_school(const Drawing& d, const SchoolRow& school, const ObservationOutl
                                          {d.theme.text, 0.8 * d.theme.line_px, {}}));
 }
 
-void add_start(const Drawing& d, const ObservationProduct& product, bool named) {
+void add_start(const Drawing& d, const ObservationProduct& product) {
   const auto first =
       std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
   if (first == product.pings.end()) return;
   const auto at = d.map.at(first->transducer);
   if (!at) return;
   d.frame.items.emplace_back(circle_item(*at, 0.5 * d.em, kStartColour, {d.theme.text, d.theme.line_px, {}}));
-  if (!named) return;
-  // Beside the marker, away from where the ship went.
+}
+
+/// Beside the start's marker, away from where the ship went as long as it fits there.
+std::optional<TextItem> start_name(const Drawing& d, const ObservationProduct& product) {
+  const auto first =
+      std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
+  if (first == product.pings.end()) return std::nullopt;
+  const auto at = d.map.at(first->transducer);
+  if (!at) return std::nullopt;
   const auto after = std::find_if(first, product.pings.end(), [&](const auto& n) {
     return n.has_position() && geodesic(first->transducer, n.transducer).distance_m > 20.0;
   });
   const auto next = after != product.pings.end() ? d.map.at(after->transducer) : std::nullopt;
-  const bool to_left = next && next->x > at->x;
-  TextItem name = text_item({at->x + (to_left ? -0.9 : 0.9) * d.em, at->y}, product.observation, 0.9 * d.em,
-                            d.theme.text, to_left ? TextAnchor::right : TextAnchor::left);
+  bool to_left = next && next->x > at->x;
+  const double reach = 1.1 * d.em + text_width_px(product.observation.c_str(), 0.9 * d.em);
+  const bool fits_left = at->x - reach > d.map.place.x;
+  const bool fits_right = at->x + reach < d.map.place.x + d.map.place.width;
+  if (to_left ? !fits_left && fits_right : !fits_right && fits_left) to_left = !to_left;
+  const double low = d.map.place.y + 0.8 * d.em;
+  const double y = std::clamp(at->y, low, std::max(low, d.map.place.y + d.map.place.height - 0.8 * d.em));
+  TextItem name = text_item({at->x + (to_left ? -0.9 : 0.9) * d.em, y}, product.observation, 0.9 * d.em, d.theme.text,
+                            to_left ? TextAnchor::right : TextAnchor::left);
   name.halo = d.theme.halo;
-  d.frame.items.emplace_back(std::move(name));
+  return name;
+}
+
+/// "depth.tif (elevation, negative down)": how the sign was told, and a variable of the same name, say nothing more.
+std::string brief_source(std::string source) {
+  if (const auto why = source.rfind(" (told by "); why != std::string::npos) source.resize(why);
+  const auto colon = source.rfind(": ");
+  if (colon == std::string::npos) return source;
+  std::string head = source.substr(0, colon);
+  const std::string meaning = source.substr(colon + 2);
+  if (const auto comma = head.rfind(", "); comma != std::string::npos && meaning.starts_with(head.substr(comma + 2))) {
+    head.resize(comma);
+  }
+  return head + " (" + meaning + ")";
 }
 
 void add_ship(const Drawing& d, std::span<const ObservationProduct> observations) {
@@ -231,7 +257,7 @@ void add_legend(const Drawing& d, const PixelRect& place, const DepthBands& band
   legend.gap();
   legend.small(d.map.projection.name());
   if (depths != nullptr) {
-    legend.small("Depths: " + depths->source);
+    legend.small("Depths: " + brief_source(depths->source));
     if (bands.levels_m.empty()) legend.small("The raster has no depths here.");
     if (bands.unknown && !bands.levels_m.empty()) legend.small("Plain where the raster has no depths.");
   } else {
@@ -277,6 +303,15 @@ std::optional<GeoExtent> survey_extent(std::span<const ObservationProduct> obser
   return widened(*extent, std::max(kLeastMargin_m, margin * size_m));
 }
 
+std::optional<GeoExtent> survey_map_extent(std::span<const ObservationProduct> observations,
+                                           std::span<const ObservationOutlines> outlines, const SurveyMapStyle& style,
+                                           PixelSize size, const Theme& theme) {
+  const auto extent = survey_extent(observations, outlines, style.margin);
+  if (!extent) return std::nullopt;
+  Places p;
+  return shown_extent(laid_out(*extent, size, theme, p));
+}
+
 Result<FrameDescription> survey_map(std::span<const ObservationProduct> observations,
                                     std::span<const ObservationOutlines> outlines, const DepthGrid* depths,
                                     const SurveyMapStyle& style, PixelSize size, const Theme& theme,
@@ -298,7 +333,17 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   const Drawing d{frame, map, theme, look, theme.text_px};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
   DepthBands bands;
-  if (depths != nullptr) bands = add_depth_layer(frame, map, *depths, theme);
+  std::vector<TextItem> names;
+  std::vector<PixelPoint> taken;
+  if (style.names && observations.size() <= kMostNames) {
+    for (const ObservationProduct& product : observations) {
+      auto name = start_name(d, product);
+      if (!name) continue;
+      taken.push_back(name->at);
+      names.push_back(std::move(*name));
+    }
+  }
+  if (depths != nullptr) bands = add_depth_layer(frame, map, *depths, theme, taken);
   frame.items.emplace_back(ClipItem{map.place});
   bool schools = false;
   for (const ObservationProduct& product : observations) {
@@ -316,9 +361,10 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
       if (look.shown(school)) add_school(d, school, o);
     }
   }
-  const bool named = style.names && observations.size() <= kMostNames;
-  for (const ObservationProduct& product : observations) add_start(d, product, named);
+  // A start may lie below the ship: it stays seen.
   add_ship(d, observations);
+  for (const ObservationProduct& product : observations) add_start(d, product);
+  for (TextItem& name : names) frame.items.emplace_back(std::move(name));
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);

@@ -47,10 +47,16 @@ void describe(Visitor& v, SurveyMapStyle& p) {
   v.field("margin", p.margin, {.unit = "1", .min = 0, .max = 5, .text = "sea around the survey, share of its size"});
 }
 
-/// What a map of these observations shows: their tracks and what they swept, with the margin. What a depth raster must
-/// cover. Empty where no ping has a position.
+/// What a map of these observations shows: their tracks and what they swept, with the margin. Empty where no ping has a position.
 [[nodiscard]] std::optional<GeoExtent> survey_extent(std::span<const ObservationProduct> observations,
                                                      std::span<const ObservationOutlines> outlines, double margin);
+
+/// What a map of that size really shows: the extent above and the sea that fills the paper. What a depth raster should
+/// cover. Empty where no ping has a position.
+[[nodiscard]] std::optional<GeoExtent> survey_map_extent(std::span<const ObservationProduct> observations,
+                                                         std::span<const ObservationOutlines> outlines,
+                                                         const SurveyMapStyle& style, PixelSize size,
+                                                         const Theme& theme);
 
 /// The survey map (figure 6 of Balabanian et al. 2007, made by the program): observations with the ship's track, green
 /// markers at their starts, the search volume in grey, schools as outlines and as circles whose area is their

@@ -139,6 +139,55 @@ TEST(SurveyMap, DepthsAreColouredAndSaidWhereFrom) {
   EXPECT_EQ(image->image->at(s.width / 4, 5).a, 255);
 }
 
+TEST(SurveyMap, ARasterOfTheShownExtentColoursEveryPixel) {
+  const auto all = survey({60.0, 5.0});
+  const auto extent = survey_map_extent(all, {}, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(extent);
+  constexpr int kNodes = 21;
+  DepthGrid grid;
+  grid.south_deg = extent->south_deg;
+  grid.west_deg = extent->west_deg;
+  grid.step_latitude_deg = (extent->north_deg - extent->south_deg) / (kNodes - 1);
+  grid.step_longitude_deg = (extent->east_deg - extent->west_deg) / (kNodes - 1);
+  grid.rows = grid.columns = kNodes;
+  for (int i = 0; i < kNodes * kNodes; ++i) grid.depth_m.push_back(static_cast<float>(100 + i % kNodes));
+  grid.source = "sea.tif, elevation: elevation, negative down (told by its name)";
+  const auto frame = survey_map(all, {}, &grid, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(says(*frame, "Plain where"));
+  EXPECT_TRUE(says(*frame, "Depths: sea.tif"));
+  EXPECT_FALSE(says(*frame, "told by"));
+  const ImageItem* image = nullptr;
+  for (const auto& item : frame->items) {
+    if (const auto* i = std::get_if<ImageItem>(&item)) image = i;
+  }
+  ASSERT_NE(image, nullptr);
+  EXPECT_TRUE(
+      std::all_of(image->image->pixels.begin(), image->image->pixels.end(), [](const Rgba8& p) { return p.a == 255; }));
+}
+
+TEST(SurveyMap, NamesStandInsideTheMap) {
+  for (const double course : {90.0, 270.0}) {
+    const std::vector<ObservationProduct> one{
+        map_example::product("a-long-name-of-an-observation", 60, {60.0, 5.0}, course)};
+    const auto frame = survey_map(one, {}, nullptr, {}, kSize, light_theme(kSize));
+    ASSERT_TRUE(frame);
+    const PixelRect map = std::get<ClipItem>(*std::find_if(frame->items.begin(), frame->items.end(), [](const auto& i) {
+                            return std::holds_alternative<ClipItem>(i);
+                          })).place;
+    bool seen = false;
+    for (const TextItem& t : texts(*frame)) {
+      if (t.text != one[0].observation) continue;
+      seen = true;
+      const double width = text_width_px(t.text.c_str(), t.size_px);
+      const double left = t.anchor == TextAnchor::right ? t.at.x - width : t.at.x;
+      EXPECT_GE(left, map.x);
+      EXPECT_LE(left + width, map.x + map.width);
+    }
+    EXPECT_TRUE(seen);
+  }
+}
+
 TEST(SurveyMap, RejectedSchoolsAreLeftOutUnlessAskedFor) {
   auto all = survey({60.0, 5.0});
   all[0].schools[0].status = "rejected";
@@ -175,6 +224,16 @@ TEST(MapItems, TitlesTellWhatIsSynthetic) {
   EXPECT_EQ(survey_title(two), "Herring");
   two[1].title = "SYNTHETIC obs-0002";
   EXPECT_EQ(survey_title(two), "SYNTHETIC: Herring and others");
+}
+
+TEST(MapItems, TitlesOfSurveysWithoutAName) {
+  ObservationProduct p;
+  p.observation = "obs-0001";
+  p.title = "Fish schools of  obs-0001";
+  EXPECT_EQ(survey_title(std::span(&p, 1)), "Fish schools");
+  EXPECT_EQ(observation_title(p), "obs-0001");
+  p.title = "Fish schools of Herring 2009 obs-0001";
+  EXPECT_EQ(observation_title(p), "obs-0001 of Herring 2009");
 }
 
 TEST(MapItems, TracksBreakWherePositionsAreUnknown) {
