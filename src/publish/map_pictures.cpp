@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/map_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,23 +15,6 @@
 #include "view/survey_map.h"
 
 namespace sonar {
-namespace {
-
-/// The schools that the options ask for; the others' rows and masks are left out.
-ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options) {
-  ObservationProduct chosen = product;
-  const auto unwanted = [&](std::int64_t id) {
-    return !options.masks || (!options.schools.empty() &&
-                              std::find(options.schools.begin(), options.schools.end(), id) == options.schools.end());
-  };
-  std::erase_if(chosen.schools, [&](const SchoolRow& row) { return unwanted(row.school_id); });
-  std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
-  std::erase_if(chosen.masks, [&](const SchoolMask& mask) { return unwanted(mask.school_id); });
-  return chosen;
-}
-
-}  // namespace
-
 Result<FrameDescription> observation_map_frame(const DrawnObservation& observation, const PictureOptions& options) {
   if (auto known = require_schools(observation, options); !known) return pass_on(known);
   const auto ping = chosen_ping(observation, options);
@@ -59,6 +44,13 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
 
 Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& observations,
                                           const PictureOptions& options, Work& work) {
+  for (const std::int64_t school : options.schools) {
+    const bool known = std::any_of(observations.begin(), observations.end(), [school](const DrawnObservation& o) {
+      return std::any_of(o.product().schools.begin(), o.product().schools.end(),
+                         [school](const SchoolRow& row) { return row.school_id == school; });
+    });
+    if (!known) return fail(ErrorCode::usage, fmt::format("no school {} in any observation", school));
+  }
   std::vector<ObservationProduct> products;
   for (const DrawnObservation& observation : observations)
     products.push_back(with_chosen_schools(observation.product(), options));
@@ -72,9 +64,12 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   style.sv_high_db = options.scale.high_db();
   std::optional<DepthGrid> depths;
   if (!options.depth_raster.empty()) {
-    const auto extent = survey_extent(products, outlines, style.margin);
-    if (!extent) return fail(ErrorCode::not_found, "no ping of the survey has a position");
-    auto read = read_depth_raster(options.depth_raster, *extent);
+    const auto surveyed = survey_extent(products, outlines, style.margin);
+    const auto shown = survey_map_extent(products, outlines, style, options.size, theme_of(options));
+    if (!surveyed || !shown) return fail(ErrorCode::not_found, "no ping of the survey has a position");
+    // A raster that meets only the paper about the survey would be a wrong file: asked coarsely, then read in full.
+    if (auto met = read_depth_raster(options.depth_raster, *surveyed, {.most_nodes = 100}); !met) return pass_on(met);
+    auto read = read_depth_raster(options.depth_raster, *shown);
     if (!read) return pass_on(read);
     depths = std::move(*read);
   }
