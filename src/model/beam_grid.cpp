@@ -96,7 +96,10 @@ Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vec
 }  // namespace
 
 std::vector<int> BeamGrid::row_of_channel() const {
-  std::vector<int> rows(channel.size(), -1);
+  // A sounder may have channels that are in no fan: numbers run on beyond the count of rows.
+  std::size_t channels = channel.size();
+  for (const int number : channel) channels = std::max(channels, static_cast<std::size_t>(number) + 1);
+  std::vector<int> rows(channels, -1);
   for (std::size_t row = 0; row < channel.size(); ++row) {
     rows[static_cast<std::size_t>(channel[row])] = static_cast<int>(row);
   }

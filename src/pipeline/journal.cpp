@@ -139,10 +139,14 @@ Result<Journal> read_journal(const std::string& path) {
 }
 
 Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file < 0) return fail(ErrorCode::io, std::strerror(errno), {path});
-  const bool fresh = ::lseek(file, 0, SEEK_END) == 0;
-  const std::string text = (fresh ? journal_head_text(head) + "\n" : "") + journal_text(line) + "\n";
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  // A line that a crash cut short must not swallow the next one.
+  char last = '\n';
+  const bool cut = size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
+  const std::string before = size == 0 ? journal_head_text(head) + "\n" : std::string(cut ? "\n" : "");
+  const std::string text = before + journal_text(line) + "\n";
   const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const bool flushed = written && ::fsync(file) == 0;
   const std::string why = std::strerror(errno);

@@ -79,6 +79,11 @@ TEST_F(JournalFile, LineCutByACrashLosesNothingElse) {
   ASSERT_TRUE(journal);
   ASSERT_EQ(journal->lines.size(), 1U);
   EXPECT_EQ(journal->diagnostics.size(), 1U);
+  append(3, "propagate");  // nor the line that comes next
+  const auto longer = read_journal(path_);
+  ASSERT_TRUE(longer);
+  ASSERT_EQ(longer->lines.size(), 2U);
+  EXPECT_EQ(longer->lines[1].n, 3);
 }
 
 TEST_F(JournalFile, NewerVersionIsRefusedByName) {
