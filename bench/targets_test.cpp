@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "targets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sonar::bench {
+namespace {
+
+template <class Compare>
+bool holds(const Compare& compare) {
+  Targets targets;
+  compare(targets);
+  return targets.hold();
+}
+
+TEST(Targets, TheProcessorBesideTheNaiveShader) {
+  EXPECT_TRUE(holds([](Targets& t) { t.cpu_beside_naive(false, 12.0, 20.0); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_naive(false, 11.9, 70.0); }));
+  EXPECT_TRUE(holds([](Targets& t) { t.cpu_beside_naive(true, 8.0, 54.0); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_naive(true, 7.9, 60.0); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_naive(true, 9.0, 53.9); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_naive(false, std::nan(""), 70.0); }));
+}
+
+TEST(Targets, TheProcessorBesideVtk) {
+  EXPECT_TRUE(holds([](Targets& t) { t.cpu_beside_vtk(false, 25.0, 60.0, 48.0); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_vtk(false, 24.0, 60.0, 48.0); }));
+  EXPECT_TRUE(holds([](Targets& t) { t.cpu_beside_vtk(true, 16.0, 54.0, 48.0); }));
+  EXPECT_FALSE(holds([](Targets& t) { t.cpu_beside_vtk(true, 30.0, 48.0, 48.0); }));
+}
+
+TEST(Targets, OpenGlIsNeverSlowerAndItsSpeedIsSetBesideTheTarget) {
+  EXPECT_FALSE(holds([](Targets& t) { t.gl_beside_naive(true, 0.99); }));
+  Targets targets;
+  targets.gl_beside_naive(false, 3.7);
+  EXPECT_TRUE(targets.hold());
+  const auto news = targets.news();
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_NE(news[0].find("target 4, measured 3.7"), std::string::npos) << news[0];
+  EXPECT_TRUE(targets.news().empty());
+}
+
+TEST(Targets, WhatWasNotComparedIsSaidWithItsReason) {
+  Targets targets;
+  targets.at_least("a ratio", 1.0, 2.0);
+  targets.skip("VTK on closeup haze", "no vtk.csv");
+  EXPECT_TRUE(targets.hold());
+  const auto verdict = targets.verdict();
+  ASSERT_EQ(verdict.size(), 3U);
+  EXPECT_EQ(verdict[0], "all 1 checks passed");
+  EXPECT_EQ(verdict[1], "1 comparisons were not made:");
+  EXPECT_EQ(verdict[2], "  VTK on closeup haze: no vtk.csv");
+  targets.require(false, "a thing");
+  EXPECT_EQ(targets.verdict()[0], "FAILED: 1 of 2 checks, see above");
+}
+
+}  // namespace
+}  // namespace sonar::bench
