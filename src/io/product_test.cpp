@@ -119,6 +119,51 @@ TEST_F(Product, two_writes_and_a_save_load_save_give_the_same_bytes) {
   EXPECT_EQ(*read_file(at("a.nc")), *read_file(at("c.nc")));
 }
 
+// Faults are known of every voxel or not at all; a file without them is one of before.
+TEST_F(Product, faults_of_members_are_kept) {
+  ObservationProduct p = sample();
+  for (std::size_t m = 0; m < p.masks.size(); ++m) {
+    for (std::size_t v = 0; v < p.masks[m].mask.voxels(); ++v) p.masks[m].fault.push_back(v % (m + 2) == 0);
+  }
+  ASSERT_TRUE(write_product(p, at("a.nc")));
+  const auto back = read_product(at("a.nc"));
+  ASSERT_TRUE(back) << to_line(back.error());
+  ASSERT_EQ(back->masks.size(), p.masks.size());
+  for (std::size_t m = 0; m < p.masks.size(); ++m) EXPECT_EQ(back->masks[m].fault, p.masks[m].fault);
+  ASSERT_TRUE(write_product(*back, at("b.nc")));
+  EXPECT_EQ(*read_file(at("a.nc")), *read_file(at("b.nc")));
+
+  p.masks[1].fault.clear();
+  ASSERT_TRUE(write_product(p, at("unknown.nc")));
+  const auto unknown = read_product(at("unknown.nc"));
+  ASSERT_TRUE(unknown) << to_line(unknown.error());
+  EXPECT_TRUE(unknown->masks[0].fault.empty());
+
+  p.masks[1].fault = {true};
+  const auto few = write_product(p, at("few.nc"));
+  ASSERT_FALSE(few);
+  EXPECT_THAT(to_line(few.error()), HasSubstr("faults and voxels differ"));
+}
+
+TEST_F(Product, a_fault_that_is_neither_0_nor_1_is_refused) {
+  ObservationProduct p = sample();
+  for (SchoolMask& m : p.masks) m.fault.assign(m.mask.voxels(), false);
+  ASSERT_TRUE(write_product(p, at("a.nc")));
+  int id = -1;
+  int mask = -1;
+  int fault = -1;
+  ASSERT_EQ(nc_open(at("a.nc").c_str(), NC_WRITE, &id), NC_NOERR);
+  ASSERT_EQ(nc_inq_grp_ncid(id, "mask", &mask), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(mask, "fault", &fault), NC_NOERR);
+  const std::size_t third = 2;
+  const unsigned char two = 2;
+  ASSERT_EQ(nc_put_var1_uchar(mask, fault, &third, &two), NC_NOERR);
+  ASSERT_EQ(nc_close(id), NC_NOERR);
+  const auto back = read_product(at("a.nc"));
+  ASSERT_FALSE(back);
+  EXPECT_THAT(to_line(back.error()), HasSubstr("'fault' of voxel 2 of the mask is 2"));
+}
+
 TEST_F(Product, runs_stand_in_the_order_of_channels) {
   ASSERT_TRUE(write_product(sample(), at("a.nc")));
   int id = -1;

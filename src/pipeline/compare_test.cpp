@@ -39,6 +39,11 @@ TEST(Compare, names_the_first_difference) {
   b = sample();
   b.masks[1].mask.confidence[3] = 7;
   EXPECT_EQ(first_difference(a, b), "/mask/confidence (school 1, ping 1)[3]: 255, 7");
+  ObservationProduct sound = sample();
+  for (SchoolMask& m : sound.masks) m.fault.assign(m.mask.voxels(), false);
+  b = sound;
+  b.masks[2].fault[5] = true;
+  EXPECT_EQ(first_difference(sound, b), "/mask/fault (school 1, ping 2)[5]: false, true");
   b = sample();
   b.pings[4].heading_deg = 1.0;
   EXPECT_EQ(first_difference(a, b), "/pings/heading[4]: 0, 1");

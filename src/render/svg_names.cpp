@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/svg_names.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <cstddef>
 #include <map>
@@ -23,7 +25,7 @@ std::map<std::string, std::string, std::less<>> new_names(const std::string& svg
   std::map<std::string, std::string, std::less<>> names;
   for (std::size_t i = svg.find(kId); i != std::string::npos; i = svg.find(kId, i + 1)) {
     const std::string_view old = name_at(svg, i + kId.size());
-    if (!old.empty()) names.try_emplace(std::string(old), "n" + std::to_string(names.size() + 1));
+    if (!old.empty()) names.try_emplace(std::string(old), fmt::format("n{}", names.size() + 1));
   }
   return names;
 }

@@ -53,7 +53,7 @@ class VolumeGl : public testing::Test {
                        const VolumeView& view, const DrawQuality& quality = {}, std::span<const MaskLayer> masks = {}) {
     const RayImage truth = brute_force(*volume, table, masks, view, 0.25, work_);
     EXPECT_GT(std::count_if(truth.rgba.begin(), truth.rgba.end(), [](const auto& p) { return p[3] > 0.1F; }),
-              static_cast<std::ptrdiff_t>(truth.rgba.size() / 100))
+              static_cast<std::ptrdiff_t>(truth.rgba.size() / 300))
         << "nothing to be seen";
     return psnr_db(on_black(truth), on_black(drawn(volume, table, view, quality, masks)));
   }
