@@ -75,7 +75,9 @@ int simulate(const SimulateOptions& o) {
 
 void add_simulate(CLI::App& app, VerbRunner& run) {
   const auto o = std::make_shared<SimulateOptions>();
-  CLI::App* verb = app.add_subcommand("simulate", "Write a synthetic MS70 survey as .raw files, and its truth (schools, masks, the seabed as depth.tif)");
+  CLI::App* verb = app.add_subcommand(
+      "simulate",
+      "Write a synthetic MS70 survey as .raw files, and its truth (schools, masks, the seabed as depth.tif)");
   verb->add_option("OUT", o->out, "Folder to write into")->required();
   verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo")
       ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}))

@@ -13,8 +13,8 @@
 
 #include "base/units.h"
 #include "io/atomic_file.h"
-#include "model/outline.h"
 #include "io/product_example.h"
+#include "model/outline.h"
 
 namespace sonar {
 namespace {
