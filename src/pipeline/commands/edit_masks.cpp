@@ -78,6 +78,19 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
   return {};
 }
 
+namespace {
+
+/// What brush and eraser pass over in the line's ping: voxels that can belong to a school.
+Result<PingMask> stroke_of(Edit& edit, const std::vector<RunKey>& runs) {
+  const auto ping = edit.ground().ping(edit.ping());
+  if (!ping) return pass_on(ping);
+  auto rows = edit.rows_of(runs, ping->volume->flags.shape());
+  if (!rows) return pass_on(rows);
+  return brushed(std::move(*rows), ping->volume->flags.view());
+}
+
+}  // namespace
+
 Result<void> carry_out(Edit& edit, const BrushCommand& command) {
   std::optional<std::size_t> school;
   if (command.school) {
@@ -85,11 +98,9 @@ Result<void> carry_out(Edit& edit, const BrushCommand& command) {
     if (!found) return pass_on(found);
     school = *found;
   }
-  const auto ping = edit.ground().ping(edit.ping());
-  if (!ping) return pass_on(ping);
-  auto rows = edit.rows_of(command.runs, ping->volume->flags.shape());
-  if (!rows) return pass_on(rows);
-  const PingMask stroke = brushed(std::move(*rows), ping->volume->flags.view());
+  const auto made = stroke_of(edit, command.runs);
+  if (!made) return pass_on(made);
+  const PingMask& stroke = *made;
   if (stroke.empty()) return fail(ErrorCode::bad_parameter, "no voxel there can belong to a school");
   if (school) {
     edit.touch(*school);
@@ -108,11 +119,9 @@ Result<void> carry_out(Edit& edit, const EraseCommand& command) {
     if (!found) return pass_on(found);
     school = *found;
   }
-  const auto ping = edit.ground().ping(edit.ping());
-  if (!ping) return pass_on(ping);
-  auto rows = edit.rows_of(command.runs, ping->volume->flags.shape());
-  if (!rows) return pass_on(rows);
-  const PingMask stroke = brushed(std::move(*rows), ping->volume->flags.view());
+  const auto made = stroke_of(edit, command.runs);
+  if (!made) return pass_on(made);
+  const PingMask& stroke = *made;
   for (std::size_t i = 0; i < edit.state().schools.size(); ++i) {
     if ((school && i != *school) || overlap(edit.mask(i, edit.ping()), stroke) == 0) continue;
     edit.touch(i);
