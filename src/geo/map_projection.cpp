@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "base/library_gate.h"
 #include "base/units.h"
 
 namespace sonar {
@@ -114,7 +115,9 @@ GeoExtent widened(const GeoExtent& e, double by_m) {
 }
 
 struct MapProjection::State {
-  explicit State(Choice choice) : chosen(std::move(choice)), context(proj_context_create()) {
+  explicit State(Choice choice) : chosen(std::move(choice)) {
+    const auto inside = inside_library();
+    context = proj_context_create();
     SONAR_CHECK(context != nullptr);
     proj_log_level(context, PJ_LOG_NONE);
     projection = proj_create(context, chosen.definition.c_str());

@@ -15,7 +15,7 @@
 namespace sonar {
 
 /// Rows turned into columns, for formats that keep a column in one piece. Time columns are ISO 8601 text.
-struct Column {
+struct TableColumn {
   std::string name;
   std::string unit;
   bool is_degrees = false;
@@ -36,7 +36,7 @@ class ColumnCollector {
   }
   /// Whether the values are kept, or only names, units and types.
   void keep_values(bool keep) { keep_ = keep; }
-  [[nodiscard]] std::vector<Column> take() { return std::move(columns_); }
+  [[nodiscard]] std::vector<TableColumn> take() { return std::move(columns_); }
 
  private:
   template <class T>
@@ -46,14 +46,14 @@ class ColumnCollector {
     if (keep_) std::get<std::vector<T>>(columns_[at_].values).push_back(value);
     ++at_;
   }
-  std::vector<Column> columns_;
+  std::vector<TableColumn> columns_;
   std::size_t at_ = 0;
   bool keep_ = true;
 };
 
 /// All rows as columns; without rows the columns are there and empty.
 template <class Row>
-[[nodiscard]] std::vector<Column> columns_of(const std::vector<Row>& rows) {
+[[nodiscard]] std::vector<TableColumn> columns_of(const std::vector<Row>& rows) {
   ColumnCollector collector;
   Row blank{};
   collector.keep_values(false);

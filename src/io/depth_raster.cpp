@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/library_gate.h"
 #include "io/atomic_file.h"
 #include "io/netcdf_file.h"
 #include "io/raster_window.h"
@@ -295,18 +296,23 @@ Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const Geo
     return fail(ErrorCode::format, "not a raster but a folder or device", {.file = path.string()});
   }
   register_drivers();
-  if (!is_hdf_or_netcdf(path)) return read_any(path, extent, options);
+  const auto read = [&] {
+    const auto inside = inside_library();
+    return read_any(path, extent, options);
+  };
+  if (!is_hdf_or_netcdf(path)) return read();
   const auto lock = netcdf::lock();
   // HDF5 may break on a damaged file.
   const auto apart = try_apart([&] { (void)read_any(path, extent, options); }, path.string());
   if (!apart) return pass_on(apart);
-  return read_any(path, extent, options);
+  return read();
 }
 
 Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid) {
   register_drivers();
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
+  const auto inside = inside_library();
   const SilentGdal silent;
   const auto refused = [&](const char* what) {
     return fail(ErrorCode::io, fmt::format("{}: {}", what, CPLGetLastErrorMsg()), {.file = target.string()});

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/library_gate.h"
+
 namespace sonar {
 namespace {
 
@@ -31,6 +33,9 @@ class QuietGdal {
   }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
+
+ private:
+  std::shared_lock<std::shared_mutex> inside_ = inside_library();
 };
 
 void register_drivers() {
@@ -38,16 +43,16 @@ void register_drivers() {
   std::call_once(once, [] { GDALAllRegister(); });
 }
 
-bool is_time(const Column& column) { return column.name.ends_with("_utc"); }
+bool is_time(const TableColumn& column) { return column.name.ends_with("_utc"); }
 
-OGRFieldType field_type(const Column& column) {
+OGRFieldType field_type(const TableColumn& column) {
   if (is_time(column)) return OFTDateTime;
   if (std::holds_alternative<std::vector<double>>(column.values)) return OFTReal;
   if (std::holds_alternative<std::vector<std::int64_t>>(column.values)) return OFTInteger64;
   return OFTString;
 }
 
-void set(OGRFeature& feature, int field, const Column& column, std::size_t row) {
+void set(OGRFeature& feature, int field, const TableColumn& column, std::size_t row) {
   if (const auto* numbers = std::get_if<std::vector<double>>(&column.values)) {
     if (std::isfinite((*numbers)[row])) feature.SetField(field, (*numbers)[row]);
   } else if (const auto* wholes = std::get_if<std::vector<std::int64_t>>(&column.values)) {
@@ -101,7 +106,7 @@ Result<GDALDataset*> MapLayers::open(const std::filesystem::path& target) {
 }
 
 Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType type,
-                                  const std::vector<Column>& columns) {
+                                  const std::vector<TableColumn>& columns) {
   GDALDataset* dataset = format_ == MapFormat::geopackage ? datasets_.front().get() : nullptr;
   if (dataset == nullptr) {
     const auto opened = open(target_ / (name + ".geojson"));
@@ -116,7 +121,7 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
   if (format_ == MapFormat::geojson) options.SetNameValue("COORDINATE_PRECISION", "8");
   OGRLayer* layer = dataset->CreateLayer(name.c_str(), &wgs84, type, options.List());
   if (layer == nullptr) return refused("cannot create layer " + name);
-  for (const Column& column : columns) {
+  for (const TableColumn& column : columns) {
     OGRFieldDefn field(column.name.c_str(), field_type(column));
     if (layer->CreateField(&field) != OGRERR_NONE) return refused("cannot create field " + column.name);
   }
@@ -125,7 +130,7 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
 }
 
 Result<void> MapLayers::add(const std::string& layer_name, const OGRGeometry* geometry,
-                            const std::vector<Column>& columns, std::size_t row) {
+                            const std::vector<TableColumn>& columns, std::size_t row) {
   const QuietGdal quiet(date_);
   OGRLayer* layer = layers_.at(layer_name);
   OGRFeature feature(layer->GetLayerDefn());

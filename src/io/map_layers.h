@@ -26,9 +26,9 @@ class MapLayers {
   MapLayers& operator=(const MapLayers&) = delete;
 
   /// columns  names and types of the attributes
-  Result<void> add_layer(const std::string& name, OGRwkbGeometryType type, const std::vector<Column>& columns);
+  Result<void> add_layer(const std::string& name, OGRwkbGeometryType type, const std::vector<TableColumn>& columns);
   /// Adds one feature with the values of one row; an empty or null geometry is left out.
-  Result<void> add(const std::string& layer, const OGRGeometry* geometry, const std::vector<Column>& columns,
+  Result<void> add(const std::string& layer, const OGRGeometry* geometry, const std::vector<TableColumn>& columns,
                    std::size_t row);
   Result<void> commit();
 

@@ -79,4 +79,12 @@ ObservationOutlines map_outlines(const ObservationProduct& product) {
   return out;
 }
 
+GeoArea swept_outline(const ObservationProduct& product) {
+  return product.grid ? swept(product, product.grid->grid.sector(product.grid->range)) : GeoArea{};
+}
+
+GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id) {
+  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id) : GeoArea{};
+}
+
 }  // namespace sonar

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "model/map_outlines.h"
 #include "model/product.h"
 
@@ -11,5 +13,9 @@ namespace sonar {
 /// product  with its masks
 /// threads  pure
 [[nodiscard]] ObservationOutlines map_outlines(const ObservationProduct& product);
+
+/// Its parts alone, for whoever keeps those that stay the same.
+[[nodiscard]] GeoArea swept_outline(const ObservationProduct& product);
+[[nodiscard]] GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id);
 
 }  // namespace sonar

@@ -41,15 +41,16 @@ Tracks choose(std::span<const NavSeries* const> series, const NavigationParams& 
 
 /// A talker that was asked for and said nothing.
 void note_silent_talkers(const Tracks& tracks, const NavigationParams& p, Diagnostics& notes) {
-  const auto note = [&](const std::string& wanted, const NavTrack& track, DiagnosticCode code, const char* what) {
+  const auto note = [&](const std::string& wanted, const NavTrack& track, const char* what) {
     if (wanted.empty() || !track.samples.empty()) return;
-    notes.push_back({code, "", -1, -1, fmt::format("talker {} was asked for, but it gives no {}", wanted, what)});
+    notes.push_back({DiagnosticCode::no_talker, "", -1, -1,
+                     fmt::format("talker {} was asked for, but it gives no {}", wanted, what)});
   };
-  note(p.position_talker, tracks.position, DiagnosticCode::no_position, "position");
-  note(p.heading_talker, tracks.heading, DiagnosticCode::no_heading, "heading");
-  note(p.speed_talker, tracks.velocity, DiagnosticCode::bad_nmea, "speed");
-  note(p.log_talker, tracks.log, DiagnosticCode::bad_nmea, "log");
-  note(p.clock_talker, tracks.clock, DiagnosticCode::bad_nmea, "time");
+  note(p.position_talker, tracks.position, "position");
+  note(p.heading_talker, tracks.heading, "heading");
+  note(p.speed_talker, tracks.velocity, "speed");
+  note(p.log_talker, tracks.log, "log");
+  note(p.clock_talker, tracks.clock, "time");
 }
 
 /// Positions that stayed the antenna's because nobody knows which way the ship lay.

@@ -92,7 +92,7 @@ struct Navigation {
   std::vector<PingNavigation> pings;  ///< as given
   Talkers talkers;
   double gps_minus_clock_s = 0.0;  ///< median over all sentences of the chosen talker; NaN = none
-  Diagnostics diagnostics;         ///< no_position, no_heading, bad_lever_arm, silent talkers; ping_index of the first
+  Diagnostics diagnostics;         ///< no_position, no_heading, bad_lever_arm, no_talker; ping_index of the first
 };
 
 /// Places every ping. One talker is chosen per quantity, the most frequent valid one over all the series given, and in

@@ -140,7 +140,7 @@ template <class Row>
 void write_rows(Writer& out, const char* group_name, const char* dimension, const std::vector<Row>& rows) {
   const int group = out.group(out.root(), group_name);
   const Dimension row = out.dimension(group, dimension, rows.size());
-  for (const Column& column : columns_of(rows)) {
+  for (const TableColumn& column : columns_of(rows)) {
     std::visit([&](const auto& values) { out.variable(group, column.name, column.unit, {row}, values); },
                column.values);
   }

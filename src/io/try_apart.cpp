@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/library_gate.h"
+
 namespace sonar {
 namespace {
 
@@ -34,8 +36,10 @@ namespace {
 Result<void> try_apart(const std::function<void()>& body, const std::string& named, unsigned seconds) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+  auto at_rest = libraries_at_rest();
   const pid_t pid = ::fork();
   if (pid == 0) child(body, ends[1], seconds);
+  at_rest.unlock();
   const int error = errno;
   ::close(ends[1]);
   char done = 0;

@@ -13,7 +13,8 @@ namespace sonar {
 /// named    stands in messages
 /// seconds  longer counts as hanging
 /// errors   format: it crashed or hung; io: no child process could be made
-/// threads  any; the caller holds the locks that body needs free in no other thread
+/// threads  any that is not inside_library(); the caller holds the locks that body needs free in no other thread, and
+///          body takes none
 Result<void> try_apart(const std::function<void()>& body, const std::string& named, unsigned seconds = 60);
 
 }  // namespace sonar

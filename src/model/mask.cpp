@@ -36,6 +36,17 @@ void append(PingMask& mask, const Voxel& voxel) {
 
 }  // namespace
 
+std::uint8_t confidence_at(const PingMask& mask, int row, int sample) {
+  std::size_t before = 0;
+  for (const Run& run : mask.runs) {
+    if (run.row == row && sample >= run.first_sample && sample < run.end()) {
+      return mask.confidence[before + static_cast<std::size_t>(sample - run.first_sample)];
+    }
+    before += static_cast<std::size_t>(run.count);
+  }
+  return 0;
+}
+
 std::size_t overlap(const PingMask& a, const PingMask& b) {
   std::size_t shared = 0;
   auto i = a.runs.begin();

@@ -26,6 +26,8 @@ struct PingMask {
   friend bool operator==(const PingMask&, const PingMask&) = default;
 };
 
+/// 1..255 = 255 f of a voxel; 0 where it is not in the mask.
+[[nodiscard]] std::uint8_t confidence_at(const PingMask& mask, int row, int sample);
 /// Number of voxels that two masks share.
 [[nodiscard]] std::size_t overlap(const PingMask& a, const PingMask& b);
 /// 2 |a and b| / (|a| + |b|); 0 where both are empty.

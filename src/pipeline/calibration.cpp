@@ -126,7 +126,7 @@ Diagnostics CalibrationTables::diagnostics() const {
   for (const BeamCalibration& beam : params_.beams) {
     const auto channel = static_cast<std::size_t>(beam.channel);
     if (beam.channel >= 0 && channel < row_of_channel_.size() && row_of_channel_[channel] >= 0) continue;
-    notes.push_back({DiagnosticCode::not_calibrated, "", -1, -1,
+    notes.push_back({DiagnosticCode::calibration_unused, "", -1, -1,
                      fmt::format("the calibration names channel {}, the grid has 0 to {}; the line changes nothing",
                                  beam.channel, row_of_channel_.size() - 1)});
   }

@@ -55,6 +55,10 @@ Result<nlohmann::json> read_json_file(const std::string& path) {
   return json;
 }
 
+Result<void> write_json_file(const std::string& path, const nlohmann::json& json) {
+  return write_file(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
 std::optional<std::int64_t> whole_number(const nlohmann::json& json, std::int64_t least, std::int64_t most) {
   if (!json.is_number_integer()) return std::nullopt;
   const auto value = json.get<std::int64_t>();

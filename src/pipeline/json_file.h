@@ -17,6 +17,9 @@ namespace sonar {
 /// Reads and parses a file of up to 256 MiB; the error names the file and the byte.
 [[nodiscard]] Result<nlohmann::json> read_json_file(const std::string& path);
 
+/// Writes JSON, indented by two, whole or not at all; what is no UTF-8 is replaced. errors: io, no_space
+[[nodiscard]] Result<void> write_json_file(const std::string& path, const nlohmann::json& json);
+
 /// A whole number within bounds; empty where it is anything else.
 [[nodiscard]] std::optional<std::int64_t> whole_number(const nlohmann::json& json,
                                                        std::int64_t least = std::numeric_limits<std::int64_t>::min(),

@@ -34,6 +34,14 @@ Result<std::int64_t> read_reach(const nlohmann::json& args, const char* member, 
   return std::clamp<std::int64_t>(*pings, -1, kMaxReach);
 }
 
+/// What carried out without an observer gives the same; a side that came to its own end keeps its reach.
+PropagateCommand reached_by(const PropagateCommand& command, std::int64_t clicked, const Propagation& propagation) {
+  if (!propagation.stopped_at) return command;
+  const std::int64_t stop = *propagation.stopped_at;
+  if (stop < clicked) return as_far_as(command, clicked - stop, 0);
+  return as_far_as(command, command.reach_backward.value_or(command.reach), stop - clicked);
+}
+
 SchoolMasks school_of(Propagation& propagation) {
   SchoolMasks school;
   school.decided.origin = "manual";
@@ -102,6 +110,12 @@ Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs 
   return command;
 }
 
+PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward) {
+  command.reach_backward = backward;
+  command.reach_forward = forward;
+  return command;
+}
+
 CommandGround ground_of(Engine& engine, PingReach limits) {
   CommandGround ground;
   ground.ping = [&engine](std::int64_t ping_index) { return engine.filtered(ping_index); };
@@ -139,11 +153,13 @@ Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
     return ping;
   };
   const PingReach reach = reach_round(ping_index, command, ground.limits);
-  auto propagation = command.mode == GrowMode::paper
-                         ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper)
-                         : propagate_tracked(provider, *ground.sector, ping_index, selection, reach, command.tracked);
+  auto propagation =
+      command.mode == GrowMode::paper
+          ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper, ground.on_step)
+          : propagate_tracked(provider, *ground.sector, ping_index, selection, reach, command.tracked, ground.on_step);
   if (!propagation) return pass_on(propagation);
   ManualSchool made;
+  made.reached = reached_by(command, ping_index, *propagation);
   made.school = school_of(*propagation);
   made.note_backward = propagation->note_backward;
   made.note_forward = propagation->note_forward;

@@ -54,11 +54,15 @@ struct PropagateCommand {
 /// ping_time  of the line: that of `school` where it names none
 [[nodiscard]] Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time = 0);
 
+/// The command that ends so many pings before and after its own: what a stopped propagation is in the journal.
+[[nodiscard]] PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward);
+
 /// A school that a human selected, and why its propagation ended on either side.
 struct ManualSchool {
   SchoolMasks school;
   std::string note_backward;
   std::string note_forward;
+  PropagateCommand reached;  ///< the command that gives this without an observer: itself, or as far as it was let go
 };
 
 /// What commands need of an observation. Views: what they show outlives the commands.
@@ -66,10 +70,11 @@ struct CommandGround {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
-  std::vector<TimeNs> times;  ///< [ping_index], datagram times
-  PingReach limits;           ///< pings that may be visited
-  double human_share = 0.25;  ///< DetectParams::human_share
-  int least_pings = 1;        ///< a detected school of which humans left fewer is gone
+  std::vector<TimeNs> times;         ///< [ping_index], datagram times
+  PingReach limits;                  ///< pings that may be visited
+  double human_share = 0.25;         ///< DetectParams::human_share
+  int least_pings = 1;               ///< a detected school of which humans left fewer is gone
+  PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
 [[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);
 
@@ -82,7 +87,7 @@ struct CommandGround {
 /// Voxels of a ping that are others'.
 using TakenVoxels = std::function<PingMask(std::int64_t ping_index)>;
 
-/// Carries a mask of one ping through time.
+/// Carries a mask of one ping through time; ground.on_step may stop it.
 /// errors  bad_parameter: an empty mask; those of the pings
 [[nodiscard]] Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
                                          const PingMask& selection, const PropagateCommand& command,

@@ -5,10 +5,12 @@
 #include <atomic>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "base/hash.h"
 #include "school/measure.h"
 #include "school/summarise.h"
 
@@ -69,6 +71,19 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   return {std::move(row), faulty_members(input, all[index].in_ping->mask)};
 }
 
+/// Everything that a ping's rows depend on beside the engine.
+Hash128 key_of(const std::vector<InPingRef>& schools) {
+  Hasher hasher;
+  for (const InPingRef& one : schools) {
+    const PingMask& mask = one.in_ping->mask;
+    hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
+    hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));
+    hasher.add(std::as_bytes(std::span(mask.runs)));
+    hasher.add(std::as_bytes(std::span(mask.confidence)));
+  }
+  return hasher.value();
+}
+
 std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine,
                                    const std::vector<InPingRef>& schools) {
   std::vector<Measured> rows;
@@ -114,7 +129,7 @@ std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
 
 void note_unreadable(std::int64_t ping_index, const std::string& why, ObservationProduct& product) {
   product.pings[static_cast<std::size_t>(ping_index)].bad = true;
-  product.diagnostics.push_back({DiagnosticCode::unreadable, "", -1, ping_index, why});
+  product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, ping_index, why});
 }
 
 /// By school and ping.
@@ -142,8 +157,35 @@ std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGr
   return schools;
 }
 
-Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product,
-                             Work& work) {
+struct MeasuredPings::Kept {
+  std::map<std::int64_t, std::pair<Hash128, std::vector<Measured>>> pings;
+};
+
+MeasuredPings::MeasuredPings() : kept_(std::make_unique<Kept>()) {}
+MeasuredPings::~MeasuredPings() = default;
+
+namespace {
+
+const std::vector<Measured>* kept_rows(MeasuredPings* before, std::int64_t ping_index,
+                                       const std::vector<InPingRef>& schools) {
+  if (before == nullptr) return nullptr;
+  const auto found = before->kept().pings.find(ping_index);
+  if (found == before->kept().pings.end() || found->second.first != key_of(schools)) return nullptr;
+  return &found->second.second;
+}
+
+void keep_rows(MeasuredPings& before, const std::vector<MeasuredPing>& pings,
+               const std::vector<std::vector<Measured>>& rows, const std::vector<std::string>& problems) {
+  before.kept().pings.clear();
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (problems[i].empty()) before.kept().pings[pings[i].first] = {key_of(pings[i].second), rows[i]};
+  }
+}
+
+}  // namespace
+
+Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work,
+                             MeasuredPings* before) {
   std::sort(schools.begin(), schools.end(),
             [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
   const std::vector<MeasuredPing> pings = by_ping(schools);
@@ -152,7 +194,9 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::atomic<std::int64_t> done{0};
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
-    if (const auto ping = engine.kept_or_staged(ping_index)) {
+    if (const auto* kept = kept_rows(before, ping_index, refs)) {
+      rows[static_cast<std::size_t>(i)] = *kept;
+    } else if (const auto ping = engine.kept_or_staged(ping_index)) {
       rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs);
     } else {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
@@ -160,6 +204,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  if (before != nullptr) keep_rows(*before, pings, rows, problems);
   Faults faults;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);

@@ -170,7 +170,7 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
   }
   if (!problem.empty()) {
     observation.grid.reset();
-    observation.diagnostics.push_back({DiagnosticCode::no_grid, "", -1, -1, problem});
+    observation.diagnostics.push_back({DiagnosticCode::no_common_range, "", -1, -1, problem});
     return;
   }
   observation.sample_count.assign(static_cast<std::size_t>(grid.fans()), 0);

@@ -65,7 +65,7 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (problems[i].empty()) continue;
     product.pings[static_cast<std::size_t>(pings[i].ping_index)].bad = true;
-    product.diagnostics.push_back({DiagnosticCode::unreadable, "", -1, pings[i].ping_index, problems[i]});
+    product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, pings[i].ping_index, problems[i]});
   }
   return pings;
 }
@@ -112,7 +112,7 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
   const int beams = product.grid->grid.beams();
   if (fans >= params.min_fans && beams >= params.min_beams) return;
   product.diagnostics.push_back(
-      {DiagnosticCode::no_grid, "", -1, -1,
+      {DiagnosticCode::grid_too_small, "", -1, -1,
        fmt::format("fans x beams: {} x {}; schools are looked for where there are {} x {} at least", fans, beams,
                    params.min_fans, params.min_beams)});
 }
@@ -256,13 +256,14 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
                                    const ObserveOptions& options, Work& work) {
   ObservationProduct product = empty_product(survey, observation, recipe, options);
   const PingReach reach = selected(observation, options);
-  if (recipe.automatic) note_narrow_grid(recipe.detect, product);
+  const bool automatic = recipe.automatic || asks_for_detection(options.journal, datagram_times(survey, observation));
+  if (automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;
   Engine engine(survey, observation, recipe);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   JournalState state;
   std::vector<TrackEvent> events;
-  if (recipe.automatic) {
+  if (automatic) {
     const std::vector<DetectedPing> detected = detect_all(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     state = state_of_detected(numbered(tracked_schools(engine, detected, events), engine.grid()));

@@ -274,7 +274,8 @@ TEST(Survey, UnequalSampleSpacingIsNoGrid) {
   const SurveyFiles survey = opened(folder);
   ASSERT_EQ(survey.observations.size(), 1U);
   EXPECT_FALSE(survey.observations[0].grid);
-  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::no_grid), 1);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::no_common_range), 1);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::no_grid), 0);
 }
 
 TEST(Survey, UnreadableFileStopsNothing) {

@@ -78,7 +78,7 @@ double lowest_member_db(const MemberTable& members) {
 /// Follows one direction; returns why it ended, or nothing where the reach ended it.
 std::string follow(const PingProvider& pings, std::int64_t clicked, int step, const PingMask& selection,
                    PingReach reach, const Rule& rule, const PaperPropagationParams& p, int beams,
-                   std::vector<PropagatedPing>& out) {
+                   const PropagationObserver& on_step, Propagation& result) {
   PingMask previous = selection;
   for (std::int64_t i = clicked + step; i >= reach.first && i <= reach.last; i += step) {
     const auto stop = [&](std::string_view why) { return fmt::format("stopped at ping {}: {}", i, why); };
@@ -111,7 +111,11 @@ std::string follow(const PingProvider& pings, std::int64_t clicked, int step, co
                       rule.range.centre_opacity, rule.range.tolerance));
     }
     previous = mask;
-    out.push_back({i, std::move(mask), rule.threshold_db});
+    result.pings.push_back({i, std::move(mask), rule.threshold_db});
+    if (on_step && !on_step(i, previous)) {
+      result.stopped_at = i;
+      break;
+    }
   }
   return {};
 }
@@ -135,7 +139,7 @@ PaperRange paper_range(View3<const std::int16_t> sv, const PingMask& selection, 
 
 Result<Propagation> propagate_paper(const PingProvider& pings, std::int64_t clicked, const PingMask& selection,
                                     PingReach reach, const TransferFunction& growth_curve,
-                                    const PaperPropagationParams& params) {
+                                    const PaperPropagationParams& params, const PropagationObserver& on_step) {
   if (selection.empty()) return fail(ErrorCode::bad_parameter, "an empty selection cannot be propagated");
   const Result<FilteredPing> ping = pings(clicked);
   if (!ping) return pass_on(ping);
@@ -147,10 +151,11 @@ Result<Propagation> propagate_paper(const PingProvider& pings, std::int64_t clic
   const Rule rule{std::move(opacity), range, std::move(members), threshold_db};
   Propagation result;
   const int beams = sv.shape().beams;
-  result.note_backward = follow(pings, clicked, -1, selection, reach, rule, params, beams, result.pings);
+  result.note_backward = follow(pings, clicked, -1, selection, reach, rule, params, beams, on_step, result);
   std::reverse(result.pings.begin(), result.pings.end());
   result.pings.push_back({clicked, selection, threshold_db});
-  result.note_forward = follow(pings, clicked, 1, selection, reach, rule, params, beams, result.pings);
+  if (result.stopped_at) return result;
+  result.note_forward = follow(pings, clicked, 1, selection, reach, rule, params, beams, on_step, result);
   return result;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,9 +45,15 @@ struct PropagatedPing {
 /// A school through time, and why each direction ended.
 struct Propagation {
   std::vector<PropagatedPing> pings;  ///< rising ping index; lost pings are absent
-  std::string note_backward;          ///< "stopped at ping 3: ..."; empty only where the reach ended it
+  std::string note_backward;          ///< "stopped at ping 3: ..."; empty only where the reach or the observer ended it
   std::string note_forward;
+  std::optional<std::int64_t> stopped_at;  ///< the ping after which the observer wanted no more
 };
+
+/// Watches a propagation: called after each ping, first backwards, then forwards, with what the school has there (empty
+/// where it is lost for now). False = no more: what was reached is kept, and is exactly what a reach up to that ping
+/// gives; stopped on the way back, nothing goes forwards.
+using PropagationObserver = std::function<bool(std::int64_t ping_index, const PingMask& mask)>;
 
 /// What the paper computes once from the hand-made selection.
 struct PaperRange {
@@ -66,12 +74,14 @@ struct PingReach {
 /// volume enlarged each ping, tolerance and centre value computed once from the hand-made selection; forwards and
 /// backwards; ends where the enlarged bounds leave the usable volume or the centre's voxel is out of range.
 /// selection  the hand-made mask in ping `clicked`, not empty
+/// on_step    empty = none
 /// errors     bad_parameter: empty selection; those of the provider for the clicked ping. A provider's failure
 ///            elsewhere ends that direction with a note.
 /// source     Balabanian et al. 2007, section 4.3
 [[nodiscard]] Result<Propagation> propagate_paper(const PingProvider& pings, std::int64_t clicked,
                                                   const PingMask& selection, PingReach reach,
                                                   const TransferFunction& growth_curve,
-                                                  const PaperPropagationParams& params);
+                                                  const PaperPropagationParams& params,
+                                                  const PropagationObserver& on_step = {});
 
 }  // namespace sonar

@@ -131,6 +131,49 @@ TEST(Paper, RangeIsComputedOnceFromTheSelection) {
   EXPECT_NEAR(range.tolerance, 0.125, 1e-3);
 }
 
+/// What an observer that stops after so many steps sees, and what is kept.
+struct Watched {
+  std::vector<std::int64_t> seen;
+  std::vector<PingMask> masks;
+  PropagationObserver stop_after(std::size_t steps) {
+    return [this, steps](std::int64_t ping_index, const PingMask& mask) {
+      seen.push_back(ping_index);
+      masks.push_back(mask);
+      return seen.size() < steps;
+    };
+  }
+};
+
+TEST(Tracked, ObserverSeesEveryPingAndWhatItKeepsIsWhatTheReachGives) {
+  Passage passage;
+  passage.hidden = 7;
+  const PingMask selection = passage.click(5, {});
+  std::vector<FilteredPing> made;
+  for (std::int64_t i = 0; i < 10; ++i) made.push_back(*passage.ping(i));
+  const PingProvider pings = [&](std::int64_t i) -> Result<FilteredPing> { return made[static_cast<std::size_t>(i)]; };
+  const std::vector<std::int64_t> order{4, 3, 6, 7, 8, 9};
+  for (std::size_t steps = 1; steps <= order.size() + 1; ++steps) {
+    Watched watched;
+    const auto stopped = propagate_tracked(pings, passage.sector, 5, selection, {3, 9}, {}, watched.stop_after(steps));
+    ASSERT_TRUE(stopped);
+    const std::size_t taken = std::min(steps, order.size());
+    EXPECT_EQ(watched.seen,
+              std::vector<std::int64_t>(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(taken)));
+    const std::int64_t end = order[taken - 1];
+    EXPECT_EQ(stopped->stopped_at, steps > order.size() ? std::nullopt : std::optional(end));
+    const PingReach reached{end < 5 ? end : 3, end < 5 ? 5 : end};
+    const auto reach = propagate_tracked(pings, passage.sector, 5, selection, reached, {});
+    ASSERT_TRUE(reach);
+    ASSERT_EQ(stopped->pings.size(), reach->pings.size()) << "after " << steps << " steps";
+    for (std::size_t i = 0; i < reach->pings.size(); ++i) {
+      EXPECT_EQ(stopped->pings[i].ping_index, reach->pings[i].ping_index);
+      EXPECT_EQ(stopped->pings[i].mask, reach->pings[i].mask);
+    }
+    EXPECT_EQ(stopped->note_backward + stopped->note_forward, reach->note_backward + reach->note_forward);
+    for (std::size_t i = 0; i < taken; ++i) EXPECT_EQ(watched.masks[i].empty(), watched.seen[i] == 7);
+  }
+}
+
 TEST(Paper, StopsAtTheBorderWithANote) {
   const Passage passage;
   GrowParams params;

@@ -51,13 +51,13 @@ struct Found {
 
 class Follower {
  public:
-  Follower(const Sector& sector, const TrackedPropagationParams& params, const Geographic& origin)
-      : sector_(sector), params_(params), origin_(origin) {}
+  Follower(const Sector& sector, const TrackedPropagationParams& params, const Geographic& origin,
+           const PropagationObserver& on_step)
+      : sector_(sector), params_(params), origin_(origin), on_step_(on_step) {}
 
   /// Follows one direction; returns why it ended, or nothing where the reach ended it.
   std::string follow(const PingProvider& pings, std::int64_t clicked, int step, const FilteredPing& start,
-                     const PingMask& selection, PingReach reach, double reference_db,
-                     std::vector<PropagatedPing>& out) const {
+                     const PingMask& selection, PingReach reach, double reference_db, Propagation& result) const {
     const PingFrame frame(start.placement, origin_);
     const MaskShape shape = shape_of(selection, sector_);
     Sighting last{selection, frame, start.time, shape.volume_m3, false};
@@ -75,12 +75,16 @@ class Follower {
       std::optional<Found> found = find(*ping, here, last, motion, reference_db, why);
       if (!found) {
         if (++lost > params_.max_lost_pings) return fmt::format("stopped at ping {}: {}", i, why);
-        continue;
+      } else {
+        lost = 0;
+        reference_db = found->reference_db;
+        accept(*ping, here, *found, motion, last);
+        result.pings.push_back({i, std::move(found->mask), found->threshold_db});
       }
-      lost = 0;
-      reference_db = found->reference_db;
-      accept(*ping, here, *found, motion, last);
-      out.push_back({i, std::move(found->mask), found->threshold_db});
+      if (on_step_ && !on_step_(i, found ? last.mask : PingMask{})) {
+        result.stopped_at = i;
+        break;
+      }
     }
     return {};
   }
@@ -204,24 +208,26 @@ class Follower {
   const Sector& sector_;
   const TrackedPropagationParams& params_;
   Geographic origin_;
+  const PropagationObserver& on_step_;
 };
 
 }  // namespace
 
 Result<Propagation> propagate_tracked(const PingProvider& pings, const Sector& sector, std::int64_t clicked,
                                       const PingMask& selection, PingReach reach,
-                                      const TrackedPropagationParams& params) {
+                                      const TrackedPropagationParams& params, const PropagationObserver& on_step) {
   if (selection.empty()) return fail(ErrorCode::bad_parameter, "an empty selection cannot be propagated");
   const Result<FilteredPing> start = pings(clicked);
   if (!start) return pass_on(start);
   const View3<const std::int16_t> sv = start->volume->counts.view();
   const double reference_db = db_from_counts(percentile(sv, selection, params.reference_percentile / 100.0));
-  const Follower follower(sector, params, start->placement.transducer);
+  const Follower follower(sector, params, start->placement.transducer, on_step);
   Propagation result;
-  result.note_backward = follower.follow(pings, clicked, -1, *start, selection, reach, reference_db, result.pings);
+  result.note_backward = follower.follow(pings, clicked, -1, *start, selection, reach, reference_db, result);
   std::reverse(result.pings.begin(), result.pings.end());
   result.pings.push_back({clicked, selection, reference_db - params.tolerance_db});
-  result.note_forward = follower.follow(pings, clicked, 1, *start, selection, reach, reference_db, result.pings);
+  if (result.stopped_at) return result;
+  result.note_forward = follower.follow(pings, clicked, 1, *start, selection, reach, reference_db, result);
   return result;
 }
 

@@ -83,6 +83,7 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
 /// errors     as propagate_paper
 [[nodiscard]] Result<Propagation> propagate_tracked(const PingProvider& pings, const Sector& sector,
                                                     std::int64_t clicked, const PingMask& selection, PingReach reach,
-                                                    const TrackedPropagationParams& params);
+                                                    const TrackedPropagationParams& params,
+                                                    const PropagationObserver& on_step = {});
 
 }  // namespace sonar

@@ -110,7 +110,8 @@ class Tracker {
   void retire(std::size_t p) {
     for (std::size_t t = 0; t < open_.size();) {
       const std::int64_t lost = pings_[p].ping_index - pings_[open_[t].last_ping].ping_index - 1;
-      if (lost <= params_.max_lost_pings) {
+      const double unseen_s = seconds_between(pings_[open_[t].last_ping].time, pings_[p].time);
+      if (lost <= params_.max_lost_pings && unseen_s <= params_.max_lost_s) {
         ++t;
         continue;
       }

@@ -25,6 +25,7 @@ struct TrackParams {
   double size_weight = 1.0;
   double level_weight = 0.1;
   int max_lost_pings = 3;
+  double max_lost_s = 120.0;
   int confirm_pings = 3;
   int confirm_window = 5;
   double fragment_overlap = 0.5;
@@ -55,6 +56,8 @@ void describe(Visitor& v, TrackParams& p) {
   v.field("level_weight", p.level_weight, {.unit = "1/dB", .min = 0, .max = 10, .text = "cost of one dB of level"});
   v.field("max_lost_pings", p.max_lost_pings,
           {.unit = "pings", .min = 0, .max = 100, .text = "a school unseen for so many pings may be found again"});
+  v.field("max_lost_s", p.max_lost_s,
+          {.unit = "s", .min = 1, .max = 86400, .text = "... if it was seen no longer ago than this"});
   v.field("confirm_pings", p.confirm_pings,
           {.unit = "pings", .min = 1, .max = 100, .text = "a school is seen at least so often ..."});
   v.field("confirm_window", p.confirm_window,

@@ -143,6 +143,31 @@ TEST(Track, FindsALostSchoolAgain) {
   EXPECT_EQ(longer.tracks.schools.size(), 2U);
 }
 
+/// A ship at anchor sees a school at rest ten times, five seconds apart, with one longer pause in the middle.
+std::size_t schools_round_pause(double pause_s, const TrackParams& params) {
+  Voyage at_rest;
+  const Placement ship = ship_at(0);
+  const PingMask mask = ball_mask({{-150.0, 0.0, -40.0}, {}}, at_rest.sector, ship, ship.transducer, 0.0);
+  std::vector<DetectedPing> pings;
+  for (int p = 0; p < 10; ++p) {
+    const double time_s = p * kInterval_s + (p >= 5 ? pause_s - kInterval_s : 0.0);
+    pings.push_back({p, static_cast<TimeNs>(time_s) * kSecondNs, ship, {}});
+    pings.back().detections.push_back(describe_mask(mask, at_rest.flags.view(), at_rest.sector));
+    pings.back().detections.back().reference_db = -40.0;
+  }
+  return track(pings, at_rest.sector, test::grid().channel, params).schools.size();
+}
+
+TEST(Track, DoesNotJoinAcrossAPauseOfHours) {
+  TrackParams params;
+  EXPECT_EQ(schools_round_pause(5.0, params), 1U);
+  EXPECT_EQ(schools_round_pause(params.max_lost_s, params), 1U);
+  EXPECT_EQ(schools_round_pause(params.max_lost_s + 1.0, params), 2U);
+  EXPECT_EQ(schools_round_pause(7200.0, params), 2U);  // no ping between, so none was lost
+  params.max_lost_s = 7200.0;
+  EXPECT_EQ(schools_round_pause(7200.0, params), 1U);
+}
+
 TEST(Track, DropsWhatIsSeenTwice) {
   Voyage voyage;
   std::set<std::pair<int, int>> unseen;

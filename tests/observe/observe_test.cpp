@@ -272,9 +272,10 @@ TEST_F(Observe, CalibrationOfAChannelThatIsNotThereIsNoted) {
   Work work(2);
   const auto product = observe(*survey_, observation(), recipe, {PingSelection{0, 0}, {}, "test"}, work);
   ASSERT_TRUE(product);
-  ASSERT_EQ(count(*product, DiagnosticCode::not_calibrated), 1);
+  ASSERT_EQ(count(*product, DiagnosticCode::calibration_unused), 1);
+  EXPECT_EQ(count(*product, DiagnosticCode::not_calibrated), 0);
   for (const Diagnostic& note : product->diagnostics) {
-    if (note.code != DiagnosticCode::not_calibrated) continue;
+    if (note.code != DiagnosticCode::calibration_unused) continue;
     EXPECT_THAT(note.text, testing::HasSubstr("names channel 700, the grid has 0 to 499"));
   }
 }
@@ -293,8 +294,29 @@ TEST_F(Observe, OneFanShowsNoSchoolsAndSaysWhy) {
   const auto product = observe(*survey, survey->observations.at(0), {}, {{}, {}, "test"}, work);
   ASSERT_TRUE(product);
   EXPECT_TRUE(product->schools.empty());
-  ASSERT_EQ(count(*product, DiagnosticCode::no_grid), 1);
-  EXPECT_EQ(count(*product_, DiagnosticCode::no_grid), 0);
+  ASSERT_EQ(count(*product, DiagnosticCode::grid_too_small), 1);
+  EXPECT_EQ(count(*product, DiagnosticCode::no_grid), 0);
+  EXPECT_EQ(count(*product_, DiagnosticCode::grid_too_small), 0);
+}
+
+TEST_F(Observe, PingThatCannotBeReadAgainIsBadAndNoted) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path raw = folder.path() / "survey.raw";
+  for (const auto& file : std::filesystem::directory_iterator(folder_)) {
+    if (file.path().extension() == ".raw") std::filesystem::copy_file(file.path(), raw);
+  }
+  Work work(2);
+  const std::vector<std::filesystem::path> paths{raw};
+  const auto survey = open_survey(paths, {}, {}, {}, work);
+  ASSERT_TRUE(survey);
+  const ObservationFiles& whole = survey->observations.at(0);
+  ASSERT_EQ(whole.pings.size(), 24U);
+  std::filesystem::resize_file(raw, survey->entry(whole.pings[20]).offset);  // after the index was made
+  const auto product = observe(*survey, whole, {}, {{}, {}, "test"}, work);
+  ASSERT_TRUE(product);
+  for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(product->pings[i].bad, i >= 20) << "ping " << i;
+  EXPECT_EQ(count(*product, DiagnosticCode::ping_unreadable), 4);
+  EXPECT_EQ(count(*product, DiagnosticCode::unreadable), 0);
 }
 
 TEST_F(Observe, CancelledWorkGivesNoProduct) {

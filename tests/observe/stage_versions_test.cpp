@@ -40,9 +40,9 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 1, "83bff1da2ba360f5c46043e344309578"},
     {"detect", 1, "ccc44b9443e584e22db20886484d607b"},
-    {"track", 2, "91393a19123f317dd64eee83037c0240"},
+    {"track", 3, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 1, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 2, "102308de312c144ddf2f87605dbce079"},
+    {"measure", 2, "8e4ef91c3bcc43a091e27957e0c05413"},
     {"summarise", 1, "0b4f3a0bd1512c0bbf6b6cb5a9c8ce74"},
 }};
 
@@ -117,7 +117,7 @@ class Digest {
   void text(std::string_view value) { hasher_.add(value); }
   template <class Row>
   void rows(const std::vector<Row>& all) {
-    for (const Column& column : columns_of(all)) {
+    for (const TableColumn& column : columns_of(all)) {
       text(column.name);
       std::visit(
           [&](const auto& values) {
@@ -125,6 +125,19 @@ class Digest {
           },
           column.values);
     }
+  }
+  /// Which members of the masks are faulty.
+  void faults(const std::vector<SchoolMask>& masks) {
+    std::size_t faulty = 0;
+    for (const SchoolMask& there : masks) {
+      text(fmt::format("{} {}:", there.school_id, there.ping_index));
+      for (std::size_t i = 0; i < there.fault.size(); ++i) {
+        if (!there.fault[i]) continue;
+        text(fmt::format("{} ", i));
+        ++faulty;
+      }
+    }
+    EXPECT_GT(faulty, 0U) << "a change of these bits would not be seen";
   }
   [[nodiscard]] std::string hex() const { return to_hex(hasher_.value()); }
 
@@ -205,6 +218,7 @@ std::map<std::string, Digest> digests_of(const SurveyFiles& survey) {
   EXPECT_TRUE(product);
   if (!product) return digests;
   digests["measure"].rows(product->school_pings);
+  digests["measure"].faults(product->masks);
   digests["summarise"].rows(product->schools);
   return digests;
 }

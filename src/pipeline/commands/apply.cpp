@@ -87,10 +87,11 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
   auto made = carry(edit.ground(), edit.ping(), *selection, command, taken);
   if (!made) return pass_on(made);
   note_ends(edit, *made);
+  edit.carried_out_as(made->reached);
   const std::vector<SchoolMasks::InPing> carried = made->school.pings;
   if (school) {
     edit.touch(*school);
-    edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), command, edit.ground().limits));
+    edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.ground().limits));
     for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
   } else {
     school = edit.add(std::move(made->school));
@@ -120,9 +121,9 @@ Result<void> carry_out(Edit& edit, const DecideCommand& command) {
   return {};
 }
 
-Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
+Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
   const auto ping = ping_at(ground, act.ping_time);
-  if (!ping && !about_times(act.command)) return state;
+  if (!ping && !about_times(act.command)) return Applied{act, state};
   Edit edit(act, ping.value_or(-1), state, ground);
   if (const auto* event = std::get_if<EventCommand>(&act.command)) {
     if (overlaps(ground, event->time, event->time)) edit.add_event(*event);
@@ -134,10 +135,21 @@ Result<JournalState> apply(const JournalAct& act, const JournalState& state, con
     if (error.where.ping < 0) error.where.ping = ping.value_or(-1);
     return tl::unexpected<Error>(std::move(error));
   }
-  return edit.done();
+  Applied applied{act, {}};
+  if (edit.reached()) applied.act.command = *edit.reached();
+  applied.state = edit.done();
+  return applied;
 }
 
-JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& ground) {
+Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
+  auto applied = apply_watched(act, state, ground);
+  if (!applied) return pass_on(applied);
+  return std::move(applied->state);
+}
+
+JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& whole_ground) {
+  CommandGround ground = whole_ground;
+  ground.on_step = {};  // what the lines say is not for anyone to stop
   for (const JournalLine& line : lines) {
     const auto spans = times_of(line);
     const bool concerns = std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {

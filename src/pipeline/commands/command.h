@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -111,8 +112,12 @@ struct BadPingsCommand {
   TimeNs last = 0;
 };
 
+/// `detect`: schools of the line's observation are looked for without a human; every other line is laid upon what is found,
+/// whether it came before or after.
+struct DetectCommand {};
+
 using Command = std::variant<PropagateCommand, GrowCommand, BrushCommand, EraseCommand, ReshapeCommand, MergeCommand,
-                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand>;
+                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand, DetectCommand>;
 
 /// A command as a journal holds it.
 struct JournalAct {
@@ -140,5 +145,9 @@ struct TimeSpan {
   TimeNs last = 0;
 };
 [[nodiscard]] std::vector<TimeSpan> times_of(const JournalLine& line);
+
+/// Whether effective lines ask for detection in the observation that has these pings.
+/// times  [ping_index], datagram times, rising
+[[nodiscard]] bool asks_for_detection(std::span<const JournalLine> lines, std::span<const TimeNs> times);
 
 }  // namespace sonar

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -192,7 +193,8 @@ std::string command_name(const Command& command) {
       [](const DeleteCommand&) { return std::string("delete"); },
       [](const DecideCommand& c) { return decide_name(c); },
       [](const EventCommand&) { return std::string("event"); },
-      [](const BadPingsCommand& c) { return std::string(c.first == c.last ? "bad_ping" : "bad_interval"); }};
+      [](const BadPingsCommand& c) { return std::string(c.first == c.last ? "bad_ping" : "bad_interval"); },
+      [](const DetectCommand&) { return std::string("detect"); }};
   return std::visit(names, command);
 }
 
@@ -238,7 +240,8 @@ nlohmann::json to_json(const Command& command) {
                       },
                       [](const BadPingsCommand& c) {
                         return json{{"first", c.first}, {"last", c.last}};
-                      }};
+                      },
+                      [](const DetectCommand&) { return json::object(); }};
   return std::visit(args, command);
 }
 
@@ -267,6 +270,7 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
   }
   if (name == "event") return read_event(args);
   if (name == "bad_ping" || name == "bad_interval") return read_bad(name, args, ping_time);
+  if (name == "detect") return DetectCommand{};
   return fail(ErrorCode::unsupported, "this version does not know the command");
 }
 
@@ -292,6 +296,12 @@ std::vector<TimeSpan> times_of(const JournalLine& line) {
     }
   }
   return times;
+}
+
+bool asks_for_detection(std::span<const JournalLine> lines, std::span<const TimeNs> times) {
+  return std::any_of(lines.begin(), lines.end(), [&](const JournalLine& line) {
+    return line.command == "detect" && std::binary_search(times.begin(), times.end(), line.ping_time);
+  });
 }
 
 }  // namespace sonar

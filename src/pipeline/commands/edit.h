@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -41,6 +42,9 @@ class Edit {
   void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
   void note(DiagnosticCode code, std::string text);
   void add_event(const EventCommand& event);
+  /// The propagation that gives what was made: as far as it was let go.
+  void carried_out_as(PropagateCommand reached) { reached_ = std::move(reached); }
+  [[nodiscard]] const std::optional<PropagateCommand>& reached() const { return reached_; }
   void add_bad(const BadPingsCommand& bad) { state_.bad_pings.push_back(bad); }
   void remove(std::size_t school) { set_pings(school, {}); }
 
@@ -54,6 +58,7 @@ class Edit {
   std::int64_t ping_;
   const CommandGround& ground_;
   JournalState state_;
+  std::optional<PropagateCommand> reached_;
   std::vector<std::int64_t> reduced_;  ///< numbers of detected schools of which a human took voxels
 };
 
@@ -67,5 +72,7 @@ class Edit {
 [[nodiscard]] Result<void> carry_out(Edit& edit, const SplitCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DeleteCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DecideCommand& command);
+/// Changes nothing: what is found lies under the first line.
+[[nodiscard]] Result<void> carry_out(Edit& edit, const DetectCommand& command);
 
 }  // namespace sonar

@@ -141,4 +141,6 @@ Result<void> carry_out(Edit& edit, const DeleteCommand& command) {
   return {};
 }
 
+Result<void> carry_out(Edit& /*edit*/, const DetectCommand& /*command*/) { return {}; }
+
 }  // namespace sonar

@@ -42,6 +42,17 @@ struct JournalState {
 /// threads  pure, as far as ground.ping is
 [[nodiscard]] Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground);
 
+/// An act as it was carried out, and the state after it.
+struct Applied {
+  JournalAct act;  ///< the journal's: a propagation that the observer stopped names the pings that it reached
+  JournalState state;
+};
+
+/// apply() for acts that ground.on_step watches and may stop: apply(act) of what comes back, without an observer, gives
+/// this state bit for bit.
+[[nodiscard]] Result<Applied> apply_watched(const JournalAct& act, const JournalState& state,
+                                            const CommandGround& ground);
+
 /// The state after all lines (undo and redo already worked in, see effective_lines()). A line that cannot be applied is a
 /// diagnostic decision_lost and changes nothing else.
 [[nodiscard]] JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& ground);
