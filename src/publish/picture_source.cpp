@@ -152,27 +152,41 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::p
     auto survey =
         open_survey(inputs->raw, source->recipe_.survey, source->recipe_.navigation, IndexCache::of_user(), work);
     if (!survey) return pass_on(survey);
-    source->survey_ = std::make_unique<SurveyFiles>(std::move(*survey));
+    source->survey_ = std::make_shared<const SurveyFiles>(std::move(*survey));
   }
-  std::vector<bool> matched(source->products_.size());
-  if (source->survey_) {
-    for (const ObservationFiles& files : source->survey_->observations) {
-      const ObservationProduct* own = nullptr;
-      for (std::size_t i = 0; i < matched.size() && own == nullptr; ++i) {
-        if (matched[i] || !same_pings(files, source->products_[i])) continue;
-        own = &source->products_[i];
-        matched[i] = true;
-      }
-      source->observations_.emplace_back(source->survey_.get(), &files, own, source->recipe_);
-    }
-  }
-  for (std::size_t i = 0; i < matched.size(); ++i) {
-    if (!matched[i]) source->observations_.emplace_back(nullptr, nullptr, &source->products_[i], source->recipe_);
-  }
+  source->match();
   if (source->observations_.empty()) {
     const std::string named = paths.empty() ? std::string() : paths.front().string();
     return fail(ErrorCode::usage, "nothing to draw: neither raw files with pings nor products in it", {named});
   }
+  return source;
+}
+
+void PictureSource::match() {
+  std::vector<bool> matched(products_.size());
+  if (survey_) {
+    for (const ObservationFiles& files : survey_->observations) {
+      const ObservationProduct* own = nullptr;
+      for (std::size_t i = 0; i < matched.size() && own == nullptr; ++i) {
+        if (matched[i] || !same_pings(files, products_[i])) continue;
+        own = &products_[i];
+        matched[i] = true;
+      }
+      observations_.emplace_back(survey_.get(), &files, own, recipe_);
+    }
+  }
+  for (std::size_t i = 0; i < matched.size(); ++i) {
+    if (!matched[i]) observations_.emplace_back(nullptr, nullptr, &products_[i], recipe_);
+  }
+}
+
+std::unique_ptr<PictureSource> PictureSource::of(std::shared_ptr<const SurveyFiles> survey,
+                                                 std::vector<ObservationProduct> products, const Recipe& recipe) {
+  auto source = std::make_unique<PictureSource>();
+  source->survey_ = std::move(survey);
+  source->products_ = std::move(products);
+  source->recipe_ = recipe;
+  source->match();
   return source;
 }
 

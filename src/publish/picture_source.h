@@ -79,6 +79,11 @@ class PictureSource {
   [[nodiscard]] static Result<std::unique_ptr<PictureSource>> open(std::span<const std::filesystem::path> paths,
                                                                    const std::optional<Recipe>& recipe, Work& work);
 
+  /// Of a survey that is open, with products that are no files yet.
+  [[nodiscard]] static std::unique_ptr<PictureSource> of(std::shared_ptr<const SurveyFiles> survey,
+                                                         std::vector<ObservationProduct> products,
+                                                         const Recipe& recipe);
+
   [[nodiscard]] std::vector<DrawnObservation>& observations() { return observations_; }
   [[nodiscard]] const std::vector<ObservationProduct>& products() const { return products_; }
   [[nodiscard]] bool has_raw() const { return survey_ != nullptr; }
@@ -89,7 +94,9 @@ class PictureSource {
   [[nodiscard]] Result<DrawnObservation*> observation(std::string_view name);
 
  private:
-  std::unique_ptr<SurveyFiles> survey_;
+  void match();
+
+  std::shared_ptr<const SurveyFiles> survey_;
   std::vector<ObservationProduct> products_;  ///< by first ping
   Recipe recipe_;
   std::vector<DrawnObservation> observations_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/renderer_choice.h"
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -18,29 +19,26 @@ bool is_software(std::string_view driver) {
   return false;
 }
 
-struct GlTried {
-  OffscreenRenderer offscreen;
-  bool software = false;
-};
-
-Result<GlTried> try_gl() {
+/// Without `software_too` a software driver is refused before it compiles anything.
+Result<OffscreenRenderer> try_gl(bool software_too) {
   auto made = ContextEgl::make();
   if (!made) return pass_on(made);
   auto context = std::make_shared<ContextEgl>(std::move(*made));
   if (auto current = context->make_current(); !current) return pass_on(current);
-  const bool software = is_software(current_driver());
+  if (const std::string driver = current_driver(); !software_too && is_software(driver)) {
+    return fail(ErrorCode::unsupported, driver + " draws by software");
+  }
   auto renderer = make_gl_renderer();
   if (!renderer) return pass_on(renderer);
-  return GlTried{{std::move(context), std::move(*renderer)}, software};
+  return OffscreenRenderer{std::move(context), std::move(*renderer)};
 }
 
 }  // namespace
 
 Result<OffscreenRenderer> offscreen_renderer(RendererChoice choice) {
   if (choice != RendererChoice::cpu) {
-    auto tried = try_gl();
-    if (choice == RendererChoice::gl && !tried) return pass_on(tried);
-    if (tried && (choice == RendererChoice::gl || !tried->software)) return std::move(tried->offscreen);
+    auto tried = try_gl(choice == RendererChoice::gl);
+    if (tried || choice == RendererChoice::gl) return tried;
   }
   return OffscreenRenderer{nullptr, make_cpu_renderer()};
 }

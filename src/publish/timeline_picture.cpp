@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "publish/drawn_schools.h"
+#include "publish/echogram_cache.h"
 #include "publish/map_pictures.h"
 #include "view/echogram_pyramid.h"
 #include "view/timeline.h"
@@ -15,37 +16,51 @@ namespace {
 /// Pings that are worked on at once, so that memory does not grow with the observation.
 constexpr std::int64_t kAtOnce = 32;
 
-/// Columns of every ping; empty for those that cannot be read.
-Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation, const PictureOptions& options,
-                                                  Work& work) {
-  Engine* engine = observation.engine();
-  if (engine == nullptr && observation.has_raw()) return pass_on(observation.sector());
-  if (engine == nullptr) return std::unique_ptr<EchogramPyramid>();
-  if (options.filtered.value_or(false)) {
-    if (auto known = engine->estimate_background(0, observation.pings() - 1, work); !known) return pass_on(known);
+/// Columns of every ping; empty for those that cannot be read. `whole` becomes false where the disk was at fault, which
+/// may be better the next time.
+Result<EchogramPyramid> made_echogram(DrawnObservation& observation, bool filtered, const EchogramRange& range,
+                                      std::atomic<bool>& whole, Work& work) {
+  Engine& engine = *observation.engine();
+  if (filtered) {
+    if (auto known = engine.estimate_background(0, observation.pings() - 1, work); !known) return pass_on(known);
   }
   const std::int64_t pings = observation.pings();
-  // Flags need no background: the echogram is of Sv as recorded.
-  const EchogramRange range = echogram_range(engine->sector().range());
-  auto pyramid = std::make_unique<EchogramPyramid>(range);
+  EchogramPyramid pyramid(range);
   for (std::int64_t first = 0; first < pings; first += kAtOnce) {
     const std::int64_t count = std::min(kAtOnce, pings - first);
     std::vector<std::vector<EchogramCell>> columns(static_cast<std::size_t>(count));
     work.for_each(count, [&](std::int64_t i) {
-      const auto ping = engine->staged(first + i);
+      const auto ping = engine.staged(first + i);
+      if (!ping && ping.error().code != ErrorCode::format) whole = false;
       if (!ping) return;
-      const bool filtered = options.filtered.value_or(false);
       const Volume shown{filtered ? ping->filtered->counts : ping->sv.counts, ping->filtered->flags};
-      columns[static_cast<std::size_t>(i)] = echogram_column(engine->sector(), shown, kNotFiltered, range);
+      columns[static_cast<std::size_t>(i)] = echogram_column(engine.sector(), shown, kNotFiltered, range);
     });
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     for (std::int64_t i = 0; i < count; ++i) {
       const PingNavigation& navigation = observation.product().pings[static_cast<std::size_t>(first + i)];
-      pyramid->add_ping(navigation.time, columns[static_cast<std::size_t>(i)], navigation.distance_nmi);
+      pyramid.add_ping(navigation.time, columns[static_cast<std::size_t>(i)], navigation.distance_nmi);
     }
     work.progress("echogram", first + count, pings);
   }
   return pyramid;
+}
+
+/// From the user's cache, or made and kept there. Null without raw files.
+Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation, bool filtered, int level, Work& work) {
+  Engine* engine = observation.engine();
+  if (engine == nullptr && observation.has_raw()) return pass_on(observation.sector());
+  if (engine == nullptr) return std::unique_ptr<EchogramPyramid>();
+  // Flags need no background: the echogram is of Sv as recorded.
+  const EchogramRange range = echogram_range(engine->sector().range());
+  const EchogramEntry entry = echogram_entry(IndexCache::of_user(), engine->survey(), engine->observation(),
+                                             recipe_hash(engine->recipe()), filtered, kNotFiltered, range);
+  if (auto kept = kept_echogram(entry, level)) return std::make_unique<EchogramPyramid>(std::move(*kept));
+  std::atomic<bool> whole = true;
+  auto made = made_echogram(observation, filtered, range, whole, work);
+  if (!made) return pass_on(made);
+  if (whole) keep_echogram(entry, *made);
+  return std::make_unique<EchogramPyramid>(made->coarser(level));
 }
 
 }  // namespace
@@ -55,13 +70,16 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
   if (observations.size() == 1) {
     if (auto known = require_schools(*observations.front(), options); !known) return pass_on(known);
   }
+  std::size_t pings = 0;
+  for (const DrawnObservation* observation : observations) pings += static_cast<std::size_t>(observation->pings());
+  const int level = echogram_level(pings, options.size.width);
   std::vector<std::unique_ptr<EchogramPyramid>> echograms;
   std::vector<ObservationProduct> products;
   for (DrawnObservation* observation : observations) {
     // Among several observations those without a grid have nothing to show; alone they are told about.
     const bool drawable = !observation->has_raw() || observation->engine() != nullptr;
     if (!drawable && observations.size() > 1) continue;
-    auto made = echogram(*observation, options, work);
+    auto made = echogram(*observation, options.filtered.value_or(false), level, work);
     if (!made) return pass_on(made);
     echograms.push_back(std::move(*made));
     products.push_back(with_chosen_schools(observation->product(), options));

@@ -3,27 +3,11 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "render/over_pixel.h"
 #include "render/volume_renderer.h"
 
 namespace sonar {
 namespace {
-
-std::uint8_t byte_of(float value) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
-}
-
-Rgba8 over_pixel(const std::array<float, 4>& ray, Rgba8 below) {
-  const float rest = 1.0F - ray[3];
-  const float below_alpha = static_cast<float>(below.a) / 255.0F;
-  const float alpha = ray[3] + rest * below_alpha;
-  if (alpha <= 0.0F) {
-    return {0, 0, 0, 0};
-  }
-  const auto mix = [&](float premultiplied, std::uint8_t under) {
-    return byte_of((premultiplied + rest * below_alpha * static_cast<float>(under) / 255.0F) / alpha);
-  };
-  return {mix(ray[0], below.r), mix(ray[1], below.g), mix(ray[2], below.b), byte_of(alpha)};
-}
 
 double squared(std::uint8_t a, std::uint8_t b) {
   const double d = static_cast<double>(a) - static_cast<double>(b);

@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/check.h"
-#include "render/volume_renderer.h"
+#include "render/over_pixel.h"
 
 namespace sonar {
 namespace {
@@ -38,16 +39,6 @@ struct Band {
     return static_cast<std::size_t>(y - first_row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
 };
-
-std::array<float, 4> premultiplied(Rgba8 c, double share = 1.0) {
-  const auto a = static_cast<float>(c.a / 255.0 * share);
-  const auto of = [a](std::uint8_t v) { return a * static_cast<float>(v) / 255.0F; };
-  return {of(c.r), of(c.g), of(c.b), a};
-}
-
-void blend(std::array<float, 4>& below, const std::array<float, 4>& top) {
-  for (std::size_t i = 0; i < 4; ++i) below[i] = top[i] + (1.0F - top[3]) * below[i];
-}
 
 /// What reaches the screen of a scene: convex polygons of up to four corners.
 struct Piece {
@@ -139,9 +130,20 @@ void fill(const Corner& a, const Corner& b, const Corner& c, const Band& band, c
   const int y0 = bound(std::floor(std::min({a.y, b.y, c.y})), band.first_row, band.first_row + band.rows);
   const int y1 = bound(std::ceil(std::max({a.y, b.y, c.y})), band.first_row, band.first_row + band.rows);
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) {
+    const double py = y + 0.5;
+    // Where the row's middle crosses the triangle, a sub-pixel wider: long thin lines have boxes as large as the picture.
+    double left = 1e300;
+    double right = -1e300;
+    for (const auto& [p, q] : {std::pair{&a, &b}, std::pair{&b, &c}, std::pair{&c, &a}}) {
+      if (std::min(p->y, q->y) > py || std::max(p->y, q->y) < py) continue;
+      const double x = p->y == q->y ? p->x : p->x + (q->x - p->x) * (py - p->y) / (q->y - p->y);
+      left = std::min({left, x, p->y == q->y ? q->x : x});
+      right = std::max({right, x, p->y == q->y ? q->x : x});
+    }
+    if (left > right) continue;
+    const int end = bound(std::ceil(right) + 1.0, x0, x1);
+    for (int x = bound(std::floor(left) - 1.0, x0, x1); x < end; ++x) {
       const double px = x + 0.5;
-      const double py = y + 0.5;
       const double wa = ((b.x - px) * (c.y - py) - (c.x - px) * (b.y - py)) / area;
       const double wb = ((c.x - px) * (a.y - py) - (a.x - px) * (c.y - py)) / area;
       const double wc = 1.0 - wa - wb;
@@ -180,7 +182,15 @@ void draw_over(const std::vector<Piece>& drawn, const Band& depths, Band& band) 
   }
 }
 
-Rgba8 pixel_of(const Band& band, int x, int y) {
+/// ground  what the band was filled with
+Rgba8 pixel_of(const Band& band, int x, int y, Rgba8 ground, const Premultiplied& filled) {
+  static_assert(kSubPixels == 2);
+  const std::size_t top = band.index(x * kSubPixels, y * kSubPixels);
+  const std::size_t low = band.index(x * kSubPixels, y * kSubPixels + 1);
+  if (band.rgba[top] == filled && band.rgba[top + 1] == filled && band.rgba[low] == filled &&
+      band.rgba[low + 1] == filled) {
+    return ground;
+  }
   std::array<float, 4> sum{};
   for (int sy = 0; sy < kSubPixels; ++sy) {
     for (int sx = 0; sx < kSubPixels; ++sx) {
@@ -218,12 +228,13 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
   const std::vector<Piece> lines = pieces(scene.lines, screen, 1.0);
   const std::vector<Piece> faint = pieces(scene.lines, screen, kFaintLine);
   ContextPicture out{Image(size), Image(size, {0, 0, 0, 0}), nullptr};
+  const Premultiplied filled = premultiplied(background);
   std::vector<float> metres(opaque.empty() ? 0 : size.count());
   work.for_each((size.height + kBandRows - 1) / kBandRows, [&](std::int64_t number) {
     const int first = static_cast<int>(number) * kBandRows;
     const int rows = std::min(kBandRows, size.height - first);
     Band behind(first * kSubPixels, rows * kSubPixels, size.width * kSubPixels);
-    std::fill(behind.rgba.begin(), behind.rgba.end(), premultiplied(background));
+    std::fill(behind.rgba.begin(), behind.rgba.end(), filled);
     draw_opaque(opaque, behind);
     Band front(behind.first_row, behind.rows, behind.width);
     draw_over(translucent, behind, above ? front : behind);
@@ -231,8 +242,8 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
     draw_over(faint, behind, front);
     for (int y = first; y < first + rows; ++y) {
       for (int x = 0; x < size.width; ++x) {
-        out.behind.at(x, y) = pixel_of(behind, x, y);
-        out.front.at(x, y) = pixel_of(front, x, y);
+        out.behind.at(x, y) = pixel_of(behind, x, y, background, filled);
+        out.front.at(x, y) = pixel_of(front, x, y, {0, 0, 0, 0}, {});
         if (!metres.empty()) metres[out.behind.index(x, y)] = ray_metres(behind, x, y, screen.camera());
       }
     }
@@ -244,16 +255,21 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
 Image over(const Image& top, const Image& below) {
   SONAR_CHECK(top.size == below.size);
   Image out(top.size);
-  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
-    std::array<float, 4> colour = premultiplied(below.pixels[i]);
-    blend(colour, premultiplied(top.pixels[i]));
-    const float a = colour[3];
-    const auto byte = [a](float v) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(a > 0.0F ? v / a : 0.0F, 0.0F, 1.0F) * 255.0F));
-    };
-    out.pixels[i] = {byte(colour[0]), byte(colour[1]), byte(colour[2]),
-                     static_cast<std::uint8_t>(std::lround(a * 255.0F))};
-  }
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = over_pixel(top.pixels[i], below.pixels[i]);
+  return out;
+}
+
+Image between(const ContextPicture& context, const RayImage& rays, Work& work) {
+  SONAR_CHECK(rays.size == context.behind.size && rays.size == context.front.size);
+  Image out(rays.size);
+  const int rows = rays.size.height;
+  work.for_each((rows + kBandRows - 1) / kBandRows, [&](std::int64_t number) {
+    const int first = static_cast<int>(number) * kBandRows;
+    const std::size_t end = out.index(0, std::min(rows, first + kBandRows));
+    for (std::size_t i = out.index(0, first); i < end; ++i) {
+      out.pixels[i] = over_pixel(context.front.pixels[i], over_pixel(rays.rgba[i], context.behind.pixels[i]));
+    }
+  });
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "render/volume_renderer.h"
 #include "view/camera.h"
 #include "view/context_scene.h"
 #include "view/image.h"
@@ -25,5 +26,8 @@ struct ContextPicture {
 
 /// `top` over `below`, straight alpha; sizes must agree.
 [[nodiscard]] Image over(const Image& top, const Image& below);
+
+/// The volume's rays between the two layers, over(front, over(rays, behind)); sizes must agree.
+[[nodiscard]] Image between(const ContextPicture& context, const RayImage& rays, Work& work);
 
 }  // namespace sonar

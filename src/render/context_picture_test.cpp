@@ -75,6 +75,25 @@ TEST(ContextPicture, WhatIsBehindTheEyeIsCutOff) {
   EXPECT_EQ(picture.behind.at(100, 50), kBlack) << "nothing above the horizon";
 }
 
+TEST(ContextPicture, RaysLieBetweenTheLayers) {
+  const PixelSize size{64, 50};
+  ContextPicture context{Image(size, {10, 200, 30, 255}), Image(size, {0, 0, 0, 0}), nullptr};
+  RayImage rays{size, std::vector<std::array<float, 4>>(size.count()), {}};
+  for (int i = 0; i < 64; ++i) {
+    for (int y = 10; y < 50; ++y) {
+      const float a = static_cast<float>(i) / 64.0F;
+      rays.rgba[context.behind.index(i, y)] = {a * 0.9F, a * 0.2F, a * 0.1F, a};
+      context.front.at(i, y) = {200, 100, 50, static_cast<std::uint8_t>(y > 30 ? 5 * y : 0)};
+    }
+  }
+  Work work(2);
+  const Image between_them = between(context, rays, work);
+  EXPECT_EQ(between_them, over(context.front, over(rays, context.behind)));
+  EXPECT_EQ(between_them.at(5, 5), (Rgba8{10, 200, 30, 255})) << "nothing lies there";
+  // Half of (0.9, 0.2, 0.1) over the ground: 0.45 255 + 0.5 10, ...
+  EXPECT_EQ(between_them.at(32, 20), (Rgba8{120, 126, 28, 255}));
+}
+
 TEST(ContextPicture, AnyNumberOfThreadsDrawsTheSame) {
   std::vector<double> elevation;
   std::vector<double> azimuth;

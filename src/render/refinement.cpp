@@ -18,7 +18,7 @@ std::size_t pixel(const RayImage& image, int x, int y) {
 
 }  // namespace
 
-RayImage enlarged(const RayImage& image, PixelSize size, int divisor) {
+RayImage enlarged(const RayImage& image, PixelSize size, int divisor, Work& work) {
   if (divisor <= 1) return image;
   RayImage out{size, std::vector<std::array<float, 4>>(size.count()), image.counts};
   const auto place = [divisor](int i, int count) {
@@ -27,25 +27,36 @@ RayImage enlarged(const RayImage& image, PixelSize size, int divisor) {
     const int below = std::min(static_cast<int>(at), std::max(0, count - 2));
     return std::pair{below, static_cast<float>(at - below)};
   };
-  for (int y = 0; y < size.height; ++y) {
+  std::vector<std::pair<int, float>> columns;
+  for (int x = 0; x < size.width; ++x) columns.push_back(place(x, image.size.width));
+  const auto row = [&](int y) {
     const auto [y0, ty] = place(y, image.size.height);
-    const int y1 = std::min(y0 + 1, image.size.height - 1);
-    for (int x = 0; x < size.width; ++x) {
-      const auto [x0, tx] = place(x, image.size.width);
+    const auto* upper = &image.rgba[pixel(image, 0, y0)];
+    const auto* lower = &image.rgba[pixel(image, 0, std::min(y0 + 1, image.size.height - 1))];
+    auto* to = &out.rgba[pixel(out, 0, y)];
+    for (const auto& [x0, tx] : columns) {
       const int x1 = std::min(x0 + 1, image.size.width - 1);
-      auto& to = out.rgba[pixel(out, x, y)];
       for (std::size_t c = 0; c < 4; ++c) {
-        const float top = image.rgba[pixel(image, x0, y0)][c] * (1.0F - tx) + image.rgba[pixel(image, x1, y0)][c] * tx;
-        const float low = image.rgba[pixel(image, x0, y1)][c] * (1.0F - tx) + image.rgba[pixel(image, x1, y1)][c] * tx;
-        to[c] = top * (1.0F - ty) + low * ty;
+        const float top = upper[x0][c] * (1.0F - tx) + upper[x1][c] * tx;
+        const float low = lower[x0][c] * (1.0F - tx) + lower[x1][c] * tx;
+        (*to)[c] = top * (1.0F - ty) + low * ty;
       }
+      ++to;
     }
-  }
+  };
+  constexpr int kRows = 16;
+  work.for_each((size.height + kRows - 1) / kRows, [&](std::int64_t band) {
+    const int first = static_cast<int>(band) * kRows;
+    for (int y = first; y < std::min(size.height, first + kRows); ++y) row(y);
+  });
   return out;
 }
 
 Refinement::Refinement(VolumeRenderer& renderer, RefinementParams params, Clock clock)
-    : renderer_(renderer), params_(params), clock_(clock ? std::move(clock) : Clock(steady_seconds)) {}
+    : renderer_(renderer),
+      params_(params),
+      clock_(clock ? std::move(clock) : Clock(steady_seconds)),
+      seconds_per_pixel_(params.pace_s) {}
 
 void Refinement::restart(const VolumeView& view) {
   view_ = view;
@@ -84,7 +95,9 @@ Result<Refinement::Frame> Refinement::next(Work& work) {
   if (!image) return pass_on(image);
   divisor_ = divisor;
   const bool done = divisor == 1 && (params_.most_frames <= 0 || late());
-  return Frame{enlarged(*image, view_->size, divisor), quality, 0, done};
+  RayImage full = enlarged(*image, view_->size, divisor, work);
+  if (divisor > 1 && work.cancelled()) return fail(ErrorCode::cancelled, "drawing was cancelled");
+  return Frame{std::move(full), quality, 0, done};
 }
 
 Result<Refinement::Frame> Refinement::average(Work& work) {

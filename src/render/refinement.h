@@ -20,6 +20,7 @@ struct RefinementParams {
   int most_frames = 32;             ///< jittered frames that are averaged at rest
   double rest_budget_s = 0.0;       ///< no further frame is begun later than this after restart(); 0 = no limit
   double converged = 0.25 / 255.0;  ///< largest change of a colour by one more frame; below it the picture is done
+  double pace_s = 1e-7;             ///< seconds a pixel of full resolution: a guess until the first frame tells
 };
 
 /// Draws a view coarsely at once and better and better while it stays: half or quarter resolution as time allows, then
@@ -59,14 +60,14 @@ class Refinement {
   RefinementParams params_;
   Clock clock_;
   std::optional<VolumeView> view_;
-  double seconds_per_pixel_ = 1e-7;  ///< of full resolution; a guess until the first frame
-  double started_s_ = 0.0;           ///< when restart() was called
-  int divisor_ = 0;                  ///< of the last frame; 0 = none yet
+  double seconds_per_pixel_;  ///< of full resolution
+  double started_s_ = 0.0;    ///< when restart() was called
+  int divisor_ = 0;           ///< of the last frame; 0 = none yet
   std::vector<std::array<double, 4>> sum_;
   int frames_ = 0;
 };
 
 /// Enlarged to `size`, bilinear.
-[[nodiscard]] RayImage enlarged(const RayImage& image, PixelSize size, int divisor);
+[[nodiscard]] RayImage enlarged(const RayImage& image, PixelSize size, int divisor, Work& work);
 
 }  // namespace sonar

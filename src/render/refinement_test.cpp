@@ -124,7 +124,8 @@ TEST(Refinement, EnlargingKeepsAPlane) {
     for (int x = 0; x < 5; ++x)
       small.rgba.push_back({0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y), 0.0F, 1.0F});
   }
-  const RayImage big = enlarged(small, {10, 8}, 2);
+  Work work(2);
+  const RayImage big = enlarged(small, {10, 8}, 2, work);
   for (int y = 1; y < 7; ++y) {
     for (int x = 1; x < 9; ++x) {
       const auto& p = big.rgba[static_cast<std::size_t>(y * 10 + x)];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "view/context_layout.h"
 
 namespace sonar {
 namespace {
@@ -35,6 +36,8 @@ Point<Sonar> right_of(const Point<Sonar>& forward, const Point<Sonar>& up) {
 }
 
 using Points = std::vector<Point<Sonar>>;
+
+constexpr double kShip_m = 60.0;  ///< length of the ship that scenes show unless they are told
 
 /// Places whose outline the picture is centred on: the ends of the beams, and the ship.
 Points beam_ends(const Sector& sector) {
@@ -192,8 +195,26 @@ Camera zoomed(const Camera& camera, double factor) {
   return out;
 }
 
+Camera zoomed_about(const Camera& camera, const Point<Sonar>& about, double factor) {
+  const double nearer = std::clamp(factor, 1e-3, 1e3);
+  Camera out = camera;
+  out.eye = about + (camera.eye - about) * nearer;
+  out.target = about + (camera.target - about) * nearer;
+  return out;
+}
+
+Camera seen_from(const Sector& sector, const Point<Sonar>& from, PixelSize size) {
+  const double far_m = far_range_m(sector);
+  Points all = outline(sector, far_m);
+  // The ship's ends and its mast: from abeam they are what is nearest.
+  for (const double x : {-kShip_m / 2.0, kShip_m / 2.0}) all.push_back({x, 0.0, -kShip_m / 2.0});
+  const Camera outside = round_all(all, from, size);
+  const auto nearer = closed_in(outside, size, all, 0.5 * far_m);
+  return nearer && shows(*nearer, size, all) ? *nearer : outside;
+}
+
 Camera overview(const Sector& sector, PixelSize size) {
-  const double far_m = std::max(1.0, sector.range().range_m(std::max(0, sector.range().count - 1)));
+  const double far_m = far_range_m(sector);
   const double azimuth = 0.5 * (sector.azimuth_rad(0) + sector.azimuth_rad(sector.beams() - 1));
   Camera camera;
   camera.target =

@@ -53,6 +53,13 @@ struct CameraBasis {
 /// Distance to the target times `factor` (> 0).
 [[nodiscard]] Camera zoomed(const Camera& camera, double factor);
 
+/// Eye and target come `factor` (> 0) times as far from a place, which stays where it is in the picture.
+[[nodiscard]] Camera zoomed_about(const Camera& camera, const Point<Sonar>& about, double factor);
+
+/// Sees the whole sector from a side, as large as a picture of this shape allows.
+/// from  unit vector towards the eye, not along the vertical
+[[nodiscard]] Camera seen_from(const Sector& sector, const Point<Sonar>& from, PixelSize size);
+
 /// Sees the whole sector, obliquely from above and from outside, as large as a picture of this shape allows.
 [[nodiscard]] Camera overview(const Sector& sector, PixelSize size = {1024, 768});
 

@@ -69,6 +69,43 @@ TEST(Camera, OrbitKeepsDistanceAndNeverTurnsOver) {
   EXPECT_NEAR(norm((moved.eye - moved.target) - (camera.eye - camera.target)), 0.0, 1e-9);
 }
 
+TEST(Camera, WhatIsZoomedAboutStaysInItsPlace) {
+  const Camera camera{{-300.0, 120.0, -80.0}, {20.0, -200.0, 60.0}};
+  const Point<Sonar> about{-40.0, -90.0, 30.0};
+  const Camera nearer = zoomed_about(camera, about, 0.25);
+  const auto was = basis(camera, {640, 480}).project(about);
+  const auto is = basis(nearer, {640, 480}).project(about);
+  ASSERT_TRUE(was && is);
+  EXPECT_NEAR(is->pixel.x, was->pixel.x, 1e-7);
+  EXPECT_NEAR(is->pixel.y, was->pixel.y, 1e-7);
+  EXPECT_NEAR(is->depth_m, 0.25 * was->depth_m, 1e-9);
+  EXPECT_NEAR(norm(nearer.eye - about), 0.25 * norm(camera.eye - about), 1e-9);
+}
+
+TEST(Camera, SidesShowTheWholeSectorAndTheShip) {
+  std::vector<double> elevation;
+  std::vector<double> azimuth;
+  for (int i = 0; i < 6; ++i) elevation.push_back(rad_from_deg(-45.0 + 9.0 * i));
+  for (int i = 0; i < 7; ++i) azimuth.push_back(rad_from_deg(240.0 + 10.0 * i));
+  const Sector sector(elevation, azimuth, {0.0, 0.5, 1000});
+  const PixelSize size{640, 480};
+  for (const double bow_deg : {0.0, 90.0, 180.0, 270.0}) {
+    const Camera camera = seen_from(sector, Sector::direction(0.0, rad_from_deg(bow_deg)), size);
+    EXPECT_NEAR(camera.eye.z, camera.target.z, 1e-9) << "level";
+    const CameraBasis b = basis(camera, size);
+    std::vector<Point<Sonar>> all{{30.0, 0.0, -20.0}, {-30.0, 0.0, -20.0}};
+    for (const int fan : {0, 5}) {
+      for (const int beam : {0, 3, 6}) all.push_back(sector.centre(fan, beam, 999));
+    }
+    for (const Point<Sonar>& point : all) {
+      const auto seen = b.project(point);
+      ASSERT_TRUE(seen) << bow_deg;
+      EXPECT_TRUE(seen->pixel.x > 0.0 && seen->pixel.x < 640.0 && seen->pixel.y > 0.0 && seen->pixel.y < 480.0)
+          << bow_deg << ": " << seen->pixel.x << " " << seen->pixel.y;
+    }
+  }
+}
+
 TEST(Camera, OverviewShowsTheWholeSector) {
   for (const double middle : {270.0, 90.0, 0.0}) {
     std::vector<double> elevation;

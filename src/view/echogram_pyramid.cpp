@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/check.h"
 
@@ -71,19 +72,64 @@ std::vector<EchogramCell> echogram_column(const Sector& sector, const Volume& vo
   return column;
 }
 
+namespace {
+
+/// Of the level above one.
+int bins_above(int bins) {
+  const int half = (bins + 1) / 2;
+  return half >= EchogramPyramid::kLeastBins ? half : bins;
+}
+
+}  // namespace
+
+EchogramPyramid EchogramPyramid::coarser(int level) const {
+  const int first = std::clamp(level, 0, levels() - 1);
+  EchogramPyramid out(range_.coarser(bins(first)), pings_per_column_ << first);
+  out.times_ = times_;
+  out.distances_ = distances_;
+  out.levels_.assign(levels_.begin() + first, levels_.end());
+  return out;
+}
+
+std::optional<EchogramPyramid> EchogramPyramid::of_parts(const EchogramRange& range, int pings_per_column,
+                                                         std::vector<TimeNs> times, std::vector<double> distances_nmi,
+                                                         std::vector<EchogramLevel> levels) {
+  constexpr int kMostPings = 1 << 30;
+  if (range.bins < 1 || pings_per_column < 1 || pings_per_column > kMostPings || times.size() > kMostPings ||
+      levels.empty() || times.size() != distances_nmi.size() || !std::is_sorted(times.begin(), times.end())) {
+    return std::nullopt;
+  }
+  const auto per_column = static_cast<std::size_t>(pings_per_column);
+  std::size_t columns = times.size() / per_column + (times.size() % per_column != 0 ? 1 : 0);
+  int bins = range.bins;
+  for (const EchogramLevel& level : levels) {
+    const bool last = &level == &levels.back();
+    if (level.columns != columns || level.bins != bins || last != (columns <= 1)) return std::nullopt;
+    const auto cells = static_cast<std::size_t>(bins);
+    if (level.cells.size() % cells != 0 || level.cells.size() / cells != columns) return std::nullopt;
+    columns = (columns + 1) / 2;
+    bins = bins_above(bins);
+  }
+  EchogramPyramid out(range, pings_per_column);
+  out.times_ = std::move(times);
+  out.distances_ = std::move(distances_nmi);
+  out.levels_ = std::move(levels);
+  return out;
+}
+
 EchogramPyramid::EchogramPyramid(const EchogramRange& range, int pings_per_column)
     : range_(range), pings_per_column_(std::max(1, pings_per_column)) {
   levels_.push_back({range_.bins, 0, {}});
 }
 
 const EchogramCell& EchogramPyramid::cell(int level, std::size_t column, int bin) const {
-  const Level& l = levels_[static_cast<std::size_t>(level)];
+  const EchogramLevel& l = levels_[static_cast<std::size_t>(level)];
   return l.cells[column * static_cast<std::size_t>(l.bins) + static_cast<std::size_t>(bin)];
 }
 
 void EchogramPyramid::renew(std::size_t level, std::size_t column) {
-  const Level& below = levels_[level - 1];
-  Level& l = levels_[level];
+  const EchogramLevel& below = levels_[level - 1];
+  EchogramLevel& l = levels_[level];
   const int factor = l.bins < below.bins ? 2 : 1;
   if (column >= l.columns) {
     l.columns = column + 1;
@@ -107,7 +153,7 @@ void EchogramPyramid::add_ping(TimeNs time, std::span<const EchogramCell> column
   distances_.push_back(distance_nmi);
   const std::size_t at = (times_.size() - 1) / static_cast<std::size_t>(pings_per_column_);
   {
-    Level& base = levels_.front();
+    EchogramLevel& base = levels_.front();
     if (at >= base.columns) {
       base.columns = at + 1;
       base.cells.resize(base.columns * static_cast<std::size_t>(base.bins));
@@ -120,8 +166,7 @@ void EchogramPyramid::add_ping(TimeNs time, std::span<const EchogramCell> column
   while (levels_.back().columns > 1) {
     const std::size_t below = levels_.size() - 1;
     const std::size_t columns = (levels_[below].columns + 1) / 2;
-    const int half = (levels_[below].bins + 1) / 2;
-    levels_.push_back({half >= kLeastBins ? half : levels_[below].bins, 0, {}});
+    levels_.push_back({bins_above(levels_[below].bins), 0, {}});
     for (std::size_t c = 0; c < columns; ++c) renew(below + 1, c);
   }
   std::size_t last = at;

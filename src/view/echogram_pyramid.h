@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct EchogramRange {
   double first_m = 0.0;
   double bin_m = 1.0;
   int bins = 512;
+  /// The same ranges in fewer bins.
+  [[nodiscard]] EchogramRange coarser(int fewer) const {
+    return fewer == bins ? *this : EchogramRange{first_m, bin_m * bins / fewer, fewer};
+  }
   friend bool operator==(const EchogramRange&, const EchogramRange&) = default;
 };
 /// Bins for a sonar's ranges: from 0 to the last sample, no finer than the samples, at most `most`.
@@ -43,6 +48,14 @@ struct EchogramRange {
 /// cost    one pass over the volume
 [[nodiscard]] std::vector<EchogramCell> echogram_column(const Sector& sector, const Volume& volume, SampleFlags hidden,
                                                         const EchogramRange& range);
+
+/// One resolution of an echogram.
+struct EchogramLevel {
+  int bins = 0;
+  std::size_t columns = 0;
+  std::vector<EchogramCell> cells;  ///< [column][bin]
+  friend bool operator==(const EchogramLevel&, const EchogramLevel&) = default;
+};
 
 /// An observation as an echogram, built ping by ping, at every resolution: a level has half the columns of the one
 /// below, and half its range bins as long as 256 are left (a week is wide, not high); each cell is made of those below
@@ -70,23 +83,27 @@ class EchogramPyramid {
   [[nodiscard]] std::size_t columns(int level) const { return levels_[static_cast<std::size_t>(level)].columns; }
   [[nodiscard]] int bins(int level) const { return levels_[static_cast<std::size_t>(level)].bins; }
   [[nodiscard]] const EchogramCell& cell(int level, std::size_t column, int bin) const;
+  [[nodiscard]] const EchogramLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
+
+  /// The same echogram from a level on, as if it were the finest; at most to the last one.
+  [[nodiscard]] EchogramPyramid coarser(int level) const;
+  /// A pyramid from its parts as they were kept. Empty where they do not belong together.
+  [[nodiscard]] static std::optional<EchogramPyramid> of_parts(const EchogramRange& range, int pings_per_column,
+                                                               std::vector<TimeNs> times,
+                                                               std::vector<double> distances_nmi,
+                                                               std::vector<EchogramLevel> levels);
 
   static constexpr double kUnknownDistance = std::numeric_limits<double>::quiet_NaN();
   static constexpr int kLeastBins = 256;
 
  private:
-  struct Level {
-    int bins = 0;
-    std::size_t columns = 0;
-    std::vector<EchogramCell> cells;  ///< [column][bin]
-  };
   void renew(std::size_t level, std::size_t column);
 
   EchogramRange range_;
   int pings_per_column_ = 1;
   std::vector<TimeNs> times_;
   std::vector<double> distances_;
-  std::vector<Level> levels_;
+  std::vector<EchogramLevel> levels_;
 };
 
 }  // namespace sonar

@@ -64,6 +64,32 @@ MapFrame fit_map(const GeoExtent& extent, const PixelRect& place) {
   return map;
 }
 
+MapFrame zoomed(MapFrame whole, const MapZoom& zoom) {
+  whole.centre = {whole.centre.x + zoom.moved.x, whole.centre.y + zoom.moved.y};
+  whole.metres_per_px /= zoom.factor;
+  return whole;
+}
+
+MapZoom zoomed_about(const PixelRect& place, double whole_metres_per_px, const MapZoom& zoom, PixelPoint at,
+                     double times) {
+  constexpr double kMost = 1000.0;
+  MapZoom next = zoom;
+  next.factor = std::clamp(zoom.factor * times, 1.0, kMost);
+  if (next.factor == 1.0) return {};
+  const double metres = whole_metres_per_px * (1.0 / zoom.factor - 1.0 / next.factor);
+  next.moved.x += (at.x - place.x - place.width / 2.0) * metres;
+  next.moved.y -= (at.y - place.y - place.height / 2.0) * metres;
+  return next;
+}
+
+MapZoom dragged(double whole_metres_per_px, const MapZoom& zoom, PixelPoint from, PixelPoint to) {
+  const double metres = whole_metres_per_px / zoom.factor;
+  MapZoom next = zoom;
+  next.moved.x -= (to.x - from.x) * metres;
+  next.moved.y += (to.y - from.y) * metres;
+  return next;
+}
+
 GeoExtent shown_extent(const MapFrame& map) {
   std::vector<Geographic> places;
   sample_square([&](double u, double v) {

@@ -27,6 +27,23 @@ struct MapFrame {
 
 /// The whole extent, as large as the rectangle allows.
 [[nodiscard]] MapFrame fit_map(const GeoExtent& extent, const PixelRect& place);
+
+/// How a map differs from the one that shows everything.
+struct MapZoom {
+  double factor = 1.0;  ///< 2 = twice as large
+  PlanePoint moved;     ///< of the map's middle, map metres
+  friend bool operator==(const MapZoom&, const MapZoom&) = default;
+};
+/// zoom  of the map that shows everything
+[[nodiscard]] MapFrame zoomed(MapFrame whole, const MapZoom& zoom);
+/// So many times larger, while what lies under a pixel stays there; between the whole and 1000 times it.
+/// place                of the map in the picture
+/// whole_metres_per_px  of the map that shows everything
+[[nodiscard]] MapZoom zoomed_about(const PixelRect& place, double whole_metres_per_px, const MapZoom& zoom,
+                                   PixelPoint at, double times);
+/// What lay under one pixel comes to lie under another.
+[[nodiscard]] MapZoom dragged(double whole_metres_per_px, const MapZoom& zoom, PixelPoint from, PixelPoint to);
+
 /// What the rectangle of a map really shows, beyond the extent it was fitted to.
 [[nodiscard]] GeoExtent shown_extent(const MapFrame& map);
 

@@ -55,6 +55,23 @@ TEST(MapFrame, PixelPlacesAreTheExactOnesToAHundredthOfAPixel) {
   }
 }
 
+TEST(MapZoom, WhatLiesUnderThePointerStaysThereAndOutIsTheWholeAgain) {
+  const MapFrame whole = fit_map(kExtents[0], kPlace);
+  const PixelPoint at{700.0, 120.0};
+  MapZoom zoom = zoomed_about(kPlace, whole.metres_per_px, {}, at, 3.0);
+  zoom = zoomed_about(kPlace, whole.metres_per_px, zoom, at, 2.0);
+  const MapFrame near = zoomed(whole, zoom);
+  EXPECT_NEAR(near.metres_per_px, whole.metres_per_px / 6.0, 1e-9);
+  EXPECT_NEAR(near.plane(at).x, whole.plane(at).x, 1e-6);
+  EXPECT_NEAR(near.plane(at).y, whole.plane(at).y, 1e-6);
+  const PixelPoint to{650.0, 300.0};
+  const MapFrame panned = zoomed(whole, dragged(whole.metres_per_px, zoom, at, to));
+  EXPECT_NEAR(panned.plane(to).x, near.plane(at).x, 1e-6);
+  EXPECT_NEAR(panned.plane(to).y, near.plane(at).y, 1e-6);
+  EXPECT_EQ(zoomed_about(kPlace, whole.metres_per_px, zoom, at, 1e-9), MapZoom{});
+  EXPECT_EQ(zoomed_about(kPlace, whole.metres_per_px, zoom, at, 1e9).factor, 1000.0);
+}
+
 TEST(Graticule, EveryLabelStandsAtItsDegree) {
   for (const GeoExtent& e : kExtents) {
     const MapFrame map = fit_map(e, kPlace);

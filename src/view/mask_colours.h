@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "base/describe.h"
 #include "view/image.h"
@@ -20,7 +21,9 @@ inline constexpr std::array<std::string_view, 3> kMaskColouringNames{"schools", 
 
 struct MaskPalette {
   MaskColouring colouring = MaskColouring::schools;
-  double core_at = 0.64;  ///< confidence from which a voxel is core
+  double core_at = 0.64;            ///< confidence from which a voxel is core
+  double fuzzy_above = 0.0;         ///< what lies at or below it is not shown
+  std::vector<bool> rejected = {};  ///< [number of a school's colour, modulo its length]: drawn grey
   friend bool operator==(const MaskPalette&, const MaskPalette&) = default;
 };
 

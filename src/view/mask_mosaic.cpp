@@ -12,9 +12,6 @@
 namespace sonar {
 namespace {
 
-/// A whole number of rounds of school_colour()'s seven colours.
-constexpr int kSchools = 252;
-
 /// Blocks of known length, so that compilers make vectors of them.
 void take_larger(MaskMosaic::Cell* to, const MaskMosaic::Cell* from, int count) {
   constexpr int kBlock = 32;

@@ -30,6 +30,9 @@ class MaskMosaic {
   [[nodiscard]] static std::uint8_t confidence(Cell c) { return static_cast<std::uint8_t>(c >> 8U); }
   [[nodiscard]] static int school(Cell c) { return c & 0xFFU; }
 
+  /// Schools are kept modulo this: a whole number of rounds of school_colour()'s seven colours.
+  static constexpr int kSchools = 252;
+
   /// map      where the raster lies; it covers `map.place`
   /// pings    of the observation
   /// cell_px  size of a cell

@@ -77,7 +77,8 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
 
 }  // namespace
 
-Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme) {
+Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
+                                                const MapZoom& zoom) {
   if (size.width < 24.0 * theme.text_px || size.height < 16.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
@@ -99,8 +100,10 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   const double size_m =
       geodesic({extent->south_deg, extent->west_deg}, {extent->north_deg, extent->east_deg}).distance_m;
   ObservationMapBase base{
-      fit_map(widened(*extent, std::max({kLeastMargin_m, kMargin * size_m, (kLeastShips * kShip_m - size_m) / 2.0})),
-              map_place(size, theme)),
+      zoomed(fit_map(
+                 widened(*extent, std::max({kLeastMargin_m, kMargin * size_m, (kLeastShips * kShip_m - size_m) / 2.0})),
+                 map_place(size, theme)),
+             zoom),
       size,
       theme,
       {},
@@ -121,9 +124,13 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   return base;
 }
 
-MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product) {
+MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings) {
   const double longer = std::max(base.map.place.width, base.map.place.height);
-  MaskMosaic mosaic(base.map, product.pings.size(), std::max(1.0, std::ceil(longer / kMostCells)));
+  return {base.map, pings, std::max(1.0, std::ceil(longer / kMostCells))};
+}
+
+MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product) {
+  MaskMosaic mosaic = empty_mosaic(base, product.pings.size());
   if (!product.grid) return mosaic;
   const Sector sector = product.grid->grid.sector(product.grid->range);
   std::vector<std::vector<MosaicMask>> of_ping(product.pings.size());
@@ -169,11 +176,15 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   add_scale_and_north(frame, base.map, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
-  std::string line = fmt::format("{} pings, {} school{} · {}", product.pings.size(), product.schools.size(),
-                                 product.schools.size() == 1 ? "" : "s", span);
+  const std::string count = fmt::format("{} pings, {} school{}", product.pings.size(), product.schools.size(),
+                                        product.schools.size() == 1 ? "" : "s");
+  std::string ping;
   if (current && *current < product.pings.size()) {
-    line += fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
+    ping = fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
   }
+  std::string line = count + " · " + span + ping;
+  // In a narrow map the observation's time goes first: its days stand in the survey's list.
+  if (text_width_px(line.c_str(), theme.text_px) > frame.size.width - base.map.place.x) line = count + ping;
   Layout layout;
   const double em = theme.text_px;
   layout.title = {base.map.place.x, 0.9 * em, base.map.place.width, base.map.place.y - em};

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,10 @@ struct ObservationMapBase {
 /// pings   of the observation; product may lack schools and masks
 /// errors  not_found: no ping has a position; bad_parameter: a picture too small for a map
 [[nodiscard]] Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size,
-                                                              const Theme& theme);
+                                                              const Theme& theme, const MapZoom& zoom = {});
+
+/// Without a mask: for whoever sets pings one by one.
+[[nodiscard]] MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings);
 
 /// All masks of a product in a mosaic that lies in the map; schools are numbered in the order of product.schools.
 [[nodiscard]] MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product);
@@ -42,5 +47,15 @@ struct ObservationMapBase {
 [[nodiscard]] FrameDescription observation_map(const ObservationMapBase& base, const ObservationProduct& product,
                                                const MaskMosaic& mosaic, std::optional<std::size_t> current,
                                                const MaskPalette& palette);
+
+/// A school as a map shows it beside its masks.
+struct MapSchool {
+  std::int64_t number = 0;
+  std::string status;  ///< solid, dashed or dotted, as everywhere
+  bool selected = false;
+  std::vector<Geographic> places;  ///< in time order
+};
+/// Paths of schools in their colours, rejected ones grey, with their numbers where there is room; over an observation map.
+void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools);
 
 }  // namespace sonar

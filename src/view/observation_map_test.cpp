@@ -100,6 +100,63 @@ TEST(ObservationMap, NoPositionIsOneLine) {
   EXPECT_EQ(base.error().text, "obs-0001: no ping has a position");
 }
 
+TEST(ObservationMap, SchoolsHavePathsInTheirColoursAndNumbers) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const Theme theme = light_theme(kSize);
+  const auto base = observation_map_base(p, kSize, theme);
+  ASSERT_TRUE(base);
+  auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
+  const auto strokes = [&](Rgba8 colour) {
+    return std::count_if(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+      const auto* path = std::get_if<PathItem>(&item);
+      return path != nullptr && path->stroke.colour == colour;
+    });
+  };
+  ASSERT_EQ(strokes(school_colour(12)), 0);
+  std::vector<MapSchool> schools{{12, "accepted", false, {p.pings[2].transducer, p.pings[5].transducer}},
+                                 {13, "rejected", false, {p.pings[9].transducer, p.pings[15].transducer}}};
+  const auto muted = strokes(theme.muted);
+  add_map_schools(frame, *base, schools);
+  EXPECT_EQ(strokes(school_colour(12)), 1);
+  EXPECT_EQ(strokes(school_colour(13)), 0);
+  EXPECT_EQ(strokes(theme.muted), muted + 1);
+  EXPECT_TRUE(says(frame, "12"));
+  EXPECT_TRUE(says(frame, "13"));
+}
+
+TEST(ObservationMap, ANarrowMapSaysItsPingAndNotItsDay) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  constexpr PixelSize kNarrow{360, 300};
+  const auto base = observation_map_base(p, kNarrow, light_theme(kNarrow));
+  ASSERT_TRUE(base);
+  const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
+  EXPECT_TRUE(says(frame, "ping 3 at 12:26:55"));
+  EXPECT_FALSE(says(frame, "2020-09-13 12"));
+}
+
+TEST(PropagationView, AStripIsOneRowThatTellsItsPlacesAndWhyAPropagationEnded) {
+  ObservationProduct p = map_example::product("obs-0001", 9);
+  map_example::add_school(p, 4, p.pings[3].transducer, 3, 4, map_example::block(2, 1, 2, 24, 3));
+  PropagationStyle style;
+  style.before = style.after = 3;
+  style.one_row = true;
+  constexpr PixelSize kLow{1000, 400};
+  auto panels = propagation_panels(p, 4, style);
+  panels[4].note = "stopped at ping 5";
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  const auto frame = propagation_view(sector, panels, style, kLow, light_theme(kLow));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "stopped at ping 5"));
+  const auto places = propagation_places(sector, panels, style, kLow, light_theme(kLow));
+  ASSERT_TRUE(places);
+  ASSERT_EQ(places->size(), 7U);
+  for (std::size_t i = 1; i < places->size(); ++i) {
+    EXPECT_EQ((*places)[i].y, (*places)[0].y);
+    EXPECT_GT((*places)[i].x, (*places)[i - 1].x + (*places)[i - 1].width);
+  }
+  EXPECT_EQ(image_of(*frame, 0)->place.x, (*places)[2].x);  // ping 3 is the third of 1 .. 7
+}
+
 TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
   ObservationProduct p = map_example::product("obs-0001", 5);
   map_example::add_school(p, 417, p.pings[3].transducer, 3, 3, map_example::block(2, 1, 2, 24, 3));

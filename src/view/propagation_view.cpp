@@ -82,14 +82,16 @@ void include(Window& w, const MaskPlan& plan, MaskAspect aspect) {
 
 Window window_of(const Sector& sector, std::span<const PropagationPanel> panels, const PropagationStyle& style) {
   Window w;
-  if (!style.whole_sector) {
+  const auto fit_to = [&](int school) {
     for (const PropagationPanel& panel : panels) {
       for (const MosaicMask& m : panel.masks) {
-        if (m.mask == nullptr) continue;
+        if (m.mask == nullptr || (school >= 0 && m.school != school)) continue;
         include(w, plan_of(sector, *m.mask, style.aspect), style.aspect);
       }
     }
-  }
+  };
+  if (!style.whole_sector && style.focus >= 0) fit_to(style.focus);
+  if (!style.whole_sector && w.empty()) fit_to(-1);
   if (w.empty()) {
     for (const PlanePoint& p : sector_outline(sector, style.aspect)) w.add(p.x, p.y);
   }
@@ -120,7 +122,7 @@ struct Panels {
 };
 
 /// As many columns as make the panels largest for what they show.
-Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Window& window) {
+Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Window& window, bool one_row) {
   const double em = theme.text_px;
   Panels p;
   p.gap_px = 0.7 * em;
@@ -130,7 +132,7 @@ Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Win
   const double shape = (window.right - window.left) / (window.high - window.low);
   double best = 0.0;
   const int n = static_cast<int>(count);
-  for (int columns = 1; columns <= n; ++columns) {
+  for (int columns = one_row ? n : 1; columns <= n; ++columns) {
     const int rows = (n + columns - 1) / columns;
     const double width = (p.area.width - (columns - 1) * p.gap_px) / columns;
     const double height = (p.area.height - (rows - 1) * p.gap_px) / rows - p.label_px;
@@ -216,6 +218,19 @@ void add_numbers(FrameDescription& frame, const Sector& sector, const Propagatio
   }
 }
 
+/// Along the panel's lower edge, on as many lines as it takes.
+void add_note(FrameDescription& frame, const std::string& note, const PixelRect& place, const Theme& theme) {
+  const double size = 0.85 * theme.text_px;
+  const std::vector<std::string> lines = wrapped(note, place.width - size, size);
+  double y = place.y + place.height - 0.4 * size - 1.25 * size * (static_cast<double>(lines.size()) - 0.5);
+  for (const std::string& line : lines) {
+    TextItem text = text_item({place.x + place.width / 2.0, y}, line, size, theme.accent, TextAnchor::centre);
+    text.halo = theme.halo;
+    if (y > place.y) frame.items.emplace_back(std::move(text));
+    y += 1.25 * size;
+  }
+}
+
 void add_panel(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
                const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
   const double em = theme.text_px;
@@ -243,6 +258,7 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
   }
+  add_note(frame, panel.note, place, theme);
   TextItem name = text_item({place.x + place.width / 2.0, place.y - 2.1 * em}, fmt::format("ping {}", panel.ping_index),
                             em, theme.text, TextAnchor::centre);
   name.bold = panel.current;
@@ -305,22 +321,48 @@ std::vector<PropagationPanel> propagation_panels(const ObservationProduct& produ
   return panels;
 }
 
-Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,
-                                          const PropagationStyle& style, PixelSize size, const Theme& theme,
-                                          const std::string& title) {
+namespace {
+
+struct LaidOut {
+  Panels places;
+  Scale scale;
+};
+
+Result<LaidOut> laid_out(const Sector& sector, std::span<const PropagationPanel> panels, const PropagationStyle& style,
+                         PixelSize size, const Theme& theme) {
   if (auto ok = validate(style); !ok) return pass_on(ok);
   if (panels.empty()) return fail(ErrorCode::bad_parameter, "a propagation view needs at least one ping");
   const Window window = window_of(sector, panels, style);
-  const Panels places = laid_out(size, theme, panels.size(), window);
-  if (places.grid.width < kLeastPanel_em * theme.text_px || places.grid.height < kLeastPanel_em * theme.text_px / 2.0) {
+  LaidOut out{laid_out(size, theme, panels.size(), window, style.one_row), {}};
+  const Grid& grid = out.places.grid;
+  if (grid.width < kLeastPanel_em * theme.text_px || grid.height < kLeastPanel_em * theme.text_px / 2.0) {
     return fail(ErrorCode::bad_parameter, fmt::format("a picture of {} x {} pixels is too small for {} pings",
                                                       size.width, size.height, panels.size()));
   }
-  Scale scale;
-  scale.middle_x = (window.left + window.right) / 2.0;
-  scale.middle_y = (window.low + window.high) / 2.0;
-  scale.px_per_m =
-      std::min(places.grid.width / (window.right - window.left), places.grid.height / (window.high - window.low));
+  out.scale.middle_x = (window.left + window.right) / 2.0;
+  out.scale.middle_y = (window.low + window.high) / 2.0;
+  out.scale.px_per_m = std::min(grid.width / (window.right - window.left), grid.height / (window.high - window.low));
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<PixelRect>> propagation_places(const Sector& sector, std::span<const PropagationPanel> panels,
+                                                  const PropagationStyle& style, PixelSize size, const Theme& theme) {
+  const auto laid = laid_out(sector, panels, style, size, theme);
+  if (!laid) return pass_on(laid);
+  std::vector<PixelRect> out;
+  for (std::size_t i = 0; i < panels.size(); ++i) out.push_back(laid->places.place(i));
+  return out;
+}
+
+Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,
+                                          const PropagationStyle& style, PixelSize size, const Theme& theme,
+                                          const std::string& title) {
+  const auto laid = laid_out(sector, panels, style, size, theme);
+  if (!laid) return pass_on(laid);
+  const Panels& places = laid->places;
+  const Scale& scale = laid->scale;
   FrameDescription frame;
   frame.size = size;
   frame.background = theme.background;

@@ -30,7 +30,9 @@ struct PropagationStyle {
   int after = 2;
   MaskAspect aspect = MaskAspect::above;
   bool whole_sector = false;  ///< else only where masks are
+  bool one_row = false;       ///< side by side, however narrow
   MaskPalette palette{.colouring = MaskColouring::core_fuzzy, .core_at = 0.64};
+  int focus = -1;  ///< school of MosaicMask that the view is fitted to, where it is seen; -1 = all
   friend bool operator==(const PropagationStyle&, const PropagationStyle&) = default;
 };
 
@@ -40,6 +42,7 @@ void describe(Visitor& v, PropagationStyle& p) {
   v.field("after", p.after, {.min = 0, .max = 100, .text = "pings after the current one"});
   v.choice("aspect", p.aspect, kMaskAspectNames, "from where masks are seen");
   v.field("whole_sector", p.whole_sector, {.text = "show the whole sector, not only where masks are"});
+  v.field("one_row", p.one_row, {.text = "all pings in one row"});
   v.group("palette", p.palette, "colours of masks");
 }
 
@@ -51,10 +54,17 @@ struct PropagationPanel {
   TimeNs time = 0;
   std::vector<MosaicMask> masks;         ///< point into what the panel was made from
   std::vector<std::int64_t> school_ids;  ///< of `masks`, written beside them; may be empty
+  std::string note;                      ///< along the lower edge: why a propagation ended here; may be empty
 };
 /// The current ping of a product and its neighbours, as far as there are such pings.
 [[nodiscard]] std::vector<PropagationPanel> propagation_panels(const ObservationProduct& product, std::int64_t current,
                                                                const PropagationStyle& style);
+
+/// Where propagation_view() draws each panel. errors: as there
+[[nodiscard]] Result<std::vector<PixelRect>> propagation_places(const Sector& sector,
+                                                                std::span<const PropagationPanel> panels,
+                                                                const PropagationStyle& style, PixelSize size,
+                                                                const Theme& theme);
 
 /// The current ping and its neighbours side by side, each a projection of its masks, all at one scale about one place in
 /// the sonar's frame; each labelled with ping and time; pings without a school, and bad ones say so.

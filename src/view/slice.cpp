@@ -8,6 +8,7 @@
 
 #include "base/array.h"
 #include "view/slice_geometry.h"
+#include "view/slice_voxels.h"
 
 namespace sonar {
 namespace {
@@ -75,19 +76,11 @@ Result<void> check_slice(const Sector& sector, const SliceView& view) {
 }
 
 SliceMap::SliceMap(Sector sector, SliceView view, SliceExtent extent, PixelSize size)
-    : sector_(std::move(sector)), view_(view), extent_(extent), size_(size), voxels_(size.count(), -1) {
-  const SliceGeometry geometry(sector_, view_);
-  std::size_t i = 0;
-  for (int y = 0; y < size_.height; ++y) {
-    const double sy = slice_coordinates({0.0, y + 0.5}).y;
-    for (int x = 0; x < size_.width; ++x, ++i) {
-      const double sx = extent_.x0 + (x + 0.5) * (extent_.x1 - extent_.x0) / size_.width;
-      if (const auto v = geometry.voxel(sx, sy)) {
-        voxels_[i] = (v->fan * sector_.beams() + v->beam) * sector_.range().count + v->sample;
-      }
-    }
-  }
-}
+    : sector_(std::move(sector)),
+      view_(view),
+      extent_(extent),
+      size_(size),
+      voxels_(slice_voxels(sector_, view_, extent_, size_)) {}
 
 std::optional<Voxel> SliceMap::voxel_at(PixelPoint pixel) const {
   if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < size_.width && pixel.y < size_.height)) return std::nullopt;

@@ -95,7 +95,7 @@ struct Voxel {
 class SliceMap {
  public:
   /// `extent` is spread over all pixels. Pixels outside the sector's cells show nothing.
-  /// cost  about 50 ns a pixel
+  /// cost  about 10 ns a pixel
   SliceMap(Sector sector, SliceView view, SliceExtent extent, PixelSize size);
 
   [[nodiscard]] const Sector& sector() const { return sector_; }

@@ -85,6 +85,8 @@ int SliceGeometry::beam_at(double azimuth_rad) const {
   return interval(azimuth_edges_, azimuth_rad - kTurn * std::round((azimuth_rad - middle) / kTurn));
 }
 
+int SliceGeometry::beam_on_axis(double azimuth_rad) const { return interval(azimuth_edges_, azimuth_rad); }
+
 int SliceGeometry::sample_at(double range_m) const {
   const double sample = std::floor(sector_->range().sample_at(range_m) + 0.5);
   return sample >= 0.0 && sample < sector_->range().count ? static_cast<int>(sample) : -1;
@@ -119,7 +121,7 @@ std::optional<Voxel> SliceGeometry::voxel(double x, double y) const {
   }
   if (const auto* range = std::get_if<RangeSlice>(&slice_)) {
     // No unwrapping: the axis shows the sector's own azimuths, once.
-    return checked(fan_at(rad_from_deg(-y)), interval(azimuth_edges_, rad_from_deg(x)), range->sample);
+    return checked(fan_at(rad_from_deg(-y)), beam_on_axis(rad_from_deg(x)), range->sample);
   }
   return voxel_of(point(x, y));
 }

@@ -29,9 +29,14 @@ class SliceGeometry {
   [[nodiscard]] std::optional<PixelPoint> place(const Voxel& voxel) const;
   [[nodiscard]] Point<Sonar> point(double x, double y) const;
 
- private:
+  /// -1 = none. beam_at() takes azimuths of any turn, beam_on_axis() only those of the sector itself.
   [[nodiscard]] int fan_at(double elevation_rad) const;
   [[nodiscard]] int beam_at(double azimuth_rad) const;
+  [[nodiscard]] int beam_on_axis(double azimuth_rad) const;
+  [[nodiscard]] const std::vector<double>& elevation_edges() const { return elevation_edges_; }  ///< [fan + 1], rad
+  [[nodiscard]] const std::vector<double>& azimuth_edges() const { return azimuth_edges_; }      ///< [beam + 1], rad
+
+ private:
   [[nodiscard]] int sample_at(double range_m) const;
   [[nodiscard]] std::optional<Voxel> checked(int fan, int beam, int sample) const;
   [[nodiscard]] std::optional<Voxel> voxel_of(const Point<Sonar>& p) const;

@@ -61,12 +61,6 @@ void label_axes(PlotFrame& plot, const SliceView& view, const SlicePing& ping, b
   if (plane.kind == PlaneSlice::Kind::vertical) depths(plane.origin.z);
 }
 
-std::shared_ptr<const SliceMap> map_for(const Sector& sector, const SliceView& view, const SliceExtent& extent,
-                                        PixelSize size, std::shared_ptr<const SliceMap> earlier) {
-  if (earlier != nullptr && earlier->fits(sector, view, size)) return earlier;
-  return std::make_shared<const SliceMap>(sector, view, extent, size);
-}
-
 void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, const SliceStyle& style,
                const Theme& theme) {
   add_axes(out.frame, out.plot, theme, {style.grid, true});
@@ -100,17 +94,22 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     return fail(ErrorCode::bad_parameter, "the ping has no data to slice");
   }
   if (auto ok = check_slice(sector, view); !ok) return pass_on(ok);
-  const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
-  if (!extent) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
-
   Layout layout;
   layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
   if (style.decorations) layout = lay_out(size, theme);
-  SlicePicture out;
-  out.plot = slice_axes(layout.plot, *extent);
-  const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
   const PixelSize pixels{static_cast<int>(layout.plot.width), static_cast<int>(layout.plot.height)};
-  out.map = map_for(sector, view, shown, pixels, std::move(earlier));
+  SlicePicture out;
+  if (earlier != nullptr && earlier->fits(sector, view, pixels)) {
+    const SliceExtent& e = earlier->extent();
+    out.plot = {layout.plot, {e.x0, e.x1, "", false}, {e.y0, e.y1, "", false}};
+    out.map = std::move(earlier);
+  } else {
+    const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
+    if (!extent) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
+    out.plot = slice_axes(layout.plot, *extent);
+    const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
+    out.map = std::make_shared<const SliceMap>(sector, view, shown, pixels);
+  }
   label_axes(out.plot, view, ping, style.north_up);
   auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);
   if (!image) return pass_on(image);

@@ -33,26 +33,27 @@ struct Places {
   PixelRect legend;
 };
 
-Places places(PixelSize size, const Theme& theme, double left_em) {
+Places places(PixelSize size, const Theme& theme, double left_em, bool legend) {
   const double em = theme.text_px;
+  const double legend_em = legend ? kLegend_em : 0.0;
   const double top = 1.6 * em + 1.5 * theme.title_px + 1.1 * em;
   Places p;
-  p.map = {left_em * em, top, size.width - (left_em + kLegend_em + 2.2) * em, size.height - top - 2.6 * em};
+  p.map = {left_em * em, top, size.width - (left_em + legend_em + 2.2) * em, size.height - top - 2.6 * em};
   p.title = {p.map.x, 0.9 * em, size.width - p.map.x - em, top - em};
-  p.legend = {p.map.x + p.map.width + 1.4 * em, top, kLegend_em * em, p.map.height};
+  p.legend = {p.map.x + p.map.width + 1.4 * em, top, legend_em * em, p.map.height};
   return p;
 }
 
 /// The map as large as it goes, with room for its labels on the left.
-MapFrame laid_out(const GeoExtent& extent, PixelSize size, const Theme& theme, Places& p) {
-  p = places(size, theme, 6.5);
-  MapFrame map = fit_map(extent, p.map);
+MapFrame laid_out(const GeoExtent& extent, const SurveyMapStyle& style, PixelSize size, const Theme& theme, Places& p) {
+  p = places(size, theme, 6.5, style.legend);
+  const MapFrame map = zoomed(fit_map(extent, p.map), style.zoom);
   double widest = 0.0;
   for (const auto& label : graticule(map, 11.0 * theme.text_px).latitudes) {
     widest = std::max(widest, text_width_px(label.text.c_str(), 1.0));
   }
-  p = places(size, theme, widest + 1.2);
-  return fit_map(extent, p.map);
+  p = places(size, theme, widest + 1.2, style.legend);
+  return zoomed(fit_map(extent, p.map), style.zoom);
 }
 
 const ObservationOutlines* outlines_of(std::span<const ObservationOutlines> outlines, const std::string& name) {
@@ -309,7 +310,16 @@ std::optional<GeoExtent> survey_map_extent(std::span<const ObservationProduct> o
   const auto extent = survey_extent(observations, outlines, style.margin);
   if (!extent) return std::nullopt;
   Places p;
-  return shown_extent(laid_out(*extent, size, theme, p));
+  return shown_extent(laid_out(*extent, style, size, theme, p));
+}
+
+std::optional<MapFrame> survey_chart(std::span<const ObservationProduct> observations,
+                                     std::span<const ObservationOutlines> outlines, const SurveyMapStyle& style,
+                                     PixelSize size, const Theme& theme) {
+  const auto extent = survey_extent(observations, outlines, style.margin);
+  if (!extent) return std::nullopt;
+  Places p;
+  return laid_out(*extent, style, size, theme, p);
 }
 
 Result<FrameDescription> survey_map(std::span<const ObservationProduct> observations,
@@ -319,7 +329,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   if (auto ok = validate(style); !ok) return pass_on(ok);
   const auto extent = survey_extent(observations, outlines, style.margin);
   if (!extent) return fail(ErrorCode::not_found, "no ping of the survey has a position: there is nothing to map");
-  if (size.width < 40.0 * theme.text_px || size.height < 22.0 * theme.text_px) {
+  if (size.width < (style.legend ? 40.0 : 23.0) * theme.text_px || size.height < 22.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a survey map", size.width, size.height));
   }
@@ -328,7 +338,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   frame.background = theme.background;
   frame.title = survey_title(observations);
   Places p;
-  const MapFrame map = laid_out(*extent, size, theme, p);
+  const MapFrame map = laid_out(*extent, style, size, theme, p);
   const SchoolLook look(observations, style, theme);
   const Drawing d{frame, map, theme, look, theme.text_px};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
@@ -368,7 +378,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);
-  add_legend(d, p.legend, bands, style, depths, schools, note);
+  if (style.legend) add_legend(d, p.legend, bands, style, depths, schools, note);
   Layout layout;
   layout.title = p.title;
   add_title(frame, layout, theme, {frame.title, second_line(observations, look)});

@@ -15,6 +15,7 @@
 #include "model/map_outlines.h"
 #include "model/product.h"
 #include "view/frame_description.h"
+#include "view/map_frame.h"
 #include "view/sv_scale.h"
 #include "view/theme.h"
 
@@ -33,6 +34,8 @@ struct SurveyMapStyle {
   bool swept = true;      ///< the search volume
   bool names = true;      ///< of observations, at their starts
   double margin = 0.06;   ///< of the survey's size, on every side
+  bool legend = true;     ///< beside the map; a small window has no room for it
+  MapZoom zoom;           ///< of the map that shows the whole survey
   friend bool operator==(const SurveyMapStyle&, const SurveyMapStyle&) = default;
 };
 
@@ -57,6 +60,11 @@ void describe(Visitor& v, SurveyMapStyle& p) {
                                                          std::span<const ObservationOutlines> outlines,
                                                          const SurveyMapStyle& style, PixelSize size,
                                                          const Theme& theme);
+
+/// Where on the picture survey_map() draws which place, for whoever points at it. Empty where no ping has a position.
+[[nodiscard]] std::optional<MapFrame> survey_chart(std::span<const ObservationProduct> observations,
+                                                   std::span<const ObservationOutlines> outlines,
+                                                   const SurveyMapStyle& style, PixelSize size, const Theme& theme);
 
 /// The survey map (figure 6 of Balabanian et al. 2007, made by the program): observations with the ship's track, green
 /// markers at their starts, the search volume in grey, schools as outlines and as circles whose area is their

@@ -12,18 +12,12 @@
 #include "view/map_items.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
+#include "view/timeline_strip.h"
 
 namespace sonar {
 namespace {
 
-constexpr double kGapIntervals = 3.0;  ///< a ping fills up to the next, but no more than so many usual intervals
 constexpr double kSecondsPerDay = 86'400.0;
-
-/// Where the pings of an observation lie along x, and how far one may reach.
-struct Along {
-  std::vector<double> x;  ///< [ping]
-  double gap = 0.0;
-};
 
 /// Seconds since `zero`, or nautical miles. Unknown logs take the last known one.
 Along along(const ObservationProduct& product, TimelineAxis axis, TimeNs zero) {
@@ -74,20 +68,6 @@ Pings pings_under(std::span<const double> x, double gap, double from, double to)
   return p;
 }
 
-struct Span {
-  double first = 0.0;
-  double last = 0.0;
-};
-
-struct Strip {
-  const TimelineObservation* observation;
-  Along along;
-  [[nodiscard]] Span span() const {
-    // The last ping takes its own room.
-    return {along.x.front(), along.x.back() + along.gap / kGapIntervals};
-  }
-};
-
 void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& theme) {
   const double em = theme.text_px;
   const Ticks ticks =
@@ -128,9 +108,14 @@ void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axi
                                      theme.muted, TextAnchor::centre));
 }
 
+Rgba8 look_of(const SchoolRow& school, const TimelineStyle& style, const Theme& theme) {
+  if (!style.by_school || school.status == "rejected") return status_colour(school.status, theme);
+  return school_colour(static_cast<int>(school.school_id));
+}
+
 /// School tracks; a number stands at the first ping where there is room.
-void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme,
-                std::vector<PixelPoint>& numbered) {
+void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
+                const Theme& theme, std::vector<PixelPoint>& numbered) {
   const double em = theme.text_px;
   const ObservationProduct& product = *strip.observation->product;
   for (const SchoolRow& school : product.schools) {
@@ -142,14 +127,16 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
     }
     if (part.points.empty()) continue;
     const PixelPoint first = part.points.front();
-    const Rgba8 colour = status_colour(school.status, theme);
+    const bool selected = strip.observation->selected == school.school_id;
+    const Rgba8 colour = look_of(school, style, theme);
     if (part.points.size() == 1) part.points.push_back({first.x + 1.0, first.y});
     // A dark line below a bright one is seen on every colour.
-    for (const auto& [line, width] : {std::pair(theme.halo, 3.6), std::pair(colour, 1.8)}) {
+    const double wide = (style.by_school ? 3.0 : 1.8) + (selected ? 1.5 : 0.0);
+    for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.8), std::pair(colour, wide)}) {
       PathItem item;
       item.parts.push_back(part);
       item.stroke = {line, width * theme.line_px,
-                     width > 2.0 ? std::vector<double>{} : status_dashes(school.status, theme)};
+                     width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
       frame.items.emplace_back(std::move(item));
     }
     const PixelPoint at{first.x, first.y - 0.9 * em};
@@ -158,7 +145,8 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
     });
     if (!free) continue;
     numbered.push_back(at);
-    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em, theme.text, TextAnchor::left);
+    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em,
+                                selected ? theme.accent : theme.text, TextAnchor::left);
     number.bold = true;
     number.halo = theme.halo;
     frame.items.emplace_back(std::move(number));
@@ -169,7 +157,7 @@ void add_names(FrameDescription& frame, std::span<const Strip> strips, const Plo
   const double em = theme.text_px;
   double free_x = -1e9;
   for (const Strip& strip : strips) {
-    const Span s = strip.span();
+    const StripSpan s = strip.span();
     const double from = plot.at(s.first, 0.0).x;
     const double to = std::max(from + 1.0, plot.at(s.last, 0.0).x);
     const double y = plot.place.y - 0.45 * em;
@@ -282,75 +270,118 @@ EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const do
   return out;
 }
 
-Result<FrameDescription> timeline(std::span<const TimelineObservation> observations, const TimelineStyle& style,
-                                  PixelSize size, const Theme& theme) {
+namespace {
+
+/// Everything that timeline() decides before it draws.
+struct LaidOut {
+  TimeNs zero = 0;
+  TimeNs last = 0;
+  std::string title;
+  bool raw_gone = false;
+  bool any_echogram = false;
+  std::vector<Strip> strips;
+  Layout layout;
+  PlotFrame plot;
+};
+
+Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, const TimelineStyle& style, PixelSize size,
+                         const Theme& theme) {
   if (auto ok = validate(style); !ok) return pass_on(ok);
   const double em = theme.text_px;
-  if (size.width < 30.0 * em || size.height < 14.0 * em) {
+  if (size.width < 30.0 * em || size.height < (style.brief ? 10.0 : 14.0) * em) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a timeline", size.width, size.height));
   }
-  TimeNs zero = 0;
-  TimeNs last = 0;
+  LaidOut out;
   std::vector<ObservationProduct> heads;
-  bool raw_gone = false;
   for (const TimelineObservation& o : observations) {
     if (o.product == nullptr || o.product->pings.empty()) continue;
-    zero = zero == 0 ? o.product->pings.front().time : std::min(zero, o.product->pings.front().time);
-    last = std::max(last, o.product->pings.back().time);
-    raw_gone = raw_gone || o.echogram == nullptr;
+    out.zero = out.zero == 0 ? o.product->pings.front().time : std::min(out.zero, o.product->pings.front().time);
+    out.last = std::max(out.last, o.product->pings.back().time);
+    out.raw_gone = out.raw_gone || o.echogram == nullptr;
     ObservationProduct& head = heads.emplace_back();
     head.title = o.product->title;
     head.observation = o.product->observation;
   }
-  const auto strips = strips_of(observations, style.axis, zero);
+  auto strips = strips_of(observations, style.axis, out.zero);
   if (!strips) return pass_on(strips);
-  const bool any_echogram =
-      std::any_of(strips->begin(), strips->end(), [](const Strip& s) { return s.observation->echogram != nullptr; });
-  const Layout layout = lay_out(size, theme, {.title_lines = 3, .colour_bar = any_echogram, .y_label_characters = 4});
-  PlotFrame plot;
-  plot.place = layout.plot;
-  plot.place.y += 0.6 * em;
-  plot.place.height -= 0.6 * em;
-  plot.x = {strips->front().span().first, strips->front().span().last, "", false};
-  for (const Strip& s : *strips) {
+  out.strips = std::move(*strips);
+  out.title = survey_title(heads);
+  out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
+                                 [](const Strip& s) { return s.observation->echogram != nullptr; });
+  out.layout = lay_out(
+      size, theme,
+      {.title_lines = style.brief ? 0 : 3, .colour_bar = out.any_echogram && !style.brief, .y_label_characters = 4});
+  PlotFrame& plot = out.plot;
+  plot.place = out.layout.plot;
+  const double names = (style.brief ? 1.2 : 0.6) * em;
+  plot.place.y += names;
+  plot.place.height -= names;
+  plot.x = {out.strips.front().span().first, out.strips.front().span().last, "", false};
+  for (const Strip& s : out.strips) {
     plot.x.first = std::min(plot.x.first, s.span().first);
     plot.x.last = std::max(plot.x.last, s.span().last);
   }
   if (!(plot.x.last > plot.x.first)) plot.x.last = plot.x.first + 1.0;
-  plot.x.label = style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(zero, true).substr(0, 10);
-  plot.y = {0.0, reach_m(*strips), "range (m)", false};
+  plot.x.label =
+      style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(out.zero, true).substr(0, 10);
+  plot.y = {0.0, reach_m(out.strips), "range (m)", false};
+  return out;
+}
+
+void add_echogram(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const TimelineStyle& style,
+                  const SvColours& colours, const Theme& theme) {
+  const double from = plot.at(s.span().first, 0.0).x;
+  const double to = std::max(from + 1.0, plot.at(s.span().last, 0.0).x);
+  frame.items.emplace_back(rectangle_item({from, plot.place.y, to - from, plot.place.height}, theme.water));
+  if (s.observation->echogram == nullptr) return;
+  auto image = std::make_shared<Image>(
+      echogram_image(*s.observation->echogram, s.along.x, s.along.gap, plot, style.value, colours).image);
+  const PixelRect place{plot.place.x, plot.place.y, static_cast<double>(image->size.width),
+                        static_cast<double>(image->size.height)};
+  frame.items.emplace_back(ImageItem{place, std::move(image), false});
+}
+
+}  // namespace
+
+Result<TimelinePlot> timeline_plot(std::span<const TimelineObservation> observations, const TimelineStyle& style,
+                                   PixelSize size, const Theme& theme) {
+  auto out = laid_out(observations, style, size, theme);
+  if (!out) return pass_on(out);
+  return TimelinePlot{out->plot, out->zero};
+}
+
+Result<FrameDescription> timeline(std::span<const TimelineObservation> observations, const TimelineStyle& style,
+                                  PixelSize size, const Theme& theme) {
+  const auto laid = laid_out(observations, style, size, theme);
+  if (!laid) return pass_on(laid);
+  const PlotFrame& plot = laid->plot;
   FrameDescription frame;
   frame.size = size;
   frame.background = theme.background;
-  frame.title = survey_title(heads);
+  frame.title = laid->title;
   frame.items.emplace_back(rectangle_item(plot.place, theme.plot));
   const SvColours colours = sv_colours(style.scale);
   frame.items.emplace_back(ClipItem{plot.place});
-  for (const Strip& s : *strips) {
-    const double from = plot.at(s.span().first, 0.0).x;
-    const double to = std::max(from + 1.0, plot.at(s.span().last, 0.0).x);
-    frame.items.emplace_back(rectangle_item({from, plot.place.y, to - from, plot.place.height}, theme.water));
-    if (s.observation->echogram == nullptr) continue;
-    auto image = std::make_shared<Image>(
-        echogram_image(*s.observation->echogram, s.along.x, s.along.gap, plot, style.value, colours).image);
-    const PixelRect place{plot.place.x, plot.place.y, static_cast<double>(image->size.width),
-                          static_cast<double>(image->size.height)};
-    frame.items.emplace_back(ImageItem{place, std::move(image), false});
-  }
+  for (const Strip& s : laid->strips) add_echogram(frame, s, plot, style, colours, theme);
+  for (const Strip& s : laid->strips) add_bad(frame, s, plot, theme);
   std::vector<PixelPoint> numbered;
-  for (const Strip& s : *strips) {
-    if (style.schools) add_tracks(frame, s, plot, theme, numbered);
+  for (const Strip& s : laid->strips) {
+    if (style.schools) add_tracks(frame, s, plot, style, theme, numbered);
   }
+  add_marks(frame, laid->strips, plot, theme);
   frame.items.emplace_back(ClipItem{});
   frame.items.emplace_back(rectangle_item(plot.place, {0, 0, 0, 0}, theme.axis, theme.line_px));
-  add_names(frame, *strips, plot, theme);
+  add_names(frame, laid->strips, plot, theme);
   add_y_axis(frame, plot, theme);
-  add_x_axis(frame, plot, style.axis, zero, theme);
-  if (any_echogram) add_colour_bar(frame, layout.colour_bar, colours, theme, value_label(style.value));
-  std::string line = time_span_text(zero, last);
-  if (raw_gone) line += any_echogram ? " · schools only where raw data are gone" : " · raw data are gone: schools only";
-  add_title(frame, layout, theme, {frame.title, line});
+  add_x_axis(frame, plot, style.axis, laid->zero, theme);
+  if (style.brief) return frame;
+  if (laid->any_echogram) add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value));
+  std::string line = time_span_text(laid->zero, laid->last);
+  if (laid->raw_gone) {
+    line += laid->any_echogram ? " · schools only where raw data are gone" : " · raw data are gone: schools only";
+  }
+  add_title(frame, laid->layout, theme, {frame.title, line});
   return frame;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct TimelineStyle {
   TimelineAxis axis = TimelineAxis::time;
   SvScale scale{.map = ColourMapName::ek500, .low_db = -75.0, .span_db = 36.0};
   bool schools = true;
+  bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
+  bool brief = false;      ///< no title and no colour bar: a window has its own
   friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
 };
 
@@ -38,12 +41,28 @@ void describe(Visitor& v, TimelineStyle& p) {
   v.choice("axis", p.axis, kTimelineAxisNames, "along time or the vessel's log");
   v.group("scale", p.scale, "colours of Sv");
   v.field("schools", p.schools, {.text = "draw school tracks in"});
+  v.field("by_school", p.by_school, {.text = "each school in a colour of its own; off = status tells the colour"});
+  v.field("brief", p.brief, {.text = "no title and no colour bar"});
 }
+
+/// What a human marked, on the clock of the product's pings.
+struct TimelineMark {
+  TimeNs time = 0;
+  std::string kind;  ///< "trawl", ...
+  std::string text;
+};
+struct TimelineInterval {
+  TimeNs first = 0;
+  TimeNs last = 0;
+};
 
 /// One observation of a timeline.
 struct TimelineObservation {
   const ObservationProduct* product = nullptr;
   const EchogramPyramid* echogram = nullptr;  ///< nullptr: raw data are gone, schools only
+  std::vector<TimelineMark> marks = {};
+  std::vector<TimelineInterval> bad = {};     ///< pings that take no part in measures
+  std::optional<std::int64_t> selected = {};  ///< school_id that stands out
 };
 
 /// A raster of an echogram, and what it cost.
@@ -63,6 +82,15 @@ struct EchogramImage {
 /// errors        bad_parameter: a parameter out of range, or too small a picture; not_found: no pings; usage: no log
 [[nodiscard]] Result<FrameDescription> timeline(std::span<const TimelineObservation> observations,
                                                 const TimelineStyle& style, PixelSize size, const Theme& theme);
+
+/// Where on the picture timeline() draws which time: x is seconds since `zero` (or the log), y is range.
+struct TimelinePlot {
+  PlotFrame plot;
+  TimeNs zero = 0;
+};
+/// errors  as timeline()
+[[nodiscard]] Result<TimelinePlot> timeline_plot(std::span<const TimelineObservation> observations,
+                                                 const TimelineStyle& style, PixelSize size, const Theme& theme);
 
 /// Ticks at round times: seconds to weeks. At most `most`.
 struct TimeTick {

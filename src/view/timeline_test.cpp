@@ -178,6 +178,60 @@ TEST(Timeline, WithoutRawThereAreTheSchoolsAndANote) {
   EXPECT_FALSE(timeline(std::span(&one, 1), TimelineStyle{}, kSize, light_theme(kSize)));
 }
 
+TEST(Timeline, MarksStandAtTheirTimesAndTellWhatHappened) {
+  ObservationProduct p = map_example::product("obs-0001", 40);
+  map_example::add_school(p, 3, p.pings[0].transducer, 5, 15, map_example::block(2, 1, 2, 24, 3));
+  TimelineObservation one{&p, nullptr};
+  // Half way between pings 10 and 11, at the last ping, and one that the flag before it leaves no room for words.
+  one.marks = {{map_example::kStart + 52'500'000'000, "trawl", "trawl 12"},
+               {map_example::kStart + 195 * kSecondNs, "noise", "sweeper"},
+               {map_example::kStart + 53 * kSecondNs, "station", "a station with a very long name that fits nowhere"}};
+  one.bad = {{p.pings[20].time, p.pings[22].time}};
+  constexpr PixelSize kSize{900, 300};
+  const Theme theme = light_theme(kSize);
+  TimelineStyle style;
+  style.brief = true;
+  style.by_school = true;
+  const auto frame = timeline(std::span(&one, 1), style, kSize, theme);
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  EXPECT_FALSE(says(*frame, "SYNTHETIC"));
+  EXPECT_TRUE(says(*frame, "trawl 12"));
+  EXPECT_TRUE(says(*frame, "sweeper"));
+  EXPECT_TRUE(says(*frame, "a station with"));
+  const auto where = timeline_plot(std::span(&one, 1), style, kSize, theme);
+  ASSERT_TRUE(where);
+  EXPECT_EQ(where->zero, map_example::kStart);
+  for (const auto& item : frame->items) {
+    const auto* t = std::get_if<TextItem>(&item);
+    if (t == nullptr || t->text != "trawl 12") continue;
+    EXPECT_LT(t->at.x + text_width_px("trawl 12", t->size_px), where->plot.at(52.5, 0.0).x) << "the next flag is near";
+  }
+  const auto lines_at = [&](double seconds) {
+    const double x = where->plot.at(seconds, 0.0).x;
+    return std::count_if(frame->items.begin(), frame->items.end(), [&](const auto& item) {
+      const auto* path = std::get_if<PathItem>(&item);
+      return path != nullptr && path->stroke.colour == theme.accent && path->parts[0].points.size() == 2 &&
+             std::abs(path->parts[0].points[0].x - x) < 1e-6;
+    });
+  };
+  EXPECT_EQ(lines_at(52.5), 1);
+  EXPECT_EQ(lines_at(195.0), 1);
+  EXPECT_EQ(lines_at(100.0), 0);
+  // Bad pings 20 .. 22 are shaded up to ping 23: 100 s to 115 s.
+  const double from = where->plot.at(100.0, 0.0).x;
+  const double to = where->plot.at(115.0, 0.0).x;
+  EXPECT_TRUE(std::any_of(frame->items.begin(), frame->items.end(), [&](const auto& item) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->fill != with_alpha(theme.no_data, 190)) return false;
+    const auto& points = path->parts[0].points;
+    return std::abs(points[0].x - from) < 1e-6 && std::abs(points[2].x - to) < 1e-6;
+  }));
+  EXPECT_TRUE(std::any_of(frame->items.begin(), frame->items.end(), [&](const auto& item) {
+    const auto* path = std::get_if<PathItem>(&item);
+    return path != nullptr && path->stroke.colour == school_colour(3);
+  }));
+}
+
 TEST(Timeline, TicksStandAtRoundTimes) {
   const TimeNs start = time_from_calendar(2009, 11, 13, 8 * 3600.0 + 11 * 60.0 + 49.0);
   const auto minutes = time_ticks(start, start + 1800 * kSecondNs, 8);

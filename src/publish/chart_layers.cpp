@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/chart_layers.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "io/depth_raster.h"
+#include "io/map_outlines.h"
+
+namespace sonar {
+namespace {
+
+/// Masks are sorted by school.
+std::span<const SchoolMask> masks_of(const ObservationProduct& product, std::int64_t school_id) {
+  const auto [first, last] =
+      std::equal_range(product.masks.begin(), product.masks.end(), SchoolMask{school_id, 0, {}},
+                       [](const SchoolMask& a, const SchoolMask& b) { return a.school_id < b.school_id; });
+  return {first, last};
+}
+
+bool same_masks(const ObservationProduct& a, const ObservationProduct& b, std::int64_t school_id) {
+  const auto x = masks_of(a, school_id);
+  const auto y = masks_of(b, school_id);
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const SchoolMask& m, const SchoolMask& n) {
+    return m.ping_index == n.ping_index && m.mask == n.mask;
+  });
+}
+
+}  // namespace
+
+ObservationOutlines school_outlines(const ObservationProduct& product, const ObservationProduct* before,
+                                    const ObservationOutlines& kept) {
+  ObservationOutlines out;
+  out.observation = product.observation;
+  out.swept = kept.swept;
+  for (const SchoolRow& school : product.schools) {
+    const auto old = std::find_if(kept.schools.begin(), kept.schools.end(),
+                                  [&](const auto& one) { return one.school_id == school.school_id; });
+    const bool stays = before != nullptr && old != kept.schools.end() && same_masks(*before, product, school.school_id);
+    out.schools.push_back({school.school_id, stays ? old->area : school_outline(product, school.school_id)});
+  }
+  return out;
+}
+
+GeoArea swept_area(const ObservationProduct& product) { return swept_outline(product); }
+
+Result<DepthGrid> map_depths(const std::filesystem::path& raster, const GeoExtent& extent) {
+  return read_depth_raster(raster, extent);
+}
+
+}  // namespace sonar

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/live_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "publish/renderer_choice.h"
+#include "publish/volume_figure.h"
+#include "render/refinement.h"
+
+namespace sonar {
+namespace {
+
+/// Of a pixel, until the first picture tells: a slow processor's, so that nobody waits for it.
+constexpr double kFirstPace_s = 1e-6;
+
+bool same_masks(const std::vector<MaskLayer>& a, const std::vector<MaskLayer>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const MaskLayer& x, const MaskLayer& y) { return x.mask == y.mask && x.rgb == y.rgb; });
+}
+
+/// What the surroundings depend on beside the sector.
+struct ContextKey {
+  Camera camera;
+  PixelSize size;
+  Theme theme;
+  double scale = 1.0;
+  bool context = true;
+  double ship_length_m = 0.0;
+  double transducer_depth_m = 0.0;
+  double heading_deg = 0.0;
+  friend bool operator==(const ContextKey&, const ContextKey&) = default;
+};
+
+/// Jittered frames that are worth showing: each step twice as smooth as the one before.
+bool worth_showing(const Refinement::Frame& frame) {
+  return frame.done || (frame.averaged & (frame.averaged - 1)) == 0;
+}
+
+}  // namespace
+
+std::optional<Picked> LiveVolumeShown::picked_at(PixelPoint at) const {
+  if (!volume || !table || place.width <= 0.0) return std::nullopt;
+  const double scale = view.size.width / place.width;
+  const PixelPoint pixel{(at.x - place.x) * scale, (at.y - place.y) * scale};
+  if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x >= view.size.width || pixel.y >= view.size.height) return std::nullopt;
+  return pick(*volume, *table, masks, view, pixel);
+}
+
+std::optional<PixelPoint> LiveVolumeShown::place_of(const Point<Sonar>& point) const {
+  if (place.width <= 0.0) return std::nullopt;
+  const auto seen = basis(view.camera, view.size).project(point);
+  if (!seen) return std::nullopt;
+  const double scale = view.size.width / place.width;
+  const PixelPoint at{seen->pixel.x / scale, seen->pixel.y / scale};
+  if (at.x < 0.0 || at.y < 0.0 || at.x >= place.width || at.y >= place.height) return std::nullopt;
+  return PixelPoint{at.x + place.x, at.y + place.y};
+}
+
+struct LiveVolume::State {
+  MakeRenderer make;
+  Work first;  ///< draws what must be seen in any case
+  // All that let_go() gives back:
+  std::optional<OffscreenRenderer> offscreen;
+  RendererChoice choice = RendererChoice::automatic;
+  std::string notice;
+  std::optional<Refinement> refinement;
+  double budget_s = 0.0;
+  int frames = 0;
+  LiveVolumeInput drawn;  ///< what is set in the renderer
+  std::shared_ptr<const VolumeData> volume;
+  std::shared_ptr<const OpticalTable> table;
+  bool masks_set = false;
+  std::optional<ContextKey> context_key;
+  ContextPicture context;
+
+  void let_go() {
+    refinement.reset();
+    if (offscreen) offscreen->renderer.reset();  // while its context is still there
+    offscreen.reset();
+    volume.reset();
+    table.reset();
+    drawn = {};
+    masks_set = false;
+    context_key.reset();
+    context = {};
+  }
+
+  Result<void> begin(RendererChoice wanted);
+  Result<void> set(const LiveVolumeInput& input);
+  Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const Wanted& wanted, Work& better,
+                    const Show& show);
+  void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
+                    const Camera& camera);
+};
+
+/// A back-end as it is wished for, or the processor.
+Result<void> LiveVolume::State::begin(RendererChoice wanted) {
+  if (offscreen && choice == wanted) return {};
+  let_go();
+  choice = wanted;
+  notice.clear();
+  auto made = make(wanted);
+  if (!made && wanted != RendererChoice::cpu) {
+    notice = "the processor draws the volume: " + to_line(made.error());
+    made = make(RendererChoice::cpu);
+  }
+  if (!made) return pass_on(made);
+  offscreen = std::move(*made);
+  return {};
+}
+
+/// Hands the renderer what it has not yet.
+Result<void> LiveVolume::State::set(const LiveVolumeInput& input) {
+  VolumeRenderer& renderer = *offscreen->renderer;
+  const PictureOptions& options = input.options;
+  const double depth_m = input.navigation.transducer_depth_m;
+  if (!volume || drawn.staged != input.staged || drawn.sector != input.sector ||
+      drawn.options.filtered != options.filtered || drawn.navigation.transducer_depth_m != depth_m) {
+    volume = drawn_volume(*input.sector, *input.staged, options.filtered.value_or(true), depth_m);
+    masks_set = false;
+    if (auto done = renderer.set_volume(volume); !done) return done;
+  }
+  if (!table || !(drawn.options.transfer == options.transfer) || !(drawn.options.scale == options.scale)) {
+    auto made = volume_table(options);
+    if (!made) return pass_on(made);
+    table = std::make_shared<const OpticalTable>(std::move(*made));
+    if (auto done = renderer.set_transfer(*table); !done) return done;
+  }
+  if (!masks_set || !same_masks(drawn.masks, input.masks)) {
+    if (auto done = renderer.set_masks(input.masks); !done) return done;
+    masks_set = true;
+  }
+  drawn = input;
+  if (!refinement || budget_s != input.moving_budget_s || frames != options.frames) {
+    budget_s = input.moving_budget_s;
+    frames = options.frames;
+    refinement.emplace(renderer,
+                       RefinementParams{.moving_budget_s = budget_s, .most_frames = frames, .pace_s = kFirstPace_s});
+  }
+  return {};
+}
+
+void LiveVolume::State::draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
+                                     const Camera& camera) {
+  const PingNavigation& navigation = input.navigation;
+  const double heading = std::isnan(navigation.heading_deg) ? -1.0 : navigation.heading_deg;
+  const ContextKey key{camera,
+                       place.rays,
+                       place.theme,
+                       place.scale,
+                       input.options.context,
+                       input.options.ship_length_m,
+                       navigation.transducer_depth_m,
+                       heading};
+  if (context_key == key && drawn.sector == input.sector) return;
+  context = volume_context(figure, input.options, place, camera, std::nullopt, first);
+  context_key = key;
+}
+
+Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const Wanted& wanted,
+                                     Work& better, const Show& show) {
+  const bool other_sector = drawn.sector != input.sector;
+  if (other_sector) context_key.reset();
+  if (auto done = set(input); !done) {
+    // What the renderer holds now is not known.
+    volume.reset();
+    table.reset();
+    return done;
+  }
+  const VolumeFigure figure{volume, input.masks, input.legend, input.navigation, input.title, input.title_line, true};
+  const Camera camera = volume_camera(*input.sector, input.options, place.rays);
+  draw_context(figure, input, place, camera);
+  const VolumeView view = volume_view(figure, input.options, place, camera, context);
+  const std::vector<MaskLayer> met(
+      input.masks.begin(), input.masks.end() - static_cast<std::ptrdiff_t>(std::min(input.tried, input.masks.size())));
+  PictureOptions labelled = input.options;
+  if (input.scale_bar) labelled.transfer.reset();
+  refinement->restart(view);
+  for (Work* work = &first;; work = &better) {
+    auto frame = refinement->next(*work);
+    if (!frame) return pass_on(frame);
+    if (work == &first || worth_showing(*frame)) {
+      auto shown = std::make_shared<LiveVolumeShown>(
+          LiveVolumeShown{volume, table, met, view, place.rect, input.staged->ping_index, frame->quality.divisor,
+                          frame->averaged, frame->done, offscreen->renderer->name(), notice});
+      show({volume_figure_frame(figure, labelled, place, view, context, frame->image, first), std::move(shown)});
+    }
+    if (frame->done || !wanted()) return {};
+  }
+}
+
+LiveVolume::LiveVolume(MakeRenderer make) : state_(std::make_unique<State>()) {
+  state_->make = make ? std::move(make) : MakeRenderer(offscreen_renderer);
+}
+
+LiveVolume::~LiveVolume() { state_->let_go(); }
+
+Result<void> LiveVolume::draw(const LiveVolumeInput& input, const Wanted& wanted, Work& better, const Show& show) {
+  const auto place = volume_place(input.options, input.scale);
+  if (!place) return pass_on(place);
+  if (auto begun = state_->begin(input.options.renderer); !begun) return begun;
+  auto done = state_->draw(input, *place, wanted, better, show);
+  if (done || done.error().code == ErrorCode::cancelled || done.error().code == ErrorCode::bad_parameter) return done;
+  if (state_->offscreen->context == nullptr) return done;
+  // A driver that gives up in the middle is not asked again.
+  state_->let_go();
+  auto processor = state_->make(RendererChoice::cpu);
+  if (!processor) return pass_on(processor);
+  state_->offscreen = std::move(*processor);
+  state_->notice = "the processor draws the volume: " + to_line(done.error());
+  return state_->draw(input, *place, wanted, better, show);
+}
+
+void LiveVolume::let_go() { state_->let_go(); }
+
+}  // namespace sonar

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/volume_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/time.h"
+#include "base/units.h"
+#include "view/colour_bar.h"
+#include "view/shapes.h"
+
+namespace sonar {
+namespace {
+
+/// "2020-01-04 08:00:00.350 UTC"
+std::string time_text(TimeNs time) {
+  std::string text = iso_time(time);
+  text[text.find('T')] = ' ';
+  text.back() = ' ';
+  return text + "UTC";
+}
+
+/// How the picture was made, for its second line.
+std::string view_line(const PictureOptions& options, bool data_too) {
+  if (!data_too) return "masks of schools";
+  std::string line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
+  if (options.mode == RayMode::accumulate) line += ", accumulated";
+  if (options.mode == RayMode::maximum) line += ", maximum along each ray";
+  if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
+  return options.lighting ? line + ", lit" : line;
+}
+
+/// Which colour is which school, in the lower left corner.
+void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
+                       const PixelRect& place, const Theme& theme) {
+  constexpr std::size_t kMostEntries = 12;
+  if (!options.masks || figure.legend.empty() || figure.legend.size() > kMostEntries) return;
+  const double line = 1.5 * theme.text_px;
+  double y = place.y + place.height - line * static_cast<double>(figure.legend.size());
+  for (const auto& [colour, name] : figure.legend) {
+    const double x = place.x + line;
+    frame.items.emplace_back(
+        rectangle_item({x, y - 0.4 * theme.text_px, 0.8 * theme.text_px, 0.8 * theme.text_px}, colour));
+    frame.items.emplace_back(
+        TextItem{{x + line, y}, name, theme.text_px, theme.text, TextAnchor::left, 0.0, false, theme.halo});
+    y += line;
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged, bool filtered,
+                                               double transducer_depth_m) {
+  const Volume shown{filtered ? staged.filtered->counts : staged.sv.counts, staged.filtered->flags};
+  return std::make_shared<const VolumeData>(volume_data(sector, shown, kNotFiltered, transducer_depth_m));
+}
+
+Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {
+  VolumePlace out;
+  out.theme = theme_of(options);
+  out.scale = scale;
+  out.layout =
+      lay_out(options.size, out.theme, {.title_lines = 2, .colour_bar = true, .x_axis = false, .y_axis = false});
+  const PixelSize size{static_cast<int>(out.layout.plot.width), static_cast<int>(out.layout.plot.height)};
+  if (size.width < 16 || size.height < 16) {
+    return fail(ErrorCode::bad_parameter, fmt::format("a picture of {} x {} pixels has no room for a volume",
+                                                      options.size.width, options.size.height));
+  }
+  out.rect = {out.layout.plot.x, out.layout.plot.y, static_cast<double>(size.width), static_cast<double>(size.height)};
+  out.rays = {static_cast<int>(std::lround(size.width * scale)), static_cast<int>(std::lround(size.height * scale))};
+  return out;
+}
+
+Camera volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size) {
+  const Camera camera = options.camera ? *options.camera : overview(sector, size);
+  return zoomed(orbited(camera, rad_from_deg(options.orbit_deg), rad_from_deg(options.rise_deg)), 1.0 / options.zoom);
+}
+
+Result<OpticalTable> volume_table(const PictureOptions& options) {
+  const auto curve = view_curve(options);
+  if (!curve) return pass_on(curve);
+  const double first = curve->points().front().sv_db;
+  return optical_table(*curve, options.table_entries, first, std::max(first + 1.0, curve->points().back().sv_db));
+}
+
+ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options) {
+  ContextParams params;
+  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis = options.context;
+  params.ship_length_m = options.ship_length_m;
+  params.transducer_depth_m = navigation.transducer_depth_m;
+  if (const double heading = navigation.heading_deg; !std::isnan(heading)) params.heading_deg = heading;
+  return params;
+}
+
+ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
+                              const Camera& camera, const std::optional<SeabedPatch>& seabed, Work& work) {
+  const ContextParams params = volume_surroundings(figure.navigation, options);
+  Theme theme = place.theme;
+  theme.line_px *= place.scale;
+  theme.text_px *= place.scale;
+  return draw_context(context_scene(figure.sector(), params, theme, seabed), camera, place.rays, theme.plot,
+                      -params.transducer_depth_m, work);
+}
+
+VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
+                       const Camera& camera, const ContextPicture& context) {
+  VolumeView view;
+  view.camera = camera;
+  view.size = place.rays;
+  view.mode = options.mode;
+  view.first_hit_db = options.first_hit_db;
+  view.lighting.on = options.lighting;
+  view.masks = options.mask_style;
+  view.masks.data_too = view.masks.data_too && figure.samples;
+  view.opaque_m = context.opaque_m;
+  return view;
+}
+
+FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOptions& options,
+                                     const VolumePlace& place, const VolumeView& view, const ContextPicture& context,
+                                     const RayImage& rays, Work& work) {
+  const Theme& theme = place.theme;
+  FrameDescription frame{options.size, theme.background, figure.title, {}};
+  frame.items.emplace_back(ImageItem{place.rect, std::make_shared<const Image>(between(context, rays, work)), false});
+  const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
+  FrameDescription labels{size, theme.background, {}, {}};
+  if (options.context) {
+    add_context_labels(labels, figure.sector(), volume_surroundings(figure.navigation, options),
+                       basis(view.camera, size), theme);
+  }
+  for (auto& item : labels.items) {
+    if (auto* text = std::get_if<TextItem>(&item)) {
+      text->at.x += place.rect.x;
+      text->at.y += place.rect.y;
+      frame.items.emplace_back(std::move(*text));
+    }
+  }
+  add_school_legend(frame, figure, options, place.rect, theme);
+  if (view.masks.data_too) add_colour_bar(frame, place.layout.colour_bar, colours_of(options), theme);
+  add_title(frame, place.layout, theme, {figure.title_line, view_line(options, view.masks.data_too)},
+            time_text(figure.navigation.time));
+  return frame;
+}
+
+}  // namespace sonar

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "model/navigation.h"
+#include "pipeline/engine.h"
+#include "publish/picture_options.h"
+#include "render/context_picture.h"
+#include "render/volume_renderer.h"
+#include "view/axes.h"
+
+namespace sonar {
+
+/// One ping made ready for pictures in three dimensions: what files and a live view draw alike.
+struct VolumeFigure {
+  std::shared_ptr<const VolumeData> volume;
+  std::vector<MaskLayer> masks;
+  std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
+  PingNavigation navigation;
+  std::string title;
+  std::string title_line;  ///< of the picture; the title with the ping
+  bool samples = true;     ///< false: the masks alone are known
+
+  [[nodiscard]] const Sector& sector() const { return volume->sector; }
+};
+
+/// A ping's stages as a volume to draw: what noise removal took out is left out.
+[[nodiscard]] std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
+                                                             bool filtered, double transducer_depth_m);
+
+/// Where a volume lies in its picture.
+struct VolumePlace {
+  Theme theme;
+  Layout layout;
+  PixelRect rect;  ///< of the picture
+  PixelSize rays;  ///< pixels of the volume: the rectangle's, times the scale
+  double scale = 1.0;
+};
+/// scale   device pixels a pixel of the picture
+/// errors  bad_parameter: no room for a volume
+[[nodiscard]] Result<VolumePlace> volume_place(const PictureOptions& options, double scale = 1.0);
+
+/// The camera asked for, else the overview; orbit, rise and zoom added.
+[[nodiscard]] Camera volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size);
+/// The view curve's colours and extinctions. errors: bad_parameter
+[[nodiscard]] Result<OpticalTable> volume_table(const PictureOptions& options);
+/// What stands round the volume, and how it is labelled.
+[[nodiscard]] ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options);
+[[nodiscard]] ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options,
+                                            const VolumePlace& place, const Camera& camera,
+                                            const std::optional<SeabedPatch>& seabed, Work& work);
+[[nodiscard]] VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options,
+                                     const VolumePlace& place, const Camera& camera, const ContextPicture& context);
+
+/// The whole picture: title, what stands behind and before the volume, its rays, labels, legend, colour bar.
+[[nodiscard]] FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOptions& options,
+                                                   const VolumePlace& place, const VolumeView& view,
+                                                   const ContextPicture& context, const RayImage& rays, Work& work);
+
+}  // namespace sonar

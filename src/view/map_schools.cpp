@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "view/observation_map.h"
+#include "view/school_look.h"
+#include "view/shapes.h"
+
+namespace sonar {
+namespace {
+
+PathItem::Part path_of(const MapFrame& map, const MapSchool& school) {
+  PathItem::Part part;
+  for (const Geographic& place : school.places) {
+    if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) continue;
+    if (const auto at = map.at(place)) part.points.push_back(*at);
+  }
+  return part;
+}
+
+bool inside(const PixelRect& r, PixelPoint p) {
+  return p.x >= r.x && p.y >= r.y && p.x <= r.x + r.width && p.y <= r.y + r.height;
+}
+
+}  // namespace
+
+void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools) {
+  const Theme& theme = base.theme;
+  const double em = theme.text_px;
+  std::vector<TextItem> numbers;
+  std::vector<PixelPoint> taken;
+  frame.items.emplace_back(ClipItem{base.map.place});
+  // The selected school lies over the others, and its number is the first to find room.
+  std::vector<const MapSchool*> order;
+  for (const bool selected : {false, true}) {
+    for (const MapSchool& school : schools) {
+      if (school.selected == selected) order.push_back(&school);
+    }
+  }
+  std::vector<PixelPoint> middles;
+  for (const MapSchool* school : order) {
+    PathItem::Part part = path_of(base.map, *school);
+    middles.push_back(part.points.empty() ? PixelPoint{-1e9, -1e9} : part.points[part.points.size() / 2]);
+    if (part.points.empty()) continue;
+    if (part.points.size() == 1) part.points.push_back({part.points[0].x + 1.0, part.points[0].y});
+    const bool rejected = school->status == "rejected";
+    const Rgba8 colour = rejected ? theme.muted : school_colour(static_cast<int>(school->number));
+    const double wide = school->selected ? 2.6 : 1.6;
+    for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.8), std::pair(colour, wide)}) {
+      PathItem item;
+      item.parts.push_back(part);
+      item.stroke = {line, width * theme.line_px,
+                     width > wide ? std::vector<double>{} : status_dashes(school->status, theme)};
+      frame.items.emplace_back(std::move(item));
+    }
+  }
+  for (std::size_t i = order.size(); i-- > 0;) {
+    if (!inside(base.map.place, middles[i])) continue;
+    const std::string words = fmt::format("{}", order[i]->number);
+    const double width = text_width_px(words.c_str(), em);
+    PixelPoint at{middles[i].x + 0.6 * em, middles[i].y - 0.8 * em};
+    at.x = std::min(at.x, base.map.place.x + base.map.place.width - width - 0.2 * em);
+    at.y = std::max(at.y, base.map.place.y + 0.7 * em);
+    const bool free = std::none_of(taken.begin(), taken.end(), [&](const PixelPoint& p) {
+      return std::abs(p.x - at.x) < width + 0.4 * em && std::abs(p.y - at.y) < 1.2 * em;
+    });
+    if (!free) continue;
+    taken.push_back(at);
+    TextItem number = text_item(at, words, em, order[i]->selected ? theme.accent : theme.text);
+    number.bold = true;
+    number.halo = theme.halo;
+    numbers.push_back(std::move(number));
+  }
+  for (TextItem& number : numbers) frame.items.emplace_back(std::move(number));
+  frame.items.emplace_back(ClipItem{});
+}
+
+}  // namespace sonar

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "view/shapes.h"
+#include "view/timeline_strip.h"
+
+namespace sonar {
+namespace {
+
+/// Where a time of an observation lies along x: between its pings as the pings lie.
+double x_of(const Strip& s, TimeNs time) {
+  const auto& pings = s.observation->product->pings;
+  const auto after =
+      std::lower_bound(pings.begin(), pings.end(), time, [](const PingNavigation& n, TimeNs t) { return n.time < t; });
+  const auto i = static_cast<std::size_t>(after - pings.begin());
+  if (i == 0) return s.along.x.front();
+  if (i == pings.size()) return s.span().last;
+  const auto step = static_cast<double>(pings[i].time - pings[i - 1].time);
+  const double part = step > 0.0 ? static_cast<double>(time - pings[i - 1].time) / step : 0.0;
+  return s.along.x[i - 1] + part * (s.along.x[i] - s.along.x[i - 1]);
+}
+
+}  // namespace
+
+/// Bad pings are shaded from their own time up to the next ping's.
+void add_bad(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
+  const auto& pings = s.observation->product->pings;
+  for (const TimelineInterval& bad : s.observation->bad) {
+    const auto after = std::upper_bound(pings.begin(), pings.end(), bad.last,
+                                        [](TimeNs t, const PingNavigation& n) { return t < n.time; });
+    const double end =
+        after == pings.end() ? s.span().last : s.along.x[static_cast<std::size_t>(after - pings.begin())];
+    const double from = plot.at(x_of(s, bad.first), 0.0).x;
+    const double to = std::max(from + 2.0, plot.at(end, 0.0).x);
+    frame.items.emplace_back(
+        rectangle_item({from, plot.place.y, to - from, plot.place.height}, with_alpha(theme.no_data, 190)));
+    PathItem lines;
+    lines.stroke = {theme.hatch, 0.8 * theme.line_px, {}};
+    const double high = plot.place.height;
+    for (double x = from - high; x < to; x += 0.9 * theme.text_px) {
+      // A diagonal, cut to the interval.
+      const double a = std::max(from, x);
+      const double b = std::min(to, x + high);
+      if (b <= a) continue;
+      const double bottom = plot.place.y + high;
+      lines.parts.push_back({{{a, bottom - (a - x)}, {b, bottom - (b - x)}}, false});
+    }
+    frame.items.emplace_back(std::move(lines));
+  }
+}
+
+/// Marks: a line through the plot with its kind's letter on a flag, the text beside it where there is room.
+void add_marks(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme) {
+  const double em = theme.text_px;
+  struct Placed {
+    double x = 0.0;
+    const TimelineMark* mark = nullptr;
+  };
+  std::vector<Placed> all;
+  for (const Strip& s : strips) {
+    for (const TimelineMark& mark : s.observation->marks) all.push_back({plot.at(x_of(s, mark.time), 0.0).x, &mark});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
+  const double flag_px = 1.3 * em;
+  const double y = plot.place.y + 0.9 * em;
+  double free_x = plot.place.x;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [x, mark] = all[i];
+    for (const auto& [colour, width] : {std::pair(theme.halo, 3.0), std::pair(theme.accent, 1.4)}) {
+      frame.items.emplace_back(
+          line_item({x, plot.place.y}, {x, plot.place.y + plot.place.height}, colour, width * theme.line_px));
+    }
+    const double end = plot.place.x + plot.place.width;
+    const bool right = x + flag_px < end;
+    const double from = right ? x : x - flag_px;
+    frame.items.emplace_back(rectangle_item({from, y - 0.75 * em, flag_px, 1.5 * em}, theme.accent));
+    const char letter = mark->kind.empty() ? '?' : static_cast<char>(mark->kind[0] - (mark->kind[0] >= 'a' ? 32 : 0));
+    TextItem flag =
+        text_item({from + flag_px / 2.0, y}, std::string(1, letter), 0.95 * em, theme.background, TextAnchor::centre);
+    flag.bold = true;
+    frame.items.emplace_back(std::move(flag));
+    // Beside the flag, to the right where nothing comes soon, else to the left; a mark without room has its hint.
+    const std::string& words = mark->text.empty() ? mark->kind : mark->text;
+    const double wide = text_width_px(words.c_str(), 0.9 * em);
+    const double gap = 0.3 * em;
+    const double next = i + 1 < all.size() ? std::min(all[i + 1].x, end) : end;
+    const bool fits_right = from + flag_px + gap + wide < next;
+    const bool fits_left = from - gap - wide > free_x;
+    free_x = from + flag_px;
+    if (!fits_right && !fits_left) continue;
+    const double start = fits_right ? from + flag_px + gap : from - gap - wide;
+    if (fits_right) free_x = start + wide;
+    TextItem text = text_item({start, y}, words, 0.9 * em, theme.text, TextAnchor::left);
+    text.halo = theme.halo;
+    frame.items.emplace_back(std::move(text));
+  }
+}
+
+}  // namespace sonar
