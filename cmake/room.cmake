@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# sonar_room(NAME ROOMS r1 r2 ... LIBRARIES l1 ... PRIVATE_LIBRARIES p1 ...)
+# sonar_room(NAME [ONE_TEST] ROOMS r1 r2 ... LIBRARIES l1 ... PRIVATE_LIBRARIES p1 ...)
 # One library a room: every .cpp beside the CMakeLists.txt and below it, but the *_test.cpp, which make the room's unit
-# tests. The include root is src/, so that a room is named in every include and the layer check can read it.
+# tests; ONE_TEST: they run as one, because what they share costs more than they do. The include root is src/, so that a room is named in every include and the layer check can read it.
 include(GoogleTest OPTIONAL)
 
 function(sonar_room name)
-  cmake_parse_arguments(ROOM "" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "ONE_TEST" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
@@ -18,6 +18,11 @@ function(sonar_room name)
   if(SONAR_TESTS AND tests)
     add_executable(sonar_${name}_test ${tests})
     target_link_libraries(sonar_${name}_test PRIVATE sonar_${name} sonar_options GTest::gmock GTest::gtest_main)
+    if(ROOM_ONE_TEST)
+      add_test(NAME ${name} COMMAND sonar_${name}_test --gtest_brief=1)
+      set_tests_properties(${name} PROPERTIES LABELS unit)
+      return()
+    endif()
     gtest_discover_tests(sonar_${name}_test TEST_PREFIX ${name}. PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "view/image.h"
+
+namespace sonar {
+
+/// Something that a user can ask for: the one list from which menus, keys, buttons and the sheet of keys are made.
+struct Action {
+  std::string id;                 ///< "ping.next"
+  std::string menu;               ///< "&Navigate", "&File/&Export"; its actions stand in the order in which they came
+  std::string text;               ///< "Next ping"; may be replaced by text_now
+  std::vector<std::string> keys;  ///< portable names, "Right", "Ctrl+Z"; the first stands in menus
+  std::string tip;
+  std::function<void()> run;
+  std::function<bool()> enabled = {};          ///< empty = always
+  std::function<bool()> checked = {};          ///< given = the action is a switch
+  std::function<std::string()> text_now = {};  ///< "Undo grow school 3"
+};
+
+/// All actions of a window, in the order of its menus.
+class Actions {
+ public:
+  void add(Action action) { list_.push_back(std::move(action)); }
+  [[nodiscard]] std::span<const Action> list() const { return list_; }
+  /// Null where there is none of that id.
+  [[nodiscard]] const Action* find(std::string_view id) const;
+  /// Two actions with one key: their ids; empty where there are none. For a test.
+  [[nodiscard]] std::vector<std::string> clashes() const;
+
+ private:
+  std::vector<Action> list_;
+};
+
+/// What only a window can ask a human for. Each answers at once or not at all (empty = the human declined).
+struct Asking {
+  std::function<std::vector<std::string>()> files_to_open;
+  std::function<std::string()> folder_to_open;
+  std::function<std::string(const std::string& title, const std::string& pattern, const std::string& name)>
+      file_to_save;
+  std::function<std::string(const std::string& title)> folder_to_save;
+  std::function<std::string(const std::string& title, const std::string& label, const std::string& text)> text;
+  std::function<bool(const std::string& question)> yes;
+  std::function<void(const std::string& text)> copy;
+  std::function<void()> show_keys;  ///< the sheet of keys
+  std::function<void()> show_about;
+  std::function<void()> reset_layout;
+  std::function<void()> full_screen;  ///< on and off
+  std::function<void(const Image& image)> copy_image;
+  std::function<std::string()> view_in_use;  ///< id of the dock that has, or last had, the keyboard or the pointer
+  std::function<void()> quit;
+};
+
+}  // namespace sonar

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/choices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+namespace sonar {
+namespace {
+
+constexpr TimeNs kMillisecondNs = 1'000'000;
+
+}  // namespace
+
+Choices::Choices(ChangeQueue& queue, JournalPlace place, Options options, Shown shown, Step step)
+    : queue_(queue),
+      options_(std::move(options)),
+      shown_(std::move(shown)),
+      step_(std::move(step)),
+      place_(std::move(place)),
+      history_(place_.journal.lines) {}
+
+Choices::~Choices() { stop(); }
+
+TimeNs Choices::now() const {
+  const TimeNs time = options_.clock ? options_.clock() : 0;
+  return time - time % kMillisecondNs;
+}
+
+void Choices::run(std::function<Result<std::int64_t>()> job) {
+  ++waiting_;
+  thread_.post([this, job = std::move(job)](const Wanted&) {
+    const auto line = job();
+    publish(line ? std::string{} : to_line(line.error()), line ? *line : 0);
+  });
+}
+
+void Choices::publish(std::string failure, std::int64_t line) {
+  ChoicesShown shown;
+  for (const auto& [index, of] : open_) shown.states[index] = of.state;
+  if (!done_.empty()) shown.undo_text = "Undo " + done_.back().name;
+  // What was undone before this run, or before another observation was opened, has a name and no states.
+  if (const auto n = history_.redoable()) shown.redo_text = "Redo " + names_[*n];
+  shown.names = names_;
+  shown.lines = std::make_shared<std::vector<JournalLine>>(place_.journal.lines);
+  shown.failure = std::move(failure);
+  shown.done_line = line;
+  queue_.post([this, alive = std::weak_ptr<bool>(alive_), shown = std::move(shown)] {
+    if (alive.expired()) return;
+    --waiting_;  // an act is at work until it is shown
+    shown_(shown);
+  });
+}
+
+void Choices::open(OpenObservationPtr observation, std::vector<SchoolMasks> detected) {
+  run([this, observation = std::move(observation), detected = std::move(detected)]() -> Result<std::int64_t> {
+    open_[observation->index()] = {observation, state_of_detected(detected), nullptr};
+    rebuild(observation->index());
+    return 0;
+  });
+}
+
+void Choices::act(std::size_t observation, std::int64_t ping_index, Command command) {
+  stopping_ = false;
+  run([this, observation, ping_index, command = std::move(command)]() mutable {
+    return carry_out(observation, ping_index, std::move(command));
+  });
+}
+
+void Choices::turn_back(bool undo) {
+  run([this, undo] { return turn(undo); });
+}
+
+JournalStatePtr Choices::base_of(const OnObservation& of, const std::vector<JournalLine>& lines) {
+  const bool asked = asks_for_detection(lines, of.observation->ground().times);
+  return std::make_shared<const JournalState>(asked ? of.detected : JournalState{});
+}
+
+bool Choices::asks_to_detect(std::int64_t n) const {
+  const auto& lines = place_.journal.lines;
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const JournalLine& line) { return line.n == n && line.command == "detect"; });
+}
+
+void Choices::rebuild() {
+  done_.clear();
+  undone_.clear();
+  const std::vector<JournalLine> lines = effective_lines(place_.journal.lines);
+  for (auto& [index, of] : open_) of.state = base_of(of, lines);
+  for (const JournalLine& line : lines) {
+    Turn turn{line.n, line.command, {}, {}};
+    for (auto& [index, of] : open_) {
+      turn.before[index] = of.state;
+      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.observation->ground()));
+      turn.after[index] = of.state;
+    }
+    if (const auto act = act_of(line)) turn.name = name_of(*act, turn);
+    names_[turn.n] = turn.name;
+    done_.push_back(std::move(turn));
+  }
+  for (const JournalLine& line : place_.journal.lines) {
+    if (names_.contains(line.n)) continue;
+    if (const auto act = act_of(line)) names_[line.n] = act_name(*act, {}, nullptr, nullptr);
+  }
+}
+
+void Choices::rebuild(std::size_t index) {
+  const std::vector<JournalLine> lines = effective_lines(place_.journal.lines);
+  const bool same = std::equal(lines.begin(), lines.end(), done_.begin(), done_.end(),
+                               [](const JournalLine& line, const Turn& turn) { return line.n == turn.n; });
+  if (!same) return rebuild();
+  // The others stay as they are: a survey of a hundred observations must not be replayed a hundred times.
+  OnObservation& of = open_.at(index);
+  of.state = base_of(of, lines);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    done_[i].before[index] = of.state;
+    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.observation->ground()));
+    done_[i].after[index] = of.state;
+    if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
+  }
+  for (Turn& turn : undone_) turn.before.erase(index);
+}
+
+std::string Choices::name_of(const JournalAct& act, const Turn& turn) const {
+  for (const auto& [index, of] : open_) {
+    const CommandGround& ground = of.observation->ground();
+    if (!ping_at(ground, act.ping_time)) continue;
+    return act_name(act, ground, turn.before.at(index).get(), turn.after.at(index).get());
+  }
+  return act_name(act, {}, nullptr, nullptr);
+}
+
+Result<void> Choices::write(const JournalLine& line) {
+  if (place_.path.empty()) return fail(ErrorCode::io, "the journal can be kept nowhere: choices would be lost");
+  std::error_code there;  // append_journal() tells what is wrong with the folder
+  std::filesystem::create_directories(place_.path.parent_path(), there);
+  if (auto written = append_journal(place_.path.string(), place_.journal, line); !written) return written;
+  place_.journal.lines.push_back(line);
+  history_.add(line);
+  return {};
+}
+
+CommandGround Choices::watched(std::size_t observation) {
+  CommandGround ground = open_.at(observation).observation->ground();
+  ground.on_step = [this, observation](std::int64_t ping_index, const PingMask& mask) {
+    queue_.post([this, alive = std::weak_ptr<bool>(alive_), observation, ping_index, mask] {
+      if (!alive.expired()) step_(observation, ping_index, mask);
+    });
+    return !stopping_.load();
+  };
+  return ground;
+}
+
+Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t ping_index, Command command) {
+  const auto at = open_.find(observation);
+  if (at == open_.end()) return fail(ErrorCode::usage, "the observation is not open");
+  const CommandGround& ground = at->second.observation->ground();
+  if (ping_index < 0 || ping_index >= at->second.observation->pings()) {
+    return fail(ErrorCode::usage, "there is no such ping");
+  }
+  JournalAct act{history_.next(), now(), options_.operator_name, ground.times[static_cast<std::size_t>(ping_index)],
+                 std::move(command)};
+  Turn turn{act.n, {}, {}, {}};
+  for (const auto& [index, of] : open_) turn.before[index] = turn.after[index] = of.state;
+  auto applied = apply_watched(act, *at->second.state, watched(observation));
+  if (!applied) return pass_on(applied);
+  act = std::move(applied->act);
+  turn.after[observation] = std::make_shared<const JournalState>(std::move(applied->state));
+  for (const auto& [index, of] : open_) {
+    if (index == observation) continue;
+    // One that cannot be done there says nothing of that observation.
+    auto other = apply(act, *of.state, of.observation->ground());
+    if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
+  }
+  if (auto written = write(line_of(act)); !written) return pass_on(written);
+  if (asks_to_detect(act.n)) {
+    rebuild();  // what was found lies under every other line
+    return act.n;
+  }
+  turn.name = name_of(act, turn);
+  names_[act.n] = turn.name;
+  for (const auto& [index, state] : turn.after) open_.at(index).state = state;
+  done_.push_back(std::move(turn));
+  undone_.clear();
+  return act.n;
+}
+
+Result<std::int64_t> Choices::turn(bool undo) {
+  const auto target = undo ? history_.undoable() : history_.redoable();
+  if (!target) return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
+  JournalLine line;
+  line.n = history_.next();
+  line.decided = now();
+  line.operator_name = options_.operator_name;
+  line.command = undo ? "undo" : "redo";
+  line.args = {{"target", *target}};
+  if (auto written = write(line); !written) return pass_on(written);
+  std::vector<Turn>& from = undo ? done_ : undone_;
+  const bool known = !from.empty() && from.back().n == *target && from.back().before.size() == open_.size() &&
+                     !asks_to_detect(*target);
+  if (!known) {
+    rebuild();  // what was undone before this run began
+    return line.n;
+  }
+  for (auto& [index, of] : open_) of.state = undo ? from.back().before[index] : from.back().after[index];
+  (undo ? undone_ : done_).push_back(std::move(from.back()));
+  from.pop_back();
+  return line.n;
+}
+
+}  // namespace sonar

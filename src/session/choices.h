@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/task_thread.h"
+#include "pipeline/commands/state.h"
+#include "session/change_queue.h"
+#include "session/history.h"
+#include "session/journal_place.h"
+#include "session/open_observation.h"
+
+namespace sonar {
+
+using OpenObservationPtr = std::shared_ptr<OpenObservation>;
+using JournalStatePtr = std::shared_ptr<const JournalState>;
+
+/// What humans have chosen so far, as it is shown. A value.
+struct ChoicesShown {
+  std::map<std::size_t, JournalStatePtr> states;  ///< of the observations that are open
+  std::string undo_text;                          ///< "Undo grow school 3"; empty where there is nothing
+  std::string redo_text;
+  std::shared_ptr<const std::vector<JournalLine>> lines = std::make_shared<std::vector<JournalLine>>();
+  std::map<std::int64_t, std::string> names;  ///< what each line did, by n: "grow school 3"; undone ones too
+  std::string failure;                        ///< of the act that was just tried; empty = it was done
+  std::int64_t done_line = 0;                 ///< n of the line that was just written; 0 = none
+};
+
+/// Every human choice on a survey: carried out one after another behind the window, written into the journal and flushed,
+/// and only then shown.
+/// threads  members are called from the window's thread; what they bring about comes through the change queue
+class Choices {
+ public:
+  using Shown = std::function<void(ChoicesShown)>;
+  /// A ping of a propagation that runs.
+  using Step = std::function<void(std::size_t observation, std::int64_t ping_index, const PingMask& mask)>;
+
+  struct Options {
+    std::string operator_name;
+    std::function<TimeNs()> clock;  ///< UTC now; empty = 0
+  };
+
+  /// shown, step  called when the queue is drained
+  Choices(ChangeQueue& queue, JournalPlace place, Options options, Shown shown, Step step);
+  ~Choices();
+  Choices(const Choices&) = delete;
+  Choices& operator=(const Choices&) = delete;
+
+  /// An observation takes part from now on: what the journal says of it is carried out.
+  /// detected  schools that were found in it; empty = nobody looked
+  void open(OpenObservationPtr observation, std::vector<SchoolMasks> detected = {});
+  /// On a ping of an open observation.
+  void act(std::size_t observation, std::int64_t ping_index, Command command);
+  void undo() { turn_back(true); }
+  void redo() { turn_back(false); }
+  /// Ends the propagation that runs, if one does; what it reached stays.
+  void stop() { stopping_ = true; }
+  /// Whether something waits or runs.
+  [[nodiscard]] bool busy() const { return waiting_ > 0; }
+  /// Returns when nothing waits or runs; for tests and the program's end.
+  void wait() { thread_.wait(); }
+
+ private:
+  struct OnObservation {
+    OpenObservationPtr observation;
+    JournalState detected;  ///< lies under the journal where its lines ask for detection, and only there
+    JournalStatePtr state;
+  };
+  /// One act, and the states round it.
+  struct Turn {
+    std::int64_t n = 0;
+    std::string name;
+    std::map<std::size_t, JournalStatePtr> before;
+    std::map<std::size_t, JournalStatePtr> after;
+  };
+
+  // On the thread of the acts:
+  void run(std::function<Result<std::int64_t>()> job);
+  void publish(std::string failure, std::int64_t line);
+  [[nodiscard]] static JournalStatePtr base_of(const OnObservation& of, const std::vector<JournalLine>& lines);
+  [[nodiscard]] bool asks_to_detect(std::int64_t n) const;
+  void rebuild();
+  void rebuild(std::size_t index);
+  [[nodiscard]] std::string name_of(const JournalAct& act, const Turn& turn) const;
+  [[nodiscard]] Result<std::int64_t> carry_out(std::size_t observation, std::int64_t ping_index, Command command);
+  [[nodiscard]] Result<std::int64_t> turn(bool undo);
+  [[nodiscard]] Result<void> write(const JournalLine& line);
+  [[nodiscard]] CommandGround watched(std::size_t observation);
+  [[nodiscard]] TimeNs now() const;
+  void turn_back(bool undo);
+
+  ChangeQueue& queue_;
+  Options options_;
+  Shown shown_;
+  Step step_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<int> waiting_{0};
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
+  // Touched by the thread of the acts alone:
+  JournalPlace place_;
+  History history_;
+  std::map<std::size_t, OnObservation> open_;
+  std::vector<Turn> done_;
+  std::vector<Turn> undone_;
+  std::map<std::int64_t, std::string> names_;
+  TaskThread thread_;  // the last member: it ends first
+};
+
+}  // namespace sonar

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/control_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonar {
+namespace {
+
+std::string in_db(const Workspace& workspace, double confidence) {
+  const SelectParams& select = workspace.select.values();
+  if (select.mode == GrowMode::paper) return "in units of opacity: 1 = as opaque as the seed";
+  return fmt::format("{:.1f} dB below the reference level", db_below_reference(confidence, select.tolerance_db));
+}
+
+}  // namespace
+
+double db_below_reference(double confidence, double tolerance_db) {
+  return tolerance_db * std::sqrt(std::clamp(1.0 - confidence, 0.0, 1.0));
+}
+
+std::vector<PanelSection> control_panel(Workspace& workspace) {
+  const auto display = std::make_shared<SourceOf<DisplayParams>>(workspace.display);
+  const auto select = std::make_shared<SourceOf<SelectParams>>(workspace.select);
+  const auto volume = std::make_shared<SourceOf<VolumeParams>>(workspace.volume);
+  const auto views = std::make_shared<SourceOf<ViewSwitches>>(workspace.views);
+  const auto core = [&workspace] { return in_db(workspace, workspace.display.values().core_at); };
+  const auto fuzzy = [&workspace] { return in_db(workspace, workspace.display.values().fuzzy_above); };
+  return {
+      {"Selection", select},
+      {"Schools",
+       display,
+       {"masks", "core_at", "fuzzy_above", "rejected"},
+       {{"core_at", core}, {"fuzzy_above", fuzzy}}},
+      {"Colours", display, {"scale.map", "scale.low_db", "scale.span_db", "scale.threshold_db"}},
+      {"Noise", display, {"filtered", "removed", "weak", "weak_below_db"}},
+      {"Slices", display, {"grid_lines", "north_up"}, {}, false},
+      {"Volume", volume, {}, {}, false},
+      {"Views", views, {}, {}, false},
+  };
+}
+
+}  // namespace sonar

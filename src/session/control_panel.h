@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "session/parameter_source.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// The control panel's sections, below its transfer function.
+[[nodiscard]] std::vector<PanelSection> control_panel(Workspace& workspace);
+
+/// How far below a growth's reference a confidence lies, dB: f = 1 - (d / tolerance)^2.
+[[nodiscard]] double db_below_reference(double confidence, double tolerance_db);
+
+}  // namespace sonar

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/desk.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "session/desk_parts.h"
+
+namespace sonar {
+
+Desk::Desk(ChangeQueue& queue, DocumentOptions options)
+    : workspace(queue, std::move(options)),
+      transfer(std::make_unique<TransferEditor>(workspace)),
+      panel(control_panel(workspace)) {
+  add_slices(*this);
+  add_volume(*this);
+  add_maps(*this);
+  add_lists(*this);
+  add_school_acts(*this);
+  add_exports(*this);
+  add_window_acts(*this);
+}
+
+Desk::~Desk() = default;
+
+LivePicture* Desk::picture(const std::string& id) {
+  const auto found =
+      std::find_if(pictures.begin(), pictures.end(), [&](const PictureDock& dock) { return dock.id == id; });
+  return found == pictures.end() ? nullptr : found->picture.get();
+}
+
+Rows* Desk::rows(const std::string& id) {
+  const auto found = std::find_if(lists.begin(), lists.end(), [&](const RowsDock& dock) { return dock.id == id; });
+  return found == lists.end() ? nullptr : found->rows.get();
+}
+
+}  // namespace sonar

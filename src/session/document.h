@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/task_thread.h"
+#include "base/work.h"
+#include "model/product.h"
+#include "pipeline/recipe.h"
+#include "pipeline/state_product.h"
+#include "pipeline/survey.h"
+#include "session/change_queue.h"
+#include "session/choices.h"
+#include "session/listeners.h"
+#include "session/open_observation.h"
+
+namespace sonar {
+
+struct DocumentOptions {
+  Recipe recipe;
+  std::string operator_name;
+  std::string program_version;
+  IndexCache cache;  ///< empty folder = none
+  /// Where the journal of a survey in this folder goes: the first that can be written to holds it.
+  std::function<std::vector<std::filesystem::path>(const std::filesystem::path& survey)> journal_folders;
+  std::function<TimeNs()> clock;  ///< UTC now
+  std::int64_t prefetch = 5;      ///< pings to each side that are made ahead
+  int threads = 0;
+};
+
+/// What has changed, for whoever shows it.
+enum class DocumentChange : std::uint8_t {
+  survey,       ///< another survey is open, or none
+  observation,  ///< another observation is looked at, or one more is open
+  ping,         ///< the ping that is looked at has arrived
+  state,        ///< human choices, schools and masks
+  propagating,  ///< a running propagation reached one more ping, or ended
+  measures,     ///< the schools' figures
+  progress,     ///< of what runs in the background
+  notice,       ///< there is something to tell
+};
+
+struct Progress {
+  std::string stage;  ///< empty = nothing runs
+  std::int64_t done = 0;
+  std::int64_t total = 0;
+};
+
+using ProductPtr = std::shared_ptr<const ObservationProduct>;
+
+/// A survey at work: its files, one observation and ping on show, and every human choice. What takes long runs in the
+/// background and comes back through the change queue.
+/// threads  the window's
+class Document {
+ public:
+  Document(ChangeQueue& queue, DocumentOptions options);
+  ~Document();
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  [[nodiscard]] Listeners<DocumentChange>& changes() { return changes_; }
+
+  // --- the survey
+  /// Reads the survey in the background and then looks at its first observation; what was open is let go.
+  /// first  done before, in the background too: what makes the files, say; empty = nothing
+  void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {});
+  /// Ends what runs in the background; what was there before stays.
+  void cancel();
+  [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
+  [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_path_; }
+  [[nodiscard]] const Recipe& recipe() const { return options_.recipe; }
+  [[nodiscard]] const DocumentOptions& options() const { return options_; }
+  /// What a user must be told, oldest first.
+  [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
+  void tell(std::string notice);
+  [[nodiscard]] const Progress& progress() const { return progress_; }
+  /// Runs a job behind the window, with progress; one that runs is ended first. It must not touch the document.
+  void run(std::function<void(Work&, const Wanted&)> job);
+  /// Brings a change from such a job into the window's turn, unless another job has followed it.
+  void post(const Wanted& wanted, std::function<void()> change);
+
+  // --- what is looked at
+  /// errors  usage: no such observation, or one without a grid
+  Result<void> show(std::size_t observation);
+  /// The observation on show; null before there is one.
+  [[nodiscard]] const OpenObservationPtr& shown() const { return shown_; }
+  /// Null where it is not open.
+  [[nodiscard]] OpenObservationPtr open_observation(std::size_t index) const;
+  /// Opens every observation with a grid, as a review of the whole survey needs it.
+  void open_all();
+  /// Out of range = the nearest end.
+  void look_at(std::int64_t ping_index);
+  /// The ping that is looked at; it may still be on its way.
+  [[nodiscard]] std::int64_t ping() const { return ping_; }
+  /// The ping that has arrived last; null before the first.
+  [[nodiscard]] const StagedPingPtr& staged() const { return staged_; }
+
+  // --- choices
+  void act(Command command) { act(ping_, std::move(command)); }
+  /// On the observation on show. What cannot be done is told as a notice and changes nothing.
+  void act(std::int64_t ping_index, Command command);
+  void act(std::size_t observation, std::int64_t ping_index, Command command);
+  void undo();
+  void redo();
+  void stop_propagation();
+  [[nodiscard]] const ChoicesShown& choices() const { return choices_; }
+  /// Of the observation on show; an empty one before it is known.
+  [[nodiscard]] const JournalState& state() const;
+  [[nodiscard]] const JournalState& state(std::size_t observation) const;
+  /// Masks of a propagation that runs on the observation on show, by ping; they are part of the state when it ends.
+  [[nodiscard]] const std::map<std::int64_t, PingMask>& propagating() const { return propagating_; }
+  [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
+
+  // --- schools
+  /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found.
+  void detect(std::vector<std::size_t> observations);
+  [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
+  /// Schools and their figures as far as they are measured; null where the observation is not open.
+  [[nodiscard]] ProductPtr product(std::size_t observation) const;
+
+  /// Returns when nothing runs or waits in the background, its changes drained; for tests and the program's end.
+  void settle();
+
+ private:
+  void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
+  void take_choices(ChoicesShown shown);
+  void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
+  OpenObservationPtr opened(std::size_t index);
+  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
+                  const Wanted& wanted);
+  void take_detected(std::size_t index, std::vector<SchoolMasks> schools);
+  void measure_changed(const ChoicesShown& before);
+  void measure(std::size_t index);
+
+  ChangeQueue& queue_;
+  DocumentOptions options_;
+  Listeners<DocumentChange> changes_;
+  std::vector<std::filesystem::path> paths_;
+  std::shared_ptr<const SurveyFiles> survey_;
+  std::filesystem::path journal_path_;
+  std::vector<std::string> notices_;
+  Progress progress_;
+  std::map<std::size_t, OpenObservationPtr> open_;
+  OpenObservationPtr shown_;
+  std::int64_t ping_ = 0;
+  StagedPingPtr staged_;
+  ChoicesShown choices_;
+  std::map<std::int64_t, PingMask> propagating_;
+  std::set<std::size_t> detected_;
+  std::map<std::size_t, ProductPtr> products_;
+  std::map<std::size_t, std::shared_ptr<MeasuredPings>> measured_;
+  std::shared_ptr<Work> work_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
+  std::map<std::size_t, Wanted> measuring_;
+  std::unique_ptr<Choices> choices_thread_;
+  TaskThread measures_;
+  TaskThread background_;  // the last members: they end first
+};
+
+}  // namespace sonar

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/exports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "pipeline/export.h"
+#include "pipeline/observe.h"
+#include "pipeline/write_survey.h"
+#include "publish/picture.h"
+#include "publish/picture_files.h"
+#include "session/survey_schools.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMovieFrame_s = 0.2;
+constexpr PixelSize kMovieSize{960, 720};
+constexpr PixelSize kPictureSize{1600, 1200};
+
+/// The survey and all that was chosen, as it was when something was asked for.
+struct Snapshot {
+  const SurveyFiles* survey = nullptr;  ///< stands until the job is over: another survey comes only after it
+  Recipe recipe;
+  std::string program_version;
+  std::shared_ptr<const std::vector<JournalLine>> lines;
+  std::map<std::size_t, JournalStatePtr> states;
+  std::map<std::size_t, ProductPtr> products;
+  std::vector<fs::path> paths;
+};
+
+Snapshot snapshot_of(const Document& document) {
+  Snapshot snapshot{document.survey(),        document.recipe(),         document.options().program_version,
+                    document.choices().lines, document.choices().states, {},
+                    document.paths()};
+  for (const auto& [index, state] : snapshot.states) {
+    if (auto product = document.product(index)) snapshot.products[index] = std::move(product);
+  }
+  return snapshot;
+}
+
+/// What an observation's file holds: measured from the state on show, or, where it is not open, from the journal.
+Result<ObservationProduct> product_of(const Snapshot& snapshot, std::size_t index, Work& work) {
+  const ObservationFiles& observation = snapshot.survey->observations[index];
+  const std::vector<JournalLine> lines = effective_lines(*snapshot.lines);
+  const auto state = snapshot.states.find(index);
+  if (!observation.grid || state == snapshot.states.end() || !state->second) {
+    return observe(*snapshot.survey, observation, snapshot.recipe, {{}, lines, snapshot.program_version}, work);
+  }
+  Engine engine(*snapshot.survey, observation, snapshot.recipe);
+  return state_product(engine, *state->second, {lines, snapshot.program_version, true, nullptr}, work);
+}
+
+ProductSource source_of_products(const Snapshot& snapshot, Work& work) {
+  return [&snapshot, &work](std::size_t index) { return product_of(snapshot, index, work); };
+}
+
+/// Products for the time of one export, in a hidden folder where the results go, so that the same disk is asked for room.
+class PassingFolder {
+ public:
+  explicit PassingFolder(const fs::path& beside) {
+    std::error_code error;
+    for (int i = 0; path_.empty() && i < 1000; ++i) {
+      const fs::path path = beside / fmt::format(".sonar-export-{}", i);
+      if (fs::create_directories(path, error) && !error) path_ = path;
+      if (error) return;
+    }
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Result<std::string> exported(const Snapshot& snapshot, const std::string& format, const fs::path& folder, Work& work) {
+  if (auto outside = require_outside_raw(*snapshot.survey, folder); !outside) return pass_on(outside);
+  if (format == "raw-reduced" && snapshot.paths.size() != 1) {
+    return fail(ErrorCode::usage,
+                "reduced raw files can be written of one folder; open the folder instead of its files");
+  }
+  const PassingFolder passing(folder);
+  if (passing.path().empty()) return fail(ErrorCode::io, "cannot be written to", {folder.string()});
+  const auto products = write_products(*snapshot.survey, passing.path(), source_of_products(snapshot, work), work);
+  if (!products) return pass_on(products);
+  const auto files = export_products({passing.path(), format, folder, snapshot.paths.front(), {}}, work);
+  if (!files) return pass_on(files);
+  if (files->size() == 1) return fmt::format("written: {}", files->front().string());
+  return fmt::format("written: {} files in {}", files->size(), folder.string());
+}
+
+/// Runs something behind the window and tells how it ended.
+void run_job(Workspace& workspace, std::function<Result<std::string>(const Snapshot&, Work&)> job) {
+  Document& document = workspace.document;
+  if (document.survey() == nullptr) return document.tell("no survey is open: there is nothing to write");
+  if (!document.progress().stage.empty()) {
+    return document.tell(fmt::format("wait until {} is done, or cancel it", document.progress().stage));
+  }
+  document.run([&document, snapshot = snapshot_of(document), job = std::move(job)](Work& work, const Wanted& wanted) {
+    work.progress("writing", 0, 1);
+    const auto done = job(snapshot, work);
+    std::string line = done ? *done : to_line(done.error());
+    if (!done && done.error().code == ErrorCode::cancelled) line = "stopped: not everything was written";
+    document.post(wanted, [&document, line = std::move(line)] { document.tell(line); });
+  });
+}
+
+std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {
+  std::vector<ObservationProduct> products;
+  for (const auto& [index, product] : snapshot.products) products.push_back(*product);
+  return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.recipe);
+}
+
+std::string shown_name(const Workspace& workspace) {
+  const auto& shown = workspace.document.shown();
+  return shown ? shown->name() : std::string{};
+}
+
+Result<std::string> movie(const Snapshot& snapshot, PictureKind kind, const std::string& observation,
+                          PictureOptions options, const std::vector<int>& pings, const fs::path& folder, Work& work) {
+  if (auto outside = require_outside_raw(*snapshot.survey, folder); !outside) return pass_on(outside);
+  const auto source = pictures_of(snapshot);
+  std::vector<fs::path> pictures;
+  for (const int ping : pings) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    options.ping = ping;
+    const auto frame = picture_frame(kind, *source, observation, options, work);
+    if (!frame) return pass_on(frame);
+    pictures.push_back(folder / fmt::format("ping-{:04d}.png", ping));
+    if (auto written = write_picture(*frame, pictures.back()); !written) return pass_on(written);
+    work.progress("movie", static_cast<std::int64_t>(pictures.size()), static_cast<std::int64_t>(pings.size()));
+  }
+  if (auto written = write_movie(pictures, kMovieFrame_s, folder / "movie.png"); !written) return pass_on(written);
+  return fmt::format("written: {} pictures and movie.png in {}", pictures.size(), folder.string());
+}
+
+}  // namespace
+
+void export_results(Workspace& workspace, const fs::path& folder) {
+  run_job(workspace, [folder](const Snapshot& snapshot, Work& work) -> Result<std::string> {
+    const auto report = write_survey(*snapshot.survey, folder, source_of_products(snapshot, work), work);
+    if (!report) return pass_on(report);
+    return fmt::format("written: {} observations with {} schools in {}", report->survey.observations.size(),
+                       report->survey.schools.size(), folder.string());
+  });
+}
+
+void export_as(Workspace& workspace, const std::string& format, const fs::path& folder) {
+  run_job(workspace,
+          [format, folder](const Snapshot& snapshot, Work& work) { return exported(snapshot, format, folder, work); });
+}
+
+PictureOptions picture_options(const Workspace& workspace) {
+  const DisplayParams& display = workspace.display.values();
+  const VolumeParams& volume = workspace.volume.values();
+  PictureOptions options;
+  options.size = kPictureSize;
+  options.dark = workspace.dark();
+  options.scale = display.scale;
+  options.limits_given = true;
+  if (!workspace.curve_follows_scale()) options.transfer = workspace.view_curve();
+  if (workspace.document.shown()) {
+    options.ping = static_cast<int>(workspace.document.ping());
+    options.fan = workspace.slices().fan;
+    options.beam = workspace.slices().beam;
+  }
+  options.masks = display.masks;
+  options.filtered = display.filtered;
+  options.north_up = display.north_up;
+  options.grid_lines = display.grid_lines;
+  options.mode = static_cast<RayMode>(volume.mode);
+  options.first_hit_db = volume.first_hit_db;
+  options.lighting = volume.lighting;
+  options.mask_style.core_at = static_cast<float>(display.core_at);
+  options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
+  options.mask_style.data_too = volume.data;
+  options.context = volume.context;
+  options.frames = volume.frames;
+  options.renderer = static_cast<RendererChoice>(volume.renderer);
+  return options;
+}
+
+void save_picture(Workspace& workspace, PictureKind kind, PictureOptions options, const fs::path& file) {
+  run_job(workspace,
+          [kind, observation = shown_name(workspace), options = std::move(options), file](
+              const Snapshot& snapshot, Work& work) -> Result<std::string> {
+            const auto source = pictures_of(snapshot);
+            if (auto outside = source->require_outside_raw(file); !outside) return pass_on(outside);
+            const auto frame = picture_frame(kind, *source, observation, options, work);
+            if (!frame) return pass_on(frame);
+            if (auto written = write_picture(*frame, file); !written) return pass_on(written);
+            return fmt::format("written: {}", file.string());
+          });
+}
+
+void save_movie(Workspace& workspace, PictureKind kind, const fs::path& folder) {
+  if (!workspace.document.shown()) return workspace.document.tell("no observation is open: there is nothing to show");
+  PictureOptions options = picture_options(workspace);
+  options.size = kMovieSize;
+  std::vector<int> pings;
+  const auto school = selected_school(workspace);
+  if (school && school->name.observation == workspace.document.shown()->index()) {
+    for (const auto& there : school->state->masks.pings) pings.push_back(static_cast<int>(there.ping_index));
+  } else {
+    for (std::int64_t i = 0; i < workspace.document.shown()->pings(); ++i) pings.push_back(static_cast<int>(i));
+  }
+  run_job(workspace, [kind, observation = shown_name(workspace), options = std::move(options), pings = std::move(pings),
+                      folder](const Snapshot& snapshot, Work& work) {
+    return movie(snapshot, kind, observation, options, pings, folder, work);
+  });
+}
+
+}  // namespace sonar

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "publish/picture_options.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+// What goes out of the program. Everything runs behind the window, on what was there when it was asked for, and tells in
+// one line what was written where, or why it was not. Nothing is ever written where raw files lie.
+
+/// Products, tables and map of the survey as they are now, as a run would leave them, with the school numbers that the
+/// window shows.
+void export_results(Workspace& workspace, const std::filesystem::path& folder);
+/// One of export_formats(), into a folder.
+void export_as(Workspace& workspace, const std::string& format, const std::filesystem::path& folder);
+
+/// How the window shows things, as options of a picture.
+[[nodiscard]] PictureOptions picture_options(const Workspace& workspace);
+/// A picture of any kind, of the observation on show, as .png, .svg or .pdf.
+void save_picture(Workspace& workspace, PictureKind kind, PictureOptions options, const std::filesystem::path& file);
+/// The selected school through its pings (without one: the whole observation) as one picture a ping, ping-0012.png ...,
+/// and movie.png, which plays them.
+void save_movie(Workspace& workspace, PictureKind kind, const std::filesystem::path& folder);
+
+}  // namespace sonar

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/exports.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "pipeline/journal.h"
+#include "pipeline/run.h"
+#include "publish/picture_source.h"
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// Observation, then for each school its masks in its pings; whatever the schools are called.
+using Masks = std::vector<std::pair<std::string, std::vector<std::pair<std::int64_t, PingMask>>>>;
+
+Masks masks_in(const fs::path& folder) {
+  Work work(1);
+  const std::vector<fs::path> paths{folder};
+  const auto source = PictureSource::open(paths, std::nullopt, work);
+  Masks all;
+  if (!source) return all;
+  for (const ObservationProduct& product : (*source)->products()) {
+    for (const SchoolRow& school : product.schools) {
+      all.emplace_back(product.observation, std::vector<std::pair<std::int64_t, PingMask>>{});
+      for (const SchoolMask& mask : product.masks) {
+        if (mask.school_id == school.school_id) all.back().second.emplace_back(mask.ping_index, mask.mask);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a.first, a.second.front().first, a.second.front().second.runs) <
+           std::tuple(b.first, b.second.front().first, b.second.front().second.runs);
+  });
+  return all;
+}
+
+class Exports : public testing::Test, protected TestDesk {
+ protected:
+  void SetUp() override { begin(); }
+  [[nodiscard]] const std::string& told() { return document().notices().back(); }
+  fs::path out_ = TestSurvey::easy().fresh();
+};
+
+/// `run --session` on a journal.
+void run_session(const fs::path& journal_file, const fs::path& out) {
+  const auto journal = read_journal(journal_file.string());
+  ASSERT_TRUE(journal);
+  const auto recipe = recipe_from_text(journal->recipe);
+  ASSERT_TRUE(recipe);
+  const std::vector<fs::path> paths{TestSurvey::easy().folder()};
+  Work work(2);
+  const auto survey = open_survey(paths, recipe->survey, recipe->navigation, {}, work);
+  ASSERT_TRUE(survey);
+  const std::vector<JournalLine> lines = effective_lines(journal->lines);
+  const Plan plan = make_plan(*survey, paths, journal_file.string(), *recipe, {{}, lines, "test"});
+  RunOptions options;
+  options.out = out;
+  options.program_version = "test";
+  const auto report = run_plan(plan, *survey, lines, options, work);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->done.size(), 2U);
+}
+
+TEST_F(Exports, ResultsHaveTheMasksThatARunOfTheJournalGivesBitForBit) {
+  press("schools.detect_all");
+  document().settle();
+  ASSERT_FALSE(document().state().schools.empty());
+  select(1);
+  document().look_at(survey_schools(document()).front().middle_ping());
+  press("school.smooth_all");
+  press("school.propagate");
+  document().settle();
+  paint(2, 3, 5, 5, 200);
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(1, 1, 5, 5, 200);
+  document().settle();
+  const std::size_t first = document().state(0).schools.size();
+  const std::size_t second = document().state(1).schools.size();
+  export_results(workspace(), out_ / "window");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("written: 2 observations"));
+  run_session(document().journal_path(), out_ / "run");
+  const Masks window = masks_in(out_ / "window");
+  EXPECT_EQ(window.size(), first + second);
+  EXPECT_TRUE(window == masks_in(out_ / "run"));
+  for (const char* file : {"schools.csv", "school_pings.csv", "survey.gpkg", "survey.json"}) {
+    EXPECT_TRUE(fs::exists(out_ / "window" / file)) << file;
+  }
+}
+
+TEST_F(Exports, NumbersAreThoseOnTheScreen) {
+  paint(4, 5, 5, 5, 200);
+  paint(2, 3, 12, 12, 300);
+  document().settle();
+  export_as(workspace(), "csv", out_);
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("written: 2 files in " + out_.string()));
+  const std::string table = text_of(out_ / "school_pings.csv");
+  EXPECT_THAT(table, HasSubstr("obs-0001,1,4,"));
+  EXPECT_THAT(table, HasSubstr("obs-0001,2,2,"));
+  // What was needed on the way is gone.
+  for (const auto& entry : fs::directory_iterator(out_)) EXPECT_EQ(entry.path().extension(), ".csv");
+}
+
+TEST_F(Exports, EveryFormatIsInTheMenuAndIsWritten) {
+  paint(4, 5, 5, 5, 200);
+  document().settle();
+  for (const char* format : {"netcdf-mask", "gpkg", "geojson", "raw-reduced"}) {
+    const fs::path folder = out_ / format;
+    desk_->asking.folder_to_save = [&](const auto&) { return folder.string(); };
+    press(std::string("export.") + format);
+    document().settle();
+    EXPECT_THAT(told(), HasSubstr("written: ")) << format;
+    EXPECT_FALSE(fs::is_empty(folder)) << format;
+  }
+}
+
+TEST_F(Exports, NothingIsWrittenWhereRawFilesLie) {
+  const fs::path raw = TestSurvey::easy().folder();
+  const auto before = std::distance(fs::directory_iterator(raw), {});
+  const auto refused = [&] {
+    document().settle();
+    EXPECT_THAT(told(), HasSubstr("raw"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(raw), {}), before);
+  };
+  export_results(workspace(), raw);
+  refused();
+  export_as(workspace(), "csv", raw / "inner");
+  refused();
+  save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), raw / "a.png");
+  refused();
+  save_movie(workspace(), PictureKind::slice_top, raw / "movie");
+  refused();
+}
+
+TEST_F(Exports, AFullDiskIsOneLine) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  fs::create_symlink("/dev/full", out_ / "file");
+  export_as(workspace(), "csv", out_ / "file" / "below");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("below"));
+  EXPECT_EQ(told().find('\n'), std::string::npos);
+}
+
+TEST_F(Exports, APlannedRunsFolderIsLeftAlone) {
+  std::ofstream(out_ / "plan.json") << "{}";
+  export_results(workspace(), out_);
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("choose another folder"));
+}
+
+TEST_F(Exports, PicturesAreDrawnAsTheWindowShowsThem) {
+  paint(4, 5, 5, 5, 200);
+  document().settle();
+  for (const char* name : {"map.svg", "slice.pdf", "slice.png"}) {
+    const PictureKind kind = name == std::string("map.svg") ? PictureKind::observation_map : PictureKind::slice_top;
+    save_picture(workspace(), kind, picture_options(workspace()), out_ / name);
+    document().settle();
+    EXPECT_EQ(told(), "written: " + (out_ / name).string());
+    EXPECT_GT(fs::file_size(out_ / name), 1000U);
+  }
+  EXPECT_THAT(text_of(out_ / "map.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(text_of(out_ / "slice.pdf"), testing::StartsWith("%PDF"));
+  save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), out_ / "a.bmp");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr(".png, .svg or .pdf"));
+}
+
+TEST_F(Exports, AMovieHasOnePictureAPingOfTheSelectedSchool) {
+  paint(4, 6, 5, 5, 200);
+  document().settle();
+  select(1);
+  save_movie(workspace(), PictureKind::slice_top, out_);
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("3 pictures and movie.png"));
+  for (const char* name : {"ping-0004.png", "ping-0005.png", "ping-0006.png"}) EXPECT_TRUE(fs::exists(out_ / name));
+  EXPECT_THAT(text_of(out_ / "movie.png"), HasSubstr("acTL"));
+}
+
+TEST_F(Exports, WithoutASurveyThereIsNothingToWrite) {
+  ChangeQueue queue;
+  Desk desk(queue, {});
+  export_results(desk.workspace, out_);
+  EXPECT_THAT(desk.workspace.document.notices().back(), HasSubstr("no survey is open"));
+}
+
+TEST_F(Exports, RecentSurveysAreKeptAndOpened) {
+  EXPECT_EQ(desk_->actions.find("file.recent.1")->text_now(), TestSurvey::easy().folder().string());
+  EXPECT_TRUE(desk_->actions.find("file.recent.1")->enabled());
+  EXPECT_FALSE(desk_->actions.find("file.recent.2")->enabled());
+  ASSERT_TRUE(document().show(1));
+  press("file.recent.1");
+  document().settle();
+  EXPECT_EQ(document().shown()->index(), 0U);
+}
+
+}  // namespace
+}  // namespace sonar

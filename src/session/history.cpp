@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/history.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace sonar {
+namespace {
+
+std::optional<std::int64_t> target_of(const JournalLine& line) {
+  const auto found = line.args.find("target");
+  if (found == line.args.end() || !found->is_number_integer()) return std::nullopt;
+  return found->get<std::int64_t>();
+}
+
+/// Moves a number from one list to the end of another.
+void move_over(std::int64_t n, std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {
+  const auto found = std::find(from.begin(), from.end(), n);
+  if (found == from.end()) return;
+  from.erase(found);
+  to.push_back(n);
+}
+
+/// " school 3", or nothing where the number is not known.
+std::string school_text(const JournalState* state, const CommandGround& ground, const SchoolKey& key) {
+  if (state == nullptr) return " school";
+  const auto at = school_at(*state, ground, key);
+  return at ? fmt::format(" school {}", state->schools[*at]->number) : " school";
+}
+
+/// The school that an act made.
+std::string made_text(const JournalState* after, std::int64_t n) {
+  if (after == nullptr) return " school";
+  for (const auto& school : after->schools) {
+    if (school->made_by == n) return fmt::format(" school {}", school->number);
+  }
+  return " school";
+}
+
+std::string decide_verb(const DecideCommand& command) {
+  const Decision& one = command.decisions.front();
+  if (one.status == "accepted") return "accept";
+  if (one.status == "rejected") return "reject";
+  if (one.status) return "mark as " + *one.status;
+  return one.species ? "set species of" : "comment on";
+}
+
+}  // namespace
+
+History::History(std::span<const JournalLine> lines) {
+  for (const JournalLine& line : lines) add(line);
+}
+
+void History::add(const JournalLine& line) {
+  last_ = std::max(last_, line.n);
+  if (line.command == "undo" || line.command == "redo") {
+    const auto target = target_of(line);
+    if (!target) return;
+    line.command == "undo" ? move_over(*target, done_, undone_) : move_over(*target, undone_, done_);
+    return;
+  }
+  done_.push_back(line.n);
+  undone_.clear();
+}
+
+std::optional<std::int64_t> History::undoable() const {
+  return done_.empty() ? std::nullopt : std::optional(done_.back());
+}
+
+std::optional<std::int64_t> History::redoable() const {
+  return undone_.empty() ? std::nullopt : std::optional(undone_.back());
+}
+
+std::string act_name(const JournalAct& act, const CommandGround& ground, const JournalState* before,
+                     const JournalState* after) {
+  const auto named = [&](const SchoolKey& key) { return school_text(before, ground, key); };
+  const auto made_or = [&](const std::optional<SchoolKey>& key) { return key ? named(*key) : made_text(after, act.n); };
+  if (const auto* c = std::get_if<PropagateCommand>(&act.command)) return "propagate" + made_or(c->school);
+  if (const auto* c = std::get_if<GrowCommand>(&act.command)) {
+    if (c->to == GrowTo::take_away) return "take away from" + made_or(c->school);
+    return (c->to == GrowTo::add ? "add to" : "grow") + made_or(c->school);
+  }
+  if (const auto* c = std::get_if<BrushCommand>(&act.command)) return "brush" + made_or(c->school);
+  if (const auto* c = std::get_if<EraseCommand>(&act.command)) return "erase" + (c->school ? named(*c->school) : "");
+  if (const auto* c = std::get_if<ReshapeCommand>(&act.command)) {
+    if (c->what == Reshaping::fill_holes) return "fill holes of" + named(c->school);
+    return (c->what == Reshaping::smooth ? "smooth" : "keep the largest part of") + named(c->school);
+  }
+  if (const auto* c = std::get_if<MergeCommand>(&act.command)) return "merge into" + named(c->schools.front());
+  if (const auto* c = std::get_if<SplitCommand>(&act.command)) return "split" + named(c->school);
+  if (const auto* c = std::get_if<DeleteCommand>(&act.command)) return "delete" + named(c->school);
+  if (const auto* c = std::get_if<EventCommand>(&act.command)) return "mark " + c->kind;
+  if (const auto* c = std::get_if<BadPingsCommand>(&act.command)) {
+    return c->first == c->last ? "mark bad ping" : "mark bad interval";
+  }
+  if (std::holds_alternative<DetectCommand>(act.command)) return "look for schools";
+  const auto& decide = std::get<DecideCommand>(act.command);
+  if (decide.decisions.size() != 1) return fmt::format("review {} schools", decide.decisions.size());
+  return decide_verb(decide) + named(decide.decisions.front().school);
+}
+
+}  // namespace sonar

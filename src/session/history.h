@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/commands/state.h"
+#include "pipeline/journal.h"
+
+namespace sonar {
+
+/// What can be undone and redone, as a journal's lines say it. A new act ends what could be redone.
+class History {
+ public:
+  History() = default;
+  explicit History(std::span<const JournalLine> lines);
+
+  void add(const JournalLine& line);
+  /// n of the line that undo takes back; empty where there is none.
+  [[nodiscard]] std::optional<std::int64_t> undoable() const;
+  [[nodiscard]] std::optional<std::int64_t> redoable() const;
+  /// n of the next line.
+  [[nodiscard]] std::int64_t next() const { return last_ + 1; }
+
+ private:
+  std::vector<std::int64_t> done_;
+  std::vector<std::int64_t> undone_;
+  std::int64_t last_ = 0;
+};
+
+/// What an act did, for people: "grow school 3". before, after: the observation's states round it; null = not known.
+[[nodiscard]] std::string act_name(const JournalAct& act, const CommandGround& ground, const JournalState* before,
+                                   const JournalState* after);
+
+}  // namespace sonar

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/lists/cells.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "session/place_text.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::size_t kDateLetters = 10;  // 2026-11-21
+constexpr std::size_t kTimeLetters = 19;  // 2026-11-21T19:57:26
+
+std::string date_and_time(TimeNs time) {
+  std::string text = iso_time(time).substr(0, kTimeLetters);
+  if (text.size() > kDateLetters) text[kDateLetters] = ' ';
+  return text;
+}
+
+Cell place_cell(std::string text, double deg) {
+  if (std::isnan(deg)) return {};
+  return {std::move(text), deg};
+}
+
+}  // namespace
+
+Cell text_cell(std::string text) {
+  if (text.empty()) return {};
+  Cell cell;
+  cell.key = text;
+  cell.text = std::move(text);
+  return cell;
+}
+
+Cell count_cell(std::int64_t count) { return {std::to_string(count), static_cast<double>(count)}; }
+
+Cell number_cell(double value, int decimals) {
+  if (std::isnan(value)) return {};
+  return {fmt::format("{:.{}f}", value, decimals), value};
+}
+
+Cell broad_cell(double value) {
+  if (std::isnan(value)) return {};
+  return {fmt::format("{:.3g}", value), value};
+}
+
+Cell time_cell(TimeNs time) {
+  if (time == 0) return {};
+  return {date_and_time(time), static_cast<double>(time)};
+}
+
+std::string span_text(TimeNs first, TimeNs last) {
+  const std::string begin = date_and_time(first);
+  const std::string end = date_and_time(last);
+  const bool same_day = begin.substr(0, kDateLetters) == end.substr(0, kDateLetters);
+  return begin + " \u2013 " + (same_day ? end.substr(kDateLetters + 1) : end);
+}
+
+Cell latitude_cell(double latitude_deg) { return place_cell(latitude_minutes_text(latitude_deg), latitude_deg); }
+
+Cell longitude_cell(double longitude_deg) { return place_cell(longitude_minutes_text(longitude_deg), longitude_deg); }
+
+}  // namespace sonar

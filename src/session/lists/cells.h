@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/time.h"
+#include "session/rows.h"
+
+namespace sonar {
+
+[[nodiscard]] Cell text_cell(std::string text);
+[[nodiscard]] Cell count_cell(std::int64_t count);
+/// NaN = unknown: an empty cell.
+[[nodiscard]] Cell number_cell(double value, int decimals);
+/// Three significant digits, for quantities that go over many powers of ten.
+[[nodiscard]] Cell broad_cell(double value);
+/// "2026-11-21 19:57:26" UTC; 0 = unknown.
+[[nodiscard]] Cell time_cell(TimeNs time);
+/// "19:57:26" where the day is the same, for the second end of a span.
+[[nodiscard]] std::string span_text(TimeNs first, TimeNs last);
+[[nodiscard]] Cell latitude_cell(double latitude_deg);
+[[nodiscard]] Cell longitude_cell(double longitude_deg);
+
+}  // namespace sonar

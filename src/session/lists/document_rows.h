@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "session/rows.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Rows that are made anew from the document whenever something changed that they show.
+class DocumentRows : public Rows {
+ public:
+  DocumentRows(Workspace& workspace, std::vector<DocumentChange> shown)
+      : workspace_(workspace), shown_(std::move(shown)) {
+    document_ = workspace.document.changes().add([this](DocumentChange change) {
+      for (const DocumentChange one : shown_) {
+        if (one == change) return refresh();
+      }
+      if (change == DocumentChange::ping || change == DocumentChange::observation) moved().tell();
+    });
+    school_ = workspace.school.changed().add([this] { school_selected(); });
+  }
+  ~DocumentRows() override {
+    workspace_.document.changes().remove(document_);
+    workspace_.school.changed().remove(school_);
+  }
+  DocumentRows(const DocumentRows&) = delete;
+  DocumentRows& operator=(const DocumentRows&) = delete;
+
+ protected:
+  /// Makes the rows anew.
+  virtual void make() = 0;
+  virtual void school_selected() { moved().tell(); }
+  void refresh() {
+    make();
+    changed().tell();
+  }
+  [[nodiscard]] Workspace& workspace() const { return workspace_; }
+
+ private:
+  Workspace& workspace_;
+  std::vector<DocumentChange> shown_;
+  int document_ = 0;
+  int school_ = 0;
+};
+
+/// A column and what stands in it for one of what the rows are about.
+template <class T>
+struct ColumnOf {
+  ListColumn column;
+  Cell (*cell)(const T&);
+};
+
+template <class T>
+[[nodiscard]] std::vector<ListColumn> titles_of(const std::vector<ColumnOf<T>>& columns) {
+  std::vector<ListColumn> titles;
+  for (const ColumnOf<T>& one : columns) titles.push_back(one.column);
+  return titles;
+}
+
+}  // namespace sonar

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session/lists/school_ping_table.h"
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Lists : public testing::Test, protected TestDesk {
+ protected:
+  void SetUp() override { begin(); }
+  [[nodiscard]] Rows& rows(const std::string& id) { return *desk_->rows(id); }
+  /// Text of a cell by its column's title.
+  [[nodiscard]] std::string text(const std::string& id, std::size_t row, const std::string& title) {
+    const auto& columns = rows(id).columns();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (columns[c].title == title) return rows(id).cell(row, c).text;
+    }
+    return "no column " + title;
+  }
+};
+
+TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {
+  Rows& tree = rows("survey_tree");
+  std::vector<std::size_t> top;
+  for (std::size_t row = 0; row < tree.rows(); ++row) {
+    if (tree.level(row) == 0) top.push_back(row);
+  }
+  ASSERT_EQ(top.size(), 2U);
+  EXPECT_EQ(text("survey_tree", top[0], "Survey"), "obs-0001");
+  EXPECT_EQ(text("survey_tree", top[0], "Pings"), std::to_string(TestSurvey::kPings));
+  EXPECT_THAT(text("survey_tree", top[0], "Time"), HasSubstr(" \u2013 "));
+  EXPECT_THAT(text("survey_tree", top[0] + 1, "Survey"), HasSubstr(".raw"));
+  EXPECT_EQ(tree.level(top[0] + 1), 1);
+  EXPECT_EQ(tree.selected(), top[0]);
+  tree.open(top[1] + 1);
+  EXPECT_EQ(document().shown()->index(), 1U);
+  EXPECT_EQ(tree.selected(), top[1]);
+}
+
+TEST_F(Lists, SchoolsAreThereAtOnceAndMeasuredSoonAfter) {
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  ASSERT_EQ(rows("schools").rows(), 1U);
+  EXPECT_EQ(text("schools", 0, "School"), "1");
+  EXPECT_EQ(text("schools", 0, "Observation"), "obs-0001");
+  EXPECT_EQ(text("schools", 0, "Pings"), "3");
+  EXPECT_EQ(text("schools", 0, "Status"), "unreviewed");
+  const ProductPtr product = document().product(0);
+  ASSERT_TRUE(product);
+  EXPECT_EQ(text("schools", 0, "Depth"), fmt::format("{:.1f}", product->schools.front().depth_m));
+  EXPECT_THAT(text("schools", 0, "Latitude"), HasSubstr("\u2032 N"));
+
+  EXPECT_EQ(rows("school_pings").rows(), 0U);
+  rows("schools").select(0);
+  document().settle();
+  EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
+  EXPECT_EQ(document().ping(), 3);
+  EXPECT_EQ(workspace().slices(), (SlicePlaces{6, 6}));
+  ASSERT_EQ(rows("school_pings").rows(), 3U);
+  EXPECT_EQ(rows("school_pings").selected(), 1U);
+  rows("school_pings").select(2);
+  document().settle();
+  EXPECT_EQ(document().ping(), 4);
+}
+
+TEST_F(Lists, PingsOfAllSchoolsAreListedOnDemand) {
+  paint(2, 3, 5, 5, 200);
+  paint(2, 2, 10, 10, 300);
+  document().settle();
+  press("list.pings_of_all");
+  EXPECT_EQ(rows("school_pings").rows(), 3U);
+  press("list.pings_of_all");
+  EXPECT_EQ(rows("school_pings").rows(), 0U);
+}
+
+TEST_F(Lists, TheJournalTellsEveryActTheNewestFirstAndMarksTheUndone) {
+  paint(2, 2, 5, 5, 200);
+  paint(5, 5, 5, 5, 200);
+  document().undo();
+  document().settle();
+  Rows& journal = rows("journal");
+  ASSERT_EQ(journal.rows(), 3U);
+  EXPECT_EQ(text("journal", 0, "What"), "undo line 2");
+  EXPECT_EQ(text("journal", 1, "What"), "brush school 2");
+  EXPECT_EQ(text("journal", 1, "Undone"), "undone");
+  EXPECT_TRUE(journal.faded(1));
+  EXPECT_EQ(text("journal", 2, "What"), "brush school 1");
+  EXPECT_EQ(text("journal", 2, "On"), "obs-0001 ping 2");
+  EXPECT_EQ(text("journal", 2, "Operator"), "tester");
+  EXPECT_EQ(text("journal", 2, "Undone"), "");
+  journal.open(2);
+  EXPECT_EQ(document().ping(), 2);
+}
+
+TEST_F(Lists, WhatWasToldStandsAmongTheDiagnostics) {
+  document().tell("the first");
+  document().tell("the last");
+  EXPECT_EQ(text("diagnostics", 0, "What"), "the last");
+  EXPECT_EQ(text("diagnostics", 1, "What"), "the first");
+  for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {
+    EXPECT_FALSE(text("diagnostics", row, "Kind").empty());
+  }
+}
+
+TEST_F(Lists, ChoicesOfEarlierRunsAreSeenInTheWholeSurvey) {
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(2, 2, 5, 5, 200);
+  document().undo();
+  document().redo();
+  paint(3, 3, 5, 5, 200);
+  document().undo();
+  document().settle();
+  begin();  // a new run: it shows the first observation
+  EXPECT_EQ(document().shown()->index(), 0U);
+  ASSERT_EQ(rows("schools").rows(), 1U);
+  EXPECT_EQ(text("schools", 0, "Observation"), "obs-0002");
+  // What was undone in the earlier run can be done again, and says so.
+  EXPECT_THAT(document().choices().redo_text, HasSubstr("Redo brush"));
+  press("edit.redo");
+  document().settle();
+  EXPECT_EQ(rows("schools").rows(), 2U);
+}
+
+TEST_F(Lists, NoTwoActionsHaveOneKey) { EXPECT_THAT(desk_->actions.clashes(), IsEmpty()); }
+
+}  // namespace
+}  // namespace sonar

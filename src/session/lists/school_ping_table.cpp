@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/lists/school_ping_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "session/lists/cells.h"
+
+namespace sonar {
+namespace {
+
+template <double SchoolPingRow::*member, int decimals>
+Cell figure(const SchoolInPing& one) {
+  return number_cell(one.row->*member, decimals);
+}
+
+std::string edge_text(std::int64_t flags) {
+  constexpr std::array<std::string_view, 9> kNames{"fore", "aft",    "top fan", "bottom fan", "near",
+                                                   "far",  "seabed", "surface", "flagged"};
+  std::string text;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if ((static_cast<std::uint64_t>(flags) >> i & 1U) != 0)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", kNames[i]);
+  }
+  return text;
+}
+
+const std::vector<ColumnOf<SchoolInPing>>& ping_columns() {
+  using S = SchoolInPing;
+  using R = SchoolPingRow;
+  static const std::vector<ColumnOf<S>> kColumns{
+      {{"School", "", "number of the school in its observation", true},
+       [](const S& s) { return count_cell(s.name.number); }},
+      {{"Observation", "", "", false}, [](const S& s) { return text_cell(s.row->observation); }},
+      {{"Ping", "", "index in the observation, from 0", true},
+       [](const S& s) { return count_cell(s.row->ping_index); }},
+      {{"Time", "UTC", "", false}, [](const S& s) { return time_cell(s.row->time_utc); }},
+      {{"Depth", "m", "of its centre below the sea surface", true}, figure<&R::depth_m, 1>},
+      {{"Range", "m", "of its centre from the sonar", true}, figure<&R::range_m, 1>},
+      {{"Bearing", "\u00B0", "true, from the sonar", true}, figure<&R::bearing_deg, 0>},
+      {{"Voxels", "", "", true}, [](const S& s) { return count_cell(s.row->n_voxels); }},
+      {{"Volume", "m\u00B3", "as the beams see it", true}, figure<&R::volume_m3, 0>},
+      {{"Volume corrected", "m\u00B3", "without the beams' width and the pulse's length", true},
+       figure<&R::volume_corrected_m3, 0>},
+      {{"Length", "m", "", true}, figure<&R::length_m, 1>},
+      {{"Width", "m", "", true}, figure<&R::width_m, 1>},
+      {{"Height", "m", "", true}, figure<&R::height_m, 1>},
+      {{"Shallowest", "m", "", true}, figure<&R::depth_min_m, 1>},
+      {{"Deepest", "m", "", true}, figure<&R::depth_max_m, 1>},
+      {{"Sv", "dB re 1 m\u207B\u00B9", "mean volume backscattering strength", true}, figure<&R::sv_mean_db, 1>},
+      {{"Sv 95 %", "dB re 1 m\u207B\u00B9", "exceeded by 5 % of its voxels", true}, figure<&R::sv_p95_db, 1>},
+      {{"Sv max", "dB re 1 m\u207B\u00B9", "", true}, figure<&R::sv_max_db, 1>},
+      {{"Backscatter", "m\u00B2", "backscattering cross-section of the whole school", true},
+       [](const S& s) { return broad_cell(s.row->backscatter_m2); }},
+      {{"SNR", "dB", "signal-to-noise ratio", true}, figure<&R::snr_db, 1>},
+      {{"Edges", "", "edges of what the sonar sees that it touches", false},
+       [](const S& s) { return text_cell(edge_text(s.row->edge_flags)); }},
+      {{"Seabed", "m", "depth of the seabed below it", true}, figure<&R::bottom_depth_m, 1>},
+      {{"Latitude", "", "of its centre", true}, [](const S& s) { return latitude_cell(s.row->latitude); }},
+      {{"Longitude", "", "of its centre", true}, [](const S& s) { return longitude_cell(s.row->longitude); }},
+  };
+  return kColumns;
+}
+
+}  // namespace
+
+SchoolPingTable::SchoolPingTable(Workspace& workspace)
+    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::measures}), titles_(titles_of(ping_columns())) {}
+
+void SchoolPingTable::make() {
+  pings_.clear();
+  const auto& wanted = workspace().school();
+  for (const auto& [index, state] : workspace().document.choices().states) {
+    const ProductPtr product = workspace().document.product(index);
+    if (!product || (!all_ && (!wanted || wanted->observation != index))) continue;
+    for (const SchoolPingRow& row : product->school_pings) {
+      if (all_ || row.school_id == wanted->number) pings_.push_back({{index, row.school_id}, product, &row});
+    }
+  }
+}
+
+void SchoolPingTable::show_all(bool all) {
+  all_ = all;
+  refresh();
+}
+
+Cell SchoolPingTable::cell(std::size_t row, std::size_t column) const {
+  return ping_columns()[column].cell(pings_[row]);
+}
+
+void SchoolPingTable::select(std::size_t row) {
+  if (row >= pings_.size()) return;
+  const SchoolInPing one = pings_[row];  // what follows may make the rows anew
+  go_to_ping(workspace(), one.name.observation, one.row->ping_index);
+  workspace().school.set(one.name);
+}
+
+std::optional<std::size_t> SchoolPingTable::selected() const {
+  const auto& shown = workspace().document.shown();
+  const auto& name = workspace().school();
+  if (!shown || !name) return std::nullopt;
+  const auto found = std::find_if(pings_.begin(), pings_.end(), [&](const SchoolInPing& one) {
+    return one.name == *name && one.name.observation == shown->index() &&
+           one.row->ping_index == workspace().document.ping();
+  });
+  return found == pings_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - pings_.begin()));
+}
+
+}  // namespace sonar

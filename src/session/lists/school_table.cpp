@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/lists/school_table.h"
+
+#include <algorithm>
+
+#include "base/units.h"
+#include "session/lists/cells.h"
+
+namespace sonar {
+namespace {
+
+/// A measured figure; unknown before it is measured.
+template <double SchoolRow::*member>
+double figure(const SurveySchool& school) {
+  return school.row == nullptr ? kUnknown : school.row->*member;
+}
+
+std::vector<ColumnOf<SurveySchool>> made_columns() {
+  using S = SurveySchool;
+  using R = SchoolRow;
+  return {
+      {{"School", "", "number of the school in its observation", true},
+       [](const S& s) { return count_cell(s.name.number); }},
+      {{"Observation", "", "", false}, [](const S& s) { return text_cell(s.observation->name()); }},
+      {{"Status", "", "what a human decided", false}, [](const S& s) { return text_cell(s.decided().status); }},
+      {{"Backscatter", "m\u00B2", "backscattering cross-section of the whole school", true},
+       [](const S& s) { return broad_cell(figure<&R::backscatter_m2>(s)); }},
+      {{"Species", "", "", false}, [](const S& s) { return text_cell(s.decided().species); }},
+      {{"First seen", "UTC", "time of its first ping", false},
+       [](const S& s) {
+         const auto& there = s.state->masks.pings;
+         const auto& navigation = s.observation->files().navigation;
+         return there.empty() ? Cell{} : time_cell(navigation[static_cast<std::size_t>(there.front().ping_index)].time);
+       }},
+      {{"Pings", "", "pings in which it was seen", true}, [](const S& s) { return count_cell(s.pings()); }},
+      {{"Depth", "m", "of its centre below the sea surface", true},
+       [](const S& s) { return number_cell(figure<&R::depth_m>(s), 1); }},
+      {{"Volume", "m\u00B3", "as the beams see it", true},
+       [](const S& s) { return number_cell(figure<&R::volume_m3>(s), 0); }},
+      {{"Volume corrected", "m\u00B3", "without the beams' width and the pulse's length", true},
+       [](const S& s) { return number_cell(figure<&R::volume_corrected_m3>(s), 0); }},
+      {{"Length", "m", "", true}, [](const S& s) { return number_cell(figure<&R::length_m>(s), 1); }},
+      {{"Width", "m", "", true}, [](const S& s) { return number_cell(figure<&R::width_m>(s), 1); }},
+      {{"Height", "m", "", true}, [](const S& s) { return number_cell(figure<&R::height_m>(s), 1); }},
+      {{"Sv", "dB re 1 m\u207B\u00B9", "mean volume backscattering strength", true},
+       [](const S& s) { return number_cell(figure<&R::sv_mean_db>(s), 1); }},
+      {{"SNR", "dB", "signal-to-noise ratio", true}, [](const S& s) { return number_cell(s.snr_db(), 1); }},
+      {{"Edge", "%", "share of its pings that touch an edge of what the sonar sees", true},
+       [](const S& s) { return number_cell(100.0 * s.edge_share(), 0); }},
+      {{"Speed", "kn", "over ground", true},
+       [](const S& s) { return number_cell(figure<&R::speed_mps>(s) / kKnot_mps, 1); }},
+      {{"Course", "\u00B0", "true, of its movement over ground", true},
+       [](const S& s) { return number_cell(figure<&R::course_deg>(s), 0); }},
+      {{"Latitude", "", "of its centre", true}, [](const S& s) { return latitude_cell(figure<&R::latitude>(s)); }},
+      {{"Longitude", "", "of its centre", true}, [](const S& s) { return longitude_cell(figure<&R::longitude>(s)); }},
+      {{"Origin", "", "who found it", false}, [](const S& s) { return text_cell(s.decided().origin); }},
+      {{"Operator", "", "who decided last", false}, [](const S& s) { return text_cell(s.decided().operator_name); }},
+      {{"Comment", "", "", false}, [](const S& s) { return text_cell(s.decided().comment); }},
+  };
+}
+
+}  // namespace
+
+const std::vector<ColumnOf<SurveySchool>>& school_columns() {
+  static const std::vector<ColumnOf<SurveySchool>> kColumns = made_columns();
+  return kColumns;
+}
+
+SchoolTable::SchoolTable(Workspace& workspace)
+    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
+                               DocumentChange::measures}),
+      titles_(titles_of(school_columns())) {}
+
+void SchoolTable::make() { schools_ = survey_schools(workspace().document); }
+
+Cell SchoolTable::cell(std::size_t row, std::size_t column) const {
+  return school_columns()[column].cell(schools_[row]);
+}
+
+void SchoolTable::select(std::size_t row) {
+  if (row >= schools_.size()) return;
+  const SurveySchool school = schools_[row];  // what follows may make the rows anew
+  go_to_school(workspace(), school);
+}
+
+std::optional<std::size_t> SchoolTable::selected() const {
+  const auto& name = workspace().school();
+  if (!name) return std::nullopt;
+  const auto found =
+      std::find_if(schools_.begin(), schools_.end(), [&](const SurveySchool& one) { return one.name == *name; });
+  return found == schools_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - schools_.begin()));
+}
+
+}  // namespace sonar

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "session/lists/document_rows.h"
+#include "session/survey_schools.h"
+
+namespace sonar {
+
+/// Columns of tables of schools.
+[[nodiscard]] const std::vector<ColumnOf<SurveySchool>>& school_columns();
+
+/// All schools of the observations that are open. A click on one selects it and goes to its middle ping.
+class SchoolTable : public DocumentRows {
+ public:
+  explicit SchoolTable(Workspace& workspace);
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return titles_; }
+  [[nodiscard]] std::size_t rows() const override { return schools_.size(); }
+  [[nodiscard]] Cell cell(std::size_t row, std::size_t column) const override;
+  void select(std::size_t row) override;
+  void open(std::size_t row) override { select(row); }
+  [[nodiscard]] std::optional<std::size_t> selected() const override;
+  [[nodiscard]] bool faded(std::size_t row) const override { return schools_[row].decided().status == "rejected"; }
+
+ protected:
+  void make() override;
+  [[nodiscard]] std::vector<SurveySchool>& schools() { return schools_; }
+  [[nodiscard]] const std::vector<SurveySchool>& schools() const { return schools_; }
+
+ private:
+  std::vector<ListColumn> titles_;
+  std::vector<SurveySchool> schools_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/live_picture.h"
+
+#include <chrono>
+#include <utility>
+
+#include "publish/painted.h"
+
+namespace sonar {
+namespace {
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+LivePicture::LivePicture(ChangeQueue& queue) : queue_(queue) {}
+
+LivePicture::~LivePicture() {
+  if (wish_) wish_->give_up();
+}
+
+void LivePicture::resize(PixelSize size, double scale) {
+  if (size == size_ && scale == scale_) return;
+  size_ = size;
+  scale_ = scale;
+  update();
+}
+
+void LivePicture::set_seen(bool seen) {
+  if (seen == seen_) return;
+  seen_ = seen;
+  if (!seen_ && wish_) {
+    // What was under way is begun anew when the picture is seen again.
+    wish_->give_up();
+    stale_ = true;
+  }
+  if (!seen_) hidden();
+  if (seen_ && stale_) update();
+}
+
+void LivePicture::behind(std::function<void()> job) {
+  background_.post([job = std::move(job)](const Wanted& /*wanted*/) { job(); });
+}
+
+void LivePicture::end_behind(const std::function<void()>& last) {
+  background_.post_latest([&last](const Wanted& /*wanted*/) { last(); });
+  background_.wait();
+}
+
+void LivePicture::update() {
+  stale_ = true;
+  if (!seen_ || size_.width < 1 || size_.height < 1) return;
+  stale_ = false;
+  Build build_now = build();
+  if (!build_now) {
+    if (wish_) wish_->give_up();
+    image_ = {};
+    problem_.clear();
+    changed_.tell();
+    return;
+  }
+  const double asked_s = seconds_now();
+  wish_ = background_.post_latest([this, build_now = std::move(build_now), size = size_, scale = scale_, asked_s,
+                                   alive = std::weak_ptr<bool>(alive_)](const Wanted& wanted) {
+    const auto post = [&](std::function<void()> change) {
+      queue_.post([alive, change = std::move(change)] {
+        if (!alive.expired()) change();
+      });
+    };
+    // Shown even where a later wish has come: while wishes come faster than pictures something must be seen.
+    const Show show = [&](Built built) {
+      auto image = built.image ? Result<Image>(std::move(*built.image)) : painted(built.frame, scale);
+      if (!image) return post([this, line = to_line(image.error())] { fail_with(line); });
+      post([this, built = std::move(built), image = std::move(*image), asked_s]() mutable {
+        put(std::move(built), std::move(image), asked_s);
+      });
+    };
+    if (auto done = build_now(size, wanted, show); !done && done.error().code != ErrorCode::cancelled) {
+      post([this, line = to_line(done.error())] { fail_with(line); });
+    }
+  });
+}
+
+void LivePicture::put(Built built, Image image, double asked_s) {
+  image_ = std::move(image);
+  problem_.clear();
+  latency_ms_ = 1e3 * (seconds_now() - asked_s);
+  ++pictures_;
+  take(built.detail);
+  changed_.tell();
+}
+
+void LivePicture::fail_with(std::string line) {
+  problem_ = std::move(line);
+  image_ = {};
+  ++pictures_;
+  changed_.tell();
+}
+
+}  // namespace sonar

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/task_thread.h"
+#include "base/work.h"
+#include "session/change_queue.h"
+#include "session/listeners.h"
+#include "view/frame_description.h"
+#include "view/image.h"
+#include "view/pointer_event.h"
+
+namespace sonar {
+
+/// Something light that a widget lays over a picture at once: the linked cursor, a rubber band, a brush.
+struct Overlay {
+  std::vector<PixelPoint> line;         ///< a polyline, or empty
+  std::optional<PixelPoint> cross;      ///< a cross-hair
+  std::optional<PixelPoint> circle_at;  ///< a ring round a place
+  double circle_px = 0.0;
+};
+
+/// A picture of the document that stays right while the document changes: its model half. Pictures are built and drawn
+/// behind the window, the latest wish wins, and the last picture stays until the next one is ready. A picture that is
+/// switched off or not seen costs nothing.
+/// threads  the window's, but for what build() returns
+class LivePicture {
+ public:
+  explicit LivePicture(ChangeQueue& queue);
+  virtual ~LivePicture();
+  LivePicture(const LivePicture&) = delete;
+  LivePicture& operator=(const LivePicture&) = delete;
+
+  /// Size of the picture on the screen; scale = device pixels per pixel.
+  void resize(PixelSize size, double scale);
+  [[nodiscard]] PixelSize size() const { return size_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  /// Off or hidden: nothing is built. Shown again: built anew where something changed meanwhile.
+  void set_seen(bool seen);
+  [[nodiscard]] bool seen() const { return seen_; }
+
+  /// The picture as it was last drawn, size() * scale() pixels; empty before the first.
+  [[nodiscard]] const Image& image() const { return image_; }
+  /// Why there is no picture; empty where there is one.
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  /// Time from the wish to the last picture, ms, for the developer's overlay.
+  [[nodiscard]] double latency_ms() const { return latency_ms_; }
+  /// Rises with every picture that is put on show.
+  [[nodiscard]] std::int64_t pictures() const { return pictures_; }
+  /// Called when image() or overlays() have changed.
+  [[nodiscard]] Listeners<>& changed() { return changed_; }
+
+  virtual void pointer(const PointerEvent& /*event*/) {}
+  [[nodiscard]] virtual std::vector<Overlay> overlays() const { return {}; }
+  /// What a tooltip says at a place; empty = nothing.
+  [[nodiscard]] virtual std::string hint(PixelPoint /*at*/) const { return {}; }
+
+  /// Returns when the picture of the last wish is on its way through the queue; for tests.
+  void wait() { background_.wait(); }
+
+ protected:
+  /// What a build brings back: a description to draw, or (for volumes) pixels that are drawn already, and something for
+  /// pointers. More may come: a build may show() several pictures, each better than the one before.
+  struct Built {
+    FrameDescription frame;
+    std::optional<Image> image;          ///< instead of drawing the frame
+    std::shared_ptr<const void> detail;  ///< handed to take()
+  };
+  using Show = std::function<void(Built)>;
+  /// Runs behind the window on copies of everything it needs. `wanted` is false once a later wish came: a build goes on to
+  /// its first picture all the same, so that something is seen while wishes come faster than pictures, and ends then.
+  using Build = std::function<Result<void>(PixelSize size, const Wanted& wanted, const Show& show)>;
+
+  /// What is to be built now; empty = there is nothing to show. Called in the window's thread.
+  [[nodiscard]] virtual Build build() = 0;
+  /// A picture is put on show.
+  virtual void take(const std::shared_ptr<const void>& /*detail*/) {}
+
+  /// The picture is not seen any more: what only pictures need may be let go.
+  virtual void hidden() {}
+
+  /// Something changed that the picture shows.
+  void update();
+  /// Carried out where pictures are built, after the one under way, unless a later wish comes before it.
+  void behind(std::function<void()> job);
+  /// For the end: nothing more is built, and `last` has been carried out where pictures were built.
+  void end_behind(const std::function<void()>& last);
+  [[nodiscard]] ChangeQueue& queue() { return queue_; }
+
+ private:
+  void put(Built built, Image image, double asked_s);
+  void fail_with(std::string line);
+
+  ChangeQueue& queue_;
+  PixelSize size_;
+  double scale_ = 1.0;
+  bool seen_ = false;
+  bool stale_ = true;
+  Image image_;
+  std::string problem_;
+  double latency_ms_ = 0.0;
+  std::int64_t pictures_ = 0;
+  Listeners<> changed_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
+  std::optional<Wanted> wish_;
+  TaskThread background_;  // the last member: it ends first
+};
+
+}  // namespace sonar

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "session/desk_parts.h"
+#include "session/maps/observation_map_model.h"
+#include "session/maps/strip_model.h"
+#include "session/maps/survey_map_model.h"
+#include "session/timelines/echograms.h"
+#include "session/timelines/timeline_actions.h"
+#include "session/timelines/timeline_model.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kMenu = "&View";
+
+void add_chart_actions(Desk& desk) {
+  desk.actions.add({.id = "map.depths",
+                    .menu = kMenu,
+                    .text = "Depth chart…",
+                    .keys = {},
+                    .tip = "A raster of depths (GEBCO, EMODnet, GeoTIFF, netCDF) to lie under the survey map",
+                    .run = [&desk] {
+                      if (!desk.asking.files_to_open) return;
+                      const auto files = desk.asking.files_to_open();
+                      if (!files.empty()) desk.workspace.depth_raster.set(files.front());
+                    }});
+  desk.actions.add({.id = "map.no_depths",
+                    .menu = kMenu,
+                    .text = "No depth chart",
+                    .keys = {},
+                    .tip = "Plain sea under the survey map",
+                    .run = [&desk] { desk.workspace.depth_raster.set({}); },
+                    .enabled = [&desk] { return !desk.workspace.depth_raster().empty(); }});
+}
+
+}  // namespace
+
+void add_maps(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  auto map = std::make_unique<ObservationMapModel>(workspace);
+  auto strip = std::make_unique<StripModel>(workspace);
+  auto survey = std::make_unique<SurveyMapModel>(workspace);
+  desk.actions.add({.id = "map.all",
+                    .menu = kMenu,
+                    .text = "Show whole maps",
+                    .keys = {"Shift+Home"},
+                    .tip = "Undo zooming and panning of the maps",
+                    .run = [map = map.get(), survey = survey.get()] {
+                      map->show_all();
+                      survey->show_all();
+                    }});
+  desk.actions.add({.id = "strip.side",
+                    .menu = kMenu,
+                    .text = "Propagation strip from the side",
+                    .keys = {"Shift+V"},
+                    .tip = "Masks of neighbouring pings from the side instead of from above",
+                    .run =
+                        [strip = strip.get()] {
+                          const bool above = strip->aspect() == MaskAspect::above;
+                          strip->set_aspect(above ? MaskAspect::side : MaskAspect::above);
+                        },
+                    .checked = [strip = strip.get()] { return strip->aspect() == MaskAspect::side; }});
+  add_chart_actions(desk);
+  add_timeline_actions(desk);
+  const auto echograms = std::make_shared<Echograms>(workspace.queue, workspace.document);
+  const auto dock = [&](std::string id, std::string title, DockPlace place, std::string view_switch,
+                        std::unique_ptr<LivePicture> picture) {
+    desk.pictures.push_back({std::move(id), std::move(title), place, std::move(view_switch), std::move(picture)});
+  };
+  dock("observation_map", "Observation map", DockPlace::right, "observation_map", std::move(map));
+  dock("propagation", "Propagation", DockPlace::bottom, "propagation", std::move(strip));
+  dock("survey_map", "Survey map", DockPlace::centre, "survey_map", std::move(survey));
+  dock("observation_timeline", "Observation timeline", DockPlace::bottom, "timeline",
+       std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::observation));
+  dock("survey_timeline", "Survey timeline", DockPlace::bottom, "timeline",
+       std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::survey));
+}
+
+}  // namespace sonar

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "view/map_frame.h"
+#include "view/pointer_event.h"
+
+namespace sonar {
+
+/// What a pointer does to a map: the wheel zooms, dragging pans, a double press shows everything again, and a press that
+/// went nowhere is a click.
+class MapGesture {
+ public:
+  enum class Did { nothing, moved, clicked };
+
+  [[nodiscard]] const MapZoom& zoom() const { return zoom_; }
+  /// place                of the map in the picture
+  /// whole_metres_per_px  of the map that shows everything
+  Did take(const PointerEvent& event, const PixelRect& place, double whole_metres_per_px);
+  /// Everything is shown again.
+  void reset() { *this = {}; }
+
+ private:
+  struct Press {
+    PixelPoint at;
+    MapZoom zoom;
+    bool moved = false;
+  };
+  MapZoom zoom_;
+  std::optional<Press> press_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/maps/observation_head.h"
+
+#include <fmt/format.h>
+
+namespace sonar {
+
+ObservationProduct observation_head(const ObservationFiles& observation) {
+  ObservationProduct head;
+  head.observation = observation.name;
+  head.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
+  head.pings = observation.navigation;
+  if (observation.grid) {
+    head.grid = GridRecord{*observation.grid, observation.sample_count, observation.range, observation.sound_speed_mps};
+  }
+  return head;
+}
+
+}  // namespace sonar

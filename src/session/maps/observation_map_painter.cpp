@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/maps/observation_map_painter.h"
+
+#include <limits>
+#include <utility>
+
+#include "session/maps/dock_theme.h"
+#include "session/maps/observation_head.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<MapSchool> schools_of(const ObservationProduct& product, std::int64_t selected, bool rejected) {
+  std::vector<MapSchool> schools;
+  auto row = product.school_pings.begin();
+  for (const SchoolRow& school : product.schools) {
+    if (!rejected && school.status == "rejected") continue;
+    MapSchool& shown = schools.emplace_back();
+    shown.number = school.school_id;
+    shown.status = school.status;
+    shown.selected = school.school_id == selected;
+    // Both tables rise with the number.
+    while (row != product.school_pings.end() && row->school_id < school.school_id) ++row;
+    for (; row != product.school_pings.end() && row->school_id == school.school_id; ++row) {
+      shown.places.push_back({row->latitude, row->longitude});
+    }
+  }
+  return schools;
+}
+
+}  // namespace
+
+Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, PixelSize size) {
+  const bool other = observation_ != wish.observation;
+  if (!other && base_ && base_->size == size && dark_ == wish.dark && zoom_ == wish.zoom) return {};
+  if (other) head_ = observation_head(wish.observation->files());
+  base_.reset();
+  observation_ = wish.observation;
+  auto base = observation_map_base(head_, size, dock_theme(size, wish.dark), wish.zoom);
+  if (!base) return pass_on(base);
+  base_ = std::move(*base);
+  dark_ = wish.dark;
+  zoom_ = wish.zoom;
+  map_ = std::make_shared<const MapFrame>(base_->map);
+  std::vector<PixelPoint> track;
+  for (const PingNavigation& n : head_.pings) {
+    const auto at = n.has_position() ? base_->map.at(n.transducer) : std::nullopt;
+    track.push_back(at.value_or(PixelPoint{kNone, kNone}));
+  }
+  track_ = std::make_shared<const std::vector<PixelPoint>>(std::move(track));
+  mosaic_.start(empty_mosaic(*base_, head_.pings.size()));
+  return {};
+}
+
+Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const ObservationMapWish& wish, PixelSize size) {
+  if (auto done = lay_out(wish, size); !done) return pass_on(done);
+  auto places = std::make_shared<ObservationMapPlaces>();
+  MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected);
+  if (wish.state) {
+    for (const auto& school : wish.state->schools) places->numbers.push_back(school->number);
+  }
+  places->pings_set = mosaic_.follow(observation_->sector(), head_.pings, std::move(masks));
+  const MaskMosaic& mosaic = mosaic_.mosaic();
+  const ObservationProduct& shown = wish.product ? *wish.product : head_;
+  Painted painted;
+  painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette);
+  if (wish.product) add_map_schools(painted.frame, *base_, schools_of(shown, wish.selected, wish.rejected));
+  places->observation = observation_->index();
+  places->map = map_;
+  places->whole_metres_per_px = map_->metres_per_px * wish.zoom.factor;
+  places->track = track_;
+  places->cell_px = mosaic.cell_px();
+  places->width = mosaic.width();
+  places->height = mosaic.height();
+  places->cells = mosaic.cells();
+  places->cells_touched = mosaic.cells_touched();
+  painted.places = std::move(places);
+  return painted;
+}
+
+}  // namespace sonar

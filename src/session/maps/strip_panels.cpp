@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/maps/strip_panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace sonar {
+namespace {
+
+/// The ping beside the last one that a school has without a break, from a ping on.
+std::int64_t end_of(const SchoolMasks& school, std::int64_t from, int step) {
+  std::int64_t ping = from;
+  while (in_ping(school, ping) != nullptr) ping += step;
+  return ping;
+}
+
+/// Why propagations ended, by the ping that they did not reach. The last one that says something of a ping counts.
+std::map<std::int64_t, std::string> endings(const JournalState& state) {
+  constexpr std::string_view kBackwards = "backwards: ";
+  std::map<std::int64_t, std::string> notes;
+  for (const Diagnostic& note : state.notes) {
+    if (note.code != DiagnosticCode::propagation_ended) continue;
+    const int step = note.text.starts_with(kBackwards) ? -1 : 1;
+    // Of several schools in the ping the youngest is the one that was carried on last.
+    for (auto school = state.schools.rbegin(); school != state.schools.rend(); ++school) {
+      if (in_ping((*school)->masks, note.ping_index) == nullptr) continue;
+      notes[end_of((*school)->masks, note.ping_index, step)] =
+          fmt::format("school {}, {}", (*school)->number, note.text);
+      break;
+    }
+  }
+  return notes;
+}
+
+}  // namespace
+
+std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPings& masks) {
+  const auto notes = wish.state ? endings(*wish.state) : std::map<std::int64_t, std::string>{};
+  const auto& ground = wish.observation->ground();
+  std::vector<PropagationPanel> panels;
+  for (std::int64_t ping = wish.first; ping < std::min(wish.first + wish.panes, wish.observation->pings()); ++ping) {
+    PropagationPanel& panel = panels.emplace_back();
+    panel.ping_index = ping;
+    panel.current = ping == wish.ping;
+    const auto i = static_cast<std::size_t>(ping);
+    const PingNavigation& navigation = wish.observation->files().navigation[i];
+    panel.time = navigation.time;
+    panel.bad = navigation.bad || (wish.state && is_bad(*wish.state, ground.times[i]));
+    if (const auto found = masks.pings.find(ping); found != masks.pings.end()) {
+      panel.masks = found->second;
+      for (const MosaicMask& mask : panel.masks) panel.school_ids.push_back(mask.school);
+    }
+    if (const auto found = notes.find(ping); found != notes.end()) panel.note = found->second;
+  }
+  return panels;
+}
+
+std::string strip_title(const StripWish& wish) {
+  std::string title = fmt::format("{}, pings {} to {}", wish.observation->name(), wish.first,
+                                  std::min(wish.first + wish.panes, wish.observation->pings()) - 1);
+  if (!wish.running.empty()) {
+    return title + fmt::format(" · propagating: {} pings, {} to {}", wish.running.size(), wish.running.begin()->first,
+                               wish.running.rbegin()->first);
+  }
+  if (wish.state && wish.selected != 0) {
+    for (const auto& school : wish.state->schools) {
+      if (school->number != wish.selected || school->masks.pings.empty()) continue;
+      title += fmt::format(" · school {} in pings {} to {}", school->number, school->masks.pings.front().ping_index,
+                           school->masks.pings.back().ping_index);
+    }
+  }
+  return title;
+}
+
+}  // namespace sonar

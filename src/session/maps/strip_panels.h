@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "session/maps/masked_pings.h"
+#include "session/maps/strip_model.h"
+
+namespace sonar {
+
+/// Everything that a strip shows, as it was when the picture was asked for.
+struct StripWish {
+  OpenObservationPtr observation;
+  JournalStatePtr state;
+  RunningMasks running;
+  std::int64_t first = 0;
+  int panes = 1;
+  std::int64_t ping = 0;
+  std::int64_t selected = 0;  ///< school number; 0 = none
+  bool rejected = true;
+  PropagationStyle style;
+  bool dark = false;
+};
+
+/// masks  own what the panels point to
+[[nodiscard]] std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPings& masks);
+/// "obs-0001, pings 3 to 9 · school 2 in 12 pings", or how far what runs has come.
+[[nodiscard]] std::string strip_title(const StripWish& wish);
+
+}  // namespace sonar

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "session/parameters.h"
+
+namespace sonar {
+
+/// Parameters of any struct, as a panel is generated from them.
+class ParameterSource {
+ public:
+  virtual ~ParameterSource() = default;
+  [[nodiscard]] virtual const std::vector<Property>& properties() const = 0;
+  /// errors  not_found
+  [[nodiscard]] virtual Result<PropertyValue> value(const std::string& name) const = 0;
+  /// errors  not_found, bad_parameter; the value stands
+  virtual Result<void> set(const std::string& name, const PropertyValue& to) = 0;
+  virtual void on_change(std::function<void()> listener) = 0;
+};
+
+template <class P>
+class SourceOf : public ParameterSource {
+ public:
+  /// The parameters outlive this.
+  explicit SourceOf(Parameters<P>& parameters) : parameters_(parameters) {}
+  [[nodiscard]] const std::vector<Property>& properties() const override { return parameters_.properties(); }
+  [[nodiscard]] Result<PropertyValue> value(const std::string& name) const override { return parameters_.value(name); }
+  Result<void> set(const std::string& name, const PropertyValue& to) override { return parameters_.set(name, to); }
+  void on_change(std::function<void()> listener) override {
+    parameters_.on_change([listener = std::move(listener)](const P&) { listener(); });
+  }
+
+ private:
+  Parameters<P>& parameters_;
+};
+
+/// A group of controls. A note is a line below a property's control that says what the value means now.
+struct PanelSection {
+  std::string title;
+  std::shared_ptr<ParameterSource> source;
+  std::vector<std::string> names = {};  ///< which properties, in order; empty = all
+  struct Note {
+    std::string name;
+    std::function<std::string()> text;
+  };
+  std::vector<Note> notes = {};
+  bool open = true;  ///< folded out at first
+};
+
+}  // namespace sonar

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace sonar {
+
+std::string label_of(std::string_view name, std::string_view unit) {
+  constexpr std::array<std::string_view, 8> kSuffixes{"_db", "_m", "_deg", "_s", "_mps", "_mps2", "_pings", "_hz"};
+  if (!unit.empty()) {
+    for (const std::string_view suffix : kSuffixes) {
+      if (!name.ends_with(suffix)) continue;
+      name.remove_suffix(suffix.size());
+      break;
+    }
+  }
+  std::string label(name);
+  std::replace(label.begin(), label.end(), '_', ' ');
+  if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+}  // namespace sonar

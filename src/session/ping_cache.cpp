@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/ping_cache.h"
+
+#include <cstdlib>
+#include <utility>
+
+namespace sonar {
+
+PingCache::PingCache(StagedPingSource source, std::int64_t pings, std::int64_t reach)
+    : source_(std::move(source)), pings_(pings), reach_(reach) {}
+
+Result<StagedPingPtr> PingCache::ping(std::int64_t ping_index) {
+  if (auto ready = held(ping_index)) return ready;
+  auto made = source_(ping_index);
+  if (made) put(ping_index, *made);
+  return made;
+}
+
+StagedPingPtr PingCache::held(std::int64_t ping_index) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = kept_.find(ping_index);
+  return found == kept_.end() ? nullptr : found->second;
+}
+
+void PingCache::put(std::int64_t ping_index, const StagedPingPtr& ping) {
+  const std::scoped_lock lock(mutex_);
+  if (std::abs(ping_index - centre_) <= reach_) kept_[ping_index] = ping;
+}
+
+void PingCache::look_at(std::int64_t ping_index, std::function<void(const Result<StagedPingPtr>&)> arrived) {
+  {
+    const std::scoped_lock lock(mutex_);
+    centre_ = ping_index;
+    std::erase_if(kept_, [&](const auto& entry) { return std::abs(entry.first - centre_) > reach_; });
+  }
+  background_.post_latest([this, ping_index, arrived = std::move(arrived)](const Wanted& wanted) {
+    const auto looked_at = ping(ping_index);
+    if (wanted() && arrived) arrived(looked_at);
+    for (std::int64_t away = 1; away <= reach_ && wanted(); ++away) {
+      // Ahead first: most look at pings in their order.
+      for (const std::int64_t i : {ping_index + away, ping_index - away}) {
+        if (i >= 0 && i < pings_ && wanted()) (void)ping(i);
+      }
+    }
+  });
+}
+
+}  // namespace sonar

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "session/pulse.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// How fast pings follow each other.
+enum class PlaySpeed : std::uint8_t { real_time, twice, five_times, fastest };
+
+/// Plays through the pings of the observation on show. It waits for each ping that it asks for, so that what plays is
+/// every ping in its order and the window never stalls.
+/// threads  the window's
+class Playback {
+ public:
+  /// Both outlive the playback.
+  Playback(Workspace& workspace, Pulse& pulse);
+  ~Playback();
+  Playback(const Playback&) = delete;
+  Playback& operator=(const Playback&) = delete;
+
+  [[nodiscard]] bool playing() const { return playing_; }
+  /// From the ping looked at; from the first where that is the last.
+  void play();
+  void pause();
+  void toggle() { playing_ ? pause() : play(); }
+
+  [[nodiscard]] PlaySpeed speed() const { return speed_; }
+  void faster();
+  void slower();
+  /// "5x", "as fast as possible".
+  [[nodiscard]] std::string speed_text() const;
+  /// Called when playing() or speed() have changed.
+  [[nodiscard]] Listeners<>& changed() { return changed_; }
+
+  /// Longest time between two pings at real time: gaps in the recording are not sat out, s.
+  static constexpr double kLongestWait_s = 10.0;
+
+ private:
+  bool step(double now_s);
+  [[nodiscard]] double wait_s(std::int64_t ping) const;
+  void set_speed(PlaySpeed speed);
+
+  Workspace& workspace_;
+  Pulse& pulse_;
+  bool playing_ = false;
+  PlaySpeed speed_ = PlaySpeed::real_time;
+  std::weak_ptr<OpenObservation> of_;  ///< what is played
+  std::int64_t ping_ = -1;             ///< that waits for its successor
+  double since_s_ = 0.0;               ///< when it was there
+  bool unreadable_ = false;            ///< the ping that was asked for cannot be had
+  Listeners<> changed_;
+  int listening_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/preferences.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/hash.h"
+#include "pipeline/json_file.h"
+#include "pipeline/json_parameters.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kMostSpecies = 9;
+constexpr std::size_t kMostFiles = 10000;
+
+/// Visitor: takes from JSON what fits and passes over the rest.
+class LenientReader {
+ public:
+  explicit LenientReader(const json& from) : from_(from) {}
+
+  template <class T>
+  void field(std::string_view name, T& value, const FieldInfo& info) {
+    const json* found = member(name);
+    if (found == nullptr) return;
+    if constexpr (std::is_same_v<T, bool>) {
+      if (found->is_boolean()) value = found->get<bool>();
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      if (found->is_string()) value = found->get<std::string>();
+    } else if constexpr (std::is_same_v<T, int>) {
+      const auto whole = whole_number(*found, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+      if (whole && within(static_cast<double>(*whole), info)) value = static_cast<int>(*whole);
+    } else {
+      if (found->is_number() && within(found->get<double>(), info)) value = found->get<double>();
+    }
+  }
+  template <class E>
+  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+    const json* found = member(name);
+    if (found == nullptr || !found->is_string()) return;
+    const auto at = std::find(names.begin(), names.end(), found->get<std::string>());
+    if (at != names.end()) value = static_cast<E>(at - names.begin());
+  }
+  template <class P>
+  void group(std::string_view name, P& p, std::string_view) {
+    const json* found = member(name);
+    if (found == nullptr) return;
+    LenientReader inner(*found);
+    describe(inner, p);
+  }
+
+ private:
+  static bool within(double value, const FieldInfo& info) { return value >= info.min && value <= info.max; }
+  [[nodiscard]] const json* member(std::string_view name) const {
+    if (!from_.is_object()) return nullptr;
+    const auto found = from_.find(std::string(name));
+    return found == from_.end() ? nullptr : &*found;
+  }
+  const json& from_;
+};
+
+/// The members that are no lists.
+template <class Visitor>
+void describe(Visitor& v, Preferences& p) {
+  v.field("window_layout", p.window_layout, {});
+  v.field("dark", p.dark, {});
+  v.group("display", p.display, {});
+  v.group("select", p.select, {});
+  v.group("volume", p.volume, {});
+  v.group("views", p.views, {});
+  v.field("operator", p.operator_name, {});
+  v.field("advance", p.advance, {});
+}
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }
+
+std::vector<std::string> texts_of(const json& list, std::size_t most) {
+  std::vector<std::string> texts;
+  if (!list.is_array()) return texts;
+  for (const json& one : list) {
+    if (one.is_string() && !one.get<std::string>().empty() && texts.size() < most)
+      texts.push_back(one.get<std::string>());
+  }
+  return texts;
+}
+
+void read_lists(const json& from, Preferences& to) {
+  if (const auto found = from.find("recent"); found != from.end() && found->is_array()) {
+    for (const json& one : *found) {
+      const auto texts = texts_of(one, kMostFiles);
+      if (!texts.empty() && to.recent.size() < Preferences::kMostRecent)
+        to.recent.emplace_back(texts.begin(), texts.end());
+    }
+  }
+  if (const auto found = from.find("species"); found != from.end()) {
+    auto species = texts_of(*found, kMostSpecies);
+    for (std::string& one : species) std::replace_if(one.begin(), one.end(), is_control, ' ');  // no journal takes them
+    if (!species.empty()) to.species = std::move(species);
+  }
+}
+
+fs::path home_folder(const char* variable, const char* below_home) {
+  if (const char* named = std::getenv(variable); named != nullptr && fs::path(named).is_absolute()) return named;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return fs::path(home) / below_home;
+  return {};
+}
+
+}  // namespace
+
+fs::path Preferences::path_of_user() {
+  const fs::path folder = home_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? fs::path{} : folder / "sonar-explorer" / "preferences.json";
+}
+
+LoadedPreferences Preferences::load(const fs::path& path) {
+  LoadedPreferences loaded;
+  loaded.preferences.path = path;
+  std::error_code absent;
+  if (path.empty() || !fs::exists(path, absent)) return loaded;
+  const auto from = read_json_file(path.string());
+  if (!from || !from->is_object()) {
+    const std::string why = from ? path.string() + ": expected an object" : to_line(from.error());
+    loaded.notice = why + "; the window begins with its defaults";
+    return loaded;
+  }
+  LenientReader reader(*from);
+  describe(reader, loaded.preferences);
+  read_lists(*from, loaded.preferences);
+  return loaded;
+}
+
+Result<void> Preferences::save() const {
+  if (path.empty()) return fail(ErrorCode::io, "there is no folder for preferences: neither XDG_CONFIG_HOME nor HOME");
+  JsonWriter writer;
+  Preferences copy = *this;
+  describe(writer, copy);
+  json to = writer.json();
+  to["species"] = species;
+  to["recent"] = json::array();
+  for (const auto& paths : recent) {
+    json texts = json::array();
+    for (const fs::path& one : paths) texts.push_back(one.string());
+    to["recent"].push_back(std::move(texts));
+  }
+  return write_json_file(path.string(), to);
+}
+
+void Preferences::apply(Workspace& workspace) const {
+  workspace.display.assign(display);
+  workspace.select.assign(select);
+  workspace.volume.assign(volume);
+  workspace.views.assign(views);
+  workspace.dark.set(dark);
+}
+
+void Preferences::take(const Workspace& workspace) {
+  display = workspace.display.values();
+  select = workspace.select.values();
+  volume = workspace.volume.values();
+  views = workspace.views.values();
+  dark = workspace.dark();
+}
+
+void Preferences::remember(std::vector<fs::path> opened) {
+  if (opened.empty()) return;
+  std::error_code unknown;
+  for (fs::path& one : opened) {
+    if (const fs::path whole = fs::absolute(one, unknown); !unknown) one = whole.lexically_normal();
+  }
+  std::erase(recent, opened);
+  recent.insert(recent.begin(), std::move(opened));
+  if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+}
+
+std::vector<fs::path> journal_folders_for(const fs::path& survey) {
+  std::vector<fs::path> folders;
+  std::error_code unknown;
+  fs::path whole = fs::weakly_canonical(fs::absolute(survey, unknown), unknown);
+  if (unknown || whole.empty()) whole = survey.lexically_normal();
+  if (whole.filename().empty()) whole = whole.parent_path();
+  const fs::path folder = fs::is_directory(whole, unknown) ? whole : whole.parent_path();
+  if (folder.has_filename()) folders.push_back(folder.parent_path() / (folder.filename().string() + "-work"));
+  const fs::path own = home_folder("XDG_STATE_HOME", ".local/state");
+  if (!own.empty()) {
+    const std::string hash = to_hex(hash_text(folder.string())).substr(0, 16);
+    folders.push_back(own / "sonar-explorer" / (folder.filename().string() + "-" + hash));
+  }
+  return folders;
+}
+
+}  // namespace sonar

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+struct LoadedPreferences;
+
+/// What a user wants of the window: never part of a result, never in a hash.
+struct Preferences {
+  static constexpr std::size_t kMostRecent = 10;
+
+  std::filesystem::path path;                              ///< empty = they are kept nowhere
+  std::vector<std::vector<std::filesystem::path>> recent;  ///< what was opened, newest first
+  std::string window_layout;                               ///< whatever the window wrote, base64
+  bool dark = false;
+  DisplayParams display;
+  SelectParams select;
+  VolumeParams volume;
+  ViewSwitches views;
+  std::string operator_name;
+  std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
+                                   "cod",     "saithe",   "krill",   "other"};  ///< digits 1 to 9
+  bool advance = true;  ///< review goes on to the next school after a decision
+
+  /// $XDG_CONFIG_HOME/sonar-explorer/preferences.json, else below ~/.config; empty where neither is known.
+  [[nodiscard]] static std::filesystem::path path_of_user();
+  /// A file that is not there is the defaults. Members that are unknown, of another type or out of range are passed over.
+  [[nodiscard]] static LoadedPreferences load(const std::filesystem::path& path);
+  /// Writes them whole or not at all.
+  /// errors  io, no_space
+  [[nodiscard]] Result<void> save() const;
+
+  void apply(Workspace& workspace) const;
+  void take(const Workspace& workspace);
+  /// What was opened comes first among the recent.
+  void remember(std::vector<std::filesystem::path> opened);
+};
+
+struct LoadedPreferences {
+  Preferences preferences;
+  std::string notice;  ///< what a user must be told: a damaged file; empty = nothing
+};
+
+/// Where the journal of a survey goes: SURVEY-work beside the survey, else a folder of the user's own. Never where raw
+/// files lie.
+/// survey  a folder of raw files, or a raw file
+[[nodiscard]] std::vector<std::filesystem::path> journal_folders_for(const std::filesystem::path& survey);
+
+}  // namespace sonar

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/preferences.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "session/desk_parts.h"
+#include "session/journal_place.h"
+#include "session/test_survey.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
+  const fs::path path = TestSurvey::easy().fresh() / "below" / "preferences.json";
+  Preferences out;
+  out.path = path;
+  out.dark = true;
+  out.advance = false;
+  out.operator_name = "Ane \u00D8.";
+  out.window_layout = "AAEC";
+  out.species = {"herring", "sprat"};
+  out.display.scale.low_db = -70.0;
+  out.display.removed = NoiseLook::transparent;
+  out.select.tolerance_db = 12.5;
+  out.volume.frames = 3;
+  out.views.volume = false;
+  out.remember({"/data/one"});
+  out.remember({"/data/a.raw", "/data/b.raw"});
+  out.remember({"/data/one"});
+  ASSERT_TRUE(out.save());
+  const auto in = Preferences::load(path);
+  EXPECT_EQ(in.notice, "");
+  EXPECT_TRUE(in.preferences.dark);
+  EXPECT_FALSE(in.preferences.advance);
+  EXPECT_EQ(in.preferences.operator_name, out.operator_name);
+  EXPECT_EQ(in.preferences.window_layout, "AAEC");
+  EXPECT_EQ(in.preferences.species, out.species);
+  const std::vector<std::vector<fs::path>> recent{{"/data/one"}, {"/data/a.raw", "/data/b.raw"}};
+  EXPECT_EQ(in.preferences.recent, recent);
+
+  ChangeQueue queue;
+  Workspace workspace(queue, {});
+  in.preferences.apply(workspace);
+  EXPECT_TRUE(workspace.dark());
+  Preferences taken;
+  taken.take(workspace);
+  EXPECT_EQ(taken.display.scale.low_db, -70.0);
+  EXPECT_EQ(taken.display.removed, NoiseLook::transparent);
+  EXPECT_EQ(taken.select.tolerance_db, 12.5);
+  EXPECT_EQ(taken.volume.frames, 3);
+  EXPECT_FALSE(taken.views.volume);
+}
+
+TEST(Preferences, TenSurveysAreRecent) {
+  Preferences preferences;
+  for (int i = 0; i < 12; ++i) preferences.remember({"/data/" + std::to_string(i)});
+  ASSERT_EQ(preferences.recent.size(), 10U);
+  EXPECT_EQ(preferences.recent.front().front(), "/data/11");
+  EXPECT_EQ(preferences.recent.back().front(), "/data/2");
+}
+
+TEST(Preferences, WhatIsUnknownOrWrongIsPassedOver) {
+  const fs::path path = TestSurvey::easy().fresh() / "preferences.json";
+  write(path, R"({"dark": true, "from_the_future": [1], "advance": "no", "species": ["cod", 7, "a\tb"],
+                  "select": {"tolerance_db": 99, "reach_pings": 12, "mode": "magic", "more": 1},
+                  "recent": [["/a"], "x", [3]]})");
+  const auto in = Preferences::load(path);
+  EXPECT_EQ(in.notice, "");
+  EXPECT_TRUE(in.preferences.dark);
+  EXPECT_TRUE(in.preferences.advance);
+  EXPECT_EQ(in.preferences.select.tolerance_db, SelectParams{}.tolerance_db);
+  EXPECT_EQ(in.preferences.select.reach_pings, 12);
+  EXPECT_EQ(in.preferences.select.mode, GrowMode::tracked);
+  EXPECT_THAT(in.preferences.species, testing::ElementsAre("cod", "a b"));
+  EXPECT_EQ(in.preferences.recent.size(), 1U);
+}
+
+TEST(Preferences, ADamagedFileIsTheDefaultsAndANotice) {
+  const fs::path path = TestSurvey::easy().fresh() / "preferences.json";
+  for (const char* text : {"{\"dark\": tr", "[]", ""}) {
+    write(path, text);
+    const auto in = Preferences::load(path);
+    EXPECT_FALSE(in.preferences.dark);
+    EXPECT_THAT(in.notice, HasSubstr("preferences.json"));
+    EXPECT_THAT(in.notice, HasSubstr("defaults"));
+  }
+  EXPECT_EQ(Preferences::load(path.parent_path() / "none.json").notice, "");
+}
+
+TEST(Preferences, WhatHindersTheirKeepingIsToldOnce) {
+  const fs::path folder = TestSurvey::easy().fresh();
+  write(folder / "file", "");
+  ChangeQueue queue;
+  Desk desk(queue, {});
+  desk.preferences.path = folder / "file" / "preferences.json";
+  keep_preferences(desk);
+  keep_preferences(desk);
+  ASSERT_EQ(desk.workspace.document.notices().size(), 1U);
+  EXPECT_THAT(desk.workspace.document.notices().front(), HasSubstr("preferences cannot be kept"));
+}
+
+TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {
+  const fs::path folder = TestSurvey::easy().fresh();
+  fs::create_directories(folder / "cruise");
+  write(folder / "cruise" / "x.raw", "");
+  ASSERT_EQ(::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1), 0);
+  const auto of_folder = journal_folders_for(folder / "cruise");
+  ASSERT_EQ(of_folder.size(), 2U);
+  EXPECT_EQ(of_folder[0], fs::canonical(folder) / "cruise-work");
+  EXPECT_EQ(of_folder[1].parent_path(), folder / "state" / "sonar-explorer");
+  EXPECT_EQ(journal_folders_for(folder / "cruise" / "x.raw"), of_folder);
+  EXPECT_EQ(journal_folders_for((folder / "cruise").string() + "/"), of_folder);
+  // Two surveys of one name do not share the user's folder.
+  fs::create_directories(folder / "other" / "cruise");
+  EXPECT_NE(journal_folders_for(folder / "other" / "cruise")[1], of_folder[1]);
+
+  // The first cannot be made: a file of its name is in the way.
+  write(folder / "cruise-work", "");
+  const auto place = place_journal(of_folder, {});
+  ::unsetenv("XDG_STATE_HOME");
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->path.parent_path(), of_folder[1]);
+  ASSERT_EQ(place->notices.size(), 1U);
+  EXPECT_THAT(place->notices.front(), HasSubstr("cannot be written to"));
+}
+
+TEST(JournalFolders, AReadOnlyFolderLeadsToTheUsersOwn) {
+  const fs::path folder = TestSurvey::easy().fresh();
+  fs::create_directories(folder / "cruise");
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  if (std::ofstream(folder / "probe").good()) GTEST_SKIP() << "nothing is read-only for this user";
+  const std::vector<fs::path> folders{folder / "cruise-work", TestSurvey::easy().fresh() / "own"};
+  const auto place = place_journal(folders, {});
+  fs::permissions(folder, fs::perms::owner_all);
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->path.parent_path(), folders[1]);
+  EXPECT_EQ(place->notices.size(), 1U);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/review.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonar {
+namespace {
+
+bool unreviewed_first(const SurveySchool& a, const SurveySchool& b) {
+  const bool a_waits = a.decided().status == "unreviewed";
+  const bool b_waits = b.decided().status == "unreviewed";
+  if (a_waits != b_waits) return a_waits;
+  // Not measured yet = last.
+  const double a_m2 = std::isnan(a.backscatter_m2()) ? -1.0 : a.backscatter_m2();
+  const double b_m2 = std::isnan(b.backscatter_m2()) ? -1.0 : b.backscatter_m2();
+  return a_m2 > b_m2;
+}
+
+}  // namespace
+
+Review::Review(Workspace& workspace, const Preferences& preferences)
+    : SchoolTable(workspace), preferences_(preferences) {}
+
+void Review::make() {
+  SchoolTable::make();
+  std::stable_sort(schools().begin(), schools().end(), unreviewed_first);
+  if (!workspace().document.choices().failure.empty()) decided_.clear();
+  std::erase_if(decided_, [&](const auto& name) {
+    return std::none_of(schools().begin(), schools().end(), [&](const SurveySchool& school) {
+      return school.name == SchoolName{name.first, name.second} && school.decided().status == "unreviewed";
+    });
+  });
+}
+
+bool Review::waits(const SurveySchool& school) const {
+  return school.decided().status == "unreviewed" && !decided_.contains({school.name.observation, school.name.number});
+}
+
+std::size_t Review::unreviewed() const {
+  return static_cast<std::size_t>(
+      std::count_if(schools().begin(), schools().end(), [&](const SurveySchool& one) { return waits(one); }));
+}
+
+void Review::next() {
+  Document& document = workspace().document;
+  if (document.survey() == nullptr) return document.tell("no survey is open");
+  const auto& observations = document.survey()->observations;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (!observations[i].grid || document.open_observation(i)) continue;
+    document.open_all();
+    break;
+  }
+  const auto at = selected();
+  const std::size_t count = schools().size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = (at ? *at + 1 + i : i) % count;
+    if ((at && row == *at) || !waits(schools()[row]) || !row_matches(*this, row, filter_)) continue;
+    return select(row);
+  }
+  const bool here = at && waits(schools()[*at]);
+  document.tell(here ? "this is the last school that is not reviewed" : "every school is reviewed");
+}
+
+void Review::say(Decision decision, const SurveySchool& school) {
+  decision.school = school.key();
+  workspace().document.act(school.name.observation, school.middle_ping(), DecideCommand{{std::move(decision)}, {}});
+}
+
+void Review::decide(std::string status) {
+  const auto school = selected_school(workspace());
+  if (!school) return workspace().document.tell("no school is selected");
+  Decision decision;
+  decision.status = std::move(status);
+  say(std::move(decision), *school);
+  decided_.insert({school->name.observation, school->name.number});
+  if (preferences_.advance && unreviewed() > 0) next();
+}
+
+std::string Review::species(int digit) const {
+  const auto at = static_cast<std::size_t>(digit - 1);
+  return digit >= 1 && at < preferences_.species.size() ? preferences_.species[at] : std::string{};
+}
+
+void Review::set_species(int digit) {
+  const auto school = selected_school(workspace());
+  if (!school) return workspace().document.tell("no school is selected");
+  if (digit != 0 && species(digit).empty()) {
+    return workspace().document.tell(fmt::format("there is no species on {}: see species in the preferences", digit));
+  }
+  Decision decision;
+  decision.species = species(digit);
+  say(std::move(decision), *school);
+}
+
+Result<void> Review::decide_all(std::string_view text) {
+  const auto rule = bulk_rule(text);
+  if (!rule) return pass_on(rule);
+  DecideCommand command;
+  command.rule = rule->text;
+  const SurveySchool* first = nullptr;
+  for (const SurveySchool& school : schools()) {
+    if (school.decided().status != "unreviewed" || !meets(*rule, school)) continue;
+    if (first == nullptr) first = &school;
+    Decision decision;
+    decision.school = school.key();
+    decision.status = rule->status;
+    command.decisions.push_back(std::move(decision));
+  }
+  if (first == nullptr) return fail(ErrorCode::usage, "no unreviewed school meets \"" + rule->text + "\"");
+  workspace().document.act(first->name.observation, first->middle_ping(), std::move(command));
+  return {};
+}
+
+}  // namespace sonar

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "session/lists/school_table.h"
+#include "session/preferences.h"
+
+namespace sonar {
+
+/// A rule over schools: "pings >= 5, snr > 10, no edge -> accept".
+struct BulkRule {
+  enum class Quantity : std::uint8_t { pings, snr_db, edge_share, volume_m3, depth_m, length_m, sv_db, backscatter_m2 };
+  enum class Sign : std::uint8_t { less, at_most, more, at_least, equal };
+  struct Condition {
+    Quantity quantity = Quantity::pings;
+    Sign sign = Sign::at_least;
+    double limit = 0.0;
+  };
+  std::vector<Condition> conditions;  ///< all of them hold
+  std::string status;                 ///< one of kStatusNames
+  std::string text;                   ///< as it was written
+};
+
+inline constexpr std::string_view kDefaultBulkRule = "pings >= 5, snr > 10, no edge -> accept";
+
+/// errors  usage: what was not understood, and what was expected
+[[nodiscard]] Result<BulkRule> bulk_rule(std::string_view text);
+/// What is not measured holds against no condition.
+[[nodiscard]] bool meets(const BulkRule& rule, const SurveySchool& school);
+
+/// The schools of the whole survey in the order in which they want to be looked at: unreviewed first, and of these those
+/// that scatter most.
+class Review : public SchoolTable {
+ public:
+  /// preferences  outlive it
+  Review(Workspace& workspace, const Preferences& preferences);
+
+  void narrow(const std::string& filter) override { filter_ = filter; }
+  /// The next unreviewed school that the filter leaves, behind the selected one, from the beginning where there is none
+  /// behind. Opens what is not open yet.
+  void next();
+  /// About the selected school; goes on to the next where preferences say so.
+  void decide(std::string status);
+  /// Name of the digit's species, 1 to 9; 0 = none. Empty where there is no such species.
+  [[nodiscard]] std::string species(int digit) const;
+  void set_species(int digit);
+  /// One step that can be undone, over all unreviewed schools of the survey.
+  /// errors  usage: a rule that is not understood, or that no school meets
+  Result<void> decide_all(std::string_view rule);
+  [[nodiscard]] std::size_t unreviewed() const;
+
+ protected:
+  void make() override;
+
+ private:
+  [[nodiscard]] bool waits(const SurveySchool& school) const;
+  void say(Decision decision, const SurveySchool& school);
+
+  const Preferences& preferences_;
+  std::string filter_;
+  /// Decided, though the journal has not said so yet.
+  std::set<std::pair<std::size_t, std::int64_t>> decided_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of the survey, and the keys of the review.
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "session/desk_parts.h"
+#include "session/lists/diagnostics_list.h"
+#include "session/lists/journal_list.h"
+#include "session/lists/school_ping_table.h"
+#include "session/lists/school_table.h"
+#include "session/lists/survey_tree.h"
+#include "session/review.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kMenu = "&Review";
+
+void decide_all(Desk& desk, Review& review) {
+  std::string rule(kDefaultBulkRule);
+  for (;;) {
+    if (!desk.asking.text) return;
+    rule = desk.asking.text("Review by a rule", "Of all schools that are not reviewed, those with", rule);
+    if (rule.empty()) return;
+    const auto done = review.decide_all(rule);
+    if (done) return;
+    // The human mends the line; a test's window answers once.
+    desk.workspace.document.tell(to_line(done.error()));
+    if (!desk.asking.yes || !desk.asking.yes(to_line(done.error()) + "\nTry again?")) return;
+  }
+}
+
+void add_decisions(Desk& desk, Review& review) {
+  const auto with_school = [&desk] { return desk.workspace.school().has_value(); };
+  desk.actions.add({.id = "review.next",
+                    .menu = kMenu,
+                    .text = "Next unreviewed school",
+                    .keys = {"N"},
+                    .tip = "Show the next school of the whole survey that nobody has decided about",
+                    .run = [&review] { review.next(); },
+                    .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; }});
+  const auto add = [&](const char* id, const char* text, std::vector<std::string> keys, const char* tip,
+                       const char* status) {
+    desk.actions.add({.id = id,
+                      .menu = kMenu,
+                      .text = text,
+                      .keys = std::move(keys),
+                      .tip = tip,
+                      .run = [&review, status] { review.decide(status); },
+                      .enabled = with_school});
+  };
+  add("review.accept", "Accept", {"A", "Return", "Enter"}, "The selected school is one", "accepted");
+  add("review.reject", "Reject", {"R"}, "The selected school is none: it stays in the tables, marked", "rejected");
+  add("review.unreview", "Not reviewed", {"U"}, "Takes the decision about the selected school back", "unreviewed");
+}
+
+void add_species(Desk& desk, Review& review) {
+  for (int digit = 0; digit <= 9; ++digit) {
+    desk.actions.add({.id = fmt::format("review.species.{}", digit),
+                      .menu = kMenu,
+                      .text = digit == 0 ? "No species" : fmt::format("Species {}", digit),
+                      .keys = {std::to_string(digit)},
+                      .tip = "Species of the selected school; the list stands in the preferences",
+                      .run = [&review, digit] { review.set_species(digit); },
+                      .enabled = [&desk] { return desk.workspace.school().has_value(); },
+                      .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); }});
+  }
+}
+
+}  // namespace
+
+void add_lists(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  desk.lists.push_back({"survey_tree", "Survey", DockPlace::left, std::make_unique<SurveyTree>(workspace), true});
+  desk.lists.push_back({"schools", "Schools", DockPlace::bottom, std::make_unique<SchoolTable>(workspace)});
+  auto pings = std::make_unique<SchoolPingTable>(workspace);
+  SchoolPingTable& ping_table = *pings;
+  desk.lists.push_back({"school_pings", "Schools in pings", DockPlace::bottom, std::move(pings)});
+  auto queue = std::make_unique<Review>(workspace, desk.preferences);
+  Review& review = *queue;
+  desk.lists.push_back({"review", "Review", DockPlace::bottom, std::move(queue)});
+  desk.lists.push_back({"journal", "Journal", DockPlace::bottom, std::make_unique<JournalList>(workspace)});
+  desk.lists.push_back({"diagnostics", "Diagnostics", DockPlace::bottom, std::make_unique<DiagnosticsList>(workspace)});
+
+  add_decisions(desk, review);
+  add_species(desk, review);
+  desk.actions.add({.id = "review.rule",
+                    .menu = kMenu,
+                    .text = "Decide by a rule...",
+                    .keys = {"Ctrl+B"},
+                    .tip = "Accept or reject every unreviewed school of the survey that meets a rule: one step to undo",
+                    .run = [&desk, &review] { decide_all(desk, review); },
+                    .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
+  desk.actions.add({.id = "review.advance",
+                    .menu = kMenu,
+                    .text = "Go on after a decision",
+                    .keys = {},
+                    .tip = "Show the next unreviewed school after each decision",
+                    .run = [&desk] { desk.preferences.advance = !desk.preferences.advance; },
+                    .checked = [&desk] { return desk.preferences.advance; }});
+  desk.actions.add({.id = "list.pings_of_all",
+                    .menu = "&View",
+                    .text = "List pings of all schools",
+                    .keys = {},
+                    .tip = "Off: of the selected school alone",
+                    .run = [&ping_table] { ping_table.show_all(!ping_table.all()); },
+                    .checked = [&ping_table] { return ping_table.all(); }});
+  // What was decided in earlier runs is seen at once, wherever in the survey it lies.
+  workspace.document.changes().add(
+      [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {
+        Document& document = workspace.document;
+        if (change == DocumentChange::survey) opened->clear();
+        if (change != DocumentChange::state || document.choices().lines->empty()) return;
+        if (*opened == document.journal_path()) return;
+        *opened = document.journal_path();
+        document.open_all();
+      });
+}
+
+}  // namespace sonar

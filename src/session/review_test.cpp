@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/review.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(BulkRules, AreReadAsTheyAreSpoken) {
+  const auto rule = bulk_rule(kDefaultBulkRule);
+  ASSERT_TRUE(rule);
+  ASSERT_EQ(rule->conditions.size(), 3U);
+  EXPECT_EQ(rule->status, "accepted");
+  EXPECT_EQ(rule->conditions[0].quantity, BulkRule::Quantity::pings);
+  EXPECT_EQ(rule->conditions[0].sign, BulkRule::Sign::at_least);
+  EXPECT_EQ(rule->conditions[0].limit, 5.0);
+  EXPECT_EQ(rule->conditions[1].quantity, BulkRule::Quantity::snr_db);
+  EXPECT_EQ(rule->conditions[1].sign, BulkRule::Sign::more);
+  EXPECT_EQ(rule->conditions[2].quantity, BulkRule::Quantity::edge_share);
+  EXPECT_EQ(bulk_rule("Volume<1e3->REJECT")->status, "rejected");
+}
+
+TEST(BulkRules, WhatIsNotUnderstoodIsNamed) {
+  for (const auto& [text, said] :
+       std::vector<std::pair<std::string, std::string>>{{"pings >= 5", "says not what to do"},
+                                                        {"pings >= 5 -> keep", "\"keep\""},
+                                                        {"-> accept", "without a condition"},
+                                                        {"pings >= five -> accept", "\"pings >= five\""},
+                                                        {"pings >= 5, colour > 2 -> accept", "\"colour > 2\""},
+                                                        {"pings >= 5,, snr > 1 -> accept", "\"\""},
+                                                        {"pings > nan -> accept", "\"pings > nan\""},
+                                                        {"", "says not what to do"}}) {
+    const auto rule = bulk_rule(text);
+    ASSERT_FALSE(rule) << text;
+    EXPECT_THAT(rule.error().text, HasSubstr(said));
+  }
+}
+
+class ReviewAtWork : public testing::Test, protected TestDesk {
+ protected:
+  void SetUp() override { begin(); }
+  /// Small schools all over two pings, none touching another.
+  void paint_schools(int count) {
+    for (int i = 0; i < count; ++i)
+      paint(i % 2, i % 2, 2 + 4 * (i / 2 % 5), 1 + 3 * (i / 10 % 6), 150 + 20 * (i / 60), 2);
+    document().settle();
+    ASSERT_EQ(document().state().schools.size(), static_cast<std::size_t>(count));
+  }
+  [[nodiscard]] Review& review() { return dynamic_cast<Review&>(*desk_->rows("review")); }
+  [[nodiscard]] int with_status(const std::string& status) {
+    int count = 0;
+    for (const SurveySchool& school : survey_schools(document())) count += school.decided().status == status ? 1 : 0;
+    return count;
+  }
+};
+
+TEST_F(ReviewAtWork, AFreshUserReviewsAHundredSchoolsWithThreeKeysEachAtMost) {
+  paint_schools(100);
+  int keys = 0;
+  const auto key = [&](const std::string& id) {
+    press(id);
+    ++keys;
+  };
+  key("review.next");
+  for (int i = 0; i < 100; ++i) {
+    // Faster than the program carries it out: nothing is drained between the keys.
+    key("review.species." + std::to_string(1 + i % 3));
+    key(i % 4 == 3 ? "review.reject" : "review.accept");
+  }
+  document().settle();
+  EXPECT_LE(keys, 300);
+  EXPECT_EQ(with_status("accepted"), 75);
+  EXPECT_EQ(with_status("rejected"), 25);
+  for (const auto& school : document().state().schools) EXPECT_FALSE(school->masks.decided.species.empty());
+  EXPECT_EQ(review().unreviewed(), 0U);
+  key("review.next");
+  EXPECT_EQ(document().notices().back(), "every school is reviewed");
+}
+
+TEST_F(ReviewAtWork, TheStrongestThatIsNotReviewedComesFirst) {
+  paint_schools(6);
+  double last_m2 = INFINITY;
+  for (std::size_t row = 0; row < review().rows(); ++row) {
+    const double m2 = std::get<double>(review().cell(row, 3).key);
+    EXPECT_EQ(review().columns()[3].title, "Backscatter");
+    EXPECT_LE(m2, last_m2);
+    last_m2 = m2;
+  }
+  press("review.next");
+  const auto first = workspace().school();
+  EXPECT_EQ(review().selected(), 0U);
+  press("review.accept");
+  document().settle();
+  EXPECT_NE(workspace().school(), first);
+  // It has gone to the end.
+  workspace().school.set(first);
+  EXPECT_EQ(review().selected(), 5U);
+}
+
+TEST_F(ReviewAtWork, NextGoesOnlyToWhatTheFilterLeaves) {
+  paint_schools(6);
+  review().narrow("school=4");
+  press("review.next");
+  EXPECT_EQ(workspace().school(), (SchoolName{0, 4}));
+}
+
+TEST_F(ReviewAtWork, WithoutAdvanceTheSchoolStays) {
+  paint_schools(3);
+  press("review.next");
+  const auto first = workspace().school();
+  press("review.advance");
+  press("review.reject");
+  document().settle();
+  EXPECT_EQ(workspace().school(), first);
+}
+
+TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
+  paint(2, 6, 5, 5, 200);
+  paint(2, 3, 12, 12, 300);
+  document().settle();
+  const std::size_t lines = document().choices().lines->size();
+  desk_->asking.text = [](const auto&, const auto&, const std::string& rule) {
+    EXPECT_EQ(rule, kDefaultBulkRule);
+    return std::string("pings >= 5 -> accept");
+  };
+  press("review.rule");
+  document().settle();
+  EXPECT_EQ(document().choices().lines->size(), lines + 1);
+  EXPECT_EQ(last_line().command, "bulk_decide");
+  EXPECT_EQ(last_line().args["rule"], "pings >= 5 -> accept");
+  EXPECT_EQ(with_status("accepted"), 1);
+  EXPECT_EQ(with_status("unreviewed"), 1);
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(with_status("accepted"), 0);
+}
+
+TEST_F(ReviewAtWork, ARuleReachesAllObservationsAtOnce) {
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(review().decide_all("pings > 1 -> reject"));
+  document().settle();
+  EXPECT_EQ(with_status("rejected"), 2);
+  document().undo();
+  document().settle();
+  EXPECT_EQ(with_status("rejected"), 0);
+  EXPECT_FALSE(review().decide_all("pings > 100 -> reject"));
+}
+
+}  // namespace
+}  // namespace sonar

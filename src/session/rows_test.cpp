@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "session/lists/cells.h"
+
+namespace sonar {
+namespace {
+
+/// Three fish in two columns.
+class Fish : public Rows {
+ public:
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return columns_; }
+  [[nodiscard]] std::size_t rows() const override { return 3; }
+  [[nodiscard]] Cell cell(std::size_t row, std::size_t column) const override { return cells_[row][column]; }
+
+ private:
+  std::vector<ListColumn> columns_{{"Name", "", "", false}, {"Depth mean", "m", "", true}};
+  std::vector<std::vector<Cell>> cells_{{text_cell("Herring"), number_cell(9.5, 1)},
+                                        {text_cell("Blue\twhiting"), number_cell(120.0, 1)},
+                                        {text_cell("Cod"), number_cell(std::nan(""), 1)}};
+};
+
+TEST(Rows, NumbersSortAsNumbersAndTheUnknownLastBothWays) {
+  const std::vector<Cell> cells{number_cell(120.0, 1), {}, number_cell(9.5, 1)};
+  std::vector<std::size_t> up{0, 1, 2};
+  std::sort(up.begin(), up.end(), [&](auto a, auto b) { return cell_less(cells[a], cells[b], false); });
+  EXPECT_EQ(up, (std::vector<std::size_t>{2, 0, 1}));
+  // A widget that sorts downwards asks with the cells exchanged.
+  std::vector<std::size_t> down{0, 1, 2};
+  std::sort(down.begin(), down.end(), [&](auto a, auto b) { return cell_less(cells[b], cells[a], true); });
+  EXPECT_EQ(down, (std::vector<std::size_t>{0, 2, 1}));
+}
+
+TEST(Rows, ASpreadsheetGetsTabsBetweenAndNoneWithin) {
+  EXPECT_EQ(tab_separated(Fish(), {1, 2}), "Name\tDepth mean [m]\nBlue whiting\t120.0\nCod\t\n");
+}
+
+TEST(Rows, AFilterTakesWordsAndLimits) {
+  const Fish fish;
+  const auto left = [&](const std::string& filter) {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < 3; ++row) {
+      if (row_matches(fish, row, filter)) rows.push_back(row);
+    }
+    return rows;
+  };
+  using Left = std::vector<std::size_t>;
+  EXPECT_EQ(left(""), (Left{0, 1, 2}));
+  EXPECT_EQ(left("HER"), (Left{0}));
+  EXPECT_EQ(left("h i"), (Left{0, 1}));
+  EXPECT_EQ(left("depth>10"), (Left{1}));
+  EXPECT_EQ(left("depthmean<=9.5"), (Left{0}));
+  EXPECT_EQ(left("depth>1 blue"), (Left{1}));
+  EXPECT_EQ(left("length>1"), Left{});  // no such column: a word like any other
+}
+
+TEST(Cells, AreAsPeopleReadThem) {
+  EXPECT_EQ(time_cell(1'600'000'000 * kSecondNs).text, "2020-09-13 12:26:40");
+  EXPECT_EQ(time_cell(0).text, "");
+  EXPECT_EQ(span_text(1'600'000'000 * kSecondNs, 1'600'000'060 * kSecondNs), "2020-09-13 12:26:40 \u2013 12:27:40");
+  EXPECT_EQ(span_text(1'600'000'000 * kSecondNs, 1'600'086'400 * kSecondNs),
+            "2020-09-13 12:26:40 \u2013 2020-09-14 12:26:40");
+  EXPECT_EQ(latitude_cell(60.5).text, "60\u00B030.000\u2032 N");
+  EXPECT_EQ(longitude_cell(std::nan("")).text, "");
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is done to the selected school, and undo and redo.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "session/desk_parts.h"
+#include "session/survey_schools.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kMenu = "&Schools";
+
+/// The selected school, where it lies in the observation on show: acts are done on the ping that is looked at.
+std::optional<SurveySchool> school_on_show(const Workspace& workspace) {
+  auto school = selected_school(workspace);
+  const auto& shown = workspace.document.shown();
+  return school && shown && shown->index() == school->name.observation ? std::move(school) : std::nullopt;
+}
+
+std::function<bool()> with_school(const Desk& desk) {
+  return [&desk] { return school_on_show(desk.workspace).has_value(); };
+}
+
+/// A school that waits for the one that is to become part of it.
+struct Merging {
+  std::optional<SchoolName> first;
+};
+
+void merge_selected(Workspace& workspace, Merging& merging) {
+  const auto second = school_on_show(workspace);
+  if (!merging.first || !second || second->name == *merging.first) return;
+  const SchoolName first = *std::exchange(merging.first, std::nullopt);
+  if (first.observation != second->name.observation) {
+    return workspace.document.tell("only schools of one observation can be merged");
+  }
+  for (const auto& one : workspace.document.state(first.observation).schools) {
+    if (one->number != first.number) continue;
+    const SchoolKey key = key_of(one->masks, second->observation->ground());
+    workspace.document.act(MergeCommand{{key, second->key()}});
+    return workspace.school.set(first);
+  }
+}
+
+void begin_merging(Workspace& workspace, Merging& merging) {
+  merging.first = workspace.school();
+  workspace.document.tell(
+      fmt::format("select the school that is to become part of school {}; Esc gives up", merging.first->number));
+}
+
+void reshape(Workspace& workspace, Reshaping what, bool all_pings) {
+  if (const auto school = school_on_show(workspace)) {
+    workspace.document.act(ReshapeCommand{what, school->key(), all_pings});
+  }
+}
+
+void split_under_cursor(Workspace& workspace) {
+  const auto school = school_on_show(workspace);
+  const auto& cursor = workspace.cursor();
+  if (!school || !cursor) return workspace.document.tell("point at the piece that is to become a school of its own");
+  const BeamGrid& grid = school->observation->grid();
+  const auto row = static_cast<std::size_t>(cursor->fan * grid.beams() + cursor->beam);
+  if (row >= grid.channel.size()) return;
+  workspace.document.act(SplitCommand{school->key(), SeedKey{grid.channel[row], cursor->sample}});
+}
+
+/// Carries the selected school on from the mask that it has in the ping that is looked at.
+void carry_on(Workspace& workspace, bool backwards, bool forwards) {
+  const auto school = school_on_show(workspace);
+  if (!school) return;
+  const SelectParams& select = workspace.select.values();
+  const Recipe& recipe = workspace.document.recipe();
+  PropagateCommand command;
+  command.mode = select.mode;
+  command.grow = recipe.grow;
+  command.grow.mode = select.mode;
+  command.grow.connectivity = select.connectivity;
+  command.grow.tolerance_db = select.tolerance_db;
+  command.grow.tolerance_opacity = select.tolerance_opacity;
+  command.growth_curve = workspace.growth_curve();
+  command.paper = recipe.propagate_paper;
+  command.tracked = recipe.propagate_tracked;
+  command.reach = select.reach_pings;
+  if (!backwards) command.reach_backward = 0;
+  if (!forwards) command.reach_forward = 0;
+  command.school = school->key();
+  workspace.document.act(std::move(command));
+}
+
+void comment(Desk& desk) {
+  const auto school = school_on_show(desk.workspace);
+  if (!school || !desk.asking.text) return;
+  std::string text =
+      desk.asking.text(fmt::format("School {}", school->name.number), "Comment", school->decided().comment);
+  // An empty answer is either a human who declined or a comment that is wiped out; only the latter has one to wipe.
+  if (text == school->decided().comment || text.empty()) return;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  Decision decision;
+  decision.school = school->key();
+  decision.comment = std::move(text);
+  desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+}
+
+void name_species(Desk& desk) {
+  const auto school = school_on_show(desk.workspace);
+  if (!school || !desk.asking.text) return;
+  std::string text =
+      desk.asking.text(fmt::format("School {}", school->name.number), "Species", school->decided().species);
+  if (text == school->decided().species || text.empty()) return;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  Decision decision;
+  decision.school = school->key();
+  decision.species = std::move(text);
+  desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+}
+
+void detect(Document& document, bool all) {
+  if (!document.shown()) return document.tell("nothing is open in which schools could be looked for");
+  std::vector<std::size_t> observations{document.shown()->index()};
+  if (all) {
+    observations.clear();
+    for (std::size_t i = 0; i < document.survey()->observations.size(); ++i) {
+      if (document.survey()->observations[i].grid) observations.push_back(i);
+    }
+  }
+  document.detect(std::move(observations));
+}
+
+void add_undo(Desk& desk) {
+  Document& document = desk.workspace.document;
+  desk.actions.add({.id = "edit.undo",
+                    .menu = "&Edit",
+                    .text = "Undo",
+                    .keys = {"Ctrl+Z"},
+                    .tip = "Take back the last act; there is no limit",
+                    .run = [&document] { document.undo(); },
+                    .enabled = [&document] { return !document.choices().undo_text.empty(); },
+                    .text_now = [&document] { return document.choices().undo_text; }});
+  desk.actions.add({.id = "edit.redo",
+                    .menu = "&Edit",
+                    .text = "Redo",
+                    .keys = {"Ctrl+Shift+Z", "Ctrl+Y"},
+                    .tip = "Do again what was undone",
+                    .run = [&document] { document.redo(); },
+                    .enabled = [&document] { return !document.choices().redo_text.empty(); },
+                    .text_now = [&document] { return document.choices().redo_text; }});
+}
+
+void add_search(Desk& desk) {
+  Document& document = desk.workspace.document;
+  desk.actions.add({.id = "schools.detect",
+                    .menu = kMenu,
+                    .text = "Look for schools in this observation",
+                    .keys = {"D"},
+                    .tip = "Detect schools without a human; what humans decided stays",
+                    .run = [&document] { detect(document, false); }});
+  desk.actions.add({.id = "schools.detect_all",
+                    .menu = kMenu,
+                    .text = "Look for schools in the whole survey",
+                    .keys = {"Ctrl+D"},
+                    .tip = "Detect schools in every observation; what humans decided stays",
+                    .run = [&document] { detect(document, true); }});
+}
+
+void add_carrying(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  const auto add = [&](const char* id, const char* text, const char* key, bool backwards, bool forwards) {
+    desk.actions.add({.id = id,
+                      .menu = kMenu,
+                      .text = text,
+                      .keys = {key},
+                      .tip = "Follow the selected school through time from the mask that it has in this ping",
+                      .run = [&workspace, backwards, forwards] { carry_on(workspace, backwards, forwards); },
+                      .enabled = with_school(desk)});
+  };
+  add("school.propagate_forwards", "Propagate forwards from here", "P", false, true);
+  add("school.propagate_backwards", "Propagate backwards from here", "Shift+P", true, false);
+  add("school.propagate", "Propagate both ways from here", "Ctrl+P", true, true);
+}
+
+void add_reshaping(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  const auto add = [&](const char* id, const char* text, const char* key, const char* whole_key, const char* tip,
+                       Reshaping what) {
+    desk.actions.add({.id = id,
+                      .menu = kMenu,
+                      .text = text,
+                      .keys = {key},
+                      .tip = fmt::format("{}, in this ping", tip),
+                      .run = [&workspace, what] { reshape(workspace, what, false); },
+                      .enabled = with_school(desk)});
+    desk.actions.add({.id = std::string(id) + "_all",
+                      .menu = kMenu,
+                      .text = std::string(text) + ", whole track",
+                      .keys = {whole_key},
+                      .tip = fmt::format("{}, in all its pings", tip),
+                      .run = [&workspace, what] { reshape(workspace, what, true); },
+                      .enabled = with_school(desk)});
+  };
+  add("school.fill_holes", "Fill holes", "H", "Shift+H", "Give the selected school what it encloses",
+      Reshaping::fill_holes);
+  add("school.smooth", "Smooth", "Ctrl+H", "Ctrl+Shift+H", "Take off spikes and close notches of the selected school",
+      Reshaping::smooth);
+  add("school.largest_part", "Keep the largest part", "L", "Shift+L", "Drop all but the largest piece",
+      Reshaping::largest_part);
+}
+
+void add_parting(Desk& desk, const std::shared_ptr<Merging>& merging) {
+  Workspace& workspace = desk.workspace;
+  desk.actions.add({.id = "school.split",
+                    .menu = kMenu,
+                    .text = "Split from here on",
+                    .keys = {"K"},
+                    .tip = "This ping and all later ones become a new school",
+                    .run =
+                        [&workspace] {
+                          if (const auto school = school_on_show(workspace)) {
+                            workspace.document.act(SplitCommand{school->key(), {}});
+                          }
+                        },
+                    .enabled = with_school(desk)});
+  desk.actions.add({.id = "school.split_piece",
+                    .menu = kMenu,
+                    .text = "Split off the piece pointed at",
+                    .keys = {"Shift+K"},
+                    .tip = "The piece under the cursor becomes a new school, through all pings",
+                    .run = [&workspace] { split_under_cursor(workspace); },
+                    .enabled = with_school(desk)});
+  desk.actions.add({.id = "school.merge",
+                    .menu = kMenu,
+                    .text = "Merge with the next selected",
+                    .keys = {"J"},
+                    .tip = "The school that is selected next becomes part of this one",
+                    .run = [&workspace, merging] { begin_merging(workspace, *merging); },
+                    .enabled = with_school(desk)});
+  workspace.school.changed().add([&workspace, merging] { merge_selected(workspace, *merging); });
+}
+
+void add_naming(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  desk.actions.add({.id = "school.species",
+                    .menu = kMenu,
+                    .text = "Species...",
+                    .keys = {"Ctrl+Shift+K"},
+                    .tip = "Name the species of the selected school; digits set those of the preferences",
+                    .run = [&desk] { name_species(desk); },
+                    .enabled = with_school(desk)});
+  desk.actions.add({.id = "school.comment",
+                    .menu = kMenu,
+                    .text = "Comment...",
+                    .keys = {"Ctrl+K"},
+                    .tip = "A line of text about the selected school",
+                    .run = [&desk] { comment(desk); },
+                    .enabled = with_school(desk)});
+  desk.actions.add({.id = "school.delete",
+                    .menu = kMenu,
+                    .text = "Delete",
+                    .keys = {"Delete"},
+                    .tip = "The selected school is no more; undo brings it back",
+                    .run =
+                        [&workspace] {
+                          if (const auto school = school_on_show(workspace)) {
+                            workspace.document.act(DeleteCommand{school->key()});
+                          }
+                        },
+                    .enabled = with_school(desk)});
+}
+
+}  // namespace
+
+void add_school_acts(Desk& desk) {
+  const auto merging = std::make_shared<Merging>();
+  add_undo(desk);
+  add_search(desk);
+  add_carrying(desk);
+  Workspace& workspace = desk.workspace;
+  desk.actions.add({.id = "school.stop",
+                    .menu = kMenu,
+                    .text = "Stop",
+                    .keys = {"Esc"},
+                    .tip = "End the propagation that runs: what it reached stays",
+                    .run = [&workspace, merging] {
+                      merging->first.reset();
+                      workspace.document.stop_propagation();
+                    }});
+  add_reshaping(desk);
+  add_parting(desk, merging);
+  add_naming(desk);
+  desk.actions.add({.id = "school.none",
+                    .menu = kMenu,
+                    .text = "Select none",
+                    .keys = {"Shift+Esc"},
+                    .tip = "No school is selected any more",
+                    .run = [&workspace] { workspace.school.set(std::nullopt); },
+                    .enabled = with_school(desk)});
+}
+
+}  // namespace sonar

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include "session/playback.h"
+#include "session/slices/slice_actions.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kMenu = "&Navigate";
+constexpr std::int64_t kPage = 10;
+
+bool has_pings(const Desk& desk) { return desk.workspace.document.shown() != nullptr; }
+
+void add_step(Desk& desk, const char* id, const char* text, const char* key, const char* tip, std::int64_t by) {
+  desk.actions.add({id,
+                    kMenu,
+                    text,
+                    {key},
+                    tip,
+                    [&desk, by] {
+                      Document& document = desk.workspace.document;
+                      document.look_at(document.ping() + by);
+                    },
+                    [&desk] { return has_pings(desk); }});
+}
+
+void add_end(Desk& desk, const char* id, const char* text, const char* key, bool last) {
+  desk.actions.add({id,
+                    kMenu,
+                    text,
+                    {key},
+                    "",
+                    [&desk, last] {
+                      Document& document = desk.workspace.document;
+                      if (document.shown()) document.look_at(last ? document.shown()->pings() - 1 : 0);
+                    },
+                    [&desk] { return has_pings(desk); }});
+}
+
+/// by_fan, by_beam  one of them is 0
+void add_place(Desk& desk, const char* id, const char* text, const char* key, int by_fan, int by_beam) {
+  desk.actions.add({id,
+                    kMenu,
+                    text,
+                    {key},
+                    "",
+                    [&desk, by_fan, by_beam] {
+                      const auto& shown = desk.workspace.document.shown();
+                      if (!shown) return;
+                      SlicePlaces places = desk.workspace.slices();
+                      places.fan = std::clamp(places.fan + by_fan, 0, shown->sector().fans() - 1);
+                      places.beam = std::clamp(places.beam + by_beam, 0, shown->sector().beams() - 1);
+                      desk.workspace.slices.set(places);
+                    },
+                    [&desk] { return has_pings(desk); }});
+}
+
+void add_playing(Desk& desk) {
+  Playback& playback = *desk.playback;
+  desk.actions.add({"ping.play",
+                    kMenu,
+                    "Play",
+                    {"Space"},
+                    "Play through the pings, or pause",
+                    [&playback] { playback.toggle(); },
+                    [&desk] { return has_pings(desk); },
+                    [&playback] { return playback.playing(); },
+                    [&playback] { return (playback.playing() ? "Pause (" : "Play (") + playback.speed_text() + ")"; }});
+  desk.actions.add({"ping.faster",
+                    kMenu,
+                    "Play faster",
+                    {"+", "="},
+                    "Real time, twice, five times, as fast as possible",
+                    [&playback] { playback.faster(); },
+                    [&playback] { return playback.speed() != PlaySpeed::fastest; }});
+  desk.actions.add({"ping.slower",
+                    kMenu,
+                    "Play slower",
+                    {"-"},
+                    "As fast as possible, five times, twice, real time",
+                    [&playback] { playback.slower(); },
+                    [&playback] { return playback.speed() != PlaySpeed::real_time; }});
+}
+
+}  // namespace
+
+void add_navigation_actions(Desk& desk) {
+  add_step(desk, "ping.next", "Next ping", "Right", "", 1);
+  add_step(desk, "ping.previous", "Previous ping", "Left", "", -1);
+  add_step(desk, "ping.forward", "Ten pings forward", "PgDown", "", kPage);
+  add_step(desk, "ping.back", "Ten pings back", "PgUp", "", -kPage);
+  add_end(desk, "ping.first", "First ping", "Home", false);
+  add_end(desk, "ping.last", "Last ping", "End", true);
+  add_playing(desk);
+  add_place(desk, "slice.fan_up", "Top slice: next fan up", "Up", 1, 0);
+  add_place(desk, "slice.fan_down", "Top slice: next fan down", "Down", -1, 0);
+  add_place(desk, "slice.beam_up", "Side slice: next beam", "Shift+Up", 0, 1);
+  add_place(desk, "slice.beam_down", "Side slice: previous beam", "Shift+Down", 0, -1);
+}
+
+}  // namespace sonar

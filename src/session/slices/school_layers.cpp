@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/slices/school_layers.h"
+
+#include <utility>
+
+namespace sonar {
+namespace {
+
+MaskLayer layer_of(std::shared_ptr<const PingMask> mask, Rgba8 colour) {
+  const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
+  return {std::move(mask), {share(colour.r), share(colour.g), share(colour.b)}};
+}
+
+/// The colour of what a propagation carries: the selected school's, else the one that the next school will have.
+Rgba8 carried_colour(const Workspace& workspace, const Theme& theme) {
+  const JournalState& state = workspace.document.state();
+  const auto selected = workspace.selected();
+  if (selected) return drawn_colour(*state.schools[*selected], theme);
+  return school_colour(static_cast<int>(state.next_number));
+}
+
+}  // namespace
+
+Rgba8 drawn_colour(const StateSchool& school, const Theme& theme) {
+  if (school.masks.decided.status == "rejected") return theme.muted;
+  return school_colour(static_cast<int>(school.number));
+}
+
+Rgba8 preview_colour() { return {0, 240, 240, 255}; }
+
+std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t ping_index, const Theme& theme) {
+  std::vector<SchoolLayer> layers;
+  const DisplayParams& display = workspace.display.values();
+  const Document& document = workspace.document;
+  const Preview& preview = workspace.preview();
+  const bool previewed = preview.mask && preview.ping_index == ping_index;
+  const auto selected = workspace.selected();
+  const auto& schools = document.state().schools;
+  for (std::size_t i = 0; i < schools.size() && display.masks; ++i) {
+    const auto& school = schools[i];
+    const auto* there = in_ping(school->masks, ping_index);
+    const bool rejected = school->masks.decided.status == "rejected";
+    const bool replaced = previewed && preview.instead_of == school->number;
+    if (there == nullptr || replaced || (rejected && !display.rejected)) continue;
+    // The mask lives in the school, which the layer keeps.
+    layers.push_back({school->number, i == selected,
+                      layer_of(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme))});
+  }
+  if (const auto found = document.propagating().find(ping_index);
+      found != document.propagating().end() && display.masks) {
+    layers.push_back(
+        {0, false, layer_of(std::make_shared<const PingMask>(found->second), carried_colour(workspace, theme))});
+  }
+  if (previewed) layers.push_back({0, false, layer_of(preview.mask, preview_colour())});
+  return layers;
+}
+
+std::shared_ptr<const PingMask> fuzzy_area(std::shared_ptr<const PingMask> mask, double fuzzy_above) {
+  if (!mask || !(fuzzy_above > 0.0)) return mask;
+  auto left = std::make_shared<PingMask>();
+  std::size_t i = 0;
+  for (const Run& run : mask->runs) {
+    bool open = false;
+    for (int s = run.first_sample; s < run.end(); ++s, ++i) {
+      const bool inside = mask->confidence[i] / 255.0 > fuzzy_above;
+      if (inside && !open) left->runs.push_back({run.row, s, 0});
+      if (inside) {
+        ++left->runs.back().count;
+        left->confidence.push_back(mask->confidence[i]);
+      }
+      open = inside;
+    }
+  }
+  return left;
+}
+
+}  // namespace sonar

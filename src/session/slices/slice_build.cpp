@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/slices/slice_build.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+std::vector<int> rows_of(const Slice& slice, const Sector& sector) {
+  std::vector<int> rows;
+  if (const auto* top = std::get_if<TopSlice>(&slice)) {
+    for (int beam = 0; beam < sector.beams(); ++beam) rows.push_back(top->fan * sector.beams() + beam);
+  } else if (const auto* side = std::get_if<SideSlice>(&slice)) {
+    for (int fan = 0; fan < sector.fans(); ++fan) rows.push_back(fan * sector.beams() + side->beam);
+  }
+  return rows;
+}
+
+SlicePing titled(const SliceWish& wish) {
+  const OpenObservation& observation = *wish.observation;
+  const PingNavigation& navigation = observation.files().navigation[static_cast<std::size_t>(wish.ping->ping_index)];
+  SlicePing ping;
+  ping.observation = observation.name();
+  ping.ping_index = wish.ping->ping_index;
+  ping.time = navigation.time;
+  ping.heading_rad = rad_from_deg(navigation.heading_deg);
+  ping.transducer_depth_m = navigation.transducer_depth_m;
+  ping.frequency_hz = observation.grid().frequency_hz;
+  return ping;
+}
+
+/// The selected school's name beside its first voxel of the slice.
+void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
+  for (const SchoolLayer& school : wish.layers) {
+    if (!school.selected || !school.layer.mask) continue;
+    const int beams = wish.observation->sector().beams();
+    for (const Run& run : school.layer.mask->runs) {
+      const Voxel voxel{run.row / beams, run.row % beams, run.end() - 1};
+      const auto* top = std::get_if<TopSlice>(&wish.view.slice);
+      const auto* side = std::get_if<SideSlice>(&wish.view.slice);
+      if ((top != nullptr && voxel.fan != top->fan) || (side != nullptr && voxel.beam != side->beam)) continue;
+      const auto at = picture.place_of(voxel);
+      if (!at) return;
+      picture.frame.items.emplace_back(ClipItem{picture.plot.place});
+      picture.frame.items.emplace_back(TextItem{{at->x + 0.5 * theme.text_px, at->y},
+                                                fmt::format("school {}", school.number),
+                                                theme.text_px,
+                                                theme.text,
+                                                TextAnchor::left,
+                                                0.0,
+                                                true,
+                                                theme.halo});
+      picture.frame.items.emplace_back(ClipItem{});
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
+  const Volume& volume = wish.display.filtered ? *wish.ping->filtered : wish.ping->sv;
+  SliceData data;
+  data.sv = volume.counts.view();
+  data.flags = wish.ping->filtered->flags.view();
+  if (wish.display.weak != NoiseLook::shown) {
+    if (wish.flags->shape() != data.flags.shape()) *wish.flags = Array3<SampleFlags>(data.flags.shape());
+    flag_weak_rows(*wish.ping, rows_of(wish.view.slice, wish.observation->sector()), wish.display.weak_below_db,
+                   wish.flags->view());
+    data.flags = View3<const SampleFlags>(wish.flags->view());
+  }
+  for (const SchoolLayer& school : wish.layers) {
+    MaskLayer layer = school.layer;
+    layer.mask = fuzzy_area(layer.mask, wish.display.fuzzy_above);
+    data.masks.push_back(std::move(layer));
+  }
+  SliceStyle style;
+  style.colours = *wish.colours;
+  style.flags = flag_style(wish.display);
+  style.masks.core_at = wish.display.core_at;
+  style.grid = wish.display.grid_lines;
+  style.north_up = wish.north_up;
+  const Theme theme = wish.dark ? dark_theme(size) : light_theme(size);
+  auto picture =
+      slice_picture(wish.observation->sector(), data, titled(wish), wish.view, style, theme, size, wish.earlier);
+  if (picture) name_selected(*picture, wish, theme);
+  return picture;
+}
+
+}  // namespace sonar

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "session/slices/school_layers.h"
+#include "session/slices/slice_look.h"
+#include "view/slice_picture.h"
+
+namespace sonar {
+
+/// Everything that a slice's picture depends on, copied so that it can be made behind the window.
+struct SliceWish {
+  OpenObservationPtr observation;
+  StagedPingPtr ping;
+  SliceView view;
+  DisplayParams display;
+  std::shared_ptr<const SvColours> colours;
+  std::vector<SchoolLayer> layers;
+  bool north_up = false;
+  bool dark = false;
+  std::shared_ptr<const SliceMap> earlier;
+  std::shared_ptr<Array3<SampleFlags>> flags;  ///< room for the flags of this slice; one picture at a time uses it
+};
+
+/// errors  as slice_picture()
+[[nodiscard]] Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size);
+
+}  // namespace sonar

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/slices/slice_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+#include "session/slices/slice_build.h"
+
+namespace sonar {
+namespace {
+
+template <class S>
+std::function<void()> listen(S& to, std::function<void()> what) {
+  const int id = to.changed().add(std::move(what));
+  return [&to, id] { to.changed().remove(id); };
+}
+
+}  // namespace
+
+SliceModel::SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, BrushTool& brush)
+    : LivePicture(workspace.queue), side_(side), workspace_(workspace), seed_(seed), brush_(brush) {
+  const int document = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
+  listening_.push_back([this, document] { workspace_.document.changes().remove(document); });
+  const auto anew = [this] { update(); };
+  const auto over = [this] { changed().tell(); };
+  const auto recolour = [this] { forget_colours(); };
+  listening_.push_back(listen(workspace.slices, anew));
+  listening_.push_back(listen(workspace.school, anew));
+  listening_.push_back(listen(workspace.preview, anew));
+  listening_.push_back(listen(workspace.dark, anew));
+  listening_.push_back(listen(workspace.view_curve, recolour));
+  listening_.push_back(listen(workspace.curve_follows_scale, recolour));
+  listening_.push_back(listen(workspace.cursor, over));
+  listening_.push_back(listen(workspace.tool, over));
+  listening_.push_back(listen(workspace.brush_px, over));
+  workspace.display.on_change([this, alive = std::weak_ptr<bool>(alive_)](const DisplayParams&) {
+    if (!alive.expired()) forget_colours();
+  });
+}
+
+SliceModel::~SliceModel() {
+  for (const auto& end : listening_) end();
+}
+
+void SliceModel::hear(DocumentChange change) {
+  switch (change) {
+    case DocumentChange::survey:
+    case DocumentChange::observation:
+      if (change == DocumentChange::observation && workspace_.document.shown() == of_.lock()) return;
+      of_ = workspace_.document.shown();
+      extent_.reset();
+      picture_.reset();
+      return update();
+    case DocumentChange::ping:
+    case DocumentChange::state:
+      return update();
+    case DocumentChange::propagating:
+      if (workspace_.document.propagating().contains(workspace_.document.ping())) update();
+      return;
+    default:
+      return;
+  }
+}
+
+void SliceModel::forget_colours() {
+  colours_.reset();
+  update();
+}
+
+Slice SliceModel::slice() const {
+  const SlicePlaces& places = workspace_.slices();
+  return side_ == SliceSide::top ? Slice(TopSlice{places.fan}) : Slice(SideSlice{places.beam});
+}
+
+LivePicture::Build SliceModel::build() {
+  const Document& document = workspace_.document;
+  if (!document.shown() || !document.staged()) return {};
+  SliceWish wish;
+  wish.observation = document.shown();
+  wish.ping = document.staged();
+  wish.display = workspace_.display.values();
+  wish.dark = workspace_.dark();
+  const auto ping = static_cast<std::size_t>(wish.ping->ping_index);
+  const double heading_deg = wish.observation->files().navigation[ping].heading_deg;
+  wish.north_up = side_ == SliceSide::top && wish.display.north_up && !std::isnan(heading_deg);
+  wish.view = {slice(), wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
+  if (!colours_) colours_ = std::make_shared<const SvColours>(slice_colours(workspace_));
+  wish.colours = colours_;
+  const Theme theme = wish.dark ? dark_theme(size()) : light_theme(size());
+  wish.layers = school_layers(workspace_, wish.ping->ping_index, theme);
+  if (picture_) wish.earlier = picture_->map;
+  wish.flags = flags_;
+  return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+    auto picture = slice_of(wish, size);
+    if (!picture) return pass_on(picture);
+    auto detail = std::make_shared<const SlicePicture>(std::move(*picture));
+    show({detail->frame, std::nullopt, detail});
+    return {};
+  };
+}
+
+void SliceModel::take(const std::shared_ptr<const void>& detail) {
+  const auto before = std::exchange(picture_, std::static_pointer_cast<const SlicePicture>(detail));
+  const bool moved = before && !(before->map->view().slice == picture_->map->view().slice);
+  // Another slice has come under a pointer that rests.
+  if (moved && pointer_) point({PointerAction::move, PointerButton::none, *pointer_});
+}
+
+std::optional<Voxel> SliceModel::voxel_at(PixelPoint at) const {
+  return picture_ ? picture_->voxel_at(at) : std::nullopt;
+}
+
+PixelPoint SliceModel::on_map(PixelPoint at) const {
+  return {at.x - picture_->plot.place.x, at.y - picture_->plot.place.y};
+}
+
+std::string SliceModel::hint(PixelPoint at) const {
+  const auto voxel = voxel_at(at);
+  const Document& document = workspace_.document;
+  if (!voxel || !document.shown() || !document.staged()) return {};
+  const ReadOut text = read_out(workspace_, *voxel);
+  std::string hint = text.sv;
+  if (const std::string& why = text.flags; !why.empty()) hint += "\nremoved: " + why;
+  const int row = voxel->fan * document.shown()->sector().beams() + voxel->beam;
+  const auto snr_db = signal_to_noise_db(*document.staged(), row, voxel->sample);
+  if (snr_db && *snr_db < workspace_.display.values().weak_below_db) {
+    hint += fmt::format("\nweak: {:.1f} dB above the background noise", *snr_db);
+  }
+  if (!text.school.empty()) hint += "\n" + text.school;
+  if (!workspace_.preview().text.empty()) hint += "\n" + workspace_.preview().text;
+  return hint;
+}
+
+}  // namespace sonar

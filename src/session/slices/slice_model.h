@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/live_picture.h"
+#include "session/tools/brush_tool.h"
+#include "session/tools/seed_tool.h"
+#include "session/workspace.h"
+#include "view/slice_picture.h"
+
+namespace sonar {
+
+/// Which of the two slices of a sector.
+enum class SliceSide : std::uint8_t {
+  top,   ///< one fan, seen from above
+  side,  ///< one beam of all fans, seen from the side
+};
+
+/// A slice of the ping on show with everything that lies over it, and what pointers do to it: move = cursor and preview;
+/// left = the tool; alt-left = select only; middle = pan; wheel = next fan or beam, with control zoom; right twice = all
+/// of it.
+class SliceModel : public LivePicture {
+ public:
+  /// All outlive the model.
+  SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, BrushTool& brush);
+  ~SliceModel() override;
+
+  void pointer(const PointerEvent& event) override;
+  [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] std::string hint(PixelPoint at) const override;
+  /// All of the sector again.
+  void show_all();
+  [[nodiscard]] bool zoomed() const { return extent_.has_value(); }
+  /// The picture on show; null before the first.
+  [[nodiscard]] const std::shared_ptr<const SlicePicture>& picture() const { return picture_; }
+
+ protected:
+  [[nodiscard]] Build build() override;
+  void take(const std::shared_ptr<const void>& detail) override;
+
+ private:
+  void hear(DocumentChange change);
+  void forget_colours();
+  [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint at) const;
+  [[nodiscard]] PixelPoint on_map(PixelPoint at) const;
+  [[nodiscard]] Slice slice() const;
+  [[nodiscard]] bool on_brush() const { return workspace_.tool() != ToolName::seed; }
+  void point(const PointerEvent& event);
+  void press(const PointerEvent& event, bool double_press);
+  void move(const PointerEvent& event);
+  void release(const PointerEvent& event);
+  void leave();
+  void turn_wheel(const PointerEvent& event);
+  void zoom(PixelPoint about, double factor);
+  void pan(PixelPoint by);
+  void step(int by);
+
+  SliceSide side_;
+  Workspace& workspace_;
+  SeedTool& seed_;
+  BrushTool& brush_;
+  std::weak_ptr<OpenObservation> of_;  ///< the observation on show
+  std::shared_ptr<const SlicePicture> picture_;
+  std::shared_ptr<const SvColours> colours_;                                              ///< null = to be made
+  std::shared_ptr<Array3<SampleFlags>> flags_ = std::make_shared<Array3<SampleFlags>>();  ///< of builds
+  std::optional<SliceExtent> extent_;                                                     ///< empty = all
+  std::optional<PixelPoint> pointer_;  ///< where the pointer is; empty = elsewhere
+  std::optional<PixelPoint> panned_;   ///< where it was while the picture is dragged
+  double wheel_ = 0.0;                 ///< steps that make no whole one yet
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  std::vector<std::function<void()>> listening_;  ///< end it
+};
+
+}  // namespace sonar

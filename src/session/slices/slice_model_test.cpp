@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/slices/slice_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/units.h"
+#include "publish/painted.h"
+#include "session/slices/school_layers.h"
+#include "session/slices/slice_look.h"
+#include "session/slices/test_slices.h"
+
+namespace sonar {
+namespace {
+
+class SlicesAtWork : public testing::Test {
+ protected:
+  void SetUp() override { desk_.look_at_bright(); }
+  Workspace& workspace() { return desk_.workspace(); }
+  const Voxel& bright() { return SlicesDesk::bright().voxel; }
+  Rgba8 pixel(SliceModel& slice, const Voxel& voxel) {
+    const PixelPoint at = *slice.picture()->place_of(voxel);
+    return slice.image().at(static_cast<int>(at.x), static_cast<int>(at.y));
+  }
+  /// What a pixel of plain data must look like.
+  Rgba8 sv_colour(SliceModel& slice, const Voxel& voxel) {
+    // The voxel that the pixel shows, which need not be the one whose centre lies in it.
+    const PixelPoint at = *slice.picture()->place_of(voxel);
+    const Voxel shown = *slice.picture()->voxel_at({std::floor(at.x) + 0.5, std::floor(at.y) + 0.5});
+    const auto& staged = *desk_.document().staged();
+    const Volume& volume = workspace().display.values().filtered ? *staged.filtered : staged.sv;
+    return sv_colours(workspace().display.values().scale)[volume.counts(shown.fan, shown.beam, shown.sample)];
+  }
+  void plain_display() {
+    DisplayParams params = workspace().display.values();
+    params.removed = params.weak = NoiseLook::shown;
+    workspace().display.assign(params);
+    desk_.settle();
+  }
+
+  SlicesDesk desk_;
+};
+
+TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
+  plain_display();
+  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+    EXPECT_EQ(slice->image().size, (PixelSize{480, 360}));
+    EXPECT_TRUE(slice->problem().empty());
+    EXPECT_EQ(pixel(*slice, bright()), sv_colour(*slice, bright()));
+  }
+  EXPECT_FALSE(desk_.top().picture()->place_of({bright().fan + 1, bright().beam, bright().sample}));
+  desk_.ask("display.filtered");
+  desk_.settle();
+  EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
+  desk_.ask("display.weak");
+  desk_.settle();
+  EXPECT_EQ(workspace().display.values().scale.low_db, -70.0);
+  EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
+}
+
+TEST_F(SlicesAtWork, TheWheelTurnsToTheNextFanAndBeam) {
+  PointerEvent wheel = desk_.at(desk_.top(), bright(), PointerAction::wheel);
+  wheel.wheel_steps = 0.5;  // a fine wheel
+  desk_.top().pointer(wheel);
+  EXPECT_EQ(workspace().slices().fan, bright().fan);
+  desk_.top().pointer(wheel);
+  EXPECT_EQ(workspace().slices().fan, bright().fan + 1);
+  wheel = desk_.at(desk_.side(), bright(), PointerAction::wheel);
+  wheel.wheel_steps = -100.0;
+  desk_.side().pointer(wheel);
+  EXPECT_EQ(workspace().slices(), (SlicePlaces{bright().fan + 1, 0}));
+  desk_.settle();
+  EXPECT_TRUE(desk_.side().picture()->place_of({3, 0, 100}));
+  desk_.ask("slice.fan_down");
+  desk_.ask("slice.beam_up");
+  EXPECT_EQ(workspace().slices(), (SlicePlaces{bright().fan, 1}));
+}
+
+TEST_F(SlicesAtWork, ZoomKeepsThePlaceUnderThePointerAndPanFollowsIt) {
+  SliceModel& top = desk_.top();
+  PointerEvent wheel = desk_.at(top, bright(), PointerAction::wheel);
+  wheel.wheel_steps = 3.0;
+  wheel.control = true;
+  const double before_m = top.picture()->map->extent().x1 - top.picture()->map->extent().x0;
+  top.pointer(wheel);
+  desk_.settle();
+  const double after_m = top.picture()->map->extent().x1 - top.picture()->map->extent().x0;
+  EXPECT_NEAR(after_m, before_m / std::pow(1.25, 3.0), 1e-6 * before_m);
+  PixelPoint now = *top.picture()->place_of(bright());
+  EXPECT_NEAR(now.x, wheel.at.x, 1e-6);
+  EXPECT_NEAR(now.y, wheel.at.y, 1e-6);
+  top.pointer({PointerAction::press, PointerButton::middle, {200.0, 150.0}});
+  top.pointer({PointerAction::move, PointerButton::middle, {220.0, 140.0}});
+  top.pointer({PointerAction::release, PointerButton::middle, {220.0, 140.0}});
+  top.pointer({PointerAction::move, PointerButton::none, {300.0, 300.0}});
+  desk_.settle();
+  now = *top.picture()->place_of(bright());
+  EXPECT_NEAR(now.x, wheel.at.x + 20.0, 1e-6);
+  EXPECT_NEAR(now.y, wheel.at.y - 10.0, 1e-6);
+  top.pointer({PointerAction::double_press, PointerButton::right, {200.0, 150.0}});
+  desk_.settle();
+  EXPECT_FALSE(top.zoomed());
+  EXPECT_NEAR(top.picture()->map->extent().x1 - top.picture()->map->extent().x0, before_m, 1e-9);
+}
+
+TEST_F(SlicesAtWork, TheCursorOfOneViewIsSeenInTheOtherWithTheLineOfTheOtherSlice) {
+  desk_.top().pointer(desk_.at(desk_.top(), bright(), PointerAction::move));
+  ASSERT_TRUE(workspace().cursor());
+  EXPECT_EQ(workspace().cursor()->beam, bright().beam);
+  const auto over = desk_.side().overlays();
+  ASSERT_EQ(over.size(), 2U);
+  ASSERT_EQ(over[0].line.size(), 2U);
+  EXPECT_EQ(desk_.side().picture()->voxel_at(over[0].line[1])->fan, bright().fan);
+  ASSERT_TRUE(over[1].cross);
+  const auto voxel = desk_.side().picture()->voxel_at(*over[1].cross);
+  ASSERT_TRUE(voxel);
+  EXPECT_EQ(voxel->fan, bright().fan);
+  EXPECT_NEAR(voxel->sample, bright().sample, 8);
+  EXPECT_EQ(desk_.top().overlays().size(), 1U) << "no cross under the pointer itself";
+  desk_.top().pointer({PointerAction::leave, PointerButton::none, {}});
+  EXPECT_FALSE(workspace().cursor());
+  EXPECT_EQ(desk_.side().overlays().size(), 1U);
+}
+
+TEST_F(SlicesAtWork, AHoverIsDrawnAndAClickTakesItsPlace) {
+  SliceModel& top = desk_.top();
+  const std::int64_t before = top.pictures();
+  top.pointer(desk_.at(top, bright(), PointerAction::move));
+  desk_.settle();
+  EXPECT_GT(top.pictures(), before);
+  ASSERT_TRUE(workspace().preview().mask);
+  const auto theme = light_theme({480, 360});
+  auto layers = school_layers(workspace(), desk_.document().ping(), theme);
+  ASSERT_EQ(layers.size(), 1U);
+  EXPECT_EQ(layers[0].number, 0);
+  desk_.click(top, bright());
+  desk_.settle();
+  ASSERT_EQ(desk_.document().state().schools.size(), 1U);
+  layers = school_layers(workspace(), desk_.document().ping(), theme);
+  ASSERT_EQ(layers.size(), 1U);
+  EXPECT_EQ(layers[0].number, 1);
+  EXPECT_TRUE(layers[0].selected);
+  desk_.ask("display.masks");
+  desk_.settle();
+  EXPECT_TRUE(school_layers(workspace(), desk_.document().ping(), theme).empty());
+}
+
+TEST_F(SlicesAtWork, TheHintNamesLevelReasonAndSchool) {
+  SliceModel& top = desk_.top();
+  desk_.click(top, bright());
+  desk_.settle();
+  EXPECT_THAT(top.hint(*top.picture()->place_of(bright())),
+              testing::AllOf(testing::HasSubstr("Sv -"), testing::HasSubstr("school 1")));
+  const auto& flags = desk_.document().staged()->filtered->flags;
+  int reasons = 0;
+  for (int sample = 0; sample < flags.shape().samples; ++sample) {
+    const auto at = top.picture()->place_of({bright().fan, bright().beam, sample});
+    const auto shown = at ? top.picture()->voxel_at(*at) : std::nullopt;
+    if (!shown || !any(flags(shown->fan, shown->beam, shown->sample))) continue;
+    const std::string why = flag_text(flags(shown->fan, shown->beam, shown->sample));
+    EXPECT_THAT(top.hint(*at), testing::HasSubstr("removed: " + why));
+    ++reasons;
+  }
+  EXPECT_GT(reasons, 0);
+  EXPECT_EQ(top.hint({-10.0, -10.0}), "");
+}
+
+TEST_F(SlicesAtWork, NothingIsBuiltForASliceThatIsNotSeen) {
+  desk_.side().set_seen(false);
+  const std::int64_t before = desk_.side().pictures();
+  desk_.ask("ping.next");
+  desk_.settle();
+  EXPECT_EQ(desk_.side().pictures(), before);
+  desk_.side().set_seen(true);
+  desk_.settle();
+  EXPECT_GT(desk_.side().pictures(), before);
+}
+
+TEST_F(SlicesAtWork, WeakSamplesAreThoseThatHardlyRiseAboveTheBackground) {
+  const StagedPing& ping = *desk_.document().staged();
+  Array3<SampleFlags> flags(ping.filtered->flags.shape());
+  const int row = bright().fan * 25 + bright().beam;
+  flag_weak_rows(ping, {row}, 3.0, flags.view());
+  int weak = 0;
+  for (int s = 0; s < flags.shape().samples; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    const auto snr_db = signal_to_noise_db(ping, row, s);
+    const SampleFlags flag = flags.view().row(row)[i];
+    EXPECT_EQ(flag & static_cast<SampleFlags>(127),
+              ping.filtered->flags.view().row(row)[i] & static_cast<SampleFlags>(127));
+    if (!snr_db || std::abs(*snr_db - 3.0) < 0.02) continue;
+    EXPECT_EQ(any(flag & SampleFlags::low_snr), *snr_db < 3.0) << s;
+    weak += *snr_db < 3.0 ? 1 : 0;
+  }
+  EXPECT_GT(weak, 0);
+  EXPECT_GT(*signal_to_noise_db(ping, row, bright().sample), 3.0);
+}
+
+TEST(FlagStyleOfTheDisplay, FollowsBothChoices) {
+  DisplayParams display;
+  display.removed = NoiseLook::shown;
+  display.weak = NoiseLook::shown;
+  EXPECT_EQ(flag_style(display), FlagStyle{});
+  display.removed = NoiseLook::transparent;
+  display.weak = NoiseLook::hatched;
+  EXPECT_EQ(flag_style(display).hidden, kNotFiltered);
+  EXPECT_EQ(flag_style(display).hatched, SampleFlags::low_snr);
+}
+
+TEST(FuzzyArea, KeepsWhatIsSurer) {
+  const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 4}, {4, 7, 1}}, {100, 30, 200, 51, 20}});
+  EXPECT_EQ(fuzzy_area(mask, 0.0), mask);
+  EXPECT_EQ(*fuzzy_area(mask, 0.2), (PingMask{{{3, 10, 1}, {3, 12, 1}}, {100, 200}}));  // 51 / 255 is not above 0.2
+}
+
+TEST(DrawnColour, RejectedIsGreyAndNoSchoolLooksLikeThePreview) {
+  const Theme theme = dark_theme({480, 360});
+  StateSchool school;
+  for (school.number = 1; school.number < 20; ++school.number) EXPECT_NE(drawn_colour(school, theme), preview_colour());
+  school.masks.decided.status = "rejected";
+  EXPECT_EQ(drawn_colour(school, theme), theme.muted);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/survey_schools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+const SchoolRow* row_of(const ObservationProduct& product, std::int64_t number) {
+  const auto found = std::lower_bound(product.schools.begin(), product.schools.end(), number,
+                                      [](const SchoolRow& one, std::int64_t n) { return one.school_id < n; });
+  return found == product.schools.end() || found->school_id != number ? nullptr : &*found;
+}
+
+SurveySchool made(const Document& document, std::size_t observation, std::shared_ptr<const StateSchool> state) {
+  SurveySchool school;
+  school.name = {observation, state->number};
+  school.observation = document.open_observation(observation);
+  school.product = document.product(observation);
+  if (school.product) school.row = row_of(*school.product, state->number);
+  school.state = std::move(state);
+  return school;
+}
+
+/// Fan and beam through the middle of a mask, each voxel counted by its confidence.
+SlicePlaces middle_of(const PingMask& mask, int beams) {
+  double fan = 0.0;
+  double beam = 0.0;
+  double all = 0.0;
+  std::size_t at = 0;
+  for (const Run& run : mask.runs) {
+    double weight = 0.0;
+    for (int i = 0; i < run.count; ++i) weight += mask.confidence[at++];
+    fan += weight * (run.row / beams);
+    beam += weight * (run.row % beams);
+    all += weight;
+  }
+  if (!(all > 0.0)) return {};
+  return {static_cast<int>(std::lround(fan / all)), static_cast<int>(std::lround(beam / all))};
+}
+
+}  // namespace
+
+std::int64_t SurveySchool::middle_ping() const {
+  const auto& there = state->masks.pings;
+  return there.empty() ? 0 : there[there.size() / 2].ping_index;
+}
+
+double SurveySchool::snr_db() const {
+  if (!product) return kUnknown;
+  double signal = 0.0;
+  double volume = 0.0;
+  const auto& all = product->school_pings;
+  auto ping = std::lower_bound(all.begin(), all.end(), name.number,
+                               [](const SchoolPingRow& one, std::int64_t n) { return one.school_id < n; });
+  for (; ping != all.end() && ping->school_id == name.number; ++ping) {
+    if (std::isnan(ping->snr_db) || !(ping->volume_m3 > 0.0)) continue;
+    signal += ping->volume_m3 * linear_from_db(ping->snr_db);
+    volume += ping->volume_m3;
+  }
+  return volume > 0.0 ? db_from_linear(signal / volume) : kUnknown;
+}
+
+std::vector<SurveySchool> survey_schools(const Document& document) {
+  std::vector<SurveySchool> schools;
+  for (const auto& [index, state] : document.choices().states) {
+    if (!state || !document.open_observation(index)) continue;
+    for (const auto& school : state->schools) schools.push_back(made(document, index, school));
+  }
+  return schools;
+}
+
+std::optional<SurveySchool> selected_school(const Workspace& workspace) {
+  const auto& name = workspace.school();
+  if (!name || !workspace.document.open_observation(name->observation)) return std::nullopt;
+  for (const auto& school : workspace.document.state(name->observation).schools) {
+    if (school->number == name->number) return made(workspace.document, name->observation, school);
+  }
+  return std::nullopt;
+}
+
+void go_to_ping(Workspace& workspace, std::size_t observation, std::int64_t ping_index) {
+  const auto& shown = workspace.document.shown();
+  if ((!shown || shown->index() != observation) && !workspace.document.show(observation)) return;
+  workspace.document.look_at(ping_index);
+}
+
+void go_to_school(Workspace& workspace, const SurveySchool& school) {
+  go_to_ping(workspace, school.name.observation, school.middle_ping());
+  if (const auto* there = in_ping(school.state->masks, school.middle_ping())) {
+    workspace.slices.set(middle_of(there->mask, school.observation->sector().beams()));
+  }
+  workspace.school.set(school.name);
+}
+
+}  // namespace sonar

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// A school of the survey: what humans and detection made of it, and its figures as far as they are measured.
+struct SurveySchool {
+  SchoolName name;
+  std::shared_ptr<const StateSchool> state;
+  OpenObservationPtr observation;
+  ProductPtr product;              ///< keeps `row`
+  const SchoolRow* row = nullptr;  ///< null = not measured yet, or nothing of it counts
+
+  [[nodiscard]] const SchoolRow& decided() const { return state->masks.decided; }
+  [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(state->masks.pings.size()); }
+  [[nodiscard]] std::int64_t middle_ping() const;
+  [[nodiscard]] double backscatter_m2() const { return row == nullptr ? kUnknown : row->backscatter_m2; }
+  /// Signal-to-noise over its pings: the mean of the linear ratios, each weighted by its volume, in dB; NaN = unknown.
+  [[nodiscard]] double snr_db() const;
+  /// Share of its pings that touch an edge; NaN = unknown.
+  [[nodiscard]] double edge_share() const { return row == nullptr ? kUnknown : row->touches_edge_fraction; }
+  /// One of its voxels, as commands name it.
+  [[nodiscard]] SchoolKey key() const { return key_of(state->masks, observation->ground()); }
+};
+
+/// Of all observations that are open, by observation and number.
+[[nodiscard]] std::vector<SurveySchool> survey_schools(const Document& document);
+/// Empty where there is none, or none is selected.
+[[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
+
+/// Selects a school, looks at its observation and its middle ping, and lays the slices through its middle.
+void go_to_school(Workspace& workspace, const SurveySchool& school);
+/// Looks at a ping of an observation; opens the observation where needed.
+void go_to_ping(Workspace& workspace, std::size_t observation, std::int64_t ping_index);
+
+}  // namespace sonar

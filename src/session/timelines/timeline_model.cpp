@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/timelines/timeline_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "session/timelines/timeline_painter.h"
+#include "view/map_items.h"
+
+namespace sonar {
+namespace {
+
+/// Opens the observation where needed.
+void look_at_ping(Document& document, std::size_t observation, std::int64_t ping) {
+  const auto& shown = document.shown();
+  if ((!shown || shown->index() != observation) && !document.show(observation)) return;
+  document.look_at(ping);
+}
+
+}  // namespace
+
+double TimelinePlaces::x_of(TimeNs time) const {
+  return plot.at(static_cast<double>(time - zero) / 1e9, plot.y.first).x;
+}
+
+TimeNs TimelinePlaces::time_at(double x_px) const {
+  return zero + static_cast<TimeNs>(std::llround(plot.x_at(x_px) * 1e9));
+}
+
+TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> echograms, TimelineOf of)
+    : LivePicture(workspace.queue),
+      workspace_(workspace),
+      echograms_(std::move(echograms)),
+      of_(of),
+      painter_(std::make_shared<TimelinePainter>()) {
+  listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
+  listening_.to(workspace.school.changed(), [this] { update(); });
+  listening_.to(workspace.marked_interval.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.dark.changed(), [this] { update(); });
+  listening_.to(echograms_->changed(), [this] {
+    // Nobody looks: what is being filled may rest.
+    if (!seen()) echograms_->want(this, {});
+    update();
+  });
+}
+
+TimelineModel::~TimelineModel() { echograms_->want(this, {}); }
+
+void TimelineModel::hear(DocumentChange change) {
+  switch (change) {
+    case DocumentChange::survey:
+      places_.reset();
+      marking_from_.reset();
+      workspace_.marked_interval.set(std::nullopt);
+      return update();
+    case DocumentChange::observation:
+      if (of_ == TimelineOf::observation) places_.reset();
+      return update();
+    case DocumentChange::ping:
+      return changed().tell();  // the playhead is an overlay
+    case DocumentChange::state:
+    case DocumentChange::measures:
+      return update();
+    case DocumentChange::propagating:
+    case DocumentChange::progress:
+    case DocumentChange::notice:
+      return;
+  }
+}
+
+std::vector<std::size_t> TimelineModel::observations() const {
+  const auto& shown = workspace_.document.shown();
+  if (!shown) return {};
+  if (of_ == TimelineOf::observation) return {shown->index()};
+  std::vector<std::size_t> all;
+  const auto& observations = shown->survey().observations;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (observations[i].grid) all.push_back(i);
+  }
+  std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+    return observations[a].navigation.front().time < observations[b].navigation.front().time;
+  });
+  return all;
+}
+
+LivePicture::Build TimelineModel::build() {
+  const Document& document = workspace_.document;
+  const auto& shown = document.shown();
+  if (!shown) return {};
+  TimelineWish wish;
+  wish.survey = {shown, &shown->survey()};
+  std::vector<std::size_t> fill{shown->index()};
+  for (const std::size_t index : observations()) {
+    TimelineWish::Observation& one = wish.observations.emplace_back();
+    one.index = index;
+    one.product = document.product(index);
+    one.open = document.open_observation(index);
+    if (const auto found = document.choices().states.find(index); found != document.choices().states.end()) {
+      one.state = found->second;
+    }
+    one.echogram = echograms_->of(index);
+    if (workspace_.school() && workspace_.school()->observation == index) one.selected = workspace_.school()->number;
+    if (index != shown->index()) fill.push_back(index);
+  }
+  echograms_->want(this, std::move(fill));
+  wish.dark = workspace_.dark();
+  return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+    auto painted = painter->paint(wish, size);
+    if (!painted) return pass_on(painted);
+    show({std::move(painted->frame), std::nullopt, std::move(painted->places)});
+    return {};
+  };
+}
+
+void TimelineModel::take(const std::shared_ptr<const void>& detail) {
+  places_ = std::static_pointer_cast<const TimelinePlaces>(detail);
+}
+
+std::optional<SurveyPlace> TimelineModel::ping_at(PixelPoint at) const {
+  const auto& shown = workspace_.document.shown();
+  if (!places_ || !shown) return std::nullopt;
+  const TimeNs time = places_->time_at(at.x);
+  std::optional<SurveyPlace> nearest;
+  TimeNs best = 0;
+  for (const std::size_t index : observations()) {
+    const auto& pings = shown->survey().observations[index].navigation;
+    const auto after = std::lower_bound(pings.begin(), pings.end(), time,
+                                        [](const PingNavigation& n, TimeNs t) { return n.time < t; });
+    for (const auto step : {std::ptrdiff_t{-1}, std::ptrdiff_t{0}}) {
+      const auto i = (after - pings.begin()) + step;
+      if (i < 0 || i >= static_cast<std::ptrdiff_t>(pings.size())) continue;
+      const TimeNs away = std::abs(pings[static_cast<std::size_t>(i)].time - time);
+      // Where two sounders ran at one time the observation on show is meant.
+      if (nearest && (away > best || (away == best && index != shown->index()))) continue;
+      best = away;
+      nearest = SurveyPlace{index, i};
+    }
+  }
+  return nearest;
+}
+
+void TimelineModel::mark(const SurveyPlace& from, const SurveyPlace& to) {
+  // An interval lies in one observation: the one where it was begun.
+  const auto& pings = workspace_.document.shown()->survey().observations[from.observation].navigation;
+  std::int64_t last = to.ping;
+  if (to.observation != from.observation) {
+    last = to.observation > from.observation ? static_cast<std::int64_t>(pings.size()) - 1 : 0;
+  }
+  workspace_.marked_interval.set(
+      MarkedInterval{from.observation, std::min(from.ping, last), std::max(from.ping, last)});
+}
+
+void TimelineModel::pointer(const PointerEvent& event) {
+  const auto there = ping_at(event.at);
+  if (!there) return;
+  const auto go = [&] {
+    const auto& shown = workspace_.document.shown();
+    if (shown->index() == there->observation && workspace_.document.ping() == there->ping) return;
+    look_at_ping(workspace_.document, there->observation, there->ping);
+  };
+  switch (event.action) {
+    case PointerAction::press:
+      if (event.button != PointerButton::left) return;
+      if (event.shift) {
+        marking_from_ = *there;
+        return mark(*there, *there);
+      }
+      scrubbing_ = true;
+      workspace_.marked_interval.set(std::nullopt);
+      return go();
+    case PointerAction::move:
+      if (event.button != PointerButton::left) {
+        scrubbing_ = false;
+        marking_from_.reset();
+        return;
+      }
+      if (marking_from_) return mark(*marking_from_, *there);
+      if (scrubbing_) go();
+      return;
+    case PointerAction::release:
+      scrubbing_ = false;
+      marking_from_.reset();
+      return;
+    case PointerAction::double_press:
+    case PointerAction::wheel:
+    case PointerAction::leave:
+      return;
+  }
+}
+
+std::vector<Overlay> TimelineModel::overlays() const {
+  std::vector<Overlay> out;
+  const auto& shown = workspace_.document.shown();
+  if (!places_ || !shown) return out;
+  const PixelRect& place = places_->plot.place;
+  const auto& observations = shown->survey().observations;
+  const auto x_of = [&](std::size_t observation, std::int64_t ping) {
+    const auto& pings = observations[observation].navigation;
+    const double x = places_->x_of(pings[static_cast<std::size_t>(ping)].time);
+    return std::clamp(x, place.x, place.x + place.width);
+  };
+  const double bottom = place.y + place.height;
+  const double now = x_of(shown->index(), workspace_.document.ping());
+  Overlay playhead;
+  playhead.line = {{now, place.y}, {now, bottom}};
+  out.push_back(std::move(playhead));
+  const auto& marked = workspace_.marked_interval();
+  if (marked && marked->observation < observations.size() &&
+      (of_ == TimelineOf::survey || marked->observation == shown->index())) {
+    const double from = x_of(marked->observation, marked->first_ping);
+    const double to = std::max(from + 2.0, x_of(marked->observation, marked->last_ping));
+    Overlay box;
+    box.line = {{from, place.y}, {to, place.y}, {to, bottom}, {from, bottom}, {from, place.y}};
+    out.push_back(std::move(box));
+  }
+  return out;
+}
+
+std::string TimelineModel::hint(PixelPoint at) const {
+  const auto there = ping_at(at);
+  if (!there) return {};
+  const auto& observation = workspace_.document.shown()->survey().observations[there->observation];
+  const auto& navigation = observation.navigation[static_cast<std::size_t>(there->ping)];
+  std::string text =
+      fmt::format("{}, ping {}\n{} UTC", observation.name, there->ping, clock_text(navigation.time, true));
+  const auto open = workspace_.document.open_observation(there->observation);
+  if (!open) return text;
+  for (const EventCommand& event : workspace_.document.state(there->observation).events) {
+    if (std::abs(places_->x_of(shown_time(*open, event.time)) - at.x) > 8.0) continue;
+    text += fmt::format("\n{}{}{}", event.kind, event.text.empty() ? "" : ": ", event.text);
+  }
+  return text;
+}
+
+}  // namespace sonar

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/live_picture.h"
+#include "session/maps/listening.h"
+#include "session/timelines/echograms.h"
+#include "session/workspace.h"
+#include "view/timeline.h"
+
+namespace sonar {
+
+class TimelinePainter;
+
+/// Where a timeline shows which time; x is seconds since `zero`.
+struct TimelinePlaces {
+  PlotFrame plot;
+  TimeNs zero = 0;
+  [[nodiscard]] double x_of(TimeNs time) const;
+  [[nodiscard]] TimeNs time_at(double x_px) const;
+};
+
+/// A ping of the survey.
+struct SurveyPlace {
+  std::size_t observation = 0;
+  std::int64_t ping = 0;
+  friend bool operator==(const SurveyPlace&, const SurveyPlace&) = default;
+};
+
+enum class TimelineOf : std::uint8_t { survey, observation };
+
+/// Range against time: echogram as far as it is read, schools, events, bad intervals; the ping on show is a line over it. A
+/// click or dragging goes to a ping, Shift and dragging marks an interval.
+class TimelineModel : public LivePicture {
+ public:
+  /// echograms  may be shared with other timelines of the survey
+  TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> echograms, TimelineOf of);
+  ~TimelineModel() override;
+  TimelineModel(const TimelineModel&) = delete;
+  TimelineModel& operator=(const TimelineModel&) = delete;
+
+  void pointer(const PointerEvent& event) override;
+  [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] std::string hint(PixelPoint at) const override;
+  /// Of the picture on show; null before the first.
+  [[nodiscard]] const std::shared_ptr<const TimelinePlaces>& places() const { return places_; }
+  /// The ping whose time lies nearest to a place of the picture.
+  [[nodiscard]] std::optional<SurveyPlace> ping_at(PixelPoint at) const;
+
+ protected:
+  [[nodiscard]] Build build() override;
+  void take(const std::shared_ptr<const void>& detail) override;
+
+ private:
+  void hear(DocumentChange change);
+  void mark(const SurveyPlace& from, const SurveyPlace& to);
+  [[nodiscard]] std::vector<std::size_t> observations() const;
+
+  Workspace& workspace_;
+  std::shared_ptr<Echograms> echograms_;
+  TimelineOf of_;
+  std::optional<SurveyPlace> marking_from_;
+  bool scrubbing_ = false;
+  std::shared_ptr<TimelinePainter> painter_;
+  std::shared_ptr<const TimelinePlaces> places_;
+  Listening listening_;  // the last member: it ends first
+};
+
+}  // namespace sonar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/timelines/timeline_painter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "session/maps/dock_theme.h"
+#include "session/maps/observation_head.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kTitleFrom_em = 20.0;  ///< a lower timeline has no room for a title
+constexpr double kColoursFrom_em = 46.0;
+
+TimelineObservation drawn(const TimelineWish::Observation& wish, const ObservationProduct& product) {
+  TimelineObservation out;
+  out.product = &product;
+  out.echogram = wish.echogram.get();
+  out.selected = wish.selected;
+  if (!wish.state || !wish.open) return out;
+  for (const EventCommand& event : wish.state->events) {
+    out.marks.push_back({shown_time(*wish.open, event.time), event.kind, event.text});
+  }
+  for (const BadPingsCommand& bad : wish.state->bad_pings) {
+    out.bad.push_back({shown_time(*wish.open, bad.first), shown_time(*wish.open, bad.last)});
+  }
+  return out;
+}
+
+}  // namespace
+
+TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time) {
+  const auto& times = observation.ground().times;
+  if (times.empty()) return datagram_time;
+  const auto after = std::lower_bound(times.begin(), times.end(), datagram_time);
+  auto i = static_cast<std::size_t>(after - times.begin());
+  if (i == times.size()) --i;
+  return datagram_time + (observation.files().navigation[i].time - times[i]);
+}
+
+Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish, PixelSize size) {
+  if (survey_ != wish.survey) {
+    survey_ = wish.survey;
+    heads_.clear();
+  }
+  std::vector<TimelineObservation> observations;
+  for (const auto& one : wish.observations) {
+    const ObservationProduct* product = one.product.get();
+    if (product == nullptr) {
+      auto head = heads_.find(one.index);
+      if (head == heads_.end()) {
+        head = heads_.emplace(one.index, observation_head(survey_->observations[one.index])).first;
+      }
+      product = &head->second;
+    }
+    observations.push_back(drawn(one, *product));
+  }
+  const Theme theme = dock_theme(size, wish.dark);
+  TimelineStyle style;
+  style.by_school = true;
+  style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
+  auto frame = timeline(observations, style, size, theme);
+  if (!frame) return pass_on(frame);
+  const auto plot = timeline_plot(observations, style, size, theme);
+  if (!plot) return pass_on(plot);
+  return Painted{std::move(*frame), std::make_shared<const TimelinePlaces>(TimelinePlaces{plot->plot, plot->zero})};
+}
+
+}  // namespace sonar

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "session/document.h"
+#include "session/timelines/timeline_model.h"
+
+namespace sonar {
+
+/// Everything that a timeline shows, as it was when the picture was asked for.
+struct TimelineWish {
+  struct Observation {
+    std::size_t index = 0;
+    ProductPtr product;  ///< null where nothing is measured
+    JournalStatePtr state;
+    OpenObservationPtr open;  ///< null where it is not: it has no state either
+    EchogramPtr echogram;
+    std::optional<std::int64_t> selected;
+  };
+  std::shared_ptr<const SurveyFiles> survey;
+  std::vector<Observation> observations;
+  bool rejected = true;
+  bool dark = false;
+};
+
+/// Draws timelines one after another.
+/// threads  one at a time
+class TimelinePainter {
+ public:
+  struct Painted {
+    FrameDescription frame;
+    std::shared_ptr<const TimelinePlaces> places;
+  };
+  /// errors  as timeline()
+  [[nodiscard]] Result<Painted> paint(const TimelineWish& wish, PixelSize size);
+
+ private:
+  std::shared_ptr<const SurveyFiles> survey_;
+  std::map<std::size_t, ObservationProduct> heads_;
+};
+
+/// A time of the datagrams' clock on the clock of the pings that pictures show.
+[[nodiscard]] TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time);
+
+}  // namespace sonar

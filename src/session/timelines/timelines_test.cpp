@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "publish/echogram_cache.h"
+#include "session/desk_parts.h"
+#include "session/maps/test_maps.h"
+#include "session/timelines/timeline_painter.h"
+
+namespace sonar {
+namespace {
+
+/// Where a timeline shows a ping.
+PixelPoint place_of(const TimelineModel& timeline, const Document& document, std::size_t observation,
+                    std::int64_t ping) {
+  const auto& places = *timeline.places();
+  const TimeNs time = document.survey()->observations[observation].navigation[static_cast<std::size_t>(ping)].time;
+  return {places.x_of(time), places.plot.place.y + 20.0};
+}
+
+TEST(TimelineModel, AClickAndDraggingGoToThePingOfThatTime) {
+  TestMaps maps;
+  maps.see(maps.timeline);
+  Document& document = maps.workspace.document;
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 7));
+  EXPECT_EQ(document.ping(), 7);
+  TestMaps::drag(maps.timeline, place_of(maps.timeline, document, 0, 7), place_of(maps.timeline, document, 0, 3));
+  EXPECT_EQ(document.ping(), 3);
+  maps.see(maps.survey_timeline, {900, 300});
+  TestMaps::click(maps.survey_timeline, place_of(maps.survey_timeline, document, 1, 5));
+  EXPECT_EQ(document.shown()->index(), 1U);
+  EXPECT_EQ(document.ping(), 5);
+}
+
+TEST(TimelineModel, ThePlayheadIsNoNewPicture) {
+  TestMaps maps;
+  maps.see(maps.timeline);
+  const auto pictures = maps.timeline.pictures();
+  maps.workspace.document.look_at(6);
+  maps.settle();
+  EXPECT_EQ(maps.timeline.pictures(), pictures);
+  const auto overlays = maps.timeline.overlays();
+  ASSERT_EQ(overlays.size(), 1U);
+  EXPECT_NEAR(overlays[0].line.front().x, place_of(maps.timeline, maps.workspace.document, 0, 6).x, 1e-6);
+}
+
+TEST(TimelineModel, TheEchogramIsThatOfEveryPingReadAtOnce) {
+  TestMaps maps;
+  EXPECT_FALSE(maps.echograms->of(0));
+  maps.see(maps.timeline);
+  const auto filled = maps.echograms->of(0);
+  ASSERT_TRUE(filled);
+  EXPECT_TRUE(maps.echograms->complete(0));
+  EXPECT_FALSE(maps.echograms->of(1)) << "only what somebody looks at is read";
+  const auto& shown = *maps.workspace.document.shown();
+  Engine engine(shown.survey(), shown.files(), maps.workspace.document.recipe());
+  const EchogramRange range = echogram_range(shown.sector().range());
+  EchogramPyramid whole(range);
+  for (std::int64_t i = 0; i < shown.pings(); ++i) {
+    const auto ping = engine.staged(i);
+    ASSERT_TRUE(ping);
+    whole.add_ping(shown.files().navigation[static_cast<std::size_t>(i)].time,
+                   echogram_column(shown.sector(), {ping->sv.counts, ping->filtered->flags}, kNotFiltered, range));
+  }
+  ASSERT_EQ(filled->levels(), whole.levels());
+  for (int level = 0; level < whole.levels(); ++level) EXPECT_EQ(filled->level(level), whole.level(level));
+  maps.see(maps.survey_timeline, {900, 300});
+  EXPECT_TRUE(maps.echograms->complete(1));
+}
+
+TEST(TimelineModel, ShiftAndDraggingMarksAnInterval) {
+  TestMaps maps;
+  maps.see(maps.timeline);
+  const Document& document = maps.workspace.document;
+  TestMaps::drag(maps.timeline, place_of(maps.timeline, document, 0, 8), place_of(maps.timeline, document, 0, 4), true);
+  EXPECT_EQ(maps.workspace.marked_interval(), (MarkedInterval{0, 4, 8}));
+  EXPECT_EQ(document.ping(), 0) << "marking looks nowhere";
+  EXPECT_EQ(maps.timeline.overlays().size(), 2U);
+}
+
+/// A desk with the actions of timelines, over a survey and its journal.
+class TimelineActions : public testing::Test {
+ protected:
+  void SetUp() override { reopen(); }
+  void reopen() {
+    desk_.reset();
+    desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+    if (desk_->actions.find("event.trawl") == nullptr) add_maps(*desk_);
+    desk_->asking.text = [this](const std::string&, const std::string&, const std::string&) { return answer_; };
+    document().open({TestSurvey::easy().folder()});
+    document().settle();
+  }
+  Document& document() { return desk_->workspace.document; }
+  void ask(const std::string& id) {
+    const Action* action = desk_->actions.find(id);
+    ASSERT_NE(action, nullptr) << id;
+    EXPECT_TRUE(!action->enabled || action->enabled()) << id;
+    action->run();
+    document().settle();
+  }
+
+  std::filesystem::path journal_ = TestSurvey::easy().fresh();
+  std::string answer_ = "cod end full";
+  ChangeQueue queue_;
+  std::unique_ptr<Desk> desk_;
+};
+
+TEST_F(TimelineActions, AnEventIsALineOfTheJournalAndIsThereAfterReopening) {
+  document().look_at(6);
+  document().settle();
+  ask("event.trawl");
+  const TimeNs time = document().shown()->ground().times[6];
+  const auto journal = read_journal(document().journal_path().string());
+  ASSERT_TRUE(journal);
+  ASSERT_EQ(journal->lines.size(), 1U);
+  EXPECT_EQ(journal->lines[0].command, "event");
+  reopen();
+  ASSERT_EQ(document().state().events.size(), 1U);
+  EXPECT_EQ(document().state().events[0].kind, "trawl");
+  EXPECT_EQ(document().state().events[0].time, time);
+  EXPECT_EQ(document().state().events[0].text, "cod end full");
+  EXPECT_EQ(shown_time(*document().shown(), time), document().shown()->files().navigation[6].time);
+  ask("event.next");
+  EXPECT_EQ(document().ping(), 6);
+  answer_.clear();
+  ask("event.station");
+  EXPECT_EQ(document().state().events.size(), 1U) << "no answer, no event";
+}
+
+TEST_F(TimelineActions, PingsOfABadIntervalTakeNoPartInMeasuresUntilItIsUndone) {
+  document().detect({0});
+  document().settle();
+  const auto before = document().product(0);
+  const auto rows_in = [](const ObservationProduct& product, std::int64_t first, std::int64_t last) {
+    return std::count_if(product.school_pings.begin(), product.school_pings.end(),
+                         [&](const auto& row) { return row.ping_index >= first && row.ping_index <= last; });
+  };
+  const std::int64_t from = before->school_pings.front().ping_index;
+  ASSERT_GT(rows_in(*before, from, from + 1), 0);
+  desk_->workspace.marked_interval.set(MarkedInterval{0, from, from + 1});
+  ask("bad.interval");
+  EXPECT_FALSE(desk_->workspace.marked_interval());
+  EXPECT_EQ(rows_in(*document().product(0), from, from + 1), 0);
+  EXPECT_TRUE(document().product(0)->pings[static_cast<std::size_t>(from)].bad);
+  document().undo();
+  document().settle();
+  EXPECT_EQ(document().product(0)->school_pings.size(), before->school_pings.size());
+}
+
+TEST_F(TimelineActions, ABadPingIsTheOneOnShow) {
+  document().look_at(4);
+  document().settle();
+  ask("bad.ping");
+  ASSERT_EQ(document().state().bad_pings.size(), 1U);
+  EXPECT_EQ(document().state().bad_pings[0].first, document().shown()->ground().times[4]);
+  EXPECT_EQ(document().state().bad_pings[0].last, document().shown()->ground().times[4]);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "session/workspace.h"
+#include "view/slice.h"
+
+namespace sonar {
+
+/// The voxels of a slice under a disc that is drawn from one place to another: those that its pixels show, and those that
+/// lie between them because a pixel holds several samples.
+/// from, to  in the map's pixels
+/// out       sorted, not overlapping
+[[nodiscard]] std::vector<Run> runs_under(const SliceMap& map, PixelPoint from, PixelPoint to, double radius_px);
+
+/// Brush and eraser: one drag over a slice is one act. What it will change is the workspace's preview meanwhile.
+///
+/// The brush adds to the selected school, or makes a new one and selects it; the eraser takes from the selected school
+/// where it is in the ping, else from all schools.
+/// threads  the window's
+class BrushTool {
+ public:
+  explicit BrushTool(Workspace& workspace);
+  ~BrushTool();
+  BrushTool(const BrushTool&) = delete;
+  BrushTool& operator=(const BrushTool&) = delete;
+
+  /// at  in the map's pixels
+  void press(const SliceMap& map, PixelPoint at, bool erase);
+  void move(const SliceMap& map, PixelPoint at);
+  void release();
+  /// The drag has never been.
+  void cancel();
+  [[nodiscard]] bool drawing() const { return ping_ != nullptr; }
+
+ private:
+  void paint(const SliceMap& map, PixelPoint to);
+  void hear(DocumentChange change);
+
+  Workspace& workspace_;
+  OpenObservationPtr observation_;
+  StagedPingPtr ping_;  ///< that is drawn upon; null = no drag
+  bool erase_ = false;
+  PixelPoint last_;
+  PingMask stroke_;
+  bool selects_ = false;  ///< the next state brings a school that was drawn
+  int listening_;
+};
+
+}  // namespace sonar

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/tools/growth.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+/// Voxels that a growth leaves to the schools that humans made: of all but the one that it adds to.
+PingMask taken_by_others(const GrowthTrial& trial, std::optional<std::size_t> but) {
+  PingMask taken;
+  if (!trial.state || trial.command.to == GrowTo::take_away) return taken;
+  for (std::size_t i = 0; i < trial.state->schools.size(); ++i) {
+    const StateSchool& school = *trial.state->schools[i];
+    if (!school.by_hand || i == but) continue;
+    if (const auto* there = in_ping(school.masks, trial.ping->ping_index)) taken = unite(taken, there->mask);
+  }
+  return taken;
+}
+
+/// "1 204"
+std::string grouped(std::size_t number) {
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+GrowParams grow_params(const SelectParams& params) {
+  return {params.mode, params.connectivity, params.tolerance_db, params.tolerance_opacity};
+}
+
+SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel) {
+  const auto row = static_cast<std::size_t>(voxel.fan * observation.grid().beams() + voxel.beam);
+  return {observation.grid().channel[row], voxel.sample};
+}
+
+JournalStatePtr state_of(const Document& document, std::size_t observation) {
+  const auto& states = document.choices().states;
+  const auto found = states.find(observation);
+  return found == states.end() ? nullptr : found->second;
+}
+
+std::optional<std::size_t> school_of_voxel(const JournalState& state, std::int64_t ping_index, const Sector& sector,
+                                           const Voxel& voxel) {
+  for (std::size_t i = 0; i < state.schools.size(); ++i) {
+    const auto* there = in_ping(state.schools[i]->masks, ping_index);
+    if (there != nullptr && confidence_at(there->mask, voxel.fan * sector.beams() + voxel.beam, voxel.sample) > 0) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+Result<PingMask> try_growth(const GrowthTrial& trial) {
+  const CommandGround& ground = trial.observation->ground();
+  std::optional<std::size_t> school;
+  if (trial.command.school) {
+    school = trial.state ? school_at(*trial.state, ground, *trial.command.school) : std::nullopt;
+    if (!school) return fail(ErrorCode::bad_parameter, "the selected school is no more");
+  }
+  FilteredPing ping;
+  ping.volume = trial.ping->filtered;
+  ping.taken = taken_by_others(trial, school);
+  auto grown = grow_seeds(ground, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
+  if (!grown) return grown;
+  if (grown->empty()) return fail(ErrorCode::bad_parameter, "all voxels there belong to other schools");
+  if (trial.command.to != GrowTo::take_away) return grown;
+  const auto* there = in_ping(trial.state->schools[*school]->masks, trial.ping->ping_index);
+  if (there == nullptr) return fail(ErrorCode::bad_parameter, "the selected school is not in this ping");
+  PingMask gone = subtract(there->mask, subtract(there->mask, *grown));
+  if (gone.empty()) return fail(ErrorCode::bad_parameter, "the selected school has nothing there");
+  return gone;
+}
+
+std::string growth_text(const PingMask& mask, const StagedPing& ping, const Sector& sector) {
+  double volume_m3 = 0.0;
+  double measured_m3 = 0.0;
+  double sum = 0.0;
+  const auto counts = ping.sv.counts.view();
+  const auto flags = ping.filtered->flags.view();
+  for (const Run& run : mask.runs) {
+    const double solid_angle = sector.solid_angle_sr(run.row / sector.beams(), run.row % sector.beams());
+    const RowBackground background(ping.background(), run.row);
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      const double volume = solid_angle * sector.shell_m3_per_sr(s);
+      volume_m3 += volume;
+      if (any(flags.row(run.row)[i] & kFault) || counts.row(run.row)[i] == kNoData) continue;
+      measured_m3 += volume;
+      sum += volume * (linear_from_count(counts.row(run.row)[i]) - background(s));
+    }
+  }
+  std::string text = fmt::format("{} voxels, {:.3g} m\u00B3", grouped(mask.voxels()), volume_m3);
+  if (sum > 0.0) text += fmt::format(", mean Sv {:.1f} dB", db_from_linear(sum / measured_m3));
+  return text;
+}
+
+Preview preview_of(const GrowthTrial& trial) {
+  Preview preview;
+  preview.ping_index = trial.ping->ping_index;
+  auto mask = try_growth(trial);
+  if (!mask) {
+    preview.text = mask.error().text;
+    return preview;
+  }
+  preview.text = growth_text(*mask, *trial.ping, trial.observation->sector());
+  preview.mask = std::make_shared<const PingMask>(std::move(*mask));
+  return preview;
+}
+
+}  // namespace sonar

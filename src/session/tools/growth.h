@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/result.h"
+#include "model/mask.h"
+#include "session/display.h"
+#include "session/document.h"
+#include "session/workspace.h"
+#include "view/slice.h"
+
+namespace sonar {
+
+/// A growth that is looked at before anybody asks for it: everything that it depends on, so that it may run anywhere.
+struct GrowthTrial {
+  OpenObservationPtr observation;
+  StagedPingPtr ping;
+  JournalStatePtr state;  ///< the one that the growth would be done upon; null = no schools yet
+  GrowCommand command;
+};
+
+/// The voxels that the command would add to a school, or take from one: what the command itself then does.
+/// errors   bad_parameter: why nothing grows, in one line
+/// threads  pure
+[[nodiscard]] Result<PingMask> try_growth(const GrowthTrial& trial);
+
+/// "1 204 voxels, 3.1e4 m3, mean -48.2 dB": mean of the measured members, linear, weighted by their volumes, the expected
+/// background taken off, as the table of schools has it.
+[[nodiscard]] std::string growth_text(const PingMask& mask, const StagedPing& ping, const Sector& sector);
+
+/// try_growth() as views show it; a refusal is the preview's text.
+[[nodiscard]] Preview preview_of(const GrowthTrial& trial);
+
+[[nodiscard]] GrowParams grow_params(const SelectParams& params);
+[[nodiscard]] SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel);
+/// The state of an observation; null before it is known.
+[[nodiscard]] JournalStatePtr state_of(const Document& document, std::size_t observation);
+/// Index of the school that has a voxel of a ping; empty where nobody has it.
+[[nodiscard]] std::optional<std::size_t> school_of_voxel(const JournalState& state, std::int64_t ping_index,
+                                                         const Sector& sector, const Voxel& voxel);
+
+}  // namespace sonar

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/tools/seed_tool.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace sonar {
+
+SeedTool::SeedTool(Workspace& workspace, Pulse& pulse)
+    : workspace_(workspace), pulse_(pulse), params_(grow_params(workspace.select.values())) {
+  document_listening_ = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
+  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(); });
+  tool_listening_ = workspace.tool.changed().add([this] { leave(); });
+  workspace.select.on_change([this, alive = std::weak_ptr<bool>(alive_)](const SelectParams& params) {
+    if (alive.expired()) return;
+    const GrowParams now = grow_params(params);
+    const bool same = now.mode == params_.mode && now.connectivity == params_.connectivity &&
+                      now.tolerance_db == params_.tolerance_db && now.tolerance_opacity == params_.tolerance_opacity;
+    params_ = now;
+    if (!same) parameters_changed();
+  });
+}
+
+SeedTool::~SeedTool() {
+  pulse_.stop("grow anew");
+  workspace_.document.changes().remove(document_listening_);
+  workspace_.growth_curve.changed().remove(curve_listening_);
+  workspace_.tool.changed().remove(tool_listening_);
+}
+
+// --- what would be selected
+
+void SeedTool::hover(const Voxel& voxel, bool shift, bool control) {
+  place_ = Place{voxel, shift, control};
+  over_ = true;
+  show_place();
+}
+
+void SeedTool::leave() {
+  over_ = false;
+  drop_preview();
+}
+
+std::optional<std::size_t> SeedTool::school_under(const Voxel& voxel) const {
+  const auto& document = workspace_.document;
+  if (!document.shown() || !document.staged()) return std::nullopt;
+  return school_of_voxel(document.state(), document.staged()->ping_index, document.shown()->sector(), voxel);
+}
+
+Result<GrowCommand> SeedTool::command_at(const Place& place) const {
+  const auto& shown = workspace_.document.shown();
+  GrowCommand command;
+  command.grow = params_;
+  command.growth_curve = workspace_.growth_curve();
+  command.seeds = {seed_key(*shown, place.voxel)};
+  if (!place.shift && !place.control) return command;
+  const auto selected = workspace_.selected();
+  if (!selected) {
+    if (place.shift) return command;
+    return fail(ErrorCode::usage, "no school is selected that this could be taken from");
+  }
+  command.to = place.control ? GrowTo::take_away : GrowTo::add;
+  command.school = key_of(workspace_.document.state().schools[*selected]->masks, shown->ground());
+  return command;
+}
+
+void SeedTool::show_place() {
+  const Document& document = workspace_.document;
+  if (workspace_.tool() != ToolName::seed || !place_ || !document.shown() || !document.staged()) return;
+  if (const auto under = school_under(place_->voxel); under && !place_->shift && !place_->control) {
+    return say(fmt::format("school {}: a click selects it, a double click follows it through time",
+                           document.state().schools[*under]->number));
+  }
+  auto command = command_at(*place_);
+  if (!command) return say(command.error().text);
+  show({document.shown(), document.staged(), state_of(document, document.shown()->index()), std::move(*command)}, 0);
+}
+
+void SeedTool::say(std::string text) {
+  stale_ = asked_;
+  workspace_.preview.set({workspace_.document.staged()->ping_index, nullptr, std::move(text), 0});
+}
+
+void SeedTool::drop_preview() {
+  stale_ = asked_;
+  workspace_.preview.set({});
+}
+
+void SeedTool::show(GrowthTrial trial, std::int64_t instead_of) {
+  growing_.post_latest([this, trial = std::move(trial), instead_of, number = ++asked_,
+                        alive = std::weak_ptr<bool>(alive_)](const Wanted&) {
+    // Shown even where a later wish has come: while wishes come faster than growths something must be seen.
+    Preview preview = preview_of(trial);
+    preview.instead_of = instead_of;
+    workspace_.queue.post([this, number, alive, preview = std::move(preview)] {
+      if (!alive.expired() && number > stale_) workspace_.preview.set(preview);
+    });
+  });
+}
+
+// --- what is selected
+
+void SeedTool::press(const Voxel& voxel, bool shift, bool control, bool double_press) {
+  finish_growing_anew();
+  Document& document = workspace_.document;
+  if (!document.shown() || !document.staged()) return;
+  const std::size_t observation = document.shown()->index();
+  place_ = Place{voxel, shift, control};
+  over_ = true;
+  const bool plain = !shift && !control;
+  if (double_press) {
+    if (!plain) return;  // the press before has done it
+    if (pending_) {
+      pending_->carry_on = true;
+    } else if (school_under(voxel)) {
+      carry_on(observation, document.staged()->ping_index, seed_key(*document.shown(), voxel));
+    }
+    return;
+  }
+  if (plain && school_under(voxel)) return select(voxel);
+  auto command = command_at(*place_);
+  if (!command) return document.tell(command.error().text);
+  act(observation, document.staged(), std::move(*command));
+}
+
+void SeedTool::select(const Voxel& voxel) {
+  const Document& document = workspace_.document;
+  const auto under = school_under(voxel);
+  workspace_.school.set(
+      under ? std::optional(SchoolName{document.shown()->index(), document.state().schools[*under]->number})
+            : std::nullopt);
+}
+
+void SeedTool::act(std::size_t observation, StagedPingPtr staged, GrowCommand command) {
+  made_.reset();
+  const std::int64_t ping = staged->ping_index;
+  pending_ = Pending{observation, std::move(staged), command, false};
+  workspace_.document.act(observation, ping, std::move(command));
+}
+
+void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed) {
+  Document& document = workspace_.document;
+  const auto open = document.open_observation(observation);
+  const SelectParams& select = workspace_.select.values();
+  if (!open || (!select.backwards && !select.forwards)) return;
+  PropagateCommand command;
+  command.mode = select.mode;
+  command.grow = params_;
+  command.growth_curve = workspace_.growth_curve();
+  command.paper = document.recipe().propagate_paper;
+  command.paper.connectivity = select.connectivity;
+  command.tracked = document.recipe().propagate_tracked;
+  command.tracked.tolerance_db = select.tolerance_db;
+  command.tracked.connectivity = select.connectivity;
+  command.reach = select.reach_pings;
+  if (!select.backwards) command.reach_backward = 0;
+  if (!select.forwards) command.reach_forward = 0;
+  command.school = SchoolKey{open->ground().times[static_cast<std::size_t>(ping)], seed.channel, seed.sample};
+  document.act(observation, ping, std::move(command));
+}
+
+void SeedTool::hear(DocumentChange change) {
+  switch (change) {
+    case DocumentChange::survey:
+      return forget();
+    case DocumentChange::observation:
+      if (workspace_.document.shown() != of_.lock()) forget();
+      return;
+    case DocumentChange::state:
+      return take_state();
+    case DocumentChange::ping:
+      finish_growing_anew();
+      if (workspace_.tool() != ToolName::seed) return;
+      if (over_) return show_place();
+      place_.reset();
+      return drop_preview();
+    default:
+      return;
+  }
+}
+
+void SeedTool::forget() {
+  const auto& shown = workspace_.document.shown();
+  of_ = shown;
+  state_ = shown ? state_of(workspace_.document, shown->index()) : nullptr;
+  pulse_.stop("grow anew");
+  anew_.reset();
+  made_.reset();
+  place_.reset();
+  stale_ = asked_;
+}
+
+void SeedTool::take_state() {
+  const Document& document = workspace_.document;
+  if (!document.shown()) return;
+  JournalStatePtr before = std::exchange(state_, state_of(document, document.shown()->index()));
+  const ChoicesShown& now = document.choices();
+  if (pending_ && !now.failure.empty()) {
+    pending_.reset();
+  } else if (pending_ && now.done_line > 0 && now.lines->back().command == command_name(pending_->command) &&
+             now.lines->back().args == to_json(Command(pending_->command))) {
+    take_made(*std::exchange(pending_, std::nullopt), std::move(before));
+  }
+  if (made_ && !stands_last()) {
+    made_.reset();
+    anew_.reset();
+  }
+  if (workspace_.tool() != ToolName::seed) return;
+  if (over_) return show_place();
+  if (!anew_) drop_preview();
+}
+
+void SeedTool::take_made(const Pending& done, JournalStatePtr before) {
+  const Document& document = workspace_.document;
+  const JournalState& state = document.state(done.observation);
+  made_ = Made{document.choices().done_line, done.observation, done.command, done.staged, std::move(before), 0};
+  if (done.command.to == GrowTo::school) {
+    const auto made = std::find_if(state.schools.begin(), state.schools.end(),
+                                   [&](const auto& school) { return school->made_by == made_->line; });
+    if (made == state.schools.end()) return;
+    made_->number = (*made)->number;
+    workspace_.school.set(SchoolName{done.observation, made_->number});
+  }
+  if (done.carry_on) carry_on(done.observation, done.staged->ping_index, done.command.seeds.front());
+}
+
+// --- what is selected anew
+
+bool SeedTool::stands_last() const {
+  const auto& lines = *workspace_.document.choices().lines;
+  return made_ && !lines.empty() && lines.back().n == made_->line;
+}
+
+void SeedTool::parameters_changed() {
+  const auto& staged = workspace_.document.staged();
+  if (stands_last() && !workspace_.document.busy() && staged && staged->ping_index == made_->staged->ping_index) {
+    grow_anew();
+  } else {
+    show_place();
+  }
+}
+
+void SeedTool::grow_anew() {
+  anew_ = made_->command;
+  anew_->grow = params_;
+  anew_->growth_curve = workspace_.growth_curve();
+  rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
+  show({workspace_.document.shown(), made_->staged, made_->before, *anew_}, made_->number);
+  pulse_.run("grow anew", [this](double now_s) { return rest(now_s); });
+}
+
+bool SeedTool::rest(double now_s) {
+  if (!anew_) return false;
+  if (!(rests_since_s_ <= now_s)) rests_since_s_ = now_s;
+  if (now_s - rests_since_s_ < kRest_s) return true;
+  // Behind whatever waits to be shown: an act that is done but not yet known must not be the one that is undone.
+  workspace_.queue.post([this, alive = std::weak_ptr<bool>(alive_)] {
+    if (!alive.expired()) finish_growing_anew();
+  });
+  return false;
+}
+
+void SeedTool::finish_growing_anew() {
+  if (!anew_) return;
+  pulse_.stop("grow anew");
+  const GrowCommand command = *std::exchange(anew_, std::nullopt);
+  if (!stands_last() || workspace_.document.busy()) return;
+  const Made made = *std::exchange(made_, std::nullopt);
+  const auto of = workspace_.document.open_observation(made.observation);
+  // What grows no more stays as it was.
+  if (!of || !try_growth({of, made.staged, made.before, command})) return;
+  workspace_.document.undo();
+  act(made.observation, made.staged, command);
+}
+
+}  // namespace sonar

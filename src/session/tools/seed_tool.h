@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/task_thread.h"
+#include "session/pulse.h"
+#include "session/tools/growth.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Schools by seeds, in whatever view a voxel was pointed at: one for all views of a desk.
+///
+/// A press upon nothing grows a new school and selects it; upon a school it selects that one. With shift the growth joins
+/// the selected school, with control it is taken from it. A double press carries the school under it through time: the
+/// press before has grown or selected it, so that there is one school, made by two acts, each of which can be undone.
+///
+/// While the last act of all is a growth by this tool, a change of its parameters grows it anew: shown at once as the
+/// preview; when the parameters have rested for kRest_s (or something else is done) the old growth is undone and the new
+/// one done, so that undo knows one growth.
+/// threads  the window's
+class SeedTool {
+ public:
+  /// Both outlive the tool.
+  SeedTool(Workspace& workspace, Pulse& pulse);
+  ~SeedTool();
+  SeedTool(const SeedTool&) = delete;
+  SeedTool& operator=(const SeedTool&) = delete;
+
+  /// Sets workspace.preview to what a press there would select; latest wins.
+  void hover(const Voxel& voxel, bool shift, bool control);
+  /// The pointer is over no voxel.
+  void leave();
+  void press(const Voxel& voxel, bool shift, bool control, bool double_press);
+  /// Selects the school there, or none; grows nothing.
+  void select(const Voxel& voxel);
+
+  /// How long parameters rest before a growth is done anew, s.
+  static constexpr double kRest_s = 0.3;
+
+  /// Returns when the last preview is on its way through the queue; for tests.
+  void wait() { growing_.wait(); }
+
+ private:
+  /// Where a pointer asks for a growth.
+  struct Place {
+    Voxel voxel;
+    bool shift = false;
+    bool control = false;
+  };
+  /// A growth that stands last in the journal.
+  struct Made {
+    std::int64_t line = 0;
+    std::size_t observation = 0;
+    GrowCommand command;
+    StagedPingPtr staged;     ///< the ping it was done on
+    JournalStatePtr before;   ///< the state it was done upon
+    std::int64_t number = 0;  ///< of the school that it made or changed
+  };
+  struct Pending {
+    std::size_t observation = 0;
+    StagedPingPtr staged;
+    GrowCommand command;
+    bool carry_on = false;  ///< a second press came meanwhile
+  };
+
+  // What would be selected:
+  void show_place();
+  void show(GrowthTrial trial, std::int64_t instead_of);
+  void say(std::string text);
+  void drop_preview();
+  [[nodiscard]] Result<GrowCommand> command_at(const Place& place) const;
+  [[nodiscard]] std::optional<std::size_t> school_under(const Voxel& voxel) const;
+  // What is selected:
+  void hear(DocumentChange change);
+  void forget();
+  void take_state();
+  void take_made(const Pending& done, JournalStatePtr before);
+  void act(std::size_t observation, StagedPingPtr staged, GrowCommand command);
+  void carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed);
+  // What is selected anew:
+  void parameters_changed();
+  void grow_anew();
+  [[nodiscard]] bool stands_last() const;
+  bool rest(double now_s);
+  void finish_growing_anew();
+
+  Workspace& workspace_;
+  Pulse& pulse_;
+  std::optional<Place> place_;
+  bool over_ = false;       ///< the pointer is over place_
+  std::int64_t asked_ = 0;  ///< previews so far
+  std::int64_t stale_ = 0;  ///< those up to this one are wanted no more
+  std::optional<Pending> pending_;
+  std::optional<Made> made_;
+  std::optional<GrowCommand> anew_;  ///< what is to take the place of made_
+  double rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
+  std::weak_ptr<OpenObservation> of_;  ///< the observation on show
+  JournalStatePtr state_;              ///< of the observation on show, as it was last told
+  GrowParams params_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  int document_listening_;
+  int curve_listening_;
+  int tool_listening_;
+  TaskThread growing_;  // the last member: it ends first
+};
+
+}  // namespace sonar

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/tools/seed_tool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "session/slices/test_slices.h"
+
+namespace sonar {
+namespace {
+
+class SeedToolAtWork : public testing::Test {
+ protected:
+  void SetUp() override { desk_.look_at_bright(); }
+
+  Workspace& workspace() { return desk_.workspace(); }
+  Document& document() { return desk_.document(); }
+  const Voxel& bright() { return SlicesDesk::bright().voxel; }
+  SeedTool& tool() { return *desk_.desk.seed_tool; }
+
+  /// What grows from the voxel, by the science's own function.
+  PingMask fresh(const Voxel& voxel) {
+    FilteredPing ping;
+    ping.volume = document().staged()->filtered;
+    const SeedKey seed = seed_key(*document().shown(), voxel);
+    const auto grown = grow_seeds(document().shown()->ground(), ping, std::span(&seed, 1), workspace().growth_curve(),
+                                  grow_params(workspace().select.values()));
+    return grown ? *grown : PingMask{};
+  }
+  PingMask mask_of(std::size_t school) {
+    const auto* there = in_ping(document().state().schools[school]->masks, document().ping());
+    return there == nullptr ? PingMask{} : there->mask;
+  }
+  std::vector<std::string> journal() {
+    std::vector<std::string> commands;
+    const auto read = read_journal(document().journal_path().string());
+    if (read) {
+      for (const JournalLine& line : read->lines) commands.push_back(line.command);
+    }
+    return commands;
+  }
+  void press(bool shift = false, bool control = false, bool twice = false) {
+    tool().press(bright(), shift, control, twice);
+  }
+  void set_tolerance(double db) {
+    ASSERT_TRUE(workspace().select.set("tolerance_db", db));
+    desk_.queue.drain();
+  }
+  /// As long as parameters rest before a growth is done anew.
+  void rest() {
+    desk_.desk.pulse.tick(10.0);
+    desk_.desk.pulse.tick(10.0 + SeedTool::kRest_s);
+    desk_.settle();
+  }
+
+  SlicesDesk desk_;
+};
+
+TEST_F(SeedToolAtWork, WhatHoversIsWhatAClickSelects) {
+  tool().hover(bright(), false, false);
+  desk_.settle();
+  ASSERT_TRUE(workspace().preview().mask);
+  const PingMask hovered = *workspace().preview().mask;
+  EXPECT_EQ(workspace().preview().ping_index, document().ping());
+  EXPECT_EQ(hovered, fresh(bright()));
+  EXPECT_GT(hovered.voxels(), 100U);
+  EXPECT_TRUE(journal().empty()) << "looking is no act";
+  press();
+  desk_.settle();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(mask_of(0), hovered);
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow"}));
+  EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
+}
+
+TEST_F(SeedToolAtWork, ThePreviewSaysWhatTheTableOfSchoolsWillSay) {
+  tool().hover(bright(), false, false);
+  desk_.settle();
+  const std::string text = workspace().preview().text;
+  press();
+  desk_.settle();
+  const ProductPtr product = document().product(0);
+  ASSERT_TRUE(product);
+  ASSERT_EQ(product->school_pings.size(), 1U);
+  const SchoolPingRow& row = product->school_pings[0];
+  EXPECT_THAT(text, testing::HasSubstr(fmt::format("{:.3g} m\u00B3", row.volume_m3)));
+  EXPECT_THAT(text, testing::HasSubstr(fmt::format("mean Sv {:.1f} dB", row.sv_mean_db)));
+}
+
+TEST_F(SeedToolAtWork, WhereNothingGrowsItSaysWhy) {
+  tool().hover({bright().fan, bright().beam, 0}, false, false);  // in the near field
+  desk_.settle();
+  EXPECT_FALSE(workspace().preview().mask);
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("near field"));
+  tool().hover(bright(), false, true);
+  desk_.settle();
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("no school is selected"));
+  tool().leave();
+  EXPECT_EQ(workspace().preview(), Preview{});
+}
+
+TEST_F(SeedToolAtWork, AfterAThousandMovesThePreviewIsTheLastOnes) {
+  const int samples = document().shown()->sector().range().count;
+  for (int i = 0; i < 1000; ++i) tool().hover({bright().fan, bright().beam, (i * 37) % samples}, false, false);
+  tool().hover(bright(), false, false);
+  desk_.settle();
+  ASSERT_TRUE(workspace().preview().mask);
+  EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
+}
+
+TEST_F(SeedToolAtWork, WhatIsStillOnItsWayIsNotShownAfterThePointerLeft) {
+  tool().hover(bright(), false, false);
+  tool().wait();
+  tool().leave();
+  desk_.settle();
+  EXPECT_EQ(workspace().preview(), Preview{});
+}
+
+TEST_F(SeedToolAtWork, ADoublePressLeavesOneSchoolWithPingsBothWays) {
+  ASSERT_TRUE(workspace().select.set("reach_pings", 2));
+  press();
+  press(false, false, true);  // before the first was carried out
+  desk_.settle();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  std::vector<std::int64_t> pings;
+  for (const auto& there : document().state().schools[0]->masks.pings) pings.push_back(there.ping_index);
+  const std::int64_t here = SlicesDesk::bright().ping;
+  EXPECT_THAT(pings, testing::Contains(here - 1));
+  EXPECT_THAT(pings, testing::Contains(here));
+  EXPECT_THAT(pings, testing::Contains(here + 1));
+  EXPECT_THAT(pings, testing::Not(testing::Contains(here - 3)));
+  EXPECT_THAT(pings, testing::Not(testing::Contains(here + 3)));
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "propagate"}));
+  document().undo();
+  document().undo();
+  desk_.settle();
+  EXPECT_TRUE(document().state().schools.empty());
+}
+
+TEST_F(SeedToolAtWork, ASlowDoublePressIsTheSame) {
+  ASSERT_TRUE(workspace().select.set("reach_pings", 2));
+  ASSERT_TRUE(workspace().select.set("backwards", false));
+  press();
+  desk_.settle();
+  press(false, false, true);
+  desk_.settle();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  const auto& pings = document().state().schools[0]->masks.pings;
+  EXPECT_EQ(pings.front().ping_index, SlicesDesk::bright().ping) << "only forwards was asked for";
+  EXPECT_GT(pings.size(), 1U);
+}
+
+TEST_F(SeedToolAtWork, ADoublePressUponNothingLeavesNothing) {
+  const Voxel near{bright().fan, bright().beam, 0};
+  tool().press(near, false, false, false);
+  tool().press(near, false, false, true);
+  desk_.settle();
+  EXPECT_TRUE(document().state().schools.empty());
+  EXPECT_TRUE(journal().empty());
+}
+
+TEST_F(SeedToolAtWork, APressUponASchoolSelectsItAndGrowsNothing) {
+  press();
+  desk_.settle();
+  workspace().school.set(std::nullopt);
+  tool().hover(bright(), false, false);
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("school 1: a click selects it"));
+  press();
+  desk_.settle();
+  EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
+  EXPECT_EQ(journal().size(), 1U);
+  tool().select({bright().fan, bright().beam, 0});
+  EXPECT_FALSE(workspace().school()) << "where there is none, none is selected";
+}
+
+TEST_F(SeedToolAtWork, ControlTakesAwayWhatHoversAndShiftAddsIt) {
+  set_tolerance(12.0);
+  press();
+  desk_.settle();
+  const PingMask whole = mask_of(0);
+  document().undo();  // something else stands last: the growth is not done anew
+  document().redo();
+  desk_.settle();
+  set_tolerance(4.0);
+  tool().hover(bright(), false, true);
+  desk_.settle();
+  ASSERT_TRUE(workspace().preview().mask);
+  const PingMask core = *workspace().preview().mask;
+  EXPECT_EQ(core.runs, fresh(bright()).runs);
+  EXPECT_LT(core.voxels(), whole.voxels());
+  press(false, true);
+  desk_.settle();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(mask_of(0), subtract(whole, core));
+  press(true);
+  desk_.settle();
+  EXPECT_EQ(mask_of(0).runs, whole.runs);
+  EXPECT_EQ(document().state().schools.size(), 1U);
+}
+
+TEST_F(SeedToolAtWork, AChangeOfToleranceGrowsTheLastSchoolAnew) {
+  press();
+  desk_.settle();
+  const PingMask at_ten = mask_of(0);
+  tool().leave();
+  for (const double db : {9.0, 8.0, 7.0, 6.0}) {
+    set_tolerance(db);
+    desk_.desk.pulse.tick(db);  // not yet at rest
+    desk_.desk.pulse.tick(db + 0.5 * SeedTool::kRest_s);
+  }
+  desk_.settle();
+  ASSERT_TRUE(workspace().preview().mask);
+  EXPECT_EQ(workspace().preview().instead_of, 1);
+  EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
+  EXPECT_EQ(mask_of(0), at_ten) << "so far it is only looked at";
+  rest();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  EXPECT_LT(mask_of(0).voxels(), at_ten.voxels());
+  EXPECT_EQ(document().state().schools[0]->number, 1);
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
+  EXPECT_FALSE(desk_.desk.pulse.running());
+  EXPECT_FALSE(workspace().preview().mask);
+  document().undo();
+  desk_.settle();
+  EXPECT_TRUE(document().state().schools.empty()) << "undo knows one growth";
+}
+
+TEST_F(SeedToolAtWork, WhatIsDoneNextComesAfterTheGrowthAnew) {
+  press();
+  desk_.settle();
+  set_tolerance(6.0);
+  tool().press({bright().fan, bright().beam, 0}, false, false, false);  // grows nothing
+  desk_.settle();
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
+}
+
+TEST_F(SeedToolAtWork, AToleranceThatMovesAfterSomethingElseWasDoneChangesNoSchool) {
+  press();
+  desk_.settle();
+  const PingMask before = mask_of(0);
+  document().undo();
+  document().redo();
+  desk_.settle();
+  set_tolerance(6.0);
+  rest();
+  EXPECT_EQ(mask_of(0), before);
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "redo"}));
+}
+
+TEST_F(SeedToolAtWork, ToleranceGrowsWhatIsHoveredAnew) {
+  tool().hover(bright(), false, false);
+  desk_.settle();
+  const std::size_t at_ten = workspace().preview().mask->voxels();
+  set_tolerance(5.0);
+  desk_.settle();
+  EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
+  EXPECT_LT(workspace().preview().mask->voxels(), at_ten);
+}
+
+TEST_F(SeedToolAtWork, ThePreviewFollowsThePingUnderThePointer) {
+  tool().hover(bright(), false, false);
+  desk_.settle();
+  document().look_at(document().ping() + 1);
+  desk_.settle();
+  EXPECT_EQ(workspace().preview().ping_index, document().ping());
+  EXPECT_EQ(workspace().preview().mask ? *workspace().preview().mask : PingMask{}, fresh(bright()));
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "session/desk_parts.h"
+#include "session/tools/seed_tool.h"
+#include "session/volume/volume_model.h"
+
+namespace sonar {
+namespace {
+
+struct Side {
+  VolumeSide side;
+  const char* id;
+  const char* text;
+  const char* key;
+  const char* tip;
+};
+constexpr std::array<Side, 5> kSides{{
+    {VolumeSide::above, "volume.above", "Volume: from above", "Ctrl+1", "Straight down, the bow upwards"},
+    {VolumeSide::starboard, "volume.starboard", "Volume: from starboard", "Ctrl+2", "Level, the bow to the right"},
+    {VolumeSide::port, "volume.port", "Volume: from port", "Ctrl+3", "Level, the bow to the left"},
+    {VolumeSide::behind, "volume.behind", "Volume: from behind", "Ctrl+4", "Level, along the ship's course"},
+    {VolumeSide::overview, "volume.overview", "Volume: overview", "Ctrl+5", "The whole sector, obliquely from above"},
+}};
+
+}  // namespace
+
+void add_volume(Desk& desk) {
+  auto model = std::make_unique<VolumeModel>(desk.workspace);
+  VolumeModel* volume = model.get();
+  // Tools are made by whatever part comes first; they are there when somebody points.
+  volume->hooks.press = [&desk](const Voxel& voxel, bool shift, bool control, bool double_press) {
+    if (desk.seed_tool) desk.seed_tool->press(voxel, shift, control, double_press);
+  };
+  volume->hooks.select = [&desk](const Voxel& voxel) {
+    if (desk.seed_tool) desk.seed_tool->select(voxel);
+  };
+  volume->hooks.hover = [&desk](const Voxel& voxel, bool shift, bool control) {
+    if (desk.seed_tool) desk.seed_tool->hover(voxel, shift, control);
+  };
+  volume->hooks.leave = [&desk] {
+    if (desk.seed_tool) desk.seed_tool->leave();
+  };
+  desk.pictures.push_back({"volume", "Volume", DockPlace::centre, "volume", std::move(model)});
+  for (const Side& side : kSides) {
+    desk.actions.add({side.id,
+                      "&View",
+                      side.text,
+                      {side.key},
+                      side.tip,
+                      [volume, side] { volume->look_from(side.side); },
+                      [volume] { return volume->seen(); }});
+  }
+}
+
+}  // namespace sonar

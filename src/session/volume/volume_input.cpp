@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/volume/volume_input.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "session/slices/school_layers.h"
+#include "view/theme.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::size_t kMostMasks = 250;  ///< that back-ends tell apart, with room for those that are only tried
+
+Rgba8 colour_of(const MaskLayer& layer) {
+  const auto byte = [](float share) { return static_cast<std::uint8_t>(std::lround(share * 255.0F)); };
+  return {byte(layer.rgb[0]), byte(layer.rgb[1]), byte(layer.rgb[2]), 255};
+}
+
+void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
+  for (const SchoolLayer& school : layers) {
+    if (!school.layer.mask || school.layer.mask->empty()) continue;
+    const bool tried = school.number == 0;
+    if (!tried && input.masks.size() >= kMostMasks) continue;
+    input.masks.push_back(school.layer);
+    if (tried) ++input.tried;
+    if (!tried) input.legend.emplace_back(colour_of(school.layer), fmt::format("school {}", school.number));
+  }
+}
+
+std::string title_of(const ObservationFiles& files) {
+  const bool synthetic = files.config.survey_name.find("SYNTHETIC") != std::string::npos;
+  return synthetic ? files.name + " SYNTHETIC" : files.name;
+}
+
+void set_options(PictureOptions& options, const DisplayParams& display, const VolumeParams& volume) {
+  options.scale = display.scale;
+  options.filtered = display.filtered;
+  options.masks = display.masks;
+  options.mask_style.core_at = static_cast<float>(display.core_at);
+  options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
+  options.mask_style.data_too = volume.data;
+  options.mode = static_cast<RayMode>(volume.mode);
+  options.first_hit_db = volume.first_hit_db;
+  options.lighting = volume.lighting;
+  options.context = volume.context;
+  options.frames = volume.frames;
+  options.renderer = static_cast<RendererChoice>(volume.renderer);
+}
+static_assert(static_cast<int>(VolumeMode::first_hit) == static_cast<int>(RayMode::first_hit) &&
+              static_cast<int>(VolumeMode::maximum) == static_cast<int>(RayMode::maximum) &&
+              static_cast<int>(VolumeRendererName::cpu) == static_cast<int>(RendererChoice::cpu) &&
+              static_cast<int>(VolumeRendererName::gl) == static_cast<int>(RendererChoice::gl));
+
+}  // namespace
+
+std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const std::optional<Camera>& camera,
+                                            PixelSize size, double scale) {
+  const Document& document = workspace.document;
+  if (!document.shown() || !document.staged()) return std::nullopt;
+  const OpenObservationPtr& shown = document.shown();
+  LiveVolumeInput input;
+  input.staged = document.staged();
+  input.sector = std::shared_ptr<const Sector>(shown, &shown->sector());
+  input.navigation = shown->files().navigation[static_cast<std::size_t>(input.staged->ping_index)];
+  input.title = title_of(shown->files());
+  input.title_line = fmt::format("{}   ping {}", input.title, input.staged->ping_index);
+  set_options(input.options, workspace.display.values(), workspace.volume.values());
+  input.options.size = size;
+  input.options.dark = workspace.dark();
+  input.options.transfer = workspace.view_curve();
+  input.options.camera = camera;
+  input.scale_bar = workspace.curve_follows_scale();
+  input.scale = scale;
+  input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
+  add_masks(input, school_layers(workspace, input.staged->ping_index, theme_of(input.options)));
+  return input;
+}
+
+}  // namespace sonar

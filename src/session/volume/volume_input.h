@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "publish/live_volume.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// What the view in three dimensions shows of a workspace: the ping that has arrived, the schools in it, what is being tried
+/// and carried through time, and all parameters. Empty where no ping has arrived.
+/// camera  empty = the overview
+/// cost    no samples are touched
+[[nodiscard]] std::optional<LiveVolumeInput> volume_input(const Workspace& workspace,
+                                                          const std::optional<Camera>& camera, PixelSize size,
+                                                          double scale);
+
+}  // namespace sonar

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/volume/volume_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/units.h"
+#include "session/volume/volume_input.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kWheelStep = 0.85;  ///< of the distance, a notch
+constexpr double kNearest_m = 0.5;
+constexpr double kFarthest = 20.0;  ///< in ranges of the sonar
+
+/// A drag over the volume's height is half a turn.
+Camera turned(const Camera& camera, double right_px, double down_px, double height_px) {
+  const double rad_per_px = std::numbers::pi / height_px;
+  return orbited(camera, right_px * rad_per_px, down_px * rad_per_px);
+}
+
+/// Where a ray comes as far away as the camera's target.
+Point<Sonar> at_target_depth(const Camera& camera, const CameraBasis& b, const Ray& ray) {
+  const Point<Sonar> arm = camera.target - camera.eye;
+  const Point<Sonar>& d = ray.direction;
+  const double cosine = d.x * b.forward.x + d.y * b.forward.y + d.z * b.forward.z;
+  return ray.origin + d * (norm(arm) / std::max(0.1, cosine));
+}
+
+}  // namespace
+
+VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
+    : LivePicture(workspace.queue), workspace_(workspace), live_(std::make_shared<LiveVolume>(std::move(make))) {
+  const auto listen = [this](auto& listeners, auto what) {
+    stop_listening_.push_back([&listeners, id = listeners.add(std::move(what))] { listeners.remove(id); });
+  };
+  listen(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
+  for (Listeners<>* changed : {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
+                               &workspace.curve_follows_scale.changed(), &workspace.school.changed()}) {
+    listen(*changed, [this] { update(); });
+  }
+  listen(workspace.cursor.changed(), [this] { changed().tell(); });
+  const auto again = [this, here = std::weak_ptr<bool>(here_)](const auto&) {
+    if (!here.expired()) update();
+  };
+  workspace.display.on_change(again);
+  workspace.volume.on_change(again);
+}
+
+VolumeModel::~VolumeModel() {
+  for (const auto& stop : stop_listening_) stop();
+  if (better_) better_->cancel();
+  // Where a back-end was made it must end, and that is not the window's thread.
+  end_behind([this] { live_->let_go(); });
+}
+
+void VolumeModel::hear(DocumentChange change) {
+  switch (change) {
+    case DocumentChange::survey:
+    case DocumentChange::observation:
+      camera_.reset();
+      drag_.reset();
+      shown_.reset();
+      return update();
+    case DocumentChange::ping:
+    case DocumentChange::propagating:
+    case DocumentChange::state:
+      return update();
+    default:
+      return;
+  }
+}
+
+LivePicture::Build VolumeModel::build() {
+  if (better_) better_->cancel();  // what is under way shows something that is past
+  auto input = volume_input(workspace_, camera_, size(), scale());
+  if (!input) return {};
+  better_ = std::make_shared<Work>(workspace_.document.options().threads);
+  return [live = live_, better = better_, input = std::move(*input)](PixelSize /*size*/, const Wanted& wanted,
+                                                                     const Show& show) {
+    return live->draw(input, wanted, *better, [&](LiveVolume::Picture picture) {
+      show({std::move(picture.frame), std::nullopt, std::move(picture.shown)});
+    });
+  };
+}
+
+void VolumeModel::take(const std::shared_ptr<const void>& detail) {
+  if (!seen()) return;
+  shown_ = std::static_pointer_cast<const LiveVolumeShown>(detail);
+  if (shown_ && shown_->notice != told_) {
+    told_ = shown_->notice;
+    if (!told_.empty()) workspace_.document.tell(told_);
+  }
+}
+
+void VolumeModel::hidden() {
+  if (better_) better_->cancel();
+  drag_.reset();
+  shown_.reset();
+  behind([live = live_] { live->let_go(); });
+}
+
+void VolumeModel::set_camera(const Camera& camera) {
+  const double far_m = shown_ ? shown_->volume->sector.range().range_m(shown_->volume->sector.range().count) : 1e3;
+  const double distance_m = norm(camera.eye - camera.target);
+  if (distance_m < kNearest_m || distance_m > kFarthest * far_m) return;
+  if (camera_ == camera) return;
+  camera_ = camera;
+  update();
+}
+
+void VolumeModel::look_from(VolumeSide side) {
+  if (side == VolumeSide::overview) {
+    camera_.reset();
+    return update();
+  }
+  const auto& observation = workspace_.document.shown();
+  if (!observation) return;
+  const auto from = [side] {
+    switch (side) {
+      case VolumeSide::above:
+        // One degree aft, so that the bow points up.
+        return Sector::direction(rad_from_deg(89.0), rad_from_deg(180.0));
+      case VolumeSide::starboard:
+        return Sector::direction(0.0, rad_from_deg(90.0));
+      case VolumeSide::port:
+        return Sector::direction(0.0, rad_from_deg(270.0));
+      default:
+        return Sector::direction(0.0, rad_from_deg(180.0));
+    }
+  };
+  const PixelSize rays = shown_ ? shown_->view.size : size();
+  set_camera(seen_from(observation->sector(), from(), rays));
+}
+
+void VolumeModel::pointer(const PointerEvent& event) {
+  switch (event.action) {
+    case PointerAction::press:
+      return press(event);
+    case PointerAction::double_press:
+      drag_.reset();
+      if (event.button == PointerButton::left) press_voxel(event, true);
+      return;
+    case PointerAction::move:
+      return drag_ ? drag(event) : hover(event);
+    case PointerAction::release:
+      return release(event);
+    case PointerAction::wheel:
+      return zoom(event);
+    case PointerAction::leave:
+      return leave();
+  }
+}
+
+void VolumeModel::press(const PointerEvent& event) {
+  if (!shown_ || (event.button != PointerButton::left && event.button != PointerButton::middle)) return;
+  drag_ = Drag{event.button, event.at, camera_.value_or(shown_->view.camera), false};
+}
+
+void VolumeModel::drag(const PointerEvent& event) {
+  const double right = event.at.x - drag_->from.x;
+  const double down = event.at.y - drag_->from.y;
+  if (!shown_ || (!drag_->moved && std::hypot(right, down) <= kDragBegins_px)) return;
+  if (!drag_->moved) leave();
+  drag_->moved = true;
+  const double height = shown_->place.height;
+  set_camera(drag_->button == PointerButton::left ? turned(drag_->camera, right, down, height)
+                                                  : panned(drag_->camera, -right / height, down / height));
+}
+
+void VolumeModel::release(const PointerEvent& event) {
+  if (!drag_ || event.button != drag_->button) return;
+  const bool click = !drag_->moved && drag_->button == PointerButton::left;
+  drag_.reset();
+  if (click) press_voxel(event, false);
+}
+
+void VolumeModel::zoom(const PointerEvent& event) {
+  if (!shown_ || event.wheel_steps == 0.0) return;
+  const Camera camera = camera_.value_or(shown_->view.camera);
+  const CameraBasis b = basis(camera, shown_->view.size);
+  const double scale = shown_->view.size.width / shown_->place.width;
+  const PixelPoint pixel{(event.at.x - shown_->place.x) * scale, (event.at.y - shown_->place.y) * scale};
+  // While a new camera's picture is still on its way, nothing is known of what it will show.
+  const auto picked = camera == shown_->view.camera ? shown_->picked_at(event.at) : std::nullopt;
+  const Point<Sonar> about = picked ? picked->position : at_target_depth(camera, b, b.ray(pixel));
+  set_camera(zoomed_about(camera, about, std::pow(kWheelStep, event.wheel_steps)));
+}
+
+std::optional<Voxel> VolumeModel::voxel_at(PixelPoint at) const {
+  const auto& staged = workspace_.document.staged();
+  if (!shown_ || !staged || staged->ping_index != shown_->ping_index) return std::nullopt;
+  const auto picked = shown_->picked_at(at);
+  if (!picked) return std::nullopt;
+  return Voxel{picked->fan, picked->beam, picked->sample};
+}
+
+void VolumeModel::press_voxel(const PointerEvent& event, bool double_press) {
+  const auto voxel = voxel_at(event.at);
+  if (!voxel) return;
+  if (event.alt || workspace_.tool() != ToolName::seed) {
+    if (hooks.select) hooks.select(*voxel);
+  } else if (hooks.press) {
+    hooks.press(*voxel, event.shift, event.control, double_press);
+  }
+}
+
+void VolumeModel::hover(const PointerEvent& event) {
+  if (event.button != PointerButton::none) return;
+  const auto voxel = voxel_at(event.at);
+  workspace_.cursor.set(voxel);
+  if (workspace_.tool() != ToolName::seed) return;
+  if (voxel && hooks.hover) hooks.hover(*voxel, event.shift, event.control);
+  if (!voxel && hooks.leave) hooks.leave();
+}
+
+void VolumeModel::leave() {
+  workspace_.cursor.set(std::nullopt);
+  if (hooks.leave) hooks.leave();
+}
+
+std::vector<Overlay> VolumeModel::overlays() const {
+  const auto& cursor = workspace_.cursor();
+  const auto& observation = workspace_.document.shown();
+  if (!shown_ || !cursor || !observation) return {};
+  const auto at = shown_->place_of(observation->sector().centre(cursor->fan, cursor->beam, cursor->sample));
+  if (!at) return {};
+  Overlay cross;
+  cross.cross = *at;
+  return {cross};
+}
+
+std::string VolumeModel::hint(PixelPoint at) const {
+  const auto voxel = voxel_at(at);
+  return voxel ? read_out(workspace_, *voxel).line() : std::string{};
+}
+
+}  // namespace sonar

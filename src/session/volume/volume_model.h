@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "publish/live_volume.h"
+#include "session/live_picture.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Where the view in three dimensions is looked from by name.
+enum class VolumeSide : std::uint8_t { overview, above, starboard, port, behind };
+
+/// The ping in three dimensions.
+///
+/// Left drag turns it, middle drag moves it, the wheel comes nearer to what is under the pointer, a left click without a
+/// drag is a press upon the voxel that is seen there. The first picture after a change is coarse, better ones follow
+/// while nothing changes. Hidden, it gives back its volumes and the back-end that drew them.
+/// threads  the window's
+class VolumeModel : public LivePicture {
+ public:
+  /// The workspace outlives the model. make: back-ends; empty = those of this machine
+  explicit VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make = {});
+  ~VolumeModel() override;
+
+  void look_from(VolumeSide side);
+  [[nodiscard]] const std::optional<Camera>& camera() const { return camera_; }
+  /// Of the picture on show; null before the first.
+  [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }
+
+  void pointer(const PointerEvent& event) override;
+  [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] std::string hint(PixelPoint at) const override;
+
+  /// What a pointer does upon voxels; each may be empty.
+  struct Hooks {
+    std::function<void(const Voxel&, bool shift, bool control, bool double_press)> press;
+    std::function<void(const Voxel&)> select;  ///< with alt, or while another tool than the seed is chosen
+    std::function<void(const Voxel&, bool shift, bool control)> hover;
+    std::function<void()> leave;
+  };
+  Hooks hooks;
+
+  /// A drag begins when the pointer has gone so far, pixels.
+  static constexpr double kDragBegins_px = 4.0;
+
+ protected:
+  [[nodiscard]] Build build() override;
+  void take(const std::shared_ptr<const void>& detail) override;
+  void hidden() override;
+
+ private:
+  struct Drag {
+    PointerButton button = PointerButton::none;
+    PixelPoint from;
+    Camera camera;
+    bool moved = false;
+  };
+  void hear(DocumentChange change);
+  void press(const PointerEvent& event);
+  void drag(const PointerEvent& event);
+  void release(const PointerEvent& event);
+  void zoom(const PointerEvent& event);
+  void hover(const PointerEvent& event);
+  void leave();
+  void set_camera(const Camera& camera);
+  [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint at) const;
+  void press_voxel(const PointerEvent& event, bool double_press);
+
+  Workspace& workspace_;
+  std::optional<Camera> camera_;  ///< empty = the overview
+  std::optional<Drag> drag_;
+  std::shared_ptr<LiveVolume> live_;
+  std::shared_ptr<const LiveVolumeShown> shown_;
+  std::shared_ptr<Work> better_;  ///< draws what may be given up
+  std::string told_;              ///< the last notice
+  std::vector<std::function<void()>> stop_listening_;
+  std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
+};
+
+}  // namespace sonar

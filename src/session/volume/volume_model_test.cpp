@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/volume/volume_model.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "publish/renderer_choice.h"
+#include "session/volume/volume_test_ground.h"
+
+namespace sonar {
+namespace {
+
+/// Draws as the processor does, and tells how many of its kind live and draw, and whether all on one thread.
+struct Watch {
+  int living = 0;
+  int made = 0;
+  int drawn = 0;
+  bool fails = false;  ///< draw() does
+  std::set<const void*> threads;
+};
+
+/// Names the thread that asks.
+const void* this_thread() {
+  thread_local char mark;
+  return &mark;
+}
+
+class WatchedRenderer : public VolumeRenderer {
+ public:
+  explicit WatchedRenderer(std::shared_ptr<Watch> watch) : watch_(std::move(watch)), inner_(make_cpu_renderer()) {
+    ++watch_->living;
+    ++watch_->made;
+    watch_->threads.insert(this_thread());
+  }
+  ~WatchedRenderer() override {
+    --watch_->living;
+    watch_->threads.insert(this_thread());
+  }
+  [[nodiscard]] std::string name() const override { return "watched"; }
+  Result<void> set_volume(std::shared_ptr<const VolumeData> volume) override { return inner_->set_volume(volume); }
+  Result<void> set_transfer(const OpticalTable& table) override { return inner_->set_transfer(table); }
+  Result<void> set_masks(std::span<const MaskLayer> masks) override { return inner_->set_masks(masks); }
+  Result<RayImage> draw(const VolumeView& view, const DrawQuality& quality, Work& work) override {
+    ++watch_->drawn;
+    watch_->threads.insert(this_thread());
+    if (watch_->fails) return fail(ErrorCode::unsupported, "the driver was taken away");
+    return inner_->draw(view, quality, work);
+  }
+
+ private:
+  std::shared_ptr<Watch> watch_;
+  std::unique_ptr<VolumeRenderer> inner_;
+};
+
+class VolumeAtWork : public testing::Test, public VolumeGround {};
+
+TEST_F(VolumeAtWork, ItSettlesOnWhatRenderDraws) {
+  // The bar of colours shows the curve, as it does where a transfer function is given.
+  workspace_.curve_follows_scale.set(false);
+  settle();
+  ASSERT_TRUE(model_->shown()->done);
+  // The same rays, averaged in the same order.
+  EXPECT_EQ(model_->image(), rendered(model_->shown()->view.camera));
+}
+
+TEST_F(VolumeAtWork, TheFirstPictureIsCoarseAndLaterOnesComeNearer) {
+  workspace_.curve_follows_scale.set(false);
+  // A new model knows nothing of the machine's pace: the first picture fits its 5 ms only at a part of the resolution.
+  model_ = std::make_unique<VolumeModel>(workspace_);
+  std::vector<std::pair<int, Image>> pictures;
+  model_->changed().add([&] {
+    if (model_->shown() != nullptr) pictures.emplace_back(model_->shown()->divisor, model_->image());
+  });
+  model_->resize(kVolumeTestSize, 1.0);
+  model_->set_seen(true);
+  settle();
+  ASSERT_GE(pictures.size(), 3U);
+  EXPECT_GT(pictures.front().first, 1);
+  EXPECT_EQ(pictures.back().first, 1);
+  const Image truth = rendered(model_->shown()->view.camera);
+  // Large shapes are there from the beginning: less than a tenth of the range off, on average.
+  EXPECT_GT(psnr_db(pictures.front().second, truth), 20.0);
+  for (std::size_t i = 1; i < pictures.size() && pictures[i - 1].first > 1; ++i) {
+    EXPECT_GT(psnr_db(pictures[i].second, truth), psnr_db(pictures[i - 1].second, truth)) << i;
+  }
+  EXPECT_EQ(pictures.back().second, truth);
+}
+
+TEST_F(VolumeAtWork, AnotherPingIsAnotherVolume) {
+  const Image first = model_->image();
+  look_at(3);
+  EXPECT_EQ(model_->shown()->ping_index, 3);
+  const StagedPing& staged = *workspace_.document.staged();
+  const VolumeData volume = volume_data(workspace_.document.shown()->sector(),
+                                        {staged.filtered->counts, staged.filtered->flags}, kNotFiltered, 0.0);
+  EXPECT_EQ(model_->shown()->volume->sv, volume.sv);
+  EXPECT_NE(model_->image(), first);
+}
+
+TEST_F(VolumeAtWork, WhatIsTriedIsDrawnButPointersPassThroughIt) {
+  const Image before = model_->image();
+  const PixelPoint at = seen_place();
+  const auto picked = model_->shown()->picked_at(at);
+  auto mask = std::make_shared<PingMask>();
+  mask->runs = {{picked->fan * workspace_.document.shown()->sector().beams() + picked->beam,
+                 std::max(0, picked->sample - 40), 41}};
+  mask->confidence.assign(41, 255);
+  workspace_.preview.set({workspace_.document.ping(), mask, "", 0});
+  settle();
+  EXPECT_NE(model_->image(), before);
+  EXPECT_TRUE(model_->shown()->masks.empty());
+  workspace_.preview.set({});
+  settle();
+  EXPECT_EQ(model_->image(), before);
+}
+
+TEST_F(VolumeAtWork, HiddenItDrawsNothingAndKeepsNothing) {
+  auto watch = std::make_shared<Watch>();
+  show(std::make_unique<VolumeModel>(workspace_, [watch](RendererChoice) -> Result<OffscreenRenderer> {
+    return OffscreenRenderer{nullptr, std::make_unique<WatchedRenderer>(watch)};
+  }));
+  const Image shown = model_->image();
+  EXPECT_EQ(watch->living, 1);
+  model_->set_seen(false);
+  settle();
+  EXPECT_EQ(watch->living, 0);
+  EXPECT_EQ(model_->shown(), nullptr);
+  const auto pictures = model_->pictures();
+  const int drawn = watch->drawn;
+  look_at(2);
+  workspace_.dark.set(true);
+  settle();
+  EXPECT_EQ(model_->pictures(), pictures);
+  EXPECT_EQ(watch->drawn, drawn);
+  EXPECT_EQ(watch->made, 1);
+  // Shown again it is what it was.
+  workspace_.dark.set(false);
+  workspace_.document.look_at(0);
+  model_->set_seen(true);
+  settle();
+  EXPECT_EQ(model_->image(), shown);
+  EXPECT_EQ(watch->made, 2);
+  model_.reset();
+  EXPECT_EQ(watch->living, 0);
+  // A context of OpenGL belongs to the thread that made it.
+  EXPECT_EQ(watch->threads.size(), 1U);
+  EXPECT_FALSE(watch->threads.contains(this_thread()));
+}
+
+TEST_F(VolumeAtWork, WhereOpenGlIsNotToBeHadTheProcessorDrawsAndSaysSo) {
+  const Image by_processor = model_->image();
+  show(std::make_unique<VolumeModel>(workspace_, [](RendererChoice choice) -> Result<OffscreenRenderer> {
+    if (choice == RendererChoice::gl) return fail(ErrorCode::unsupported, "no graphics card");
+    return OffscreenRenderer{nullptr, make_cpu_renderer()};
+  }));
+  const std::size_t told = workspace_.document.notices().size();
+  ASSERT_TRUE(workspace_.volume.set("renderer", Choice{2}));
+  settle();
+  EXPECT_EQ(model_->image(), by_processor);
+  ASSERT_EQ(workspace_.document.notices().size(), told + 1);
+  EXPECT_NE(workspace_.document.notices().back().find("no graphics card"), std::string::npos);
+}
+
+TEST_F(VolumeAtWork, ADriverThatIsTakenAwayIsReplacedByTheProcessor) {
+  const Image by_processor = model_->image();
+  auto watch = std::make_shared<Watch>();
+  show(std::make_unique<VolumeModel>(workspace_, [watch](RendererChoice choice) -> Result<OffscreenRenderer> {
+    if (choice == RendererChoice::cpu) return OffscreenRenderer{nullptr, make_cpu_renderer()};
+    return OffscreenRenderer{std::make_shared<int>(0), std::make_unique<WatchedRenderer>(watch)};
+  }));
+  ASSERT_TRUE(workspace_.volume.set("renderer", Choice{2}));
+  settle();
+  ASSERT_EQ(watch->living, 1);
+  watch->fails = true;
+  look_at(1);
+  EXPECT_EQ(watch->living, 0);
+  EXPECT_NE(model_->shown()->notice.find("taken away"), std::string::npos);
+  look_at(0);
+  EXPECT_EQ(model_->image(), by_processor);
+}
+
+TEST_F(VolumeAtWork, ARendererThatWasDestroyedDrawsTheSameWhenMadeAgain) {
+  for (const std::size_t renderer : {std::size_t{1}, std::size_t{2}}) {
+    ASSERT_TRUE(workspace_.volume.set("renderer", Choice{renderer}));
+    settle();
+    ASSERT_NE(model_->shown(), nullptr);
+    if (!model_->shown()->notice.empty()) GTEST_SKIP() << "no OpenGL here: " << model_->shown()->notice;
+    const Image before = model_->image();
+    const std::string name = model_->shown()->renderer;
+    model_->set_seen(false);
+    settle();
+    model_->set_seen(true);
+    settle();
+    EXPECT_EQ(model_->shown()->renderer, name);
+    EXPECT_EQ(model_->image(), before) << name;
+  }
+}
+
+}  // namespace
+}  // namespace sonar

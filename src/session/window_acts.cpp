@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+#include <utility>
+
+#include "session/desk_parts.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kView = "&View";
+constexpr const char* kHelp = "&Help";
+
+/// Calls what the window has hung in, if it has.
+std::function<void()> asked(Desk& desk, std::function<void()> Asking::*what) {
+  return [&desk, what] {
+    if (desk.asking.*what) (desk.asking.*what)();
+  };
+}
+
+Action toggle(const char* id, const char* text, const char* key, const char* tip, Shared<bool>& value) {
+  Action action{id, kView, text, {key}, tip, [&value] { value.set(!value()); }};
+  action.checked = [&value] { return value(); };
+  return action;
+}
+
+struct ViewName {
+  const char* name;  ///< property of ViewSwitches
+  const char* text;
+  const char* key;
+};
+constexpr std::array<ViewName, 7> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+                                          {"side_slice", "Slice from the side", "Alt+2"},
+                                          {"volume", "Volume", "Alt+3"},
+                                          {"observation_map", "Observation map", "Alt+4"},
+                                          {"propagation", "Propagation", "Alt+5"},
+                                          {"survey_map", "Survey map", "Alt+6"},
+                                          {"timeline", "Timeline", "Alt+7"}}};
+
+void add_view_switches(Desk& desk) {
+  for (const ViewName& view : kViews) {
+    Workspace& workspace = desk.workspace;
+    const auto on = [&workspace, name = view.name] {
+      const auto value = workspace.views.value(name);
+      return value && std::get<bool>(*value);
+    };
+    Action action{std::string("view.") + view.name,
+                  kView,
+                  view.text,
+                  {view.key},
+                  "Switch the view on or off; one that is off costs nothing",
+                  [&workspace, on, name = view.name] { (void)workspace.views.set(name, !on()); }};
+    action.checked = on;
+    desk.actions.add(std::move(action));
+  }
+}
+
+}  // namespace
+
+void add_window_acts(Desk& desk) {
+  add_view_switches(desk);
+  desk.actions.add(toggle("view.dark", "Dark", "F9", "Dark colours for night watches", desk.workspace.dark));
+  desk.actions.add({"view.full_screen",
+                    kView,
+                    "Full screen",
+                    {"F11"},
+                    "The whole screen, or a window again",
+                    asked(desk, &Asking::full_screen)});
+  desk.actions.add({"view.reset_layout",
+                    kView,
+                    "Reset layout",
+                    {},
+                    "All docks where they were at first",
+                    asked(desk, &Asking::reset_layout)});
+  desk.actions.add(
+      toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", desk.workspace.latencies));
+  desk.actions.add({"help.keys", kHelp, "Keys", {"F1"}, "Every key and what it does", asked(desk, &Asking::show_keys)});
+  desk.actions.add({"help.about", kHelp, "About", {}, "Version and licences", asked(desk, &Asking::show_about)});
+}
+
+}  // namespace sonar

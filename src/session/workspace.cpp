@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/workspace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "session/place_text.h"
+#include "view/slice_picture.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kMostOpacity = 0.9;  // as pictures of volumes have it
+
+TransferFunction first_view_curve() {
+  auto curve = transfer_function(SvScale{}, kMostOpacity);
+  return curve ? std::move(*curve) : TransferFunction{};
+}
+
+/// "school 3, f 0.82"; empty where nobody has the voxel.
+std::string school_text(const JournalState& state, std::int64_t ping_index, int row, int sample) {
+  for (const auto& school : state.schools) {
+    const auto* there = in_ping(school->masks, ping_index);
+    const int q = there == nullptr ? 0 : confidence_at(there->mask, row, sample);
+    if (q > 0) return fmt::format("school {}, f {:.2f}", school->number, q / 255.0);
+  }
+  return {};
+}
+
+}  // namespace
+
+Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
+    : queue(changes),
+      document(changes, std::move(options)),
+      display(changes),
+      select(changes),
+      volume(changes),
+      views(changes),
+      view_curve(first_view_curve()) {
+  document.changes().add([this, last = std::make_shared<std::weak_ptr<OpenObservation>>()](DocumentChange change) {
+    if (change != DocumentChange::observation && change != DocumentChange::survey) return;
+    const auto& shown = document.shown();
+    // One more observation is open: what is looked at is the same.
+    if (change == DocumentChange::observation && last->lock() == shown) return;
+    *last = shown;
+    cursor.set(std::nullopt);
+    preview.set({});
+    if (shown) slices.set({shown->sector().fans() / 2, shown->sector().beams() / 2});
+  });
+  display.on_change([this](const DisplayParams& params) {
+    if (!curve_follows_scale()) return;
+    if (auto curve = transfer_function(params.scale, kMostOpacity)) view_curve.set(std::move(*curve));
+  });
+  view_curve.changed().add([this] {
+    if (curves_linked()) growth_curve.set(view_curve());
+  });
+  growth_curve.changed().add([this] {
+    if (curves_linked()) view_curve.set(growth_curve());
+  });
+}
+
+std::optional<std::size_t> Workspace::selected() const {
+  if (!school() || !document.shown() || school()->observation != document.shown()->index()) return std::nullopt;
+  const auto& schools = document.state().schools;
+  const auto found =
+      std::find_if(schools.begin(), schools.end(), [&](const auto& one) { return one->number == school()->number; });
+  return found == schools.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - schools.begin()));
+}
+
+ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
+  ReadOut text;
+  const auto& shown = workspace.document.shown();
+  if (!shown) return text;
+  const Sector& sector = shown->sector();
+  if (voxel.fan < 0 || voxel.fan >= sector.fans() || voxel.beam < 0 || voxel.beam >= sector.beams() ||
+      voxel.sample < 0 || voxel.sample >= sector.range().count) {
+    return text;
+  }
+  const std::int64_t ping = workspace.document.ping();
+  const int row = voxel.fan * sector.beams() + voxel.beam;
+  text.fan = fmt::format("fan {}", voxel.fan);
+  text.beam = fmt::format("beam {}", voxel.beam);
+  text.sample = fmt::format("sample {}", voxel.sample);
+  const Point<Sonar> place = sector.centre(voxel.fan, voxel.beam, voxel.sample);
+  const PingNavigation& navigation = shown->files().navigation[static_cast<std::size_t>(ping)];
+  const Placement placement = navigation.placement();
+  text.range = fmt::format("range {:.1f} m", norm(place));
+  text.depth = fmt::format("depth {:.1f} m", place.z + placement.transducer_depth_m);
+  text.time = fmt::format("{} UTC", iso_time(navigation.time));
+  const double bow_deg = deg_from_rad(std::atan2(place.y, place.x));
+  const bool headed = !std::isnan(navigation.heading_deg);
+  text.bearing = headed ? fmt::format("bearing {:05.1f}\u00B0", wrap_360(bow_deg + navigation.heading_deg))
+                        : fmt::format("bow {:+.1f}\u00B0", wrap_180(bow_deg));
+  if (navigation.has_position() && headed) {
+    const Geographic there = to_geographic(to_enu(place, placement.heading_rad), placement.transducer);
+    text.latitude = latitude_minutes_text(there.latitude_deg);
+    text.longitude = longitude_minutes_text(there.longitude_deg);
+  }
+  if (const auto& staged = workspace.document.staged(); staged && staged->ping_index == ping) {
+    const Volume& volume = workspace.display.values().filtered ? *staged->filtered : staged->sv;
+    const std::int16_t count = volume.counts.view()(voxel.fan, voxel.beam, voxel.sample);
+    text.sv = count == kNoData ? "Sv none" : fmt::format("Sv {:.1f} dB", db_from_counts(count));
+    if (staged->filtered->flags.shape() == volume.counts.shape()) {
+      text.flags = flag_text(staged->filtered->flags.view()(voxel.fan, voxel.beam, voxel.sample));
+    }
+  }
+  text.school = school_text(workspace.document.state(), ping, row, voxel.sample);
+  return text;
+}
+
+std::string ReadOut::line() const {
+  std::string all;
+  for (const std::string* part :
+       std::array{&sv, &fan, &beam, &sample, &range, &depth, &bearing, &latitude, &longitude, &time, &flags, &school}) {
+    if (part->empty()) continue;
+    if (!all.empty()) all += ", ";
+    all += *part;
+  }
+  return all;
+}
+
+}  // namespace sonar

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "model/transfer_function.h"
+#include "session/change_queue.h"
+#include "session/display.h"
+#include "session/document.h"
+#include "session/listeners.h"
+#include "session/parameters.h"
+#include "view/slice.h"
+
+namespace sonar {
+
+/// A value that views share; those who listen hear of every change.
+template <class T>
+class Shared {
+ public:
+  explicit Shared(T value = {}) : value_(std::move(value)) {}
+  [[nodiscard]] const T& operator()() const { return value_; }
+  void set(T value) {
+    if (value == value_) return;
+    value_ = std::move(value);
+    changed_.tell();
+  }
+  [[nodiscard]] Listeners<>& changed() { return changed_; }
+
+ private:
+  T value_;
+  Listeners<> changed_;
+};
+
+/// A school of the survey as windows name it.
+struct SchoolName {
+  std::size_t observation = 0;  ///< index in the survey
+  std::int64_t number = 0;      ///< StateSchool::number
+  friend bool operator==(const SchoolName&, const SchoolName&) = default;
+};
+
+/// What a click would select, or what is being tried: drawn over the ping, part of nothing yet.
+struct Preview {
+  std::int64_t ping_index = -1;
+  std::shared_ptr<const PingMask> mask;  ///< null = none
+  std::string text;                      ///< "1 204 voxels, 3.1e4 m3, mean -48.2 dB", or why nothing grows
+  std::int64_t instead_of = 0;           ///< number of the school that would be replaced by it; 0 = none
+  friend bool operator==(const Preview&, const Preview&) = default;
+};
+
+/// What a click does.
+enum class ToolName : std::uint8_t { seed, brush, eraser };
+
+/// Pings of an observation that were marked on a timeline, both included.
+struct MarkedInterval {
+  std::size_t observation = 0;
+  std::int64_t first_ping = 0;
+  std::int64_t last_ping = 0;
+  friend bool operator==(const MarkedInterval&, const MarkedInterval&) = default;
+};
+
+/// Where slices lie.
+struct SlicePlaces {
+  int fan = 0;   ///< of the top slice
+  int beam = 0;  ///< of the side slice
+  friend bool operator==(const SlicePlaces&, const SlicePlaces&) = default;
+};
+
+/// Everything that the views of one window share: the document, the parameters, and what is pointed at.
+/// threads  the window's
+struct Workspace {
+  Workspace(ChangeQueue& changes, DocumentOptions options);
+
+  ChangeQueue& queue;
+  Document document;
+
+  Parameters<DisplayParams> display;
+  Parameters<SelectParams> select;
+  Parameters<VolumeParams> volume;
+  Parameters<ViewSwitches> views;
+
+  /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, a change of one is a
+  /// change of both.
+  Shared<TransferFunction> view_curve;
+  Shared<TransferFunction> growth_curve;
+  Shared<bool> curves_linked{false};
+  /// The view curve is the scale's (display.scale) until a human changes it.
+  Shared<bool> curve_follows_scale{true};
+
+  Shared<std::optional<Voxel>> cursor;       ///< the voxel pointed at, in the ping looked at
+  Shared<SlicePlaces> slices;                ///< where the slices lie
+  Shared<std::optional<SchoolName>> school;  ///< the selected school
+  Shared<Preview> preview;
+  Shared<ToolName> tool;
+  Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen
+  Shared<bool> dark{false};
+  Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
+  Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
+  Shared<bool> latencies{false};                          ///< how long each picture took, over it: for developers
+
+  /// Index in the state of the selected school, where it is in the observation on show.
+  [[nodiscard]] std::optional<std::size_t> selected() const;
+};
+
+/// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC.
+struct ReadOut {
+  std::string sv, fan, beam, sample, range, depth, bearing, latitude, longitude, time, flags, school;
+  /// "Sv -48.2 dB, fan 7, beam 12, ...": what one key copies.
+  [[nodiscard]] std::string line() const;
+};
+[[nodiscard]] ReadOut read_out(const Workspace& workspace, const Voxel& voxel);
+
+}  // namespace sonar
