@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Sets everything up and does the main job: simulates a survey of raw files, finds the schools in it, prints what was
-# found and where the tables and the map are.
+# found and where the tables and the map are. Where there is a display the survey is opened on it at the end.
 #   tools/demo.sh [FOLDER]      (default: build/demo in the project)
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
@@ -18,7 +18,7 @@ tools/setup.sh build
 echo "== build"
 mkdir -p build
 cmake --preset release -DSONAR_TESTS=OFF >build/release.configure.log 2>&1 || { cat build/release.configure.log; exit 1; }
-cmake --build --preset release --target sonarx
+cmake --build --preset release --target sonarx sonar-explorer
 sonarx=$here/build/release/src/cli/sonarx
 
 echo "== survey"
@@ -61,4 +61,7 @@ echo "school by ping     $folder/out/school_pings.csv"
 echo "map for QGIS       $folder/out/survey.gpkg"
 echo "masks              $folder/out/products"
 echo "pictures           $pictures"
-echo "the program        $sonarx --help"
+echo "command line       $sonarx --help"
+explorer=$here/build/release/src/gui/sonar-explorer
+echo "desktop            $explorer $folder/survey"
+if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then exec "$explorer" "$folder/survey"; fi

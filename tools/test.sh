@@ -109,7 +109,7 @@ benchmarks() {
     echo "ITK is not installed (tools/setup.sh bench): left out"
     return 0
   fi
-  build bench --target bench_median bench_stages
+  build bench --target bench_median bench_stages sonar_bench_slices sonar_bench_latency sonar_bench_latency_volume
 }
 
 # Tests in which several threads work on the same things, and the programs that hold them.
@@ -128,7 +128,7 @@ if $full; then
   part "tests of the clang build" run_ctest clang -LE slow
   part "build with address and undefined-behaviour sanitizers" build asan
   part "clang-tidy" tidy
-  part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE slow
+  part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE 'slow|gui'
   part "fuzzing" fuzz_a_little 5
   part "threaded tests with the thread sanitizer" threaded_tests
   part "headless build" headless

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// sonar_bench_latency [REPETITIONS [SURVEY]]: how long the desktop takes from an event to the picture that answers it, on a
+// simulated MS70 survey, both slices seen at 700 x 500: hovering (growth, both slices), a change of tolerance, a step to
+// a ping that was made ahead; and opening a survey (SURVEY, else a small one). Every answer is compared with one worked out anew before it is timed.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/observe.h"
+#include "publish/painted.h"
+#include "session/desk.h"
+#include "session/playback.h"
+#include "session/slices/slice_build.h"
+#include "session/slices/slice_model.h"
+#include "session/tools/seed_tool.h"
+#include "synth/beam_table.h"
+#include "synth/simulate.h"
+
+namespace sonar::bench {
+namespace {
+
+constexpr PixelSize kSize{700, 500};
+constexpr double kTarget_ms = 16.0;
+constexpr int kPings = 40;
+
+void must(bool right, const std::string& what) {
+  if (right) return;
+  fmt::print(stderr, "wrong answer: {}\n", what);
+  std::exit(EXIT_FAILURE);
+}
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class Bench {
+ public:
+  explicit Bench(const std::filesystem::path& folder) : desk_(queue_, options(folder / "journal")) {
+    document().open({folder / "raw"});
+    for (SliceModel* slice : {&top(), &side()}) {
+      slice->resize(kSize, 1.0);
+      slice->set_seen(true);
+    }
+    settle();
+    must(document().shown() != nullptr, "no survey");
+    find_school();
+    document().look_at(ping_);
+    desk_.workspace.slices.set({voxel_.fan, voxel_.beam});
+    settle();
+  }
+
+  void hover(int repetitions) {
+    // Neighbouring samples of the school's brightest voxel, so that every growth is another one of its size.
+    std::vector<double> ms;
+    for (int i = 0; i < repetitions; ++i) {
+      const Voxel voxel{voxel_.fan, voxel_.beam, voxel_.sample + i % 3};
+      const auto pointed = [&] { return hovered(voxel); };
+      ms.push_back(timed([&] { desk_.seed_tool->hover(voxel, false, false); }, pointed, true));
+      if (i == 0) verify_preview(voxel);
+    }
+    report("hover: growth, text, both slices", ms);
+    fmt::print("    {}\n", desk_.workspace.preview().text);
+  }
+
+  void tolerance(int repetitions) {
+    std::vector<double> ms;
+    desk_.seed_tool->hover(voxel_, false, false);
+    settle();
+    for (int i = 0; i < repetitions; ++i) {
+      const double db = 6.0 + 0.25 * (i % 24);
+      ms.push_back(timed([&] { must(!!desk_.workspace.select.set("tolerance_db", db), "tolerance"); },
+                         [&] { return preview_moved(); }, true));
+      if (i == 0) verify_preview(voxel_);
+    }
+    report("tolerance: growth, text, both slices", ms);
+    must(!!desk_.workspace.select.reset("tolerance_db"), "tolerance");
+    desk_.seed_tool->leave();
+    settle();
+  }
+
+  void step(int repetitions) {
+    std::vector<double> ms;
+    for (int i = 0; i < repetitions; ++i) {
+      const std::int64_t next = (i / 4) % 2 == 0 ? document().ping() + 1 : document().ping() - 1;
+      settle();  // made ahead
+      const auto stepped = [&] { return document().staged() && document().staged()->ping_index == next; };
+      ms.push_back(timed([&] { document().look_at(next); }, stepped, true));
+      if (i == 0) verify_slices();
+    }
+    report("ping step, made ahead: both slices", ms);
+  }
+
+ private:
+  static DocumentOptions options(const std::filesystem::path& journal) {
+    std::filesystem::create_directories(journal);
+    DocumentOptions options;
+    options.program_version = "bench";
+    options.journal_folders = [journal](const auto&) { return std::vector{journal}; };
+    return options;
+  }
+  Document& document() { return desk_.workspace.document; }
+  SliceModel& top() { return dynamic_cast<SliceModel&>(*desk_.picture("top_slice")); }
+  SliceModel& side() { return dynamic_cast<SliceModel&>(*desk_.picture("side_slice")); }
+  void settle() {
+    do {
+      document().settle();
+      desk_.seed_tool->wait();
+      top().wait();
+      side().wait();
+    } while (queue_.drain() > 0);
+  }
+
+  /// From the event until both slices show what holds now: the window's loop, which drains whenever something came.
+  double timed(const std::function<void()>& event, const std::function<bool()>& answered, bool both) {
+    settle();
+    before_ = desk_.workspace.preview().mask;
+    const double begin = now_ms();
+    event();
+    while (!answered()) {
+      queue_.wait();
+      queue_.drain();
+    }
+    // The pictures that were asked for at that moment are the last ones.
+    const std::int64_t tops = top().pictures();
+    const std::int64_t sides = side().pictures();
+    while (both && (top().pictures() == tops || side().pictures() == sides)) {
+      queue_.wait();
+      queue_.drain();
+    }
+    return now_ms() - begin;
+  }
+  bool preview_moved() { return desk_.workspace.preview().mask && desk_.workspace.preview().mask != before_; }
+  bool hovered(const Voxel& voxel) {
+    const auto& mask = desk_.workspace.preview().mask;
+    return preview_moved() &&
+           confidence_at(*mask, voxel.fan * document().shown()->sector().beams() + voxel.beam, voxel.sample) == 255;
+  }
+
+  void verify_preview(const Voxel& voxel) {
+    FilteredPing ping;
+    ping.volume = document().staged()->filtered;
+    const SeedKey seed = seed_key(*document().shown(), voxel);
+    const auto fresh = grow_seeds(document().shown()->ground(), ping, std::span(&seed, 1),
+                                  desk_.workspace.growth_curve(), grow_params(desk_.workspace.select.values()));
+    must(fresh && *fresh == *desk_.workspace.preview().mask, "the preview is not what grows");
+    verify_slices();
+  }
+
+  /// Both pictures against ones that are made without any that were before.
+  void verify_slices() {
+    for (SliceModel* slice : {&top(), &side()}) {
+      SliceWish wish;
+      wish.observation = document().shown();
+      wish.ping = document().staged();
+      wish.view = slice->picture()->map->view();
+      wish.display = desk_.workspace.display.values();
+      wish.colours = std::make_shared<const SvColours>(slice_colours(desk_.workspace));
+      wish.layers = school_layers(desk_.workspace, wish.ping->ping_index, light_theme(kSize));
+      wish.flags = std::make_shared<Array3<SampleFlags>>();
+      const auto fresh = slice_of(wish, kSize);
+      must(fresh.has_value(), "no slice");
+      const auto image = painted(fresh->frame, 1.0);
+      must(image && *image == slice->image(), "a slice is not the one made anew");
+    }
+  }
+
+  void find_school() {
+    Work work;
+    const auto found = observe(*document().survey(), document().shown()->files(), Recipe{}, {{}, {}, "bench"}, work);
+    must(found && !found->masks.empty(), "no school");
+    const SchoolMask* largest = nullptr;
+    for (const SchoolMask& mask : found->masks) {
+      const bool inside = mask.ping_index >= 6 && mask.ping_index < kPings - 6;
+      if (inside && (largest == nullptr || mask.mask.voxels() > largest->mask.voxels())) largest = &mask;
+    }
+    must(largest != nullptr, "no school in the middle");
+    ping_ = largest->ping_index;
+    const PingMask& mask = largest->mask;
+    auto left = std::max_element(mask.confidence.begin(), mask.confidence.end()) - mask.confidence.begin();
+    const int beams = document().shown()->sector().beams();
+    for (const Run& run : mask.runs) {
+      if (left < run.count) {
+        voxel_ = {run.row / beams, run.row % beams, run.first_sample + static_cast<int>(left)};
+        return;
+      }
+      left -= run.count;
+    }
+  }
+
+  static void report(const std::string& what, std::vector<double> ms) {
+    std::sort(ms.begin(), ms.end());
+    const double median = ms[ms.size() / 2];
+    fmt::print("  {:<40} median {:7.2f} ms   min {:7.2f} ms   90 % {:7.2f} ms   (n = {})   {} {} ms\n", what, median,
+               ms.front(), ms[ms.size() * 9 / 10], ms.size(), median < kTarget_ms ? "within" : "ABOVE", kTarget_ms);
+  }
+
+  ChangeQueue queue_;
+  Desk desk_;
+  std::int64_t ping_ = 0;
+  Voxel voxel_;
+  std::shared_ptr<const PingMask> before_;
+};
+
+/// From the wish to open a survey, indexed before, to the first slice on show.
+void opening(const std::filesystem::path& survey, const std::filesystem::path& folder, int repetitions) {
+  std::vector<double> ms;
+  for (int i = 0; i <= repetitions; ++i) {  // the first one makes the index
+    ChangeQueue queue;
+    DocumentOptions options;
+    options.program_version = "bench";
+    options.cache = {folder / "cache"};
+    options.journal_folders = [&](const auto&) { return std::vector{folder / "journal"}; };
+    Desk desk(queue, options);
+    LivePicture& slice = *desk.picture("top_slice");
+    slice.resize(kSize, 1.0);
+    slice.set_seen(true);
+    const double begin = now_ms();
+    desk.workspace.document.open({survey});
+    while (slice.image().size.width == 0 || !desk.workspace.document.staged()) {
+      queue.wait();
+      queue.drain();
+    }
+    if (i > 0) ms.push_back(now_ms() - begin);
+    must(slice.image().size == kSize, "the first picture");
+    desk.workspace.document.settle();
+  }
+  std::sort(ms.begin(), ms.end());
+  double bytes = 0.0;
+  for (const auto& file : std::filesystem::directory_iterator(survey)) {
+    if (file.is_regular_file()) bytes += static_cast<double>(file.file_size());
+  }
+  fmt::print("  opening {:.0f} MB, indexed: first slice after {:.0f} ms (median of {})\n", bytes / 1e6,
+             ms[ms.size() / 2], ms.size());
+}
+
+int run(int repetitions, const std::string& survey) {
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("sonar-bench-latency-{}", ::getpid());
+  synth::SurveyParams params = synth::survey_params(synth::Preset::standard);
+  params.observations = 1;
+  params.pings = kPings;
+  params.schools = 4;
+  {
+    Work work;
+    const auto made = synth::simulate_survey(folder / "raw", params, synth::ms70_beams(), false, "bench", work);
+    must(made.has_value(), "no survey was made");
+    Bench bench(folder);
+    bench.hover(repetitions);
+    bench.tolerance(repetitions);
+    bench.step(repetitions);
+    opening(survey.empty() ? folder / "raw" : std::filesystem::path(survey), folder, 5);
+  }
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace sonar::bench
+
+int main(int argc, char** argv) {
+  return sonar::bench::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 31, argc > 2 ? argv[2] : "");
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/action_menus.h"
+
+#include <QAction>
+#include <QMenu>
+#include <QMenuBar>
+#include <array>
+#include <map>
+
+namespace sonar {
+namespace {
+
+/// Text and switch as they are now. Greyed only while a menu is open: a greyed action's key is dead, and nobody would tell
+/// when it may live again.
+void refresh(QAction& shown, const Action& action) {
+  if (action.checked) shown.setChecked(action.checked());
+  if (action.text_now) {
+    const std::string text = action.text_now();
+    shown.setText(QString::fromStdString(text.empty() ? action.text : text));
+  }
+}
+
+constexpr std::array<const char*, 7> kMenuBar{"&File", "&Edit", "&View", "&Navigate", "&Schools", "&Review", "&Help"};
+
+/// The menu of a path, "&File/&Export"; made where it is not there yet.
+QMenu* menu_of(QMainWindow& window, std::map<std::string, QMenu*>& menus, const std::string& path) {
+  QMenu*& menu = menus[path];
+  if (menu != nullptr) return menu;
+  const auto last = path.rfind('/');
+  const QString title = QString::fromStdString(path.substr(last == std::string::npos ? 0 : last + 1));
+  menu = last == std::string::npos ? window.menuBar()->addMenu(title)
+                                   : menu_of(window, menus, path.substr(0, last))->addMenu(title);
+  return menu;
+}
+
+QAction* make_action(QMainWindow& window, const Action& action) {
+  auto* shown = new QAction(QString::fromStdString(action.text), &window);
+  shown->setObjectName(QString::fromStdString(action.id));
+  shown->setToolTip(QString::fromStdString(action.tip));
+  shown->setStatusTip(QString::fromStdString(action.tip));
+  shown->setCheckable(static_cast<bool>(action.checked));
+  QList<QKeySequence> keys;
+  for (const std::string& key : action.keys) {
+    keys.append(QKeySequence::fromString(QString::fromStdString(key), QKeySequence::PortableText));
+  }
+  shown->setShortcuts(keys);
+  QObject::connect(shown, &QAction::triggered, &window, [shown, &action] {
+    // A key works while its menu has not been opened: what is not allowed now is passed over.
+    if (!action.enabled || action.enabled()) action.run();
+    refresh(*shown, action);
+  });
+  refresh(*shown, action);
+  return shown;
+}
+
+}  // namespace
+
+void add_menus(QMainWindow& window, const Actions& actions) {
+  std::map<std::string, QMenu*> menus;
+  for (const char* title : kMenuBar) menu_of(window, menus, title);
+  for (const Action& action : actions.list()) {
+    QMenu* menu = menu_of(window, menus, action.menu);
+    QAction* shown = make_action(window, action);
+    menu->addAction(shown);
+    window.addAction(shown);
+    QObject::connect(menu, &QMenu::aboutToShow, shown, [shown, &action] {
+      shown->setEnabled(!action.enabled || action.enabled());
+      refresh(*shown, action);
+    });
+    QObject::connect(menu, &QMenu::aboutToHide, shown, [shown] { shown->setEnabled(true); });
+  }
+}
+
+QAction* find_action(const QMainWindow& window, const std::string& id) {
+  return window.findChild<QAction*>(QString::fromStdString(id));
+}
+
+}  // namespace sonar

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/bind.h"
+
+#include <fmt/format.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPointer>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSpinBox>
+#include <cmath>
+
+namespace sonar {
+namespace {
+
+constexpr int kSliderSteps = 200;
+constexpr double kMostSlider = 1000.0;  // a slider over more than this helps nobody
+
+using Source = std::shared_ptr<ParameterSource>;
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+/// Calls `show` with the value now and after every change, as long as the widget lives.
+template <class Widget, class Show>
+void follow(const Source& source, const std::string& name, Widget* widget, Show show) {
+  const auto refresh = [source, name, guarded = QPointer<Widget>(widget), show] {
+    if (guarded.isNull()) return;
+    const auto value = source->value(name);
+    if (!value) return;
+    const QSignalBlocker silent(guarded.data());
+    show(*guarded, *value);
+  };
+  refresh();
+  source->on_change(refresh);
+}
+
+QWidget* bind_switch(const Source& source, const Property& property, QWidget* parent) {
+  auto* box = new QCheckBox(text(property.label), parent);
+  follow(source, property.name, box, [](QCheckBox& b, const PropertyValue& v) { b.setChecked(std::get<bool>(v)); });
+  QObject::connect(box, &QCheckBox::toggled, box,
+                   [source, name = property.name](bool on) { (void)source->set(name, on); });
+  return box;
+}
+
+QWidget* bind_choice(const Source& source, const Property& property, QWidget* parent) {
+  auto* box = new QComboBox(parent);
+  for (const std::string& choice : property.choices) box->addItem(text(label_of(choice, {})));
+  follow(source, property.name, box,
+         [](QComboBox& b, const PropertyValue& v) { b.setCurrentIndex(static_cast<int>(std::get<Choice>(v).index)); });
+  QObject::connect(box, &QComboBox::currentIndexChanged, box, [source, name = property.name](int index) {
+    if (index >= 0) (void)source->set(name, Choice{static_cast<std::size_t>(index)});
+  });
+  return box;
+}
+
+QWidget* bind_text(const Source& source, const Property& property, QWidget* parent) {
+  auto* line = new QLineEdit(parent);
+  follow(source, property.name, line,
+         [](QLineEdit& l, const PropertyValue& v) { l.setText(text(std::get<std::string>(v))); });
+  QObject::connect(line, &QLineEdit::editingFinished, line,
+                   [source, name = property.name, line] { (void)source->set(name, line->text().toStdString()); });
+  return line;
+}
+
+QWidget* bind_int(const Source& source, const Property& property, QWidget* parent) {
+  auto* box = new QSpinBox(parent);
+  box->setRange(static_cast<int>(std::max(property.min, -1e9)), static_cast<int>(std::min(property.max, 1e9)));
+  if (property.unit != "1") box->setSuffix(text(" " + property.unit));
+  box->setKeyboardTracking(false);
+  follow(source, property.name, box, [](QSpinBox& b, const PropertyValue& v) { b.setValue(std::get<int>(v)); });
+  QObject::connect(box, &QSpinBox::valueChanged, box,
+                   [source, name = property.name](int value) { (void)source->set(name, value); });
+  return box;
+}
+
+/// Digits behind the point that tell a range's values apart.
+int decimals_of(const Property& property) {
+  const double range = property.max - property.min;
+  if (!std::isfinite(range) || range > 20.0) return 1;
+  return range > 2.0 ? 2 : 3;
+}
+
+QWidget* bind_double(const Source& source, const Property& property, QWidget* parent) {
+  auto* both = new QWidget(parent);
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto* box = new QDoubleSpinBox(both);
+  box->setDecimals(decimals_of(property));
+  box->setRange(std::max(property.min, -1e9), std::min(property.max, 1e9));
+  box->setSingleStep(property.max - property.min > 2.0 ? 1.0 : 0.05);
+  if (property.unit != "1") box->setSuffix(text(" " + property.unit));
+  box->setKeyboardTracking(false);
+  box->setObjectName(text(property.name + ".box"));
+  follow(source, property.name, box,
+         [](QDoubleSpinBox& b, const PropertyValue& v) { b.setValue(std::get<double>(v)); });
+  QObject::connect(box, &QDoubleSpinBox::valueChanged, box,
+                   [source, name = property.name](double value) { (void)source->set(name, value); });
+  if (property.max - property.min <= kMostSlider) {
+    auto* slider = new QSlider(Qt::Horizontal, both);
+    slider->setRange(0, kSliderSteps);
+    slider->setObjectName(text(property.name + ".slider"));
+    slider->setMinimumWidth(60);
+    const double low = property.min;
+    const double step = (property.max - property.min) / kSliderSteps;
+    follow(source, property.name, slider, [low, step](QSlider& s, const PropertyValue& v) {
+      s.setValue(static_cast<int>(std::lround((std::get<double>(v) - low) / step)));
+    });
+    QObject::connect(slider, &QSlider::valueChanged, slider,
+                     [source, name = property.name, low, step](int at) { (void)source->set(name, low + step * at); });
+    row->addWidget(slider, 1);
+  }
+  row->addWidget(box);
+  return both;
+}
+
+std::string value_text(const PropertyValue& value, const Property& property) {
+  if (const auto* on = std::get_if<bool>(&value)) return *on ? "on" : "off";
+  if (const auto* whole = std::get_if<int>(&value)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:g}", *number);
+  if (const auto* choice = std::get_if<Choice>(&value)) return property.choices[choice->index];
+  return std::get<std::string>(value);
+}
+
+std::string tooltip_of(const Property& property) {
+  std::string tip = property.tooltip;
+  const std::string unit = property.unit.empty() || property.unit == "1" ? "" : " " + property.unit;
+  if (std::isfinite(property.min) && std::isfinite(property.max) && property.max > property.min) {
+    tip += fmt::format("\n{:g} to {:g}{}", property.min, property.max, unit);
+  }
+  return tip + "\nDefault: " + value_text(property.initial, property) + unit;
+}
+
+}  // namespace
+
+QWidget* bound_control(const Source& source, const Property& property, QWidget* parent) {
+  QWidget* control = nullptr;
+  if (std::holds_alternative<bool>(property.initial)) {
+    control = bind_switch(source, property, parent);
+  } else if (std::holds_alternative<Choice>(property.initial)) {
+    control = bind_choice(source, property, parent);
+  } else if (std::holds_alternative<int>(property.initial)) {
+    control = bind_int(source, property, parent);
+  } else if (std::holds_alternative<double>(property.initial)) {
+    control = bind_double(source, property, parent);
+  } else {
+    control = bind_text(source, property, parent);
+  }
+  control->setObjectName(text(property.name));
+  control->setToolTip(text(tooltip_of(property)));
+  control->setFocusPolicy(Qt::StrongFocus);
+  return control;
+}
+
+}  // namespace sonar

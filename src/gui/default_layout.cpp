@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/default_layout.h"
+
+#include <QDockWidget>
+#include <initializer_list>
+
+namespace sonar {
+namespace {
+
+QDockWidget* dock(const QMainWindow& window, const char* name) { return window.findChild<QDockWidget*>(name); }
+
+QDockWidget* put(QMainWindow& window, Qt::DockWidgetArea area, const char* name) {
+  QDockWidget* one = dock(window, name);
+  if (one == nullptr) return nullptr;
+  one->setFloating(false);
+  window.addDockWidget(area, one);
+  return one;
+}
+
+/// Further docks behind one, as tabs.
+void behind(QMainWindow& window, QDockWidget* first, std::initializer_list<const char*> names) {
+  if (first == nullptr) return;
+  for (const char* name : names) {
+    QDockWidget* one = dock(window, name);
+    if (one == nullptr) continue;
+    one->setFloating(false);
+    window.tabifyDockWidget(first, one);
+  }
+  first->raise();
+}
+
+void beside(QMainWindow& window, QDockWidget* left, QDockWidget* right, Qt::Orientation orientation) {
+  if (left != nullptr && right != nullptr) window.splitDockWidget(left, right, orientation);
+}
+
+void share(QMainWindow& window, Qt::Orientation orientation,
+           std::initializer_list<std::pair<QDockWidget*, int>> sizes) {
+  QList<QDockWidget*> docks;
+  QList<int> wanted;
+  for (const auto& [one, size] : sizes) {
+    if (one == nullptr) continue;
+    docks.append(one);
+    wanted.append(size);
+  }
+  window.resizeDocks(docks, wanted, orientation);
+}
+
+}  // namespace
+
+void lay_out_docks(QMainWindow& window) {
+  window.setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
+  window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  window.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
+  window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  QDockWidget* left = put(window, Qt::LeftDockWidgetArea, "survey_tree");
+  QDockWidget* notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
+  QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");
+  QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
+  QDockWidget* side = put(window, Qt::TopDockWidgetArea, "side_slice");
+  QDockWidget* maps = put(window, Qt::TopDockWidgetArea, "observation_map");
+  QDockWidget* volume = put(window, Qt::TopDockWidgetArea, "volume");
+  QDockWidget* time = put(window, Qt::BottomDockWidgetArea, "observation_timeline");
+  QDockWidget* tables = put(window, Qt::BottomDockWidgetArea, "schools");
+  // Splitting moves one dock without its tabs: those come last.
+  beside(window, top, side, Qt::Horizontal);
+  beside(window, top, maps, Qt::Vertical);
+  beside(window, side, volume, Qt::Vertical);
+  beside(window, time, tables, Qt::Horizontal);
+  behind(window, notes, {"journal"});
+  behind(window, maps, {"survey_map"});
+  behind(window, time, {"survey_timeline", "propagation"});
+  behind(window, tables, {"school_pings", "review"});
+  const int width = window.width();
+  const int height = window.height();
+  share(window, Qt::Horizontal, {{left, width / 7}, {top, width * 3 / 10}, {side, width * 3 / 10}, {right, width / 5}});
+  share(window, Qt::Horizontal, {{time, width * 3 / 10}, {tables, width * 3 / 10}});
+  share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
+  share(window, Qt::Vertical, {{top, height * 3 / 8}, {maps, height * 3 / 8}, {time, height / 4}});
+  share(window, Qt::Vertical, {{side, height * 3 / 8}, {volume, height * 3 / 8}, {tables, height / 4}});
+}
+
+}  // namespace sonar

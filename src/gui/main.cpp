@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <QApplication>
+#include <QCommandLineParser>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "gui/main_window.h"
+#include "gui/queue_pump.h"
+#include "session/demo.h"
+
+namespace sonar {
+namespace {
+
+TimeNs utc_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+DocumentOptions document_options(const Preferences& preferences) {
+  DocumentOptions options;
+  options.program_version = SONAR_VERSION;
+  options.operator_name = preferences.operator_name;
+  options.cache = IndexCache::of_user();
+  options.journal_folders = journal_folders_for;
+  options.clock = utc_now;
+  return options;
+}
+
+int run_program(int argc, char** argv) {
+  QApplication application(argc, argv);
+  QApplication::setApplicationName("sonar-explorer");
+  QApplication::setApplicationVersion(SONAR_VERSION);
+  QCommandLineParser parser;
+  parser.setApplicationDescription("Explores fishery-sonar surveys: find schools, follow them, map them");
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
+  const QCommandLineOption demo("demo", "Open a simulated survey; it is made first where it is not there yet");
+  const QCommandLineOption dark("dark", "Begin in dark colours");
+  parser.addOptions({demo, dark});
+  parser.process(application);
+
+  const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());
+  QueuePump pump;
+  Desk desk(pump.queue(), document_options(loaded.preferences));
+  desk.preferences = loaded.preferences;
+  desk.preferences.apply(desk.workspace);
+  if (parser.isSet(dark)) desk.workspace.dark.set(true);
+  MainWindow window(desk);
+  window.take_layout(desk.preferences.window_layout);
+  window.show();
+  if (!loaded.notice.empty()) desk.workspace.document.tell(loaded.notice);
+  std::vector<std::filesystem::path> paths;
+  for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());
+  if (parser.isSet(demo)) {
+    open_demo(desk.workspace.document);
+  } else if (!paths.empty()) {
+    desk.workspace.document.open(std::move(paths));
+  }
+  return QApplication::exec();
+}
+
+}  // namespace
+}  // namespace sonar
+
+int main(int argc, char** argv) {
+  try {
+    return sonar::run_program(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sonar-explorer: %s\n", error.what());
+    return 70;
+  }
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/main_window.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QUrl>
+
+#include "gui/action_menus.h"
+#include "gui/control_panel_view.h"
+#include "gui/default_layout.h"
+#include "gui/key_sheet.h"
+#include "gui/picture_view.h"
+#include "gui/pulse_timer.h"
+#include "gui/questions.h"
+#include "gui/rows_view.h"
+#include "gui/status_line.h"
+#include "gui/theme.h"
+#include "gui/tool_bar.h"
+#include "session/desk_parts.h"
+
+namespace sonar {
+namespace {
+
+constexpr QSize kFirstSize{1600, 1000};
+constexpr int kLayoutVersion = 1;  // raised when docks come or go
+
+QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
+  auto* dock = new QDockWidget(QString::fromStdString(title), &window);
+  dock->setObjectName(QString::fromStdString(id));
+  inside->setObjectName(QString::fromStdString(id + ".view"));
+  dock->setWidget(inside);
+  window.addDockWidget(Qt::TopDockWidgetArea, dock);
+  return dock;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
+  setObjectName("main");
+  setWindowTitle("Sonar Explorer");
+  setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: each step of the way would be drawn anew
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+  setAcceptDrops(true);
+  for (PictureDock& dock : desk.pictures) {
+    auto* view = new PictureView(*dock.picture, desk.workspace.latencies);
+    QDockWidget* shown = add_dock(*this, dock.id, dock.title, view);
+    connect(shown, &QDockWidget::visibilityChanged, view, [view](bool in_front) { view->set_uncovered(in_front); });
+    if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
+    if (dock.id == "top_slice") view->set_idle_text("Open a survey (Ctrl+O), or drop a folder of raw files here.");
+  }
+  for (RowsDock& dock : desk.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
+  add_dock(*this, "controls", "Controls", new ControlPanelView(*desk.transfer, desk.workspace, desk.panel));
+  add_menus(*this, desk.actions);
+  add_tool_bar(*this);
+  add_status_line(*this, desk.workspace);
+  answer();
+  const auto theme = [this, &desk] {
+    take_theme(desk.workspace.dark());
+    tint_tool_bar(*this);
+  };
+  desk.workspace.dark.changed().add(theme);
+  theme();
+  desk.workspace.document.changes().add([this](DocumentChange change) {
+    if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
+  });
+  resize(kFirstSize);
+  lay_out_docks(*this);
+  // Keys belong to the picture at first, not to a line of text.
+  if (auto* first = findChild<QWidget*>("top_slice.view")) first->setFocus();
+}
+
+void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
+  // Tabs hide docks too: only closing and opening is a switch.
+  connect(dock.toggleViewAction(), &QAction::triggered, &dock,
+          [this, name](bool on) { (void)desk_.workspace.views.set(name, on); });
+  desk_.workspace.views.on_change([this, name, &dock](const ViewSwitches&) {
+    const auto on = desk_.workspace.views.value(name);
+    if (!on || dock.isHidden() != std::get<bool>(*on)) return;
+    dock.setVisible(std::get<bool>(*on));
+    dock.raise();  // not behind another tab
+  });
+}
+
+void MainWindow::answer() {
+  desk_.asking.show_keys = [this] { show_key_sheet(*this, desk_.actions); };
+  desk_.asking.show_about = [this] {
+    QMessageBox::about(
+        this, "Sonar Explorer",
+        QString("Sonar Explorer %1\nApache License 2.0\n\nWith Qt (LGPL 3), GDAL, PROJ, netCDF, Cairo, Pango, "
+                "oneTBB, Highway, nlohmann-json, fmt, pugixml, xxHash, libepoxy.")
+            .arg(QApplication::applicationVersion()));
+  };
+  desk_.asking.reset_layout = [this] { lay_out_docks(*this); };
+  desk_.asking.full_screen = [this] { isFullScreen() ? showNormal() : showFullScreen(); };
+  answer_questions(*this, desk_.asking);
+}
+
+void MainWindow::show_title() {
+  const Document& document = desk_.workspace.document;
+  QString title = "Sonar Explorer";
+  if (document.shown()) {
+    title = QString::fromStdString(document.shown()->name() + " - " + document.paths().front().filename().string()) +
+            " - " + title;
+  }
+  setWindowTitle(title);
+}
+
+MainWindow::~MainWindow() = default;
+
+std::string MainWindow::layout() const {
+  return (saveGeometry().toBase64() + " " + saveState(kLayoutVersion).toBase64()).toStdString();
+}
+
+void MainWindow::take_layout(const std::string& layout) {
+  const QList<QByteArray> parts = QByteArray::fromStdString(layout).split(' ');
+  if (parts.size() != 2) return;
+  restoreGeometry(QByteArray::fromBase64(parts[0]));
+  restoreState(QByteArray::fromBase64(parts[1]), kLayoutVersion);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  desk_.preferences.window_layout = layout();
+  keep_preferences(desk_);
+  QMainWindow::closeEvent(event);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  std::vector<std::filesystem::path> paths;
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile()) paths.emplace_back(url.toLocalFile().toStdString());
+  }
+  if (!paths.empty()) desk_.workspace.document.open(std::move(paths));
+}
+
+}  // namespace sonar

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/picture_view.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QToolTip>
+#include <QWheelEvent>
+
+namespace sonar {
+namespace {
+
+constexpr double kWheelUnitsPerStep = 120.0;  // Qt's eighths of a degree, fifteen degrees a notch
+constexpr double kCrossArm_px = 7.0;
+
+PointerButton button_of(Qt::MouseButtons buttons) {
+  if ((buttons & Qt::LeftButton) != 0) return PointerButton::left;
+  if ((buttons & Qt::MiddleButton) != 0) return PointerButton::middle;
+  return (buttons & Qt::RightButton) != 0 ? PointerButton::right : PointerButton::none;
+}
+
+PointerEvent with_keys(PointerEvent event, Qt::KeyboardModifiers keys) {
+  event.shift = (keys & Qt::ShiftModifier) != 0;
+  event.control = (keys & Qt::ControlModifier) != 0;
+  event.alt = (keys & Qt::AltModifier) != 0;
+  return event;
+}
+
+void draw_twice(QPainter& painter, const QPainterPath& path) {
+  // A dark line in a light one is seen on every colour.
+  painter.setPen(QPen(QColor(0, 0, 0, 160), 3.0));
+  painter.drawPath(path);
+  painter.setPen(QPen(QColor(255, 255, 255, 230), 1.0));
+  painter.drawPath(path);
+}
+
+QPainterPath path_of(const Overlay& overlay) {
+  QPainterPath path;
+  for (std::size_t i = 0; i < overlay.line.size(); ++i) {
+    const QPointF at(overlay.line[i].x, overlay.line[i].y);
+    i == 0 ? path.moveTo(at) : path.lineTo(at);
+  }
+  if (overlay.cross) {
+    const auto [x, y] = *overlay.cross;
+    path.moveTo(x - kCrossArm_px, y);
+    path.lineTo(x + kCrossArm_px, y);
+    path.moveTo(x, y - kCrossArm_px);
+    path.lineTo(x, y + kCrossArm_px);
+  }
+  if (overlay.circle_at) {
+    path.addEllipse(QPointF(overlay.circle_at->x, overlay.circle_at->y), overlay.circle_px, overlay.circle_px);
+  }
+  return path;
+}
+
+}  // namespace
+
+PictureView::PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget* parent)
+    : QWidget(parent),
+      picture_(picture),
+      latencies_(latencies),
+      listening_(picture.changed().add([this] { update(); })),
+      listening_latencies_(latencies.changed().add([this] { update(); })) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+PictureView::~PictureView() {
+  picture_.changed().remove(listening_);
+  latencies_.changed().remove(listening_latencies_);
+  picture_.set_seen(false);
+}
+
+void PictureView::paintEvent(QPaintEvent* /*event*/) {
+  // What is painted is seen. A tab behind another counts as shown, somewhere off the window, and is never painted.
+  picture_.set_seen(true);
+  QPainter painter(this);
+  const Image& image = picture_.image();
+  painter.fillRect(rect(), palette().color(QPalette::Base));
+  if (image.size.width > 0) {
+    // The image outlives the call: Qt borrows its pixels.
+    const QImage shown(reinterpret_cast<const uchar*>(image.pixels.data()), image.size.width, image.size.height,
+                       QImage::Format_RGBA8888);
+    const QSizeF drawn = QSizeF(image.size.width, image.size.height) / picture_.scale();
+    painter.drawImage(QRectF(QPointF(0, 0), drawn), shown);
+  } else {
+    painter.setPen(palette().color(QPalette::Text));
+    painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
+                     picture_.problem().empty() ? idle_text_ : QString::fromStdString(picture_.problem()));
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay));
+  if (latencies_()) {
+    QPainterPath text;
+    text.addText(QPointF(8, height() - 8.0), font(), QString("%1 ms").arg(picture_.latency_ms(), 0, 'f', 1));
+    draw_twice(painter, text);
+  }
+}
+
+void PictureView::resizeEvent(QResizeEvent* /*event*/) { picture_.resize({width(), height()}, devicePixelRatioF()); }
+
+void PictureView::showEvent(QShowEvent* /*event*/) { picture_.resize({width(), height()}, devicePixelRatioF()); }
+
+void PictureView::set_uncovered(bool uncovered) {
+  if (!uncovered) picture_.set_seen(false);
+  update();
+}
+
+void PictureView::hideEvent(QHideEvent* /*event*/) { picture_.set_seen(false); }
+
+void PictureView::forward(QMouseEvent* event, PointerAction action) {
+  const bool moving = action == PointerAction::move;
+  const Qt::MouseButtons buttons = moving ? event->buttons() : Qt::MouseButtons(event->button());
+  picture_.pointer(
+      with_keys({action, button_of(buttons), {event->position().x(), event->position().y()}}, event->modifiers()));
+}
+
+void PictureView::mouseMoveEvent(QMouseEvent* event) { forward(event, PointerAction::move); }
+void PictureView::mousePressEvent(QMouseEvent* event) { forward(event, PointerAction::press); }
+void PictureView::mouseReleaseEvent(QMouseEvent* event) { forward(event, PointerAction::release); }
+void PictureView::mouseDoubleClickEvent(QMouseEvent* event) { forward(event, PointerAction::double_press); }
+
+void PictureView::wheelEvent(QWheelEvent* event) {
+  PointerEvent wheel{PointerAction::wheel, PointerButton::none, {event->position().x(), event->position().y()}};
+  wheel.wheel_steps = event->angleDelta().y() / kWheelUnitsPerStep;
+  picture_.pointer(with_keys(wheel, event->modifiers()));
+}
+
+void PictureView::leaveEvent(QEvent* /*event*/) { picture_.pointer({PointerAction::leave, PointerButton::none, {}}); }
+
+bool PictureView::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+  const auto* help = dynamic_cast<QHelpEvent*>(event);
+  const std::string hint =
+      help == nullptr ? std::string{} : picture_.hint({static_cast<double>(help->x()), static_cast<double>(help->y())});
+  if (hint.empty()) {
+    QToolTip::hideText();
+  } else {
+    QToolTip::showText(help->globalPos(), QString::fromStdString(hint), this);
+  }
+  return true;
+}
+
+}  // namespace sonar

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QWidget>
+
+#include "session/live_picture.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Shows a live picture, lays its overlays on top, and hands pointers on.
+class PictureView : public QWidget {
+ public:
+  /// Picture and switch outlive the view.
+  /// latencies  whether the time of the last picture is written over it
+  PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget* parent = nullptr);
+  ~PictureView() override;
+  [[nodiscard]] LivePicture& picture() { return picture_; }
+  /// What stands there while there is no picture and nothing wrong.
+  void set_idle_text(const QString& text) { idle_text_ = text; }
+  /// Whether its dock is in front of others that share its place.
+  void set_uncovered(bool uncovered);
+  [[nodiscard]] QSize sizeHint() const override { return {480, 360}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {160, 120}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void forward(QMouseEvent* event, PointerAction action);
+
+  LivePicture& picture_;
+  Shared<bool>& latencies_;
+  int listening_;
+  int listening_latencies_;
+  QString idle_text_;
+};
+
+}  // namespace sonar

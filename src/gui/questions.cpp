@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/questions.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QCursor>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QGuiApplication>
+#include <QInputDialog>
+#include <QMessageBox>
+
+namespace sonar {
+namespace {
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+/// Id of the dock that a widget lies in; empty where it lies in none.
+std::string dock_of(const QWidget* widget) {
+  for (; widget != nullptr; widget = widget->parentWidget()) {
+    if (qobject_cast<const QDockWidget*>(widget) != nullptr) return widget->objectName().toStdString();
+  }
+  return {};
+}
+
+}  // namespace
+
+void answer_questions(QWidget& window, Asking& asking) {
+  asking.files_to_open = [&window] {
+    std::vector<std::string> files;
+    for (const QString& file :
+         QFileDialog::getOpenFileNames(&window, "Open files", {}, "Raw files (*.raw *.RAW);;All files (*)")) {
+      files.push_back(file.toStdString());
+    }
+    return files;
+  };
+  asking.folder_to_open = [&window] {
+    return QFileDialog::getExistingDirectory(&window, "Open a survey").toStdString();
+  };
+  asking.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
+    return QFileDialog::getSaveFileName(&window, text(title), text(name), text(pattern)).toStdString();
+  };
+  asking.folder_to_save = [&window](const std::string& title) {
+    return QFileDialog::getExistingDirectory(&window, text(title)).toStdString();
+  };
+  asking.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
+    bool given = false;
+    const QString answer =
+        QInputDialog::getText(&window, text(title), text(label), QLineEdit::Normal, text(now), &given);
+    return given ? answer.toStdString() : std::string{};
+  };
+  asking.yes = [&window](const std::string& question) {
+    return QMessageBox::question(&window, "Sonar Explorer", text(question)) == QMessageBox::Yes;
+  };
+  asking.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
+  asking.copy_image = [](const Image& image) {
+    // The clipboard's own copy: the image may be gone when it is pasted.
+    const QImage shown(reinterpret_cast<const uchar*>(image.pixels.data()), image.size.width, image.size.height,
+                       QImage::Format_RGBA8888);
+    QGuiApplication::clipboard()->setImage(shown.copy());
+  };
+  asking.view_in_use = [] {
+    const auto id = dock_of(QApplication::focusWidget());
+    return id.empty() ? dock_of(QApplication::widgetAt(QCursor::pos())) : id;
+  };
+  asking.quit = [&window] { window.close(); };
+}
+
+}  // namespace sonar

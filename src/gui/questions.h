@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QWidget>
+
+#include "session/actions.h"
+
+namespace sonar {
+
+/// Answers what the desk asks by dialogs over a window.
+void answer_questions(QWidget& window, Asking& asking);
+
+}  // namespace sonar

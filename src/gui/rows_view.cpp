@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/rows_view.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QScrollBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sonar {
+namespace {
+
+constexpr int kRowsThatFit = 200;  // columns are fitted to the first rows
+constexpr int kWidestColumn_px = 320;
+
+}  // namespace
+
+RowsOrder::RowsOrder(RowsModel& model, QObject* parent) : QSortFilterProxyModel(parent), model_(model) {
+  setSourceModel(&model);
+  connect(&model, &QAbstractItemModel::modelAboutToBeReset, this, [this] { keys_.clear(); });
+  setRecursiveFilteringEnabled(true);
+}
+
+void RowsOrder::set_filter(std::string filter) {
+  filter_ = std::move(filter);
+  invalidateFilter();
+}
+
+const Cell& RowsOrder::key_of(const QModelIndex& index) const {
+  // Making a cell costs more than comparing two: sorting makes each once.
+  if (keyed_column_ != index.column()) keys_.clear();
+  keyed_column_ = index.column();
+  keys_.resize(model_.rows_known());
+  std::optional<Cell>& key = keys_[RowsModel::row_of(index)];
+  if (!key) key = model_.rows().cell(RowsModel::row_of(index), static_cast<std::size_t>(index.column()));
+  return *key;
+}
+
+bool RowsOrder::lessThan(const QModelIndex& a, const QModelIndex& b) const {
+  (void)key_of(b);  // both are there before either is looked at
+  return cell_less(key_of(a), key_of(b), sortOrder() == Qt::DescendingOrder);
+}
+
+bool RowsOrder::filterAcceptsRow(int row, const QModelIndex& parent) const {
+  return row_matches(model_.rows(), RowsModel::row_of(model_.index(row, 0, parent)), filter_);
+}
+
+RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
+    : QWidget(parent), rows_(rows), model_(rows), order_(model_), list_(new QTreeView(this)) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  add_filter_line();
+  column->addWidget(list_);
+  list_->setObjectName("rows");
+  list_->setModel(&order_);
+  list_->setRootIsDecorated(tree);
+  list_->setUniformRowHeights(true);
+  list_->setAlternatingRowColors(!tree);
+  list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  list_->setSortingEnabled(true);
+  list_->header()->setSectionsMovable(true);
+  list_->header()->setStretchLastSection(true);
+  order_.sort(-1);  // as the rows come, until somebody clicks a title
+  list_->header()->setSortIndicator(-1, Qt::AscendingOrder);
+  list_->installEventFilter(this);
+  connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
+    if (!following_ && now.isValid()) rows_.select(RowsModel::row_of(order_.mapToSource(now)));
+  });
+  // A click on the row that is current already goes there once more.
+  connect(list_, &QTreeView::clicked, this, [this](const QModelIndex& at) {
+    if (rows_.selected() != RowsModel::row_of(order_.mapToSource(at)))
+      rows_.select(RowsModel::row_of(order_.mapToSource(at)));
+  });
+  connect(list_, &QTreeView::doubleClicked, this,
+          [this](const QModelIndex& at) { rows_.open(RowsModel::row_of(order_.mapToSource(at))); });
+  listening_ = rows_.changed().add([this] { rows_changed(); });
+  following_moves_ = rows_.moved().add([this] {
+    if (!stale_) show_selected();
+  });
+}
+
+RowsView::~RowsView() {
+  rows_.changed().remove(listening_);
+  rows_.moved().remove(following_moves_);
+}
+
+void RowsView::add_filter_line() {
+  auto* line = new QLineEdit(this);
+  line->setObjectName("filter");
+  line->setPlaceholderText("Filter: words, or a title's beginning and a limit, as in depth>80");
+  line->setClearButtonEnabled(true);
+  layout()->addWidget(line);
+  connect(line, &QLineEdit::textChanged, this, [this](const QString& text) {
+    rows_.narrow(text.toStdString());
+    order_.set_filter(text.toStdString());
+    show_selected();
+  });
+}
+
+void RowsView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (stale_) rows_changed();
+}
+
+void RowsView::rows_changed() {
+  stale_ = !isVisible();
+  if (stale_) return;  // a list that nobody sees costs nothing
+  following_ = true;
+  const int scrolled = list_->verticalScrollBar()->value();
+  std::set<std::size_t> open;
+  for (std::size_t row = 0; list_->rootIsDecorated() && row < model_.rows_known(); ++row) {
+    if (list_->isExpanded(order_.mapFromSource(model_.index_of(row)))) open.insert(row);
+  }
+  model_.reset();
+  for (const std::size_t row : open) list_->setExpanded(order_.mapFromSource(model_.index_of(row)), true);
+  if (!fitted_ && rows_.rows() > 0) fit_columns();
+  list_->verticalScrollBar()->setValue(scrolled);
+  following_ = false;
+  show_selected();
+}
+
+void RowsView::show_selected() {
+  const auto row = rows_.selected();
+  const QModelIndex at = row ? order_.mapFromSource(model_.index_of(*row)) : QModelIndex();
+  if (at == list_->currentIndex().siblingAtColumn(0) && at.isValid()) return;
+  following_ = true;
+  if (at.isValid()) {
+    list_->selectionModel()->setCurrentIndex(at, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    list_->scrollTo(at);
+  }
+  following_ = false;
+}
+
+void RowsView::fit_columns() {
+  fitted_ = true;
+  list_->header()->setResizeContentsPrecision(kRowsThatFit);
+  for (int c = 0; c < model_.columnCount(); ++c) {
+    list_->resizeColumnToContents(c);
+    if (list_->columnWidth(c) > kWidestColumn_px) list_->setColumnWidth(c, kWidestColumn_px);
+  }
+}
+
+void RowsView::copy() {
+  QModelIndexList chosen = list_->selectionModel()->selectedRows();
+  std::vector<std::size_t> which;
+  // In the order in which they are seen, not in which they were clicked.
+  for (QModelIndex at = order_.index(0, 0); at.isValid(); at = list_->indexBelow(at)) {
+    if (chosen.contains(at.siblingAtColumn(0))) which.push_back(RowsModel::row_of(order_.mapToSource(at)));
+  }
+  QApplication::clipboard()->setText(QString::fromStdString(tab_separated(rows_, which)));
+}
+
+bool RowsView::key_is_ours(const QKeyEvent& event) const {
+  if (event.matches(QKeySequence::Copy) || event.matches(QKeySequence::SelectAll)) return true;
+  if ((event.modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) != 0) return false;
+  switch (event.key()) {
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+    case Qt::Key_PageUp:
+    case Qt::Key_PageDown:
+    case Qt::Key_Home:
+    case Qt::Key_End:
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      return true;
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+      return list_->rootIsDecorated();
+    default:
+      return false;
+  }
+}
+
+bool RowsView::eventFilter(QObject* watched, QEvent* event) {
+  const auto* key = dynamic_cast<QKeyEvent*>(event);
+  if (key == nullptr) return QWidget::eventFilter(watched, event);
+  if (event->type() == QEvent::ShortcutOverride && key_is_ours(*key)) {
+    event->accept();  // the key moves in the list and is no shortcut of the window
+    return true;
+  }
+  if (event->type() == QEvent::KeyPress && key->matches(QKeySequence::Copy)) {
+    copy();
+    return true;
+  }
+  const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
+  if (event->type() == QEvent::KeyPress && enter && list_->currentIndex().isValid()) {
+    rows_.open(RowsModel::row_of(order_.mapToSource(list_->currentIndex())));
+    return true;
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace sonar

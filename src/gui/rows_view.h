@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QSortFilterProxyModel>
+#include <QTreeView>
+#include <QWidget>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gui/rows_model.h"
+#include "session/rows.h"
+
+namespace sonar {
+
+/// Order and filter as the rows' own functions say.
+class RowsOrder : public QSortFilterProxyModel {
+ public:
+  explicit RowsOrder(RowsModel& model, QObject* parent = nullptr);
+  void set_filter(std::string filter);
+
+ protected:
+  [[nodiscard]] bool lessThan(const QModelIndex& a, const QModelIndex& b) const override;
+  [[nodiscard]] bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+  [[nodiscard]] const Cell& key_of(const QModelIndex& index) const;
+
+  RowsModel& model_;
+  std::string filter_;
+  mutable int keyed_column_ = -1;
+  mutable std::vector<std::optional<Cell>> keys_;  ///< [row] of that column, as far as they were asked for
+};
+
+/// A list with a filter line over it: sorts by a click on a title, copies to a spreadsheet, opens on a double-click.
+class RowsView : public QWidget {
+ public:
+  /// The rows outlive the view. tree: levels are shown as branches
+  RowsView(Rows& rows, bool tree, QWidget* parent = nullptr);
+  ~RowsView() override;
+  [[nodiscard]] QSize sizeHint() const override { return {420, 220}; }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void add_filter_line();
+  void rows_changed();
+  void show_selected();
+  void fit_columns();
+  void copy();
+  [[nodiscard]] bool key_is_ours(const class QKeyEvent& event) const;
+
+  Rows& rows_;
+  RowsModel model_;
+  RowsOrder order_;
+  QTreeView* list_;
+  bool following_ = false;  ///< the selection follows the rows: nobody clicked
+  bool stale_ = true;       ///< changed while nobody saw it
+  bool fitted_ = false;
+  int listening_ = 0;
+  int following_moves_ = 0;
+};
+
+}  // namespace sonar

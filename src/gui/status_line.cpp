@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/status_line.h"
+
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QStatusBar>
+#include <algorithm>
+
+namespace sonar {
+namespace {
+
+constexpr int kNoticeTime_ms = 15000;
+constexpr int kMargin_px = 4;
+
+QString text_at_cursor(const Workspace& workspace) {
+  const auto& cursor = workspace.cursor();
+  std::string line = cursor ? read_out(workspace, *cursor).line() : std::string{};
+  const std::string& preview = workspace.preview().text;
+  if (!preview.empty()) line += (line.empty() ? "" : "  |  ") + preview;
+  return QString::fromStdString(line);
+}
+
+void show_progress(QProgressBar& bar, QPushButton& cancel, const Progress& progress) {
+  const bool running = !progress.stage.empty();
+  bar.setVisible(running);
+  cancel.setVisible(running);
+  if (!running) return;
+  bar.setFormat(QString::fromStdString(progress.stage) + " %p %");
+  bar.setRange(0, static_cast<int>(progress.total));
+  bar.setValue(static_cast<int>(progress.done));
+}
+
+}  // namespace
+
+void add_status_line(QMainWindow& window, Workspace& workspace) {
+  QStatusBar* status = window.statusBar();
+  // A line of text, not a label: a label's new text has the whole window laid out anew.
+  auto* cursor = new QLineEdit(status);
+  cursor->setObjectName("read_out");
+  cursor->setReadOnly(true);
+  cursor->setFrame(false);
+  cursor->setFocusPolicy(Qt::ClickFocus);
+  cursor->setStyleSheet("background: transparent");
+  auto* bar = new QProgressBar(status);
+  bar->setMaximumWidth(240);
+  auto* cancel = new QPushButton("Cancel", status);
+  cancel->setFlat(true);
+  status->addWidget(cursor, 1);
+  status->addPermanentWidget(bar);
+  status->addPermanentWidget(cancel);
+  // What comes and goes must not push the views about.
+  status->setFixedHeight(
+      std::max({status->sizeHint().height(), bar->sizeHint().height(), cancel->sizeHint().height()}) + kMargin_px);
+  show_progress(*bar, *cancel, {});
+  QObject::connect(cancel, &QPushButton::clicked, status, [&workspace] { workspace.document.cancel(); });
+  const auto read = [cursor, &workspace] {
+    cursor->setText(text_at_cursor(workspace));
+    cursor->setCursorPosition(0);
+  };
+  workspace.cursor.changed().add(read);
+  workspace.preview.changed().add(read);
+  workspace.document.changes().add([read, status, bar, cancel, &workspace](DocumentChange change) {
+    if (change == DocumentChange::ping || change == DocumentChange::state) read();
+    if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document.progress());
+    if (change == DocumentChange::notice) {
+      status->showMessage(QString::fromStdString(workspace.document.notices().back()), kNoticeTime_ms);
+    }
+  });
+}
+
+}  // namespace sonar

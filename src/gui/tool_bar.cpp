@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/tool_bar.h"
+
+#include <QAction>
+#include <QIcon>
+#include <QPainter>
+#include <QPixmap>
+#include <QStyle>
+#include <QToolBar>
+#include <array>
+
+#include "gui/action_menus.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kIcon_px = 16;
+
+struct Button {
+  const char* id;                                       ///< empty = a separator
+  QStyle::StandardPixmap icon = QStyle::SP_CustomBase;  ///< SP_CustomBase: the action's text
+};
+
+constexpr std::array<Button, 22> kButtons{{{"file.open_folder", QStyle::SP_DirOpenIcon},
+                                           {""},
+                                           {"edit.undo", QStyle::SP_ArrowBack},
+                                           {"edit.redo", QStyle::SP_ArrowForward},
+                                           {""},
+                                           {"ping.first", QStyle::SP_MediaSkipBackward},
+                                           {"ping.previous", QStyle::SP_MediaSeekBackward},
+                                           {"ping.play", QStyle::SP_MediaPlay},
+                                           {"ping.next", QStyle::SP_MediaSeekForward},
+                                           {"ping.last", QStyle::SP_MediaSkipForward},
+                                           {""},
+                                           {"tool.seed"},
+                                           {"tool.brush"},
+                                           {"tool.eraser"},
+                                           {""},
+                                           {"schools.detect"},
+                                           {"school.propagate"},
+                                           {"school.stop", QStyle::SP_MediaStop},
+                                           {""},
+                                           {"review.next"},
+                                           {"review.accept", QStyle::SP_DialogApplyButton},
+                                           {"review.reject", QStyle::SP_DialogCancelButton}}};
+
+QIcon tinted(const QIcon& icon, const QColor& colour) {
+  QPixmap shape = icon.pixmap(QSize(kIcon_px, kIcon_px));
+  QPainter painter(&shape);
+  painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
+  painter.fillRect(shape.rect(), colour);
+  return QIcon(shape);
+}
+
+}  // namespace
+
+void add_tool_bar(QMainWindow& window) {
+  auto* bar = window.addToolBar("Tools");
+  bar->setObjectName("tools");
+  bar->setIconSize({kIcon_px, kIcon_px});
+  for (const Button& button : kButtons) {
+    if (*button.id == '\0') {
+      bar->addSeparator();
+      continue;
+    }
+    QAction* action = find_action(window, button.id);
+    if (action == nullptr) continue;
+    bar->addAction(action);
+  }
+  tint_tool_bar(window);
+}
+
+void tint_tool_bar(QMainWindow& window) {
+  for (const Button& button : kButtons) {
+    QAction* action = *button.id == '\0' ? nullptr : find_action(window, button.id);
+    if (action == nullptr || button.icon == QStyle::SP_CustomBase) continue;
+    const QIcon icon = window.style()->standardIcon(button.icon);
+    const bool black = button.icon >= QStyle::SP_MediaPlay && button.icon <= QStyle::SP_MediaSeekBackward;
+    action->setIcon(black ? tinted(icon, window.palette().color(QPalette::ButtonText)) : icon);
+  }
+}
+
+}  // namespace sonar

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scientist does with the window, by mouse and keys.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QTextBrowser>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "gui/action_menus.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class Desktop : public WindowAtWork {};
+
+std::set<QRgb> colours_of(const QImage& image) {
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); y += 2) {
+    for (int x = 0; x < image.width(); x += 2) colours.insert(image.pixel(x, y));
+  }
+  return colours;
+}
+
+TEST_F(Desktop, EveryPictureIsFilledAfterOpening) {
+  ASSERT_TRUE(document().staged());
+  for (const PictureDock& dock : desk_->pictures) {
+    if (!dock.picture->seen()) continue;  // a tab behind another
+    EXPECT_TRUE(dock.picture->problem().empty()) << dock.id << ": " << dock.picture->problem();
+    EXPECT_GT(colours_of(view(dock.id)->grab().toImage()).size(), 8U) << dock.id << " is empty";
+  }
+  EXPECT_THAT(window_->windowTitle().toStdString(), testing::HasSubstr("obs-0001"));
+}
+
+TEST_F(Desktop, ArrowsStepThroughPings) {
+  key(Qt::Key_Right);
+  key(Qt::Key_Right);
+  EXPECT_EQ(document().ping(), 2);
+  EXPECT_EQ(document().staged()->ping_index, 2);
+  key(Qt::Key_Left);
+  EXPECT_EQ(document().ping(), 1);
+  key(Qt::Key_End);
+  EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
+  key(Qt::Key_Right);
+  EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
+  key(Qt::Key_Home);
+  EXPECT_EQ(document().ping(), 0);
+}
+
+TEST_F(Desktop, HoverShowsWhatAClickThenSelects) {
+  const Target target = look_at_school();
+  const PixelPoint place = place_in("top_slice", target.voxel);
+  const QRect before = view("top_slice")->geometry();
+  move("top_slice", place);
+  EXPECT_EQ(view("top_slice")->width(), before.width());
+  EXPECT_EQ(view("top_slice")->height(), before.height());
+  const Preview hovered = desk_->workspace.preview();
+  ASSERT_TRUE(hovered.mask) << hovered.text;
+  ASSERT_TRUE(desk_->workspace.cursor());
+  EXPECT_THAT(window_->findChild<QLineEdit*>("read_out")->text().toStdString(), testing::HasSubstr("Sv "));
+  const Voxel pointed_at = *desk_->workspace.cursor();
+  EXPECT_EQ(place_in("top_slice", target.voxel), place) << "hovering must not move the picture";
+  click("top_slice", place);
+  EXPECT_EQ(pointed_at, *desk_->workspace.cursor());
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(document().choices().lines->back().args["seeds"][0]["sample"], desk_->workspace.cursor()->sample);
+  const PingMask& clicked = document().state().schools[0]->masks.pings[0].mask;
+  EXPECT_EQ(clicked.voxels(), hovered.mask->voxels());
+  EXPECT_EQ(clicked, *hovered.mask);
+}
+
+TEST_F(Desktop, ADoubleClickGrowsAndPropagatesAsOneSchool) {
+  const Target target = look_at_school();
+  double_click("side_slice", place_in("side_slice", target.voxel));
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_GT(document().state().schools[0]->masks.pings.size(), 2U);
+}
+
+TEST_F(Desktop, UndoAndRedoByKeysSayWhatTheyDo) {
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  EXPECT_EQ(document().choices().undo_text, "Undo grow school 1");
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(document().state().schools.empty());
+  key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(document().state().schools.size(), 1U);
+}
+
+TEST_F(Desktop, TheToleranceInThePanelGrowsTheSchoolAnew) {
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  const std::size_t before = document().state().schools.at(0)->masks.pings.at(0).mask.voxels();
+  auto* box = window_->findChild<QDoubleSpinBox*>("tolerance_db.box");
+  ASSERT_NE(box, nullptr);
+  box->setValue(5.0);
+  settle();
+  EXPECT_EQ(desk_->workspace.select.values().tolerance_db, 5.0);
+  std::string all;
+  for (const JournalLine& line : *document().choices().lines) all += journal_text(line) + "\n";
+  EXPECT_EQ(document().choices().lines->size(), 3U) << all << "grow, undo, grow; " << desk_->workspace.preview().text;
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_LT(document().state().schools[0]->masks.pings[0].mask.voxels(), before);
+}
+
+TEST_F(Desktop, AViewThatIsOffCostsNothing) {
+  LivePicture* map = desk_->picture("observation_map");
+  ASSERT_NE(map, nullptr);
+  (void)desk_->workspace.views.set("observation_map", false);
+  settle();
+  EXPECT_FALSE(view("observation_map")->isVisible());
+  const std::int64_t pictures = map->pictures();
+  key(Qt::Key_Right);
+  click("top_slice", {200, 150});
+  EXPECT_EQ(map->pictures(), pictures);
+  (void)desk_->workspace.views.set("observation_map", true);
+  settle();
+  EXPECT_TRUE(map->seen());
+  EXPECT_TRUE(view("observation_map")->isVisible());
+  EXPECT_GT(map->pictures(), pictures);
+}
+
+TEST_F(Desktop, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
+  auto* dock = window_->findChild<QDockWidget*>("volume");
+  ASSERT_NE(dock, nullptr);
+  dock->resize(dock->size());
+  settle();
+  const Image before = desk_->picture("volume")->image();
+  ASSERT_GT(before.size.width, 0);
+  const QSize size = view("volume")->size();
+  dock->setFloating(true);
+  settle();
+  dock->setFloating(false);
+  settle();
+  if (view("volume")->size() == size) {
+    EXPECT_EQ(desk_->picture("volume")->image(), before);
+  } else {
+    EXPECT_GT(desk_->picture("volume")->image().size.width, 0);
+  }
+}
+
+TEST_F(Desktop, ResizingKeepsEveryPictureAsLargeAsItsView) {
+  window_->resize(1400, 900);
+  settle();
+  for (const PictureDock& dock : desk_->pictures) {
+    if (!dock.picture->seen()) continue;
+    EXPECT_EQ(dock.picture->image().size.width, view(dock.id)->width()) << dock.id;
+    EXPECT_EQ(dock.picture->image().size.height, view(dock.id)->height()) << dock.id;
+  }
+}
+
+TEST_F(Desktop, NoTwoActionsShareAKeyAndTheSheetShowsThemAll) {
+  EXPECT_THAT(desk_->actions.clashes(), testing::IsEmpty());
+  key(Qt::Key_F1);
+  auto* sheet = window_->findChild<QTextBrowser*>();
+  ASSERT_NE(sheet, nullptr);
+  const std::string text = sheet->toPlainText().toStdString();
+  for (const Action& action : desk_->actions.list()) {
+    if (action.keys.empty()) continue;
+    EXPECT_THAT(text, testing::HasSubstr(action.text));
+  }
+}
+
+TEST_F(Desktop, DarkIsDark) {
+  key(Qt::Key_F9);
+  const QImage window = window_->grab().toImage();
+  double light = 0.0;
+  int counted = 0;
+  for (int y = 0; y < window.height(); y += 8) {
+    for (int x = 0; x < window.width(); x += 8, ++counted) light += qGray(window.pixel(x, y));
+  }
+  EXPECT_LT(light / counted, 90.0);
+  key(Qt::Key_F9);
+}
+
+}  // namespace
+}  // namespace sonar

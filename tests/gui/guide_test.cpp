@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the pictures of docs/guide.md, by the hands of a user:
+//   SONAR_GUIDE_SURVEY=<demo survey> SONAR_GUIDE_OUT=docs/pictures sonar_gui_test --gtest_filter='Guide.*'
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class Guide : public WindowAtWork {
+ protected:
+  void SetUp() override {
+    const char* survey = std::getenv("SONAR_GUIDE_SURVEY");
+    const char* out = std::getenv("SONAR_GUIDE_OUT");
+    if (survey == nullptr || out == nullptr) GTEST_SKIP() << "SONAR_GUIDE_SURVEY and SONAR_GUIDE_OUT are not given";
+    survey_ = survey;
+    out_ = out;
+    open();
+    window_->resize(1760, 1100);
+    settle();
+  }
+  void TearDown() override {
+    if (window_) WindowAtWork::TearDown();
+  }
+
+  void keep(const char* name) {
+    settle();
+    EXPECT_TRUE(window_->grab().save(QString::fromStdString((out_ / name).string())));
+  }
+  void raise(const char* dock) {
+    window_->findChild<QDockWidget*>(dock)->raise();
+    settle();
+  }
+
+  std::filesystem::path out_;
+};
+
+TEST_F(Guide, Pictures) {
+  const Target target = look_at_school();
+  keep("guide-opened.png");
+  const PixelPoint place = place_in("top_slice", target.voxel);
+  move("top_slice", place);
+  keep("guide-hover.png");
+  double_click("top_slice", place);
+  raise("propagation");
+  keep("guide-propagated.png");
+  desk_->actions.find("schools.detect_all")->run();
+  settle();
+  raise("review");
+  raise("observation_timeline");
+  desk_->actions.find("review.next")->run();
+  keep("guide-review.png");
+  raise("survey_map");
+  raise("survey_timeline");
+  keep("guide-survey.png");
+  desk_->workspace.dark.set(true);
+  raise("observation_map");
+  keep("guide-dark.png");
+  key(Qt::Key_F1);
+  auto* sheet = window_->findChild<QWidget*>("key_sheet");
+  ASSERT_NE(sheet, nullptr);
+  EXPECT_TRUE(sheet->grab().save(QString::fromStdString((out_ / "guide-keys.png").string())));
+  desk_->workspace.dark.set(false);
+  settle();
+}
+
+}  // namespace
+}  // namespace sonar
