@@ -18,19 +18,9 @@ using namespace test;  // NOLINT(google-build-using-namespace)
 
 constexpr int kSizeA = 3 * 3 * 8;
 
-SchoolKey key_a(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 33}; }
-SchoolKey key_b(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 47}; }
-SeedKey seed_a() { return {channel_at(2, 3), 33}; }
-
 Decision decision(const SchoolKey& school, std::optional<std::string> status, std::optional<std::string> species = {},
                   std::optional<std::string> comment = {}) {
   return {school, std::move(status), std::move(species), std::move(comment)};
-}
-
-PropagateCommand propagate_from(const SeedKey& seed) {
-  PropagateCommand command;
-  command.seeds = {seed};
-  return command;
 }
 
 /// One of every command, each of which can be carried out upon detected().
@@ -69,33 +59,6 @@ std::vector<std::pair<int, Command>> every_command() {
           {3, EventCommand{"trawl", ping_time(2), "haul 12"}},
           {3, BadPingsCommand{ping_time(3), ping_time(3)}},
           {3, BadPingsCommand{ping_time(5), ping_time(6)}}};
-}
-
-JournalLine line(std::int64_t n, int ping, const Command& command) {
-  return line_of({n, kBegin + n * kSecondNs, "someone", ping_time(ping), command});
-}
-
-/// Everything that a state says.
-std::string told(const JournalState& state) {
-  std::string text;
-  for (const auto& school : state.schools) {
-    const SchoolRow& row = school->masks.decided;
-    text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment +
-            row.operator_name + std::to_string(row.decided_utc) + (school->by_hand ? "h" : "d");
-    for (const auto& there : school->masks.pings) {
-      text += "|" + std::to_string(there.ping_index) + ":" + std::to_string(there.threshold_db);
-      for (const Run& run : there.mask.runs) {
-        text +=
-            " " + std::to_string(run.row) + "," + std::to_string(run.first_sample) + "," + std::to_string(run.count);
-      }
-      text.append(there.mask.confidence.begin(), there.mask.confidence.end());
-    }
-    text += "\n";
-  }
-  for (const auto& event : state.events) text += event.kind + event.text + std::to_string(event.time);
-  for (const auto& bad : state.bad_pings) text += std::to_string(bad.first) + "-" + std::to_string(bad.last);
-  for (const auto& note : state.notes) text += note.text + "\n";
-  return text;
 }
 
 JournalState after(const std::vector<std::pair<int, Command>>& acts) {
@@ -205,100 +168,6 @@ TEST(Commands, CarryingOnReplacesOneSideAndKeepsTheOther) {
   EXPECT_EQ(mask_of(state, 0, 4).voxels(), static_cast<std::size_t>(kSizeA + 8));
   EXPECT_EQ(mask_of(state, 0, 5).voxels(), static_cast<std::size_t>(kSizeA));  // the water there is no fish
   EXPECT_EQ(state.schools[0]->masks.decided.status, "corrected");
-}
-
-/// The sea, but in ping 6 school A is not to be seen.
-CommandGround with_a_gap(const SmallSea& sea) {
-  CommandGround ground = sea.ground();
-  auto gap = std::make_shared<Volume>(*sea.volume);
-  for (const Run& run : block_mask(kA).runs) {
-    for (int s = run.first_sample; s < run.end(); ++s) {
-      gap->counts.view().row(run.row)[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(counts_from_db(-90.0));
-    }
-  }
-  ground.ping = [whole = ground.ping, gap = std::shared_ptr<const Volume>(gap)](std::int64_t ping_index) {
-    auto ping = whole(ping_index);
-    if (ping_index == 6) ping->volume = gap;
-    return ping;
-  };
-  return ground;
-}
-
-/// Propagations from ping 4 both ways: in both modes, new and carried on, whole and with a reach.
-std::vector<PropagateCommand> propagations() {
-  PropagateCommand tracked = propagate_from(seed_a());
-  PropagateCommand paper = tracked;
-  paper.mode = GrowMode::paper;
-  paper.paper = {1, 1, 10, Connectivity::faces};
-  std::vector<PropagateCommand> all{tracked, paper};
-  for (PropagateCommand on : {tracked, paper}) {
-    on.seeds.clear();
-    on.school = key_a(4);
-    all.push_back(on);
-    on.reach_backward = 2;
-    all.push_back(on);
-  }
-  tracked.reach = 3;
-  all.push_back(tracked);
-  return all;
-}
-
-TEST(Commands, StoppedPropagationComesBackAsTheCommandThatGivesItsState) {
-  const SmallSea sea;
-  const CommandGround ground = with_a_gap(sea);
-  const JournalState before = SmallSea::detected();
-  for (const PropagateCommand& command : propagations()) {
-    const JournalAct act{1, 0, "someone", ping_time(4), command};
-    std::size_t steps_of_all = 0;
-    CommandGround watched = ground;
-    watched.on_step = [&](std::int64_t, const PingMask&) { return ++steps_of_all > 0; };
-    const auto whole = apply_watched(act, before, watched);
-    ASSERT_TRUE(whole);
-    EXPECT_EQ(told(whole->state), told(*apply(act, before, ground)));
-    EXPECT_EQ(line_of(whole->act).args, line_of(act).args);
-    ASSERT_GE(steps_of_all, 3U);  // the paper ends at the gap
-    for (std::size_t stop = 1; stop <= steps_of_all; ++stop) {
-      std::vector<std::pair<std::int64_t, PingMask>> seen;
-      watched.on_step = [&](std::int64_t ping_index, const PingMask& mask) {
-        seen.emplace_back(ping_index, mask);
-        return seen.size() < stop;
-      };
-      const auto stopped = apply_watched(act, before, watched);
-      ASSERT_TRUE(stopped);
-      ASSERT_EQ(seen.size(), stop);
-      const auto read = act_of(line_of(stopped->act));  // as a journal brings it back
-      ASSERT_TRUE(read);
-      EXPECT_EQ(told(*apply(*read, before, ground)), told(stopped->state)) << "stopped at ping " << seen.back().first;
-      const std::size_t school = *school_at(stopped->state, ground, key_a(4));
-      for (const auto& [ping_index, mask] : seen) {
-        const auto* there = in_ping(stopped->state.schools[school]->masks, ping_index);
-        EXPECT_EQ(there == nullptr ? PingMask{} : there->mask, mask) << "ping " << ping_index;
-      }
-    }
-  }
-}
-
-TEST(Commands, PropagationStoppedOnTheWayBackNamesBothReaches) {
-  const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 2; };
-  const auto stopped = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), ground);
-  ASSERT_TRUE(stopped);
-  EXPECT_EQ(line_of(stopped->act).args.at("reach_backward"), 2);
-  EXPECT_EQ(line_of(stopped->act).args.at("reach_forward"), 0);
-  ground.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 7; };
-  const auto later = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), ground);
-  ASSERT_TRUE(later);
-  EXPECT_EQ(line_of(later->act).args.at("reach_backward"), -1);  // it came to its own end
-  EXPECT_EQ(line_of(later->act).args.at("reach_forward"), 3);
-}
-
-TEST(Commands, FoldIsWatchedByNobody) {
-  const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.on_step = [](std::int64_t, const PingMask&) { return false; };
-  const std::vector<JournalLine> lines{line(1, 4, propagate_from(seed_a()))};
-  EXPECT_EQ(told(fold(lines, SmallSea::detected(), ground)), told(fold(lines, SmallSea::detected(), sea.ground())));
 }
 
 TEST(Commands, GrowingAddsAndTakesAway) {

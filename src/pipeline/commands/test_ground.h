@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/units.h"
 #include "geo/sector.h"
 #include "pipeline/commands/state.h"
+#include "school/mask_edit.h"
 
 // A small still sea for tests of commands: 6 fans, 8 beams, 80 samples, 9 pings two seconds apart. Two schools of -40 dB
 // lie in -90 dB of water in every ping: A and B, six samples apart. Channels count
@@ -106,5 +108,42 @@ struct SmallSea {
     return state_of_detected(std::move(schools));
   }
 };
+
+inline SchoolKey key_a(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 33}; }
+inline SchoolKey key_b(int ping = 0) { return {ping_time(ping), channel_at(2, 3), 47}; }
+inline SeedKey seed_a() { return {channel_at(2, 3), 33}; }
+
+inline PropagateCommand propagate_from(const SeedKey& seed) {
+  PropagateCommand command;
+  command.seeds = {seed};
+  return command;
+}
+
+inline JournalLine line(std::int64_t n, int ping, const Command& command) {
+  return line_of({n, kBegin + n * kSecondNs, "someone", ping_time(ping), command});
+}
+
+/// Everything that a state says.
+inline std::string told(const JournalState& state) {
+  std::string text;
+  for (const auto& school : state.schools) {
+    const SchoolRow& row = school->masks.decided;
+    text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment +
+            row.operator_name + std::to_string(row.decided_utc) + (school->by_hand ? "h" : "d");
+    for (const auto& there : school->masks.pings) {
+      text += "|" + std::to_string(there.ping_index) + ":" + std::to_string(there.threshold_db);
+      for (const Run& run : there.mask.runs) {
+        text +=
+            " " + std::to_string(run.row) + "," + std::to_string(run.first_sample) + "," + std::to_string(run.count);
+      }
+      text.append(there.mask.confidence.begin(), there.mask.confidence.end());
+    }
+    text += "\n";
+  }
+  for (const auto& event : state.events) text += event.kind + event.text + std::to_string(event.time);
+  for (const auto& bad : state.bad_pings) text += std::to_string(bad.first) + "-" + std::to_string(bad.last);
+  for (const auto& note : state.notes) text += note.text + "\n";
+  return text;
+}
 
 }  // namespace sonar::test
