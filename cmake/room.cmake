@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # sonar_room(NAME [ONE_TEST] ROOMS r1 r2 ... LIBRARIES l1 ... PRIVATE_LIBRARIES p1 ...)
 # One library a room: every .cpp beside the CMakeLists.txt and below it, but the *_test.cpp, which make the room's unit
-# tests; ONE_TEST: they run as one, because what they share costs more than they do. The include root is src/, so that a room is named in every include and the layer check can read it.
+# tests. ONE_TEST: they run as one, because what they share costs more than they do. The include root is src/, so that a
+# room is named in every include and the layer check can read it.
 include(GoogleTest OPTIONAL)
 
 function(sonar_room name)
@@ -20,9 +21,10 @@ function(sonar_room name)
     target_link_libraries(sonar_${name}_test PRIVATE sonar_${name} sonar_options GTest::gmock GTest::gtest_main)
     if(ROOM_ONE_TEST)
       add_test(NAME ${name} COMMAND sonar_${name}_test --gtest_brief=1)
-      set_tests_properties(${name} PROPERTIES LABELS unit)
+      set_tests_properties(${name} PROPERTIES LABELS unit ENVIRONMENT "SONAR_SOURCE=${PROJECT_SOURCE_DIR}")
       return()
     endif()
-    gtest_discover_tests(sonar_${name}_test TEST_PREFIX ${name}. PROPERTIES LABELS unit DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(sonar_${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+                         PROPERTIES LABELS unit ENVIRONMENT "SONAR_SOURCE=${PROJECT_SOURCE_DIR}")
   endif()
 endfunction()

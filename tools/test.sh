@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sets everything up and passes the tests: what the README and continuous integration call.
 #   tools/test.sh           g++, format, layers, unit, data and command-line tests
-#   tools/test.sh --full    also the slow tests, lone headers, the headless build, clang 16, clang-tidy, address +
-#                           undefined-behaviour and thread sanitizers, some seconds of each fuzz target, and the
-#                           benchmarks' build where ITK is installed
+#   tools/test.sh --full    also the slow tests, lone headers, the headless build, clang 16 with address +
+#                           undefined-behaviour and thread sanitizers, clang-tidy, some seconds of each fuzz target,
+#                           and the benchmarks' build where ITK is installed
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
@@ -124,9 +124,7 @@ part "build with g++" build dev
 if $full; then
   part "tests, the slow ones too" run_ctest dev
   part "every header alone" tools/check_headers build/dev
-  part "build with clang 16" build clang
-  part "tests of the clang build" run_ctest clang -LE slow
-  part "build with address and undefined-behaviour sanitizers" build asan
+  part "build with clang 16, address and undefined-behaviour sanitizers" build asan
   part "clang-tidy" tidy
   part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE 'slow|gui'
   part "fuzzing" fuzz_a_little 5

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/source_tree.h"
 #include "io/fuzz_bodies.h"
 #include "io/fuzz_product.h"
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 /// Runs every file of a corpus; expects at least one.
 template <class Body>
 void replay(const char* target, const Body& body) {
-  const fs::path folder = fs::path(__FILE__).parent_path() / "../../tests/data/fuzz" / target;
+  const fs::path folder = test::source_tree() / "tests/data/fuzz" / target;
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::ifstream in(entry.path(), std::ios::binary);

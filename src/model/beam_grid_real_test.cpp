@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,17 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "base/source_tree.h"
 #include "model/beam_grid.h"
 
 namespace sonar {
 namespace {
 
-std::filesystem::path beam_table() {
-  const char* folder = std::getenv("SONAR_DATA");  // NOLINT(concurrency-mt-unsafe): one thread
-  const auto source = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  const std::filesystem::path data = folder != nullptr ? std::filesystem::path(folder) : source / "../shared/data";
-  return data / "beams/S2009116_D20091113_E0001_MS70.beams";
-}
+std::filesystem::path beam_table() { return test::recorded_data() / "beams/S2009116_D20091113_E0001_MS70.beams"; }
 
 template <class T>
 T value_at(const std::string& bytes, std::size_t offset) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/source_tree.h"
 #include "io/atomic_file.h"
 #include "pipeline/fuzz_bodies.h"
 
@@ -13,7 +14,7 @@ namespace {
 template <class Body>
 void replay(const char* target, const Body& body) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(__FILE__).parent_path() / "../../tests/data/fuzz" / target;
+  const fs::path folder = test::source_tree() / "tests/data/fuzz" / target;
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     body(read_file(entry.path()).value());

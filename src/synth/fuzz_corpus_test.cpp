@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/source_tree.h"
 #include "io/atomic_file.h"
 #include "synth/fuzz_bodies.h"
 
@@ -12,8 +13,7 @@ namespace {
 TEST(FuzzCorpus, BeamTable) {
   namespace fs = std::filesystem;
   int count = 0;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(__FILE__).parent_path() / "../../tests/data/fuzz/beam_table")) {
+  for (const auto& entry : fs::directory_iterator(test::source_tree() / "tests/data/fuzz/beam_table")) {
     fuzz::beam_table(read_file(entry.path()).value());
     ++count;
   }

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/source_tree.h"
 #include "base/time.h"
 
 namespace sonar::test {
@@ -187,10 +187,7 @@ class TemporaryFolder {
 
 /// Folder of real recorded files; empty where there is none.
 inline std::filesystem::path data_folder() {
-  const char* named = std::getenv("SONAR_DATA");
-  const std::filesystem::path folder = named != nullptr
-                                           ? std::filesystem::path(named)
-                                           : std::filesystem::path(__FILE__).parent_path() / "../../../../shared/data";
+  const std::filesystem::path folder = recorded_data();
   std::error_code error;
   return std::filesystem::is_directory(folder, error) ? folder : std::filesystem::path();
 }
