@@ -113,8 +113,8 @@ benchmarks() {
 }
 
 # Tests in which several threads work on the same things, and the programs that hold them.
-threaded='[Tt]hreads?([A-Z_]|$)|Work\.'
-threaded_programs=(sonar_base_test sonar_signal_test sonar_io_test sonar_synth_test sonar_observe_test)
+threaded='[Tt]hreads?([A-Z_]|$)|Work\.|^session$'
+threaded_programs=(sonar_base_test sonar_signal_test sonar_io_test sonar_synth_test sonar_session_test sonar_observe_test)
 
 mkdir -p build
 if $full; then part "packages" tools/setup.sh full; else part "packages" tools/setup.sh test; fi

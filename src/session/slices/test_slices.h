@@ -55,8 +55,8 @@ class SlicesDesk {
   };
   [[nodiscard]] static const Bright& bright() {
     static const Bright found = [] {
-      SlicesDesk desk;
-      return desk.find_bright();
+      SlicesDesk searching;
+      return searching.find_bright();
     }();
     return found;
   }
