@@ -9,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
 export CTEST_OUTPUT_ON_FAILURE=1
+export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
 unset DISPLAY WAYLAND_DISPLAY  # nothing here may need a display
 
 full=false
