@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = ".partial-";
 
 tl::unexpected<Error> refused(const fs::path& path, std::string_view what, int error) {
-  const ErrorCode code = error == ENOSPC || error == EDQUOT ? ErrorCode::no_space : ErrorCode::io;
-  return fail(code, fmt::format("{}: {}", what, std::strerror(error)), {.file = path.string()});
+  return refused_write(what, error, path.string());
 }
 
 std::string host_name() {
@@ -59,6 +58,12 @@ int owner(std::string_view file_name, std::string_view prefix_of_host) {
 }
 
 }  // namespace
+
+tl::unexpected<Error> refused_write(std::string_view what, int error, const std::string& file) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  return fail(full ? ErrorCode::no_space : ErrorCode::io,
+              error == 0 ? std::string(what) : fmt::format("{}: {}", what, std::strerror(error)), {.file = file});
+}
 
 AtomicFile::AtomicFile(fs::path target, fs::path temporary)
     : target_(std::move(target)), temporary_(std::move(temporary)) {}

@@ -10,6 +10,10 @@
 
 namespace sonar {
 
+/// The error of a write that the system refused: no_space where there is no room, else io.
+/// error  errno; 0 = not known
+[[nodiscard]] tl::unexpected<Error> refused_write(std::string_view what, int error, const std::string& file);
+
 /// A file that appears under its own name only when it is whole: written under a temporary name in the same folder,
 /// flushed, renamed, and the folder flushed. Whoever is killed half way leaves the old file as it was.
 /// threads  one object belongs to one thread; several may write the same target, the last rename stays

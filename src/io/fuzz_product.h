@@ -108,7 +108,7 @@ class ProductFuzz {
     for (int edits = 0; edits < 24 && !in.done(); ++edits) edit(file, in);
     const std::filesystem::path spoilt = folder_ / "spoilt.nc";
     if (!write_netcdf_model(file, spoilt)) return;
-    SONAR_CHECK(append_seal(spoilt).has_value());
+    SONAR_CHECK(append_seal(spoilt, spoilt.string()).has_value());
     const auto read = read_product(spoilt);
     if (!read) {
       SONAR_CHECK(!read.error().text.empty() && read.error().where.file == spoilt.string());

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "io/netcdf_file.h"
 
 namespace sonar::netcdf {
@@ -46,6 +48,7 @@ std::unique_lock<std::mutex> lock() {
 }
 
 Writer::Writer(const std::filesystem::path& path, std::string named) : lock_(lock()), named_(std::move(named)) {
+  errno = 0;
   if (!check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "cannot create")) file_ = -1;
   if (file_ >= 0) {
     int old_mode = 0;
@@ -60,7 +63,11 @@ Writer::~Writer() {
 bool Writer::check(int status, std::string_view what) {
   if (!status_) return false;
   if (status == NC_NOERR) return true;
-  status_ = fail(ErrorCode::io, fmt::format("netCDF, {}: {}", what, nc_strerror(status)), {.file = named_});
+  // "HDF error" tells a user nothing; what the system said of the last write does, where it was a full disk.
+  auto refused = refused_write("cannot write", errno, named_);
+  const bool full = refused.value().code == ErrorCode::no_space;
+  if (!full) refused = fail(ErrorCode::io, fmt::format("netCDF, {}: {}", what, nc_strerror(status)), {.file = named_});
+  status_ = std::move(refused);
   return false;
 }
 

@@ -2,6 +2,7 @@
 #include "io/product_seal.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "io/atomic_file.h"
 
 namespace sonar {
 namespace {
@@ -36,15 +38,17 @@ std::string hash_of_head(std::ifstream& in, std::uint64_t size) {
 
 }  // namespace
 
-Result<void> append_seal(const fs::path& path) {
+Result<void> append_seal(const fs::path& path, const std::string& named) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   std::ifstream in(path, std::ios::binary);
   const std::string hash = hash_of_head(in, error ? 0 : size);
+  errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::app);
   out << kLabel << hash << '\n';
   out.close();
-  if (error || hash.empty() || !out) return fail(ErrorCode::io, "cannot write the seal", {.file = path.string()});
+  if (!out) return refused_write("cannot write the seal", errno, named);
+  if (error || hash.empty()) return fail(ErrorCode::io, "cannot write the seal", {.file = named});
   return {};
 }
 

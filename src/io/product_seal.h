@@ -12,8 +12,9 @@ namespace sonar {
 // of bytes behind the end that they know; our reader refuses a file whose seal is broken before HDF5, which is not
 // written to survive damaged metadata, sees it. A file that another program has changed has no seal; it is read in a process apart first.
 
+/// named   stands in messages
 /// errors  io, no_space
-Result<void> append_seal(const std::filesystem::path& path);
+Result<void> append_seal(const std::filesystem::path& path, const std::string& named);
 
 /// out     whether there is a seal (and it is whole)
 /// errors  not_found, io, format: no HDF5 file, or bytes changed since it was written

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "base/test_full_disk.h"
 #include "io/atomic_file.h"
 #include "io/product_example.h"
 
@@ -227,6 +228,28 @@ TEST_F(Product, refuses_masks_that_do_not_fit) {
   p.masks[0].ping_index = 9;
   EXPECT_EQ(write_product(p, at("a.nc")).error().code, ErrorCode::bad_parameter);
   EXPECT_TRUE(fs::is_empty(folder_)) << "a refused product leaves nothing behind";
+}
+
+// Whatever part of the file the disk has no room for: one line, the old file stays, nothing else lies there.
+TEST_F(Product, a_full_disk_leaves_what_was_there) {
+  ASSERT_TRUE(write_product(sample(), at("a.nc")));
+  const std::string before = *read_file(at("a.nc"));
+  ObservationProduct other = sample();
+  other.title += " again";
+  for (std::size_t room = 0; room < before.size(); room += before.size() / 23) {
+    const auto written = [&] {
+      const FullDisk disk(room);
+      return write_product(other, at("a.nc"));
+    }();
+    ASSERT_FALSE(written) << room;
+    EXPECT_EQ(written.error().code, ErrorCode::no_space) << to_line(written.error());
+    EXPECT_THAT(to_line(written.error()), testing::StartsWith(at("a.nc").string() + ": cannot write"));
+    EXPECT_EQ(to_line(written.error()).find('\n'), std::string::npos);
+    EXPECT_EQ(*read_file(at("a.nc")), before) << room;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << room;
+  }
+  ASSERT_TRUE(write_product(other, at("a.nc")));
+  EXPECT_EQ(read_product(at("a.nc"))->title, other.title);
 }
 
 TEST_F(Product, damage_gives_an_error) {

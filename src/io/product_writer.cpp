@@ -299,7 +299,7 @@ Result<void> write_product(const ObservationProduct& product, const std::filesys
     write_diagnostics(out, product.diagnostics);
     if (auto closed = out.close(); !closed) return closed;
   }
-  if (auto sealed = append_seal(file->temporary()); !sealed) return sealed;
+  if (auto sealed = append_seal(file->temporary(), path.string()); !sealed) return sealed;
   return file->commit();
 }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
 #include <map>
 #include <optional>
 
@@ -138,21 +137,38 @@ Result<Journal> read_journal(const std::string& path) {
   return parse_journal(*text, path);
 }
 
+namespace {
+
+/// Writes and flushes. 0, or the error.
+int write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return ::fsync(file) == 0 ? 0 : errno;
+}
+
+}  // namespace
+
 Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file < 0) return fail(ErrorCode::io, std::strerror(errno), {path});
+  if (file < 0) return refused_write("could not be written", errno, path);
   const off_t size = ::lseek(file, 0, SEEK_END);
   // A line that a crash cut short must not swallow the next one.
   char last = '\n';
   const bool cut = size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
   const std::string before = size == 0 ? journal_head_text(head) + "\n" : std::string(cut ? "\n" : "");
   const std::string text = before + journal_text(line) + "\n";
-  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const bool flushed = written && ::fsync(file) == 0;
-  const std::string why = std::strerror(errno);
+  const int error = write_all(file, text);
+  // Who is refused must find the journal as it was: half a line, or a whole one that nobody knows of, must not stay.
+  const bool restored = error == 0 || size < 0 || ::ftruncate(file, size) == 0;
   ::close(file);
-  if (!flushed) return fail(ErrorCode::io, "could not be written: " + why, {path});
-  return {};
+  if (error == 0) return {};
+  auto refused = refused_write("could not be written", error, path);
+  if (!restored) refused.value().text += "; its last line may be cut short";
+  return refused;
 }
 
 std::vector<JournalLine> effective_lines(const std::vector<JournalLine>& lines) {

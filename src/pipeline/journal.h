@@ -47,7 +47,9 @@ struct Journal {
 [[nodiscard]] std::string journal_text(const JournalLine& line);
 [[nodiscard]] std::string journal_head_text(const Journal& journal);
 
-/// Appends a line and flushes it to the disk; writes the head first where the file is new.
+/// Appends a line and flushes it to the disk; writes the head first where the file is new. What cannot be written whole is
+/// not written: the file is as it was.
+/// errors  no_space, io
 [[nodiscard]] Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line);
 
 /// The commands that hold after undo and redo (args.target = the n of the line meant), in order.

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/test_full_disk.h"
+
 namespace sonar {
 namespace {
 
@@ -84,6 +86,37 @@ TEST_F(JournalFile, LineCutByACrashLosesNothingElse) {
   ASSERT_TRUE(longer);
   ASSERT_EQ(longer->lines.size(), 2U);
   EXPECT_EQ(longer->lines[1].n, 3);
+}
+
+// Wherever the disk gets full, in the head, in the line or behind it: the file is as it was, and goes on when there is room.
+TEST_F(JournalFile, AFullDiskRefusesTheLineAndLeavesTheFileAsItWas) {
+  JournalLine line;
+  line.n = 2;
+  line.command = "comment";
+  line.args = {{"comment", std::string(300, 'x')}};
+  for (const bool fresh : {true, false}) {
+    std::remove(path_.c_str());
+    if (!fresh) append(1, "propagate");
+    const std::string before = fresh ? std::string{} : text();
+    const std::size_t whole =
+        before.size() + (fresh ? journal_head_text(head_).size() + 1 : 0) + journal_text(line).size() + 1;
+    for (std::size_t room = before.size(); room < whole; room += 7) {
+      {
+        const FullDisk disk(room);
+        const auto written = append_journal(path_, head_, line);
+        ASSERT_FALSE(written) << room;
+        EXPECT_EQ(written.error().code, ErrorCode::no_space);
+        EXPECT_THAT(to_line(written.error()), testing::StartsWith(path_ + ": could not be written: "));
+      }
+      ASSERT_EQ(text(), before) << room;
+    }
+    const FullDisk disk(whole);
+    ASSERT_TRUE(append_journal(path_, head_, line));
+    const auto journal = read_journal(path_);
+    ASSERT_TRUE(journal);
+    EXPECT_TRUE(journal->diagnostics.empty());
+    EXPECT_EQ(journal->lines.back().n, 2);
+  }
 }
 
 TEST_F(JournalFile, NewerVersionIsRefusedByName) {

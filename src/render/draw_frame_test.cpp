@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/test_full_disk.h"
 #include "render/compare_pictures.h"
 
 namespace sonar {
@@ -317,6 +318,22 @@ TEST_F(Png, DamagedFilesAreRefusedInOneLine) {
   put("wrong.png", wrong);
   EXPECT_EQ(read_png(file("wrong.png")).error().code, ErrorCode::format);
   EXPECT_EQ(write_png(Image{}, file("nothing.png")).error().code, ErrorCode::bad_parameter);
+}
+
+TEST_F(Png, AFullDiskLeavesThePictureThatWasThere) {
+  Image image(PixelSize{300, 200});
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i].r = static_cast<std::uint8_t>(i * i % 251);
+  ASSERT_TRUE(write_png(Image(PixelSize{30, 20}, kRed), file("a.png")).has_value());
+  const std::string before = bytes("a.png");
+  const auto written = [&] {
+    const FullDisk disk(1000);
+    return write_png(image, file("a.png"));
+  }();
+  ASSERT_FALSE(written.has_value());
+  EXPECT_EQ(written.error().code, ErrorCode::no_space);
+  EXPECT_EQ(to_line(written.error()), file("a.png").string() + ": the picture cannot be written there: File too large");
+  EXPECT_EQ(bytes("a.png"), before);
+  EXPECT_FALSE(std::filesystem::exists(file("a.png.part")));
 }
 
 // Two pixels of 20 differ: by 40 in one channel, by 4 in two. Mean (40 + 8) / 80 = 0.6.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -13,12 +15,17 @@ Result<void> write_picture_file(const std::string& bytes, const std::filesystem:
   part += ".part";
   std::error_code code;
   {
+    errno = 0;
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) {
+      const int error = errno;  // of the call below the stream, where there was one
       std::filesystem::remove(part, code);
-      return fail(ErrorCode::io, "the picture cannot be written there", {file.string()});
+      const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+      const std::string why = error == 0 ? std::string{} : std::string(": ") + std::strerror(error);
+      return fail(full ? ErrorCode::no_space : ErrorCode::io, "the picture cannot be written there" + why,
+                  {file.string()});
     }
   }
   std::filesystem::rename(part, file, code);
