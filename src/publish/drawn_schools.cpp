@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "view/school_look.h"
+
 namespace sonar {
 
 bool wanted(std::int64_t school_id, const PictureOptions& options) {
@@ -32,11 +34,12 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
 std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<MaskLayer> layers;
   if (!options.masks) return layers;
+  const Rgba8 grey = theme_of(options).muted;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, options)) continue;
-    const Rgba8 colour = school_colour(static_cast<int>(drawn.school_id));
+    const Rgba8 colour = drawn.status == "rejected" ? grey : school_colour(static_cast<int>(drawn.school_id));
     const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
-    layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}});
+    layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}, status_line(drawn.status)});
   }
   return layers;
 }

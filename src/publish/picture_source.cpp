@@ -110,10 +110,12 @@ DrawnPing DrawnObservation::ping_without_samples(std::int64_t ping_index) const 
   ping.ping_index = ping_index;
   ping.navigation = product_->pings[static_cast<std::size_t>(ping_index)];
   for (const SchoolMask& school : product_->masks) {
+    if (school.ping_index != ping_index) continue;
+    const auto row = std::find_if(product_->schools.begin(), product_->schools.end(),
+                                  [&](const SchoolRow& one) { return one.school_id == school.school_id; });
     // The product outlives every picture of it: the mask is borrowed, not copied.
-    if (school.ping_index == ping_index) {
-      ping.masks.push_back({school.school_id, std::shared_ptr<const PingMask>(std::shared_ptr<void>(), &school.mask)});
-    }
+    ping.masks.push_back({school.school_id, std::shared_ptr<const PingMask>(std::shared_ptr<void>(), &school.mask),
+                          row == product_->schools.end() ? std::string{} : row->status});
   }
   return ping;
 }

@@ -27,6 +27,7 @@ namespace sonar {
 struct DrawnMask {
   std::int64_t school_id = 0;
   std::shared_ptr<const PingMask> mask;
+  std::string status;  ///< of the school's review, SchoolRow::status
 };
 
 /// One ping as pictures need it. Without raw files the volume is empty and only masks are known.

@@ -21,11 +21,20 @@ Rgba8 status_colour(const std::string& status, const Theme& theme) {
   return school_colour(0);
 }
 
-std::vector<double> status_dashes(const std::string& status, const Theme& theme) {
+OutlineLine status_line(const std::string& status) {
+  if (status == "rejected") return OutlineLine::dotted;
+  return status == "unreviewed" ? OutlineLine::dashed : OutlineLine::solid;
+}
+
+std::vector<double> line_dashes(OutlineLine line, const Theme& theme) {
   const double em = theme.text_px;
-  if (status == "rejected") return {0.15 * em, 0.35 * em};
-  if (status == "unreviewed") return {0.7 * em, 0.3 * em};
+  if (line == OutlineLine::dotted) return {0.15 * em, 0.35 * em};
+  if (line == OutlineLine::dashed) return {0.7 * em, 0.3 * em};
   return {};
+}
+
+std::vector<double> status_dashes(const std::string& status, const Theme& theme) {
+  return line_dashes(status_line(status), theme);
 }
 
 SchoolLook::SchoolLook(std::span<const ObservationProduct> observations, const SurveyMapStyle& style,

@@ -7,12 +7,16 @@
 
 #include "model/school.h"
 #include "view/survey_map.h"
+#include "view/volume_scene.h"
 
 namespace sonar {
 
 /// Status as a colour, the same in every picture: accepted, corrected, unreviewed, rejected.
 [[nodiscard]] Rgba8 status_colour(const std::string& status, const Theme& theme);
-/// Status as a line: accepted and corrected solid, unreviewed dashed, rejected dotted; in text sizes.
+/// Status as a line, the same in every picture: accepted and corrected solid, unreviewed dashed, rejected dotted.
+[[nodiscard]] OutlineLine status_line(const std::string& status);
+/// Lengths of dash and gap, pixels; empty = solid.
+[[nodiscard]] std::vector<double> line_dashes(OutlineLine line, const Theme& theme);
 [[nodiscard]] std::vector<double> status_dashes(const std::string& status, const Theme& theme);
 
 /// Colours and sizes of a map's schools.

@@ -10,6 +10,8 @@
 #include <span>
 #include <utility>
 
+#include "view/school_look.h"
+
 namespace sonar {
 namespace {
 
@@ -115,20 +117,23 @@ class MaskVoxels {
 /// The words of the picture's pixels, as far as an outline looks up and down from the row that is being drawn.
 class MaskPixels {
  public:
-  MaskPixels(const SliceMap& map, const MaskVoxels& masks, int reach)
+  /// reach   of an outline: its width
+  /// window  of runs_across(), not below reach
+  MaskPixels(const SliceMap& map, const MaskVoxels& masks, int reach, int window)
       : map_(&map),
         masks_(&masks),
         reach_(reach),
-        depth_(2 * reach + 1),
+        window_(window),
+        depth_(2 * window + 1),
         words_(static_cast<std::size_t>(depth_) * static_cast<std::size_t>(map.size().width)),
         filled_(static_cast<std::size_t>(depth_)) {}
 
   /// Rows come one after another, from 0. Whether this one has any word.
   [[nodiscard]] bool move_to(int y) {
-    for (const int last = std::min(y + reach_, map_->size().height - 1); next_ <= last; ++next_) fill(next_);
+    for (const int last = std::min(y + window_, map_->size().height - 1); next_ <= last; ++next_) fill(next_);
     return filled_[static_cast<std::size_t>(y % depth_)];
   }
-  /// Row within reach.
+  /// Row within the window.
   [[nodiscard]] std::span<MaskWord> row(int y) {
     const auto width = static_cast<std::size_t>(map_->size().width);
     return std::span(words_).subspan(static_cast<std::size_t>(y % depth_) * width, width);
@@ -145,6 +150,28 @@ class MaskPixels {
     }
     return false;
   }
+  /// Whether the outline of a pixel's layer goes rather across than down here.
+  [[nodiscard]] bool runs_across(int x, int y) {
+    const PixelSize size = map_->size();
+    const MaskWord own = at(x, y) / 256;
+    int right = 0;
+    int down = 0;
+    int width = 0;
+    int height = 0;
+    for (int ny = std::max(y - window_, 0); ny <= std::min(y + window_, size.height - 1); ++ny) {
+      const std::span<const MaskWord> words = row(ny);
+      for (int nx = std::max(x - window_, 0); nx <= std::min(x + window_, size.width - 1); ++nx) {
+        if (words[static_cast<std::size_t>(nx)] / 256 != own) continue;
+        right += nx - x;
+        down += ny - y;
+        width += (nx - x) * (nx - x);
+        height += (ny - y) * (ny - y);
+      }
+    }
+    // An edge lies across the way to the layer's inside. What is as thin as its outline has no inside.
+    if (std::abs(down) != std::abs(right)) return std::abs(down) > std::abs(right);
+    return width >= height;
+  }
 
  private:
   void fill(int y) {
@@ -158,10 +185,42 @@ class MaskPixels {
   const SliceMap* map_;
   const MaskVoxels* masks_;
   int reach_;
+  int window_;
   int depth_;
   int next_ = 0;                 ///< row that was not filled yet
   std::vector<MaskWord> words_;  ///< [row % depth][width]
   std::vector<bool> filled_;
+};
+
+constexpr int kWindow_px = 3;  ///< about an outline's pixel, to tell its direction
+
+/// Dash and gap of each layer's outline.
+class Dashes {
+ public:
+  Dashes(const std::vector<MaskLayer>& masks, const Theme& theme) : of_(masks.size()) {
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      const auto lengths = line_dashes(masks[i].line, theme);
+      if (lengths.empty()) continue;
+      of_[i] = {lengths[0], lengths[0] + lengths[1]};
+      any_ = true;
+    }
+  }
+  [[nodiscard]] bool any() const { return any_; }
+  /// Whether an outline's pixel belongs to a dash. Dashes are counted along the picture's axis that is nearer to the
+  /// outline's direction, so that neighbours agree without the outline having been followed.
+  [[nodiscard]] bool drawn(std::size_t layer, MaskPixels& pixels, int x, int y) const {
+    const Dash& dash = of_[layer];
+    if (dash.period_px <= 0.0) return true;
+    return std::fmod(pixels.runs_across(x, y) ? x : y, dash.period_px) < dash.on_px;
+  }
+
+ private:
+  struct Dash {
+    double on_px = 0.0;
+    double period_px = 0.0;  ///< 0 = solid
+  };
+  std::vector<Dash> of_;
+  bool any_ = false;
 };
 
 Rgba8 layer_colour(const MaskLayer& layer) {
@@ -202,14 +261,16 @@ Result<void> blend_masks(Image& image, const SliceMap& map, const std::vector<Ma
   for (std::size_t q = 0; q < strength.size(); ++q) {
     strength[q] = static_cast<double>(q) / 255.0 >= style.core_at ? core : fuzzy;
   }
-  MaskPixels pixels(map, voxels, std::max(1, static_cast<int>(std::lround(theme.line_px))));
+  const Dashes dashes(masks, theme);
+  const int line_px = std::max(1, static_cast<int>(std::lround(theme.line_px)));
+  MaskPixels pixels(map, voxels, line_px, dashes.any() ? std::max(line_px, kWindow_px) : line_px);
   for (int y = 0; y < image.size.height; ++y) {
     if (!pixels.move_to(y)) continue;
     const std::span<const MaskWord> row = pixels.row(y);
     for (int x = 0; x < image.size.width; ++x) {
       const MaskWord word = row[static_cast<std::size_t>(x)];
       if (word == 0) continue;
-      const bool edged = style.outline && pixels.on_edge(x, y);
+      const bool edged = style.outline && pixels.on_edge(x, y) && dashes.drawn(word / 256 - 1, pixels, x, y);
       Rgba8& pixel = image.at(x, y);
       pixel = mixed(pixel, colours[word / 256 - 1], edged ? 255 : strength[word % 256]);
       if (edged) rim(image, pixels, x, y, theme);

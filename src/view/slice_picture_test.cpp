@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/school_look.h"
 #include "view/slice_example.h"
 
 namespace sonar {
@@ -121,6 +122,55 @@ TEST(SliceImage, AnOutlineRunsAlongTheMasksEdge) {
       }
     }
   }
+}
+
+// line_dashes() of status_line(): dashes 0.7 of a text size with gaps of 0.3, dots 0.15 with gaps of 0.35.
+TEST(SliceImage, AnUnreviewedSchoolsOutlineIsDashedAndARejectedOnesDotted) {
+  const SliceMap map = hand_map();
+  const LitVolume volume(map.sector(), kLit, -90.0, -90.0);
+  PingMask arc;  // over all beams: its edges go in every direction
+  for (int beam = 0; beam < 7; ++beam) arc.runs.push_back({28 + beam, 12, 20});
+  arc.confidence.assign(std::size_t{7} * 20, 9);
+  const Theme theme = light_theme({640, 480});
+  const auto image = [&](const std::string& status) {
+    SliceData data = volume.data();
+    data.masks.push_back({std::make_shared<PingMask>(arc), {1.0F, 0.0F, 0.0F}, status_line(status)});
+    return *slice_image(map, data, sv_colours(SvScale{}), {}, {}, theme);
+  };
+  const Rgba8 red{255, 0, 0, 255};
+  const Image solid = image("accepted");
+  EXPECT_EQ(solid.pixels, image("corrected").pixels);
+  const auto share_of = [&](const Image& broken) {
+    double drawn = 0.0;
+    double all = 0.0;
+    for (std::size_t i = 0; i < solid.pixels.size(); ++i) {
+      EXPECT_TRUE(broken.pixels[i] != red || solid.pixels[i] == red);  // nothing is drawn off the outline
+      if (solid.pixels[i] == red) ++all;
+      if (broken.pixels[i] == red) ++drawn;
+    }
+    return drawn / all;
+  };
+  EXPECT_NEAR(share_of(image("unreviewed")), 0.7, 0.08);
+  EXPECT_NEAR(share_of(image("rejected")), 0.3, 0.08);
+}
+
+// One beam seen from the side, as thin as the outline: it must not vanish where the count does not change along it.
+TEST(SliceImage, WhatIsAsThinAsItsOutlineIsDashedToo) {
+  const Sector sector = hand_sector();
+  const SliceMap map(sector, kTop, {-2000, -2000, 2000, 2000}, kSize);
+  const LitVolume volume(sector, kLit, -90.0, -90.0);
+  PingMask arc;
+  for (int beam = 0; beam < 7; ++beam) arc.runs.push_back({28 + beam, 30, 2});
+  arc.confidence.assign(std::size_t{7} * 2, 9);
+  const Theme theme = light_theme({640, 480});
+  const auto red = [&](OutlineLine line) {
+    SliceData data = volume.data();
+    data.masks.push_back({std::make_shared<PingMask>(arc), {1.0F, 0.0F, 0.0F}, line});
+    const Image image = *slice_image(map, data, sv_colours(SvScale{}), {}, {}, theme);
+    return std::count(image.pixels.begin(), image.pixels.end(), Rgba8{255, 0, 0, 255});
+  };
+  EXPECT_LT(red(OutlineLine::dashed), red(OutlineLine::solid));
+  EXPECT_GT(red(OutlineLine::dashed), red(OutlineLine::solid) / 3);
 }
 
 TEST(SliceImage, WhatDoesNotBelongIsRefused) {

@@ -63,10 +63,14 @@ struct Lighting {
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
+/// How an outline is drawn; status_line() says of which school.
+enum class OutlineLine : std::uint8_t { solid, dashed, dotted };
+
 /// One school's mask in the ping. Confidence is interpolated like Sv (0 outside the mask).
 struct MaskLayer {
   std::shared_ptr<const PingMask> mask;
   std::array<float, 3> rgb{1.0F, 1.0F, 1.0F};
+  OutlineLine line = OutlineLine::solid;  ///< of its outline in slices
 };
 
 /// What of the masks is shown: the fuzzy area (0 < f < core) as a surface by first hit, translucent; the core

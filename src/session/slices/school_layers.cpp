@@ -3,12 +3,14 @@
 
 #include <utility>
 
+#include "view/school_look.h"
+
 namespace sonar {
 namespace {
 
-MaskLayer layer_of(std::shared_ptr<const PingMask> mask, Rgba8 colour) {
+MaskLayer layer_of(std::shared_ptr<const PingMask> mask, Rgba8 colour, OutlineLine line = OutlineLine::solid) {
   const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
-  return {std::move(mask), {share(colour.r), share(colour.g), share(colour.b)}};
+  return {std::move(mask), {share(colour.r), share(colour.g), share(colour.b)}, line};
 }
 
 /// The colour of what a propagation carries: the selected school's, else the one that the next school will have.
@@ -44,7 +46,8 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
     if (there == nullptr || replaced || (rejected && !display.rejected)) continue;
     // The mask lives in the school, which the layer keeps.
     layers.push_back({school->number, i == selected,
-                      layer_of(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme))});
+                      layer_of(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
+                               status_line(school->masks.decided.status))});
   }
   if (const auto found = document.propagating().find(ping_index);
       found != document.propagating().end() && display.masks) {
