@@ -78,6 +78,8 @@ struct Layout {
 [[nodiscard]] Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs = {});
 
 /// First line large, the others muted below it; the right-hand text (may be empty) stands at the right of the first.
+/// Nothing leaves the picture: a first line without room becomes smaller, then lines are shortened; SYNTHETIC is never
+/// shortened away.
 void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
                const std::string& right = {});
 

@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "view/colour_bar.h"
 
@@ -133,6 +137,54 @@ TEST(ColourBar, DepthReadsDownwards) {
       EXPECT_LT(text->at.y, 50.0);
     }
   }
+}
+
+std::vector<TextItem> title_in(PixelSize size, const std::vector<std::string>& lines, const std::string& right) {
+  FrameDescription frame;
+  frame.size = size;
+  const Theme theme = light_theme(size);
+  add_title(frame, lay_out(size, theme), theme, lines, right);
+  std::vector<TextItem> texts;
+  for (const auto& item : frame.items) texts.push_back(std::get<TextItem>(item));
+  return texts;
+}
+
+TEST(Elided, KeepsWholeLettersOfTheBeginning) {
+  EXPECT_EQ(elided("north", 10.0, 1000.0), "north");
+  const double wide = text_width_px("\u00E9\u00E9\u00E9\u2026", 10.0);
+  EXPECT_EQ(elided("\u00E9\u00E9\u00E9\u00E9\u00E9\u00E9", 10.0, wide), "\u00E9\u00E9\u00E9\u2026");
+  EXPECT_EQ(elided("a b", 10.0, text_width_px("a\u2026", 10.0)), "a\u2026");  // no blank before the ellipsis
+  EXPECT_EQ(elided("north", 10.0, 1.0), "");
+}
+
+TEST(Title, NothingLeavesANarrowPictureAndSyntheticStays) {
+  const std::vector<std::string> lines{"obs-0001 of SYNTHETIC survey of herring in the north",
+                                       "Top: fan 4, elevation -30.0, 75.0 kHz"};
+  const std::string time = "2026-11-21 19:57:26.123 UTC";
+  for (int width = 160; width <= 1200; width += 40) {
+    SCOPED_TRACE(width);
+    double left_end = 0.0;
+    double right_begin = 1e9;
+    const auto texts = title_in({width, 400}, lines, time);
+    for (const TextItem& text : texts) {
+      const double wide = text_width_px(text.text.c_str(), text.size_px);
+      const double begin = text.anchor == TextAnchor::right ? text.at.x - wide : text.at.x;
+      EXPECT_GE(begin, 0.0) << text.text;
+      EXPECT_LE(begin + wide, width) << text.text;
+      if (text.text == time) right_begin = begin;
+    }
+    for (const TextItem& text : texts) {
+      if (text.text == time || right_begin > 1e8) continue;
+      const auto of_time = std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.text == time; });
+      if (text.at.y == of_time->at.y) left_end = text.at.x + text_width_px(text.text.c_str(), text.size_px);
+    }
+    EXPECT_LT(left_end, right_begin);
+    EXPECT_THAT(texts[0].text, ::testing::HasSubstr("SYN"));
+    if (width >= 240) {
+      EXPECT_THAT(texts[0].text, ::testing::HasSubstr("SYNTHETIC"));
+    }
+  }
+  EXPECT_EQ(title_in({1600, 900}, lines, time)[0].text, lines[0]);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "view/axes.h"
 #include "view/shapes.h"
@@ -29,24 +32,48 @@ Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
   return out;
 }
 
+namespace {
+
+constexpr double kBold = 1.1;  ///< bold letters, of the width of plain ones
+
+/// A title shortened to a width; data that nobody has recorded must still be known by it.
+std::string shortened_title(const std::string& title, double size_px, double width_px) {
+  constexpr const char* kMark = "SYNTHETIC";
+  std::string out = elided(title, kBold * size_px, width_px);
+  const bool lost = title.find(kMark) != std::string::npos && out.find(kMark) == std::string::npos;
+  return lost ? elided(std::string(kMark) + " " + title, kBold * size_px, width_px) : out;
+}
+
+}  // namespace
+
 void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
                const std::string& right) {
+  // The plot's width is no limit, the picture's is.
+  const double width = std::max(layout.title.width, frame.size.width - layout.title.x - 0.5 * theme.text_px);
+  const double right_width = right.empty() ? 0.0 : text_width_px(right.c_str(), theme.text_px) + theme.text_px;
+  // Where both do not fit, the right-hand text goes down to the second line's end.
+  const bool beside =
+      !lines.empty() && text_width_px(lines[0].c_str(), kBold * theme.title_px) + right_width < layout.title.width;
+  const bool below = !beside && lines.size() > 1;
+  // It stays away where it would leave no room to the second line's own words.
+  const bool stays = !right.empty() && (beside || layout.title.width - right_width > 8.0 * theme.text_px);
   double y = layout.title.y + 0.6 * theme.title_px;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    TextItem item = text_item({layout.title.x, y}, lines[i], i == 0 ? theme.title_px : theme.text_px,
-                              i == 0 ? theme.text : theme.muted);
-    item.bold = i == 0;
+    const bool first = i == 0;
+    const bool shared = stays && i == (below ? 1U : 0U);
+    const double room = shared ? layout.title.width - right_width : width;
+    const bool large = first && text_width_px(lines[i].c_str(), kBold * theme.title_px) <= room;
+    const double size = large ? theme.title_px : theme.text_px;
+    TextItem item =
+        text_item({layout.title.x, y}, first ? shortened_title(lines[i], size, room) : elided(lines[i], size, room),
+                  size, first ? theme.text : theme.muted);
+    item.bold = first;
     frame.items.emplace_back(std::move(item));
-    if (i == 0 && !right.empty()) {
-      // Where both do not fit, the right-hand text goes down to the second line's end.
-      const bool fits = text_width_px(lines[0].c_str(), 1.1 * theme.title_px) +
-                            text_width_px(right.c_str(), theme.text_px) + theme.text_px <
-                        layout.title.width;
-      const double down = fits || lines.size() < 2 ? 0.0 : 0.75 * theme.title_px + 0.7 * theme.text_px;
-      frame.items.emplace_back(text_item({layout.title.x + layout.title.width, y + down}, right, theme.text_px,
-                                         theme.muted, TextAnchor::right));
+    if (shared) {
+      frame.items.emplace_back(
+          text_item({layout.title.x + layout.title.width, y}, right, theme.text_px, theme.muted, TextAnchor::right));
     }
-    y += i == 0 ? 0.75 * theme.title_px + 0.7 * theme.text_px : 1.45 * theme.text_px;
+    y += first ? 0.75 * theme.title_px + 0.7 * theme.text_px : 1.45 * theme.text_px;
   }
 }
 

@@ -86,6 +86,20 @@ Rgba8 school_colour(int number) {
   return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
 }
 
+std::string elided(std::string text, double size_px, double width_px) {
+  constexpr const char* kEllipsis = "\u2026";
+  if (text_width_px(text.c_str(), size_px) <= width_px) return text;
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (!text.empty()) {
+    while (continues(text.back()) && text.size() > 1) text.pop_back();
+    text.pop_back();
+    while (text.ends_with(' ')) text.pop_back();
+    if (text.empty()) break;
+    if (text_width_px((text + kEllipsis).c_str(), size_px) <= width_px) return text + kEllipsis;
+  }
+  return {};
+}
+
 double text_width_px(const char* utf8, double size_px) {
   double width = 0.0;
   for (; utf8 != nullptr && *utf8 != '\0'; ++utf8) {

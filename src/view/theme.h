@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "view/frame_description.h"
 #include "view/image.h"
 
@@ -39,6 +41,9 @@ struct Theme {
 
 /// Text as wide as this at most, for layout without a font: DejaVu Sans, characters counted, not bytes.
 [[nodiscard]] double text_width_px(const char* utf8, double size_px);
+
+/// The text, or as much of its beginning as is no wider, with an ellipsis behind it; empty where not even that has room.
+[[nodiscard]] std::string elided(std::string text, double size_px, double width_px);
 
 [[nodiscard]] inline Rgba8 with_alpha(Rgba8 c, int alpha) {
   c.a = static_cast<std::uint8_t>(alpha);
