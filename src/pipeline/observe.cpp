@@ -146,6 +146,27 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
   return {};
 }
 
+/// Under a calibration that a human chose: the product says what it was measured with.
+Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
+  std::erase_if(product.diagnostics, [](const Diagnostic& note) {
+    return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused;
+  });
+  product.recipe_json = recipe_text(engine.recipe());
+  product.recipe_hash = recipe_hash(engine.recipe());
+  return prepare(engine, reach, product, work);
+}
+
+/// The calibration that a session chose stands over the recipe's.
+Recipe with_calibration_of(std::span<const JournalLine> journal, const Recipe& recipe) {
+  JournalState said;
+  for (const JournalLine& line : journal) {
+    const auto act = line.command == "calibrate" ? act_of(line) : Result<JournalAct>(JournalAct{});
+    const auto* calibrate = act ? std::get_if<CalibrateCommand>(&act->command) : nullptr;
+    if (calibrate != nullptr) said.calibration = std::make_shared<const CalibrationParams>(calibrate->calibration);
+  }
+  return measuring_recipe(recipe, said);
+}
+
 /// New numbers from 1, or those that the schools had.
 void number(std::vector<SchoolMasks>& schools, const Engine& engine, const ObserveOptions& options,
             ObservationProduct& product) {
@@ -173,8 +194,7 @@ void mark_bad_pings(std::span<const JournalLine> journal, std::span<const TimeNs
   JournalState said;
   for (const JournalLine& line : journal) {
     const auto act = act_of(line);
-    const auto* bad = act ? std::get_if<BadPingsCommand>(&act->command) : nullptr;
-    if (bad != nullptr) said.bad_pings.push_back(*bad);
+    if (act) take_bad_pings(said, act->command);
   }
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (is_bad(said, times[i])) product.pings[i].bad = true;
@@ -273,14 +293,22 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
   note_events(events, schools, product);
-  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
+  if (state.calibration) {
+    const Recipe measuring = measuring_recipe(recipe, state);
+    Engine calibrated(survey, observation, measuring);
+    if (auto done = prepare_again(calibrated, reach, product, work); !done) return pass_on(done);
+    if (auto done = measure_schools(calibrated, std::move(schools), product, work); !done) return pass_on(done);
+  } else if (auto done = measure_schools(engine, std::move(schools), product, work); !done) {
+    return pass_on(done);
+  }
   note_schools_without_place(product);
   return product;
 }
 
 Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,
-                                     const ObservationProduct& before, const Recipe& recipe,
+                                     const ObservationProduct& before, const Recipe& given,
                                      const ObserveOptions& options, Work& work) {
+  const Recipe recipe = with_calibration_of(options.journal, given);
   ObservationProduct product = empty_product(survey, observation, recipe, options);
   const bool same_pings = has_pings(before, product.source, datagram_times(survey, observation)) &&
                           before.grid.has_value() == product.grid.has_value();

@@ -55,7 +55,8 @@ struct ObserveOptions {
 [[nodiscard]] Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationFiles& observation,
                                                  const Recipe& recipe, const ObserveOptions& options, Work& work);
 
-/// The same masks and decisions with every number worked out anew under this recipe's calibration.
+/// The same masks and decisions with every number worked out anew under this recipe's calibration, or that of the
+/// journal's last `calibrate`.
 /// before   the product whose masks are kept; must be of the same pings
 /// errors   mismatch: other pings or another grid; cancelled
 [[nodiscard]] Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,

@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
 #include "io/csv_table.h"
+#include "pipeline/calibration_json.h"
 #include "pipeline/json_file.h"
 #include "pipeline/json_parameters.h"
 #include "pipeline/transfer_function_json.h"
@@ -21,52 +21,6 @@ namespace sonar {
 namespace {
 
 constexpr int kMaxChannels = 100'000;
-constexpr double kMostDecibels = 100.0;
-
-nlohmann::json beams_to_json(const std::vector<BeamCalibration>& beams) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const BeamCalibration& beam : beams) {
-    list.push_back({{"channel", beam.channel},
-                    {"gain_db", beam.gain_db},
-                    {"sa_correction_db", beam.sa_correction_db},
-                    {"extra_factor_db", beam.extra_factor_db}});
-  }
-  return list;
-}
-
-Result<std::vector<BeamCalibration>> beams_from_json(const nlohmann::json& list) {
-  if (!list.is_array()) return fail(ErrorCode::format, "beam_calibration: expected an array");
-  std::vector<BeamCalibration> beams;
-  for (const auto& entry : list) {
-    const auto number = [&](const char* member) {
-      if (!entry.is_object() || !entry.contains(member)) return kUnknown;
-      return entry[member].is_number() ? entry[member].get<double>() : kUnknown;
-    };
-    const double channel = number("channel");
-    if (!(channel >= 0 && channel < kMaxChannels)) {
-      return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected a channel", beams.size()));
-    }
-    beams.push_back(
-        {static_cast<int>(channel), number("gain_db"), number("sa_correction_db"), number("extra_factor_db")});
-  }
-  return beams;
-}
-
-Result<void> check_beams(const std::vector<BeamCalibration>& beams) {
-  std::set<int> channels;
-  for (const BeamCalibration& beam : beams) {
-    if (!channels.insert(beam.channel).second) {
-      return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {} stands twice", beam.channel));
-    }
-    for (const double db : {beam.gain_db, beam.sa_correction_db, beam.extra_factor_db}) {
-      if (std::abs(db) > kMostDecibels) {
-        return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {}: {} dB is outside -{} .. {}",
-                                                          beam.channel, db, kMostDecibels, kMostDecibels));
-      }
-    }
-  }
-  return {};
-}
 
 nlohmann::json recipe_to_json(const Recipe& recipe) {
   Recipe copy = recipe;

@@ -95,6 +95,11 @@ std::string act_name(const JournalAct& act, const CommandGround& ground, const J
   if (const auto* c = std::get_if<BadPingsCommand>(&act.command)) {
     return c->first == c->last ? "mark bad ping" : "mark bad interval";
   }
+  if (const auto* c = std::get_if<RemoveEventCommand>(&act.command)) return "remove mark " + c->event.kind;
+  if (const auto* c = std::get_if<GoodPingsCommand>(&act.command)) {
+    return c->first == c->last ? "mark good ping" : "mark good interval";
+  }
+  if (const auto* c = std::get_if<CalibrateCommand>(&act.command)) return "calibration " + c->file;
   if (std::holds_alternative<DetectCommand>(act.command)) return "look for schools";
   const auto& decide = std::get<DecideCommand>(act.command);
   if (decide.decisions.size() != 1) return fmt::format("review {} schools", decide.decisions.size());

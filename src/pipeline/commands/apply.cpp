@@ -53,7 +53,9 @@ Result<void> apply_to_ping(Edit& edit, const Command& command) {
   return std::visit(
       [&](const auto& one) -> Result<void> {
         using C = std::decay_t<decltype(one)>;
-        if constexpr (std::is_same_v<C, EventCommand> || std::is_same_v<C, BadPingsCommand>) {
+        if constexpr (std::is_same_v<C, EventCommand> || std::is_same_v<C, BadPingsCommand> ||
+                      std::is_same_v<C, RemoveEventCommand> || std::is_same_v<C, GoodPingsCommand> ||
+                      std::is_same_v<C, CalibrateCommand>) {
           return {};
         } else {
           return carry_out(edit, one);
@@ -65,11 +67,29 @@ Result<void> apply_to_ping(Edit& edit, const Command& command) {
 /// Acts that say something about times, not about the ping that they were done on.
 bool about_times(const Command& command) {
   return std::holds_alternative<EventCommand>(command) || std::holds_alternative<BadPingsCommand>(command) ||
-         std::holds_alternative<DecideCommand>(command);
+         std::holds_alternative<RemoveEventCommand>(command) || std::holds_alternative<GoodPingsCommand>(command) ||
+         std::holds_alternative<CalibrateCommand>(command) || std::holds_alternative<DecideCommand>(command);
 }
 
 bool overlaps(const CommandGround& ground, TimeNs first, TimeNs last) {
   return !ground.times.empty() && first <= ground.times.back() && last >= ground.times.front();
+}
+
+/// What is no school's: marks and bad pings, where the observation has such times, and the calibration.
+Result<void> say_of_times(Edit& edit, const Command& command) {
+  const CommandGround& ground = edit.ground();
+  if (const auto* event = std::get_if<EventCommand>(&command)) {
+    if (overlaps(ground, event->time, event->time)) edit.add_event(*event);
+  } else if (const auto* removed = std::get_if<RemoveEventCommand>(&command)) {
+    if (overlaps(ground, removed->event.time, removed->event.time)) return edit.remove_event(removed->event);
+  } else if (const auto* bad = std::get_if<BadPingsCommand>(&command)) {
+    if (overlaps(ground, bad->first, bad->last)) edit.take_bad(command);
+  } else if (const auto* good = std::get_if<GoodPingsCommand>(&command)) {
+    if (overlaps(ground, good->first, good->last)) edit.take_bad(command);
+  } else if (const auto* calibrate = std::get_if<CalibrateCommand>(&command)) {
+    edit.calibrate(calibrate->calibration);
+  }
+  return {};
 }
 
 }  // namespace
@@ -125,11 +145,7 @@ Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, 
   const auto ping = ping_at(ground, act.ping_time);
   if (!ping && !about_times(act.command)) return Applied{act, state};
   Edit edit(act, ping.value_or(-1), state, ground);
-  if (const auto* event = std::get_if<EventCommand>(&act.command)) {
-    if (overlaps(ground, event->time, event->time)) edit.add_event(*event);
-  } else if (const auto* bad = std::get_if<BadPingsCommand>(&act.command)) {
-    if (overlaps(ground, bad->first, bad->last)) edit.add_bad(*bad);
-  }
+  if (auto said = say_of_times(edit, act.command); !said) return pass_on(said);
   if (auto done = apply_to_ping(edit, act.command); !done) {
     Error error = done.error();
     if (error.where.ping < 0) error.where.ping = ping.value_or(-1);

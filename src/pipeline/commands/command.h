@@ -15,6 +15,7 @@
 #include "base/time.h"
 #include "pipeline/journal.h"
 #include "pipeline/manual.h"
+#include "pipeline/recipe.h"
 
 namespace sonar {
 
@@ -104,12 +105,32 @@ struct EventCommand {
   std::string kind = "other";
   TimeNs time = 0;  ///< datagram clock
   std::string text;
+  friend bool operator==(const EventCommand&, const EventCommand&) = default;
 };
 
 /// `bad_ping`, `bad_interval`: pings of these times (datagram clock, both included) take no part in measures.
 struct BadPingsCommand {
   TimeNs first = 0;
   TimeNs last = 0;
+  friend bool operator==(const BadPingsCommand&, const BadPingsCommand&) = default;
+};
+
+/// `remove_event`: a mark with these three members is no more.
+struct RemoveEventCommand {
+  EventCommand event;
+};
+
+/// `good_interval`: pings of these times (datagram clock, both included) take part in measures again.
+struct GoodPingsCommand {
+  TimeNs first = 0;
+  TimeNs last = 0;
+};
+
+/// `calibrate`: Sv and measures follow another calibration than the recipe's; masks and decisions stay, and every other
+/// line, later ones too, is carried out under the recipe.
+struct CalibrateCommand {
+  CalibrationParams calibration;
+  std::string file;  ///< where it was read, for people
 };
 
 /// `detect`: schools of the line's observation are looked for without a human; every other line is laid upon what is found,
@@ -117,7 +138,8 @@ struct BadPingsCommand {
 struct DetectCommand {};
 
 using Command = std::variant<PropagateCommand, GrowCommand, BrushCommand, EraseCommand, ReshapeCommand, MergeCommand,
-                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand, DetectCommand>;
+                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand,
+                             RemoveEventCommand, GoodPingsCommand, CalibrateCommand, DetectCommand>;
 
 /// A command as a journal holds it.
 struct JournalAct {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "pipeline/calibration_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/json_members.h"
 #include "pipeline/transfer_function_json.h"
@@ -151,7 +153,7 @@ Result<Command> read_decide(std::string_view name, const json& args, TimeNs ping
   return command;
 }
 
-Result<Command> read_event(const json& args) {
+Result<EventCommand> read_event(const json& args) {
   const auto kind = read_choice(args, "kind", kEventKindNames);
   if (!kind) return pass_on(kind);
   const auto time = read_time(args, "time");
@@ -161,14 +163,19 @@ Result<Command> read_event(const json& args) {
   return EventCommand{std::string(kEventKindNames[*kind]), *time, std::move(*text)};
 }
 
-Result<Command> read_bad(std::string_view name, const json& args, TimeNs ping_time) {
-  if (name == "bad_ping" && !args.contains("first")) return BadPingsCommand{ping_time, ping_time};
+template <class C>
+Result<Command> read_interval(std::string_view name, const json& args, TimeNs ping_time) {
+  if (name == "bad_ping" && !args.contains("first")) return C{ping_time, ping_time};
   const auto first = read_time(args, "first");
   if (!first) return pass_on(first);
   const auto last = read_time(args, "last");
   if (!last) return pass_on(last);
   if (*last < *first) return fail(ErrorCode::format, "last: lies before first");
-  return BadPingsCommand{*first, *last};
+  return C{*first, *last};
+}
+
+json from_event(const EventCommand& event) {
+  return {{"kind", event.kind}, {"time", event.time}, {"text", event.text}};
 }
 
 std::string decide_name(const DecideCommand& command) {
@@ -194,6 +201,9 @@ std::string command_name(const Command& command) {
       [](const DecideCommand& c) { return decide_name(c); },
       [](const EventCommand&) { return std::string("event"); },
       [](const BadPingsCommand& c) { return std::string(c.first == c.last ? "bad_ping" : "bad_interval"); },
+      [](const RemoveEventCommand&) { return std::string("remove_event"); },
+      [](const GoodPingsCommand&) { return std::string("good_interval"); },
+      [](const CalibrateCommand&) { return std::string("calibrate"); },
       [](const DetectCommand&) { return std::string("detect"); }};
   return std::visit(names, command);
 }
@@ -235,11 +245,18 @@ nlohmann::json to_json(const Command& command) {
                         for (const Decision& decision : c.decisions) list.push_back(from_decision(decision));
                         return json{{"rule", c.rule}, {"decisions", std::move(list)}};
                       },
-                      [](const EventCommand& c) {
-                        return json{{"kind", c.kind}, {"time", c.time}, {"text", c.text}};
-                      },
+                      [](const EventCommand& c) { return from_event(c); },
                       [](const BadPingsCommand& c) {
                         return json{{"first", c.first}, {"last", c.last}};
+                      },
+                      [](const RemoveEventCommand& c) { return from_event(c.event); },
+                      [](const GoodPingsCommand& c) {
+                        return json{{"first", c.first}, {"last", c.last}};
+                      },
+                      [](const CalibrateCommand& c) {
+                        json made = to_json(c.calibration);
+                        made["file"] = c.file;
+                        return made;
                       },
                       [](const DetectCommand&) { return json::object(); }};
   return std::visit(args, command);
@@ -268,8 +285,21 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
   if (name == "decide" || name == "species" || name == "comment" || name == "bulk_decide") {
     return read_decide(name, args, ping_time);
   }
-  if (name == "event") return read_event(args);
-  if (name == "bad_ping" || name == "bad_interval") return read_bad(name, args, ping_time);
+  if (name == "event" || name == "remove_event") {
+    auto event = read_event(args);
+    if (!event) return pass_on(event);
+    if (name == "remove_event") return RemoveEventCommand{std::move(*event)};
+    return std::move(*event);
+  }
+  if (name == "bad_ping" || name == "bad_interval") return read_interval<BadPingsCommand>(name, args, ping_time);
+  if (name == "good_interval") return read_interval<GoodPingsCommand>(name, args, ping_time);
+  if (name == "calibrate") {
+    auto calibration = calibration_from_json(args);
+    if (!calibration) return pass_on(calibration);
+    auto file = read_text(args, "file");
+    if (!file) return pass_on(file);
+    return CalibrateCommand{std::move(*calibration), std::move(*file)};
+  }
   if (name == "detect") return DetectCommand{};
   return fail(ErrorCode::unsupported, "this version does not know the command");
 }
@@ -290,6 +320,10 @@ std::vector<TimeSpan> times_of(const JournalLine& line) {
   const auto act = act_of(line);
   if (!act) return times;
   if (const auto* bad = std::get_if<BadPingsCommand>(&act->command)) times.push_back({bad->first, bad->last});
+  if (const auto* good = std::get_if<GoodPingsCommand>(&act->command)) times.push_back({good->first, good->last});
+  if (std::holds_alternative<CalibrateCommand>(act->command)) {
+    times.push_back({std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()});  // of the whole survey
+  }
   if (const auto* decide = std::get_if<DecideCommand>(&act->command)) {
     for (const Decision& decision : decide->decisions) {
       times.push_back({decision.school.ping_time, decision.school.ping_time});

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -253,6 +254,65 @@ TEST(Commands, BadPingsKeepTheirMasksButAreNotMeasured) {
   for (const auto& there : measured[0].pings) EXPECT_TRUE(there.ping_index < 2 || there.ping_index > 4);
 }
 
+TEST(Commands, MarksAndBadPingsAreTakenBack) {
+  const SmallSea sea;
+  const auto lines_of = [](const std::vector<Command>& commands) {
+    std::vector<JournalLine> lines;
+    for (const Command& command : commands)
+      lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, 3, command));
+    return lines;
+  };
+  const EventCommand trawl{"trawl", ping_time(2), "haul 12"};
+  const EventCommand noise{"noise", ping_time(2), ""};
+  const auto lines =
+      lines_of({trawl, noise, BadPingsCommand{ping_time(2), ping_time(6)}, RemoveEventCommand{trawl},
+                GoodPingsCommand{ping_time(4), ping_time(4)}, GoodPingsCommand{ping_time(6), ping_time(6)}});
+  for (const JournalLine& one : lines) {
+    const auto read = act_of(one);
+    ASSERT_TRUE(read) << one.command << ": " << read.error().text;
+    EXPECT_EQ(line_of(*read).args, one.args);
+    EXPECT_EQ(line_of(*read).command, one.command);
+  }
+  const JournalState state = fold(lines, SmallSea::detected(), sea.ground());
+  ASSERT_EQ(state.events.size(), 1U);
+  EXPECT_EQ(state.events[0], noise);
+  for (int ping = 0; ping < 9; ++ping) {
+    EXPECT_EQ(is_bad(state, ping_time(ping)), ping == 2 || ping == 3 || ping == 5) << ping;
+  }
+  // What is not there is told, and nothing else changes.
+  const JournalState again = fold(lines_of({RemoveEventCommand{trawl}}), state, sea.ground());
+  EXPECT_EQ(again.events.size(), 1U);
+  ASSERT_FALSE(again.notes.empty());
+  EXPECT_THAT(again.notes.back().text, testing::HasSubstr("there is no mark trawl"));
+  // A good interval says something of every observation that it meets.
+  EXPECT_EQ(times_of(lines[4]).size(), 2U);
+}
+
+TEST(Commands, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
+  const SmallSea sea;
+  CalibrateCommand calibrate;
+  calibrate.calibration.water.salinity_psu = 7.0;
+  calibrate.calibration.absorption = AbsorptionSource::ainslie_mccolm;
+  calibrate.calibration.beams = {{3, 27.5, kUnknown, 0.5}};
+  calibrate.file = "sphere.csv";
+  JournalLine act = line(1, 3, calibrate);
+  const auto read = act_of(act);
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(line_of(*read).args.dump(), act.args.dump());  // as text: an unknown value equals nothing
+  // Wherever it was said, it is about the whole survey.
+  act.ping_time += 1000 * kSecondNs;
+  const JournalState done = fold({&act, 1}, SmallSea::detected(), sea.ground());
+  EXPECT_EQ(told(done), told(SmallSea::detected()));
+  ASSERT_TRUE(done.calibration);
+  const Recipe recipe = measuring_recipe({}, done);
+  EXPECT_EQ(recipe.calibration.water.salinity_psu, 7.0);
+  ASSERT_EQ(recipe.calibration.beams.size(), 1U);
+  EXPECT_TRUE(std::isnan(recipe.calibration.beams[0].sa_correction_db));
+  EXPECT_EQ(recipe_text(measuring_recipe({}, SmallSea::detected())), recipe_text({}));
+  const JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
+  EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.ground()).calibration);
+}
+
 TEST(Commands, LinesOfOtherPingsChangeNothing) {
   std::vector<JournalLine> lines;
   for (const auto& [ping, command] : every_command()) {
@@ -306,6 +366,10 @@ TEST(Commands, HostileLinesAreRefusedByTheNameOfTheMember) {
       {"bulk_decide", R"({"rule":"x","decisions":[3]})", "decisions[0]"},
       {"event", R"({"kind":"party","time":1,"text":""})", "kind: expected"},
       {"bad_interval", R"({"first":5,"last":4})", "last: lies before"},
+      {"good_interval", R"({"first":5})", "last: expected"},
+      {"calibrate", R"({"beam_calibration":[{}],"file":""})", "expected a channel"},
+      {"calibrate", R"({"calibration":{"water":{"ph":70}},"file":""})", "ph"},
+      {"remove_event", R"({"kind":"party","time":1,"text":""})", "kind: expected"},
       {"propagate", R"({"seeds":[{"channel":1,"sample":2}],"reach_forward":"far"})", "reach_forward"}};
   for (const Hostile& hostile : lines) {
     const auto read = command_from_json(hostile.command, nlohmann::json::parse(hostile.args), 0);

@@ -136,6 +136,15 @@ void Edit::add_event(const EventCommand& event) {
   state_.events.insert(at, event);
 }
 
+Result<void> Edit::remove_event(const EventCommand& event) {
+  const auto found = std::find(state_.events.begin(), state_.events.end(), event);
+  if (found == state_.events.end()) {
+    return fail(ErrorCode::bad_parameter, fmt::format("there is no mark {} at {}", event.kind, iso_time(event.time)));
+  }
+  state_.events.erase(found);
+  return {};
+}
+
 JournalState Edit::done() {
   std::erase_if(state_.schools, [&](const std::shared_ptr<const StateSchool>& school) {
     const auto pings = static_cast<int>(school->masks.pings.size());

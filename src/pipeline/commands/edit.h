@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,7 +46,12 @@ class Edit {
   /// The propagation that gives what was made: as far as it was let go.
   void carried_out_as(PropagateCommand reached) { reached_ = std::move(reached); }
   [[nodiscard]] const std::optional<PropagateCommand>& reached() const { return reached_; }
-  void add_bad(const BadPingsCommand& bad) { state_.bad_pings.push_back(bad); }
+  /// errors  bad_parameter: there is no such mark
+  [[nodiscard]] Result<void> remove_event(const EventCommand& event);
+  void calibrate(const CalibrationParams& calibration) {
+    state_.calibration = std::make_shared<const CalibrationParams>(calibration);
+  }
+  void take_bad(const Command& command) { take_bad_pings(state_, command); }
   void remove(std::size_t school) { set_pings(school, {}); }
 
   /// The state without the schools that have nothing left.

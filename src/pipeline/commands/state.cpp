@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "school/mask_edit.h"
 
@@ -62,9 +63,31 @@ SchoolKey key_of(const SchoolMasks& school, const CommandGround& ground) {
   return {};
 }
 
+void take_bad_pings(JournalState& state, const Command& command) {
+  if (const auto* bad = std::get_if<BadPingsCommand>(&command)) state.bad_pings.push_back(*bad);
+  const auto* good = std::get_if<GoodPingsCommand>(&command);
+  if (good == nullptr) return;
+  std::vector<BadPingsCommand> left;
+  for (const BadPingsCommand& bad : state.bad_pings) {
+    if (good->last < bad.first || good->first > bad.last) {
+      left.push_back(bad);
+      continue;
+    }
+    if (bad.first < good->first) left.push_back({bad.first, good->first - 1});
+    if (bad.last > good->last) left.push_back({good->last + 1, bad.last});
+  }
+  state.bad_pings = std::move(left);
+}
+
 bool is_bad(const JournalState& state, TimeNs ping_time) {
   return std::any_of(state.bad_pings.begin(), state.bad_pings.end(),
                      [&](const BadPingsCommand& bad) { return bad.first <= ping_time && ping_time <= bad.last; });
+}
+
+Recipe measuring_recipe(const Recipe& recipe, const JournalState& state) {
+  Recipe measuring = recipe;
+  if (state.calibration) measuring.calibration = *state.calibration;
+  return measuring;
 }
 
 std::vector<SchoolMasks> masks_of(const JournalState& state) {

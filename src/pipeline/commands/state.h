@@ -29,9 +29,10 @@ struct StateSchool {
 struct JournalState {
   std::vector<std::shared_ptr<const StateSchool>> schools;  ///< rising number
   std::int64_t next_number = 1;
-  std::vector<EventCommand> events;        ///< in time order
-  std::vector<BadPingsCommand> bad_pings;  ///< as they were said
-  Diagnostics notes;                       ///< decisions that could not be applied, why propagations ended
+  std::vector<EventCommand> events;                      ///< in time order
+  std::vector<BadPingsCommand> bad_pings;                ///< as they were said, less what is good again
+  std::shared_ptr<const CalibrationParams> calibration;  ///< that Sv and measures follow; null = the recipe's
+  Diagnostics notes;  ///< decisions that could not be applied, why propagations ended
 };
 
 /// The state before the first line: what was detected.
@@ -65,7 +66,12 @@ struct Applied {
 
 /// Index of the ping with this datagram time; empty where there is none within the ground's limits.
 [[nodiscard]] std::optional<std::int64_t> ping_at(const CommandGround& ground, TimeNs time);
+/// What an act says of bad pings; other acts change nothing.
+void take_bad_pings(JournalState& state, const Command& command);
 [[nodiscard]] bool is_bad(const JournalState& state, TimeNs ping_time);
+
+/// The recipe that Sv and measures follow: this one, under the calibration that a human has chosen.
+[[nodiscard]] Recipe measuring_recipe(const Recipe& recipe, const JournalState& state);
 
 [[nodiscard]] std::vector<SchoolMasks> masks_of(const JournalState& state);
 /// The same without bad pings: what is measured.

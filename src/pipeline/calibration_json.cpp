@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/calibration_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "pipeline/json_parameters.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kMaxChannels = 100'000;
+constexpr double kMostDecibels = 100.0;
+
+}  // namespace
+
+nlohmann::json beams_to_json(const std::vector<BeamCalibration>& beams) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const BeamCalibration& beam : beams) {
+    list.push_back({{"channel", beam.channel},
+                    {"gain_db", beam.gain_db},
+                    {"sa_correction_db", beam.sa_correction_db},
+                    {"extra_factor_db", beam.extra_factor_db}});
+  }
+  return list;
+}
+
+Result<std::vector<BeamCalibration>> beams_from_json(const nlohmann::json& list) {
+  if (!list.is_array()) return fail(ErrorCode::format, "beam_calibration: expected an array");
+  std::vector<BeamCalibration> beams;
+  for (const auto& entry : list) {
+    const auto number = [&](const char* member) {
+      if (!entry.is_object() || !entry.contains(member)) return kUnknown;
+      return entry[member].is_number() ? entry[member].get<double>() : kUnknown;
+    };
+    const double channel = number("channel");
+    if (!(channel >= 0 && channel < kMaxChannels)) {
+      return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected a channel", beams.size()));
+    }
+    beams.push_back(
+        {static_cast<int>(channel), number("gain_db"), number("sa_correction_db"), number("extra_factor_db")});
+  }
+  return beams;
+}
+
+Result<void> check_beams(const std::vector<BeamCalibration>& beams) {
+  std::set<int> channels;
+  for (const BeamCalibration& beam : beams) {
+    if (!channels.insert(beam.channel).second) {
+      return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {} stands twice", beam.channel));
+    }
+    for (const double db : {beam.gain_db, beam.sa_correction_db, beam.extra_factor_db}) {
+      if (std::abs(db) > kMostDecibels) {
+        return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {}: {} dB is outside -{} .. {}",
+                                                          beam.channel, db, kMostDecibels, kMostDecibels));
+      }
+    }
+  }
+  return {};
+}
+
+nlohmann::json to_json(const CalibrationParams& calibration) {
+  CalibrationParams copy = calibration;
+  JsonWriter writer;
+  describe(writer, copy);
+  return {{"calibration", writer.json()}, {"beam_calibration", beams_to_json(calibration.beams)}};
+}
+
+Result<CalibrationParams> calibration_from_json(const nlohmann::json& json) {
+  CalibrationParams calibration;
+  if (const auto found = json.find("calibration"); found != json.end()) {
+    JsonReader reader(*found, "calibration.");
+    describe(reader, calibration);
+    reader.finish();
+    if (!reader.problem().empty()) return fail(ErrorCode::format, reader.problem());
+    if (auto valid = validate(calibration); !valid) return pass_on(valid);
+  }
+  if (const auto list = json.find("beam_calibration"); list != json.end()) {
+    auto beams = beams_from_json(*list);
+    if (!beams) return pass_on(beams);
+    if (auto valid = check_beams(*beams); !valid) return pass_on(valid);
+    calibration.beams = std::move(*beams);
+  }
+  return calibration;
+}
+
+Result<CalibrationParams> read_calibration(const std::string& path, const Recipe& recipe) {
+  if (path.ends_with(".json")) {
+    auto read = read_recipe(path);
+    if (!read) return pass_on(read);
+    return std::move(read->calibration);
+  }
+  Recipe with = recipe;
+  if (auto taken = take_calibration_file(with, path); !taken) return pass_on(taken);
+  return std::move(with.calibration);
+}
+
+}  // namespace sonar
