@@ -139,7 +139,12 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
                      width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
       frame.items.emplace_back(std::move(item));
     }
-    const PixelPoint at{first.x, first.y - 0.9 * em};
+    // Where a part of the axis is shown, the number stands at the first ping in it.
+    const auto seen = std::find_if(part.points.begin(), part.points.end(), [&](const PixelPoint& p) {
+      return p.x >= plot.place.x - 0.5 && p.x <= plot.place.x + plot.place.width + 0.5;
+    });
+    if (seen == part.points.end()) continue;
+    const PixelPoint at{seen->x, seen->y - 0.9 * em};
     const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
       return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
     });
@@ -150,24 +155,6 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
     number.bold = true;
     number.halo = theme.halo;
     frame.items.emplace_back(std::move(number));
-  }
-}
-
-void add_names(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme) {
-  const double em = theme.text_px;
-  double free_x = -1e9;
-  for (const Strip& strip : strips) {
-    const StripSpan s = strip.span();
-    const double from = plot.at(s.first, 0.0).x;
-    const double to = std::max(from + 1.0, plot.at(s.last, 0.0).x);
-    const double y = plot.place.y - 0.45 * em;
-    frame.items.emplace_back(rectangle_item({from, y, to - from, 0.25 * em}, theme.track));
-    const std::string& name = strip.observation->product->observation;
-    const double half = text_width_px(name.c_str(), 0.9 * em) / 2.0;
-    const double middle = std::clamp((from + to) / 2.0, plot.place.x + half, plot.place.x + plot.place.width - half);
-    if (middle - half < free_x) continue;
-    free_x = middle + half + 0.6 * em;
-    frame.items.emplace_back(text_item({middle, y - 0.75 * em}, name, 0.9 * em, theme.muted, TextAnchor::centre));
   }
 }
 
@@ -275,6 +262,7 @@ namespace {
 /// Everything that timeline() decides before it draws.
 struct LaidOut {
   TimeNs zero = 0;
+  TimelineInterval all;
   TimeNs last = 0;
   std::string title;
   bool raw_gone = false;
@@ -323,8 +311,15 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
     plot.x.last = std::max(plot.x.last, s.span().last);
   }
   if (!(plot.x.last > plot.x.first)) plot.x.last = plot.x.first + 1.0;
-  plot.x.label =
-      style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(out.zero, true).substr(0, 10);
+  const auto time_of = [&](double s) { return out.zero + static_cast<TimeNs>(std::llround(s * 1e9)); };
+  if (style.axis == TimelineAxis::time) out.all = {time_of(plot.x.first), time_of(plot.x.last)};
+  TimeNs day = out.zero;
+  if (style.shown && style.axis == TimelineAxis::time && style.shown->last > style.shown->first) {
+    plot.x.first = static_cast<double>(style.shown->first - out.zero) / 1e9;
+    plot.x.last = static_cast<double>(style.shown->last - out.zero) / 1e9;
+    day = style.shown->first;
+  }
+  plot.x.label = style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(day, true).substr(0, 10);
   plot.y = {0.0, reach_m(out.strips), "range (m)", false};
   return out;
 }
@@ -348,7 +343,7 @@ Result<TimelinePlot> timeline_plot(std::span<const TimelineObservation> observat
                                    PixelSize size, const Theme& theme) {
   auto out = laid_out(observations, style, size, theme);
   if (!out) return pass_on(out);
-  return TimelinePlot{out->plot, out->zero};
+  return TimelinePlot{out->plot, out->zero, out->all};
 }
 
 Result<FrameDescription> timeline(std::span<const TimelineObservation> observations, const TimelineStyle& style,

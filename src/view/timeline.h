@@ -25,6 +25,12 @@ inline constexpr std::array<std::string_view, 3> kEchogramValueNames{"mean", "ma
 enum class TimelineAxis : std::uint8_t { time, log };
 inline constexpr std::array<std::string_view, 2> kTimelineAxisNames{"time", "log"};
 
+struct TimelineInterval {
+  TimeNs first = 0;
+  TimeNs last = 0;
+  friend bool operator==(const TimelineInterval&, const TimelineInterval&) = default;
+};
+
 struct TimelineStyle {
   EchogramValue value = EchogramValue::mean;  ///< over beams (and pings and ranges, where a pixel has several)
   TimelineAxis axis = TimelineAxis::time;
@@ -32,6 +38,7 @@ struct TimelineStyle {
   bool schools = true;
   bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
   bool brief = false;      ///< no title and no colour bar: a window has its own
+  std::optional<TimelineInterval> shown = {};  ///< part of the time axis; empty = all of it
   friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
 };
 
@@ -51,11 +58,6 @@ struct TimelineMark {
   std::string kind;  ///< "trawl", ...
   std::string text;
 };
-struct TimelineInterval {
-  TimeNs first = 0;
-  TimeNs last = 0;
-};
-
 /// One observation of a timeline.
 struct TimelineObservation {
   const ObservationProduct* product = nullptr;
@@ -87,6 +89,7 @@ struct EchogramImage {
 struct TimelinePlot {
   PlotFrame plot;
   TimeNs zero = 0;
+  TimelineInterval all;  ///< what the time axis shows where nothing is said of a part
 };
 /// errors  as timeline()
 [[nodiscard]] Result<TimelinePlot> timeline_plot(std::span<const TimelineObservation> observations,

@@ -62,7 +62,11 @@ void add_marks(FrameDescription& frame, std::span<const Strip> strips, const Plo
   };
   std::vector<Placed> all;
   for (const Strip& s : strips) {
-    for (const TimelineMark& mark : s.observation->marks) all.push_back({plot.at(x_of(s, mark.time), 0.0).x, &mark});
+    for (const TimelineMark& mark : s.observation->marks) {
+      const double x = plot.at(x_of(s, mark.time), 0.0).x;
+      // A mark outside the part that is shown has no flag in it either.
+      if (x >= plot.place.x - 0.5 && x <= plot.place.x + plot.place.width + 0.5) all.push_back({x, &mark});
+    }
   }
   std::stable_sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) { return a.x < b.x; });
   const double flag_px = 1.3 * em;
@@ -97,6 +101,26 @@ void add_marks(FrameDescription& frame, std::span<const Strip> strips, const Plo
     TextItem text = text_item({start, y}, words, 0.9 * em, theme.text, TextAnchor::left);
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
+  }
+}
+
+void add_names(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme) {
+  const double em = theme.text_px;
+  double free_x = -1e9;
+  for (const Strip& strip : strips) {
+    const StripSpan s = strip.span();
+    const double end = plot.place.x + plot.place.width;
+    const double from = std::max(plot.place.x, plot.at(s.first, 0.0).x);
+    const double to = std::min(end, std::max(from + 1.0, plot.at(s.last, 0.0).x));
+    if (to <= from) continue;  // outside the part that is shown
+    const double y = plot.place.y - 0.45 * em;
+    frame.items.emplace_back(rectangle_item({from, y, to - from, 0.25 * em}, theme.track));
+    const std::string& name = strip.observation->product->observation;
+    const double half = text_width_px(name.c_str(), 0.9 * em) / 2.0;
+    const double middle = std::clamp((from + to) / 2.0, plot.place.x + half, plot.place.x + plot.place.width - half);
+    if (middle - half < free_x) continue;
+    free_x = middle + half + 0.6 * em;
+    frame.items.emplace_back(text_item({middle, y - 0.75 * em}, name, 0.9 * em, theme.muted, TextAnchor::centre));
   }
 }
 

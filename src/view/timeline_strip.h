@@ -35,5 +35,7 @@ struct Strip {
 void add_bad(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// Events: a line with a flag, and its text where there is room.
 void add_marks(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme);
+/// Observations named above the plot.
+void add_names(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme);
 
 }  // namespace sonar
