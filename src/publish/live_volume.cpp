@@ -116,9 +116,9 @@ Result<void> LiveVolume::State::set(const LiveVolumeInput& input) {
   VolumeRenderer& renderer = *offscreen->renderer;
   const PictureOptions& options = input.options;
   const double depth_m = input.navigation.transducer_depth_m;
-  if (!volume || drawn.staged != input.staged || drawn.sector != input.sector ||
-      drawn.options.filtered != options.filtered || drawn.navigation.transducer_depth_m != depth_m) {
-    volume = drawn_volume(*input.sector, *input.staged, options.filtered.value_or(true), depth_m);
+  if (!volume || drawn.staged != input.staged || drawn.sector != input.sector || !same_volume(drawn.options, options) ||
+      drawn.navigation.transducer_depth_m != depth_m) {
+    volume = drawn_volume(*input.sector, *input.staged, options, depth_m);
     masks_set = false;
     if (auto done = renderer.set_volume(volume); !done) return done;
   }

@@ -76,12 +76,15 @@ struct PictureOptions {
                   .hatched = SampleFlags::hot_beam | SampleFlags::wall | SampleFlags::impulse,
                   .faded = SampleFlags::near_field | SampleFlags::surface | SampleFlags::seabed};
   bool grid_lines = false;
+  std::optional<double>
+      weak_below_db;  ///< samples with less signal-to-noise carry low_snr; empty = none do. Volumes too
 
   // volumes
-  std::optional<Camera> camera;  ///< empty = an overview
-  double orbit_deg = 0.0;        ///< added to the camera: azimuth about its target
-  double rise_deg = 0.0;         ///< and elevation
-  double zoom = 1.0;             ///< above 1 = nearer
+  SampleFlags left_out = kNotFiltered | SampleFlags::low_snr;  ///< samples with one of these are not drawn
+  std::optional<Camera> camera;                                ///< empty = an overview
+  double orbit_deg = 0.0;                                      ///< added to the camera: azimuth about its target
+  double rise_deg = 0.0;                                       ///< and elevation
+  double zoom = 1.0;                                           ///< above 1 = nearer
   RayMode mode = RayMode::accumulate;
   double first_hit_db = -50.0;
   bool lighting = false;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "pipeline/weak_samples.h"
 #include "publish/drawn_schools.h"
 
 namespace sonar {
@@ -89,10 +90,16 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
   const Array3<std::int16_t> nothing(ping->staged ? Shape3{} : shape, kNoData);
   SliceData data;
+  Array3<SampleFlags> flags;
   if (ping->staged) {
     const Volume& volume = options.filtered.value_or(false) ? *ping->staged->filtered : ping->staged->sv;
     data.sv = volume.counts.view();
     data.flags = ping->staged->filtered->flags.view();
+    if (options.weak_below_db) {
+      flags = Array3<SampleFlags>(data.flags.shape());
+      flag_weak(*ping->staged, *options.weak_below_db, flags.view());
+      data.flags = View3<const SampleFlags>(flags.view());
+    }
   } else {
     data.sv = nothing.view();
   }

@@ -9,6 +9,7 @@
 
 #include "base/time.h"
 #include "base/units.h"
+#include "pipeline/weak_samples.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 
@@ -52,10 +53,18 @@ void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, cons
 
 }  // namespace
 
-std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged, bool filtered,
-                                               double transducer_depth_m) {
-  const Volume shown{filtered ? staged.filtered->counts : staged.sv.counts, staged.filtered->flags};
-  return std::make_shared<const VolumeData>(volume_data(sector, shown, kNotFiltered, transducer_depth_m));
+std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
+                                               const PictureOptions& options, double transducer_depth_m) {
+  const bool filtered = options.filtered.value_or(true);
+  Volume shown{filtered ? staged.filtered->counts : staged.sv.counts, staged.filtered->flags};
+  if (options.weak_below_db && any(options.left_out & SampleFlags::low_snr)) {
+    flag_weak(staged, *options.weak_below_db, shown.flags.view());
+  }
+  return std::make_shared<const VolumeData>(volume_data(sector, shown, options.left_out, transducer_depth_m));
+}
+
+bool same_volume(const PictureOptions& a, const PictureOptions& b) {
+  return a.filtered == b.filtered && a.left_out == b.left_out && a.weak_below_db == b.weak_below_db;
 }
 
 Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {

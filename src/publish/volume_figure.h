@@ -31,9 +31,11 @@ struct VolumeFigure {
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };
 
-/// A ping's stages as a volume to draw: what noise removal took out is left out.
+/// A ping's stages as a volume to draw, without what the options leave out.
 [[nodiscard]] std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
-                                                             bool filtered, double transducer_depth_m);
+                                                             const PictureOptions& options, double transducer_depth_m);
+/// Whether drawn_volume() is the same for both.
+[[nodiscard]] bool same_volume(const PictureOptions& a, const PictureOptions& b);
 
 /// Where a volume lies in its picture.
 struct VolumePlace {

@@ -42,7 +42,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
       fmt::format("{}{}   ping {}", out.title, out.samples ? "" : " (masks alone: no raw files)", ping->ping_index);
   const double depth = out.navigation.transducer_depth_m;
   if (ping->staged) {
-    out.volume = drawn_volume(*sector, *ping->staged, options.filtered.value_or(true), depth);
+    out.volume = drawn_volume(*sector, *ping->staged, options, depth);
   } else {
     const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
     // Weakest of all: something for the masks to lie in, which is never shown itself.

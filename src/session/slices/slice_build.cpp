@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/units.h"
+#include "pipeline/weak_samples.h"
 
 namespace sonar {
 namespace {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "session/open_observation.h"
+#include "base/sample_flags.h"
 #include "session/workspace.h"
 #include "view/slice_picture.h"
 
@@ -17,11 +14,7 @@ namespace sonar {
 /// Colours of the display scale, or of the view curve where a human has changed that.
 [[nodiscard]] SvColours slice_colours(const Workspace& workspace);
 
-/// Flags of some rows of a ping, low_snr set where filtered Sv lies less than a margin above the expected background.
-/// out  of the ping's shape; other rows stay as they are
-void flag_weak_rows(const StagedPing& ping, const std::vector<int>& rows, double margin_db, View3<SampleFlags> out);
-
-/// Filtered Sv above the expected background, dB; empty where one of them is not known.
-[[nodiscard]] std::optional<double> signal_to_noise_db(const StagedPing& ping, int row, int sample);
+/// Samples that a volume leaves out: stripes cannot be told apart there, so that what slices hatch is left out too.
+[[nodiscard]] SampleFlags left_out_of_volume(const DisplayParams& display);
 
 }  // namespace sonar

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "pipeline/weak_samples.h"
 #include "session/slices/slice_build.h"
 
 namespace sonar {

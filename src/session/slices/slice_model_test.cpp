@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "base/units.h"
+#include "pipeline/weak_samples.h"
 #include "publish/painted.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/slice_look.h"
@@ -180,7 +183,7 @@ TEST_F(SlicesAtWork, WeakSamplesAreThoseThatHardlyRiseAboveTheBackground) {
   const StagedPing& ping = *desk_.document().staged();
   Array3<SampleFlags> flags(ping.filtered->flags.shape());
   const int row = bright().fan * 25 + bright().beam;
-  flag_weak_rows(ping, {row}, 3.0, flags.view());
+  flag_weak_rows(ping, std::array{row}, 3.0, flags.view());
   int weak = 0;
   for (int s = 0; s < flags.shape().samples; ++s) {
     const auto i = static_cast<std::size_t>(s);
@@ -211,6 +214,26 @@ TEST(FuzzyArea, KeepsWhatIsSurer) {
   const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 4}, {4, 7, 1}}, {100, 30, 200, 51, 20}});
   EXPECT_EQ(fuzzy_area(mask, 0.0), mask);
   EXPECT_EQ(*fuzzy_area(mask, 0.2), (PingMask{{{3, 10, 1}, {3, 12, 1}}, {100, 200}}));  // 51 / 255 is not above 0.2
+}
+
+TEST_F(SlicesAtWork, TheOutlineTellsWhatAHumanSaid) {
+  desk_.click(desk_.top(), bright());
+  desk_.settle();
+  const Theme theme = light_theme({480, 360});
+  const auto layer = [&] {
+    const auto layers = school_layers(workspace(), desk_.document().ping(), theme);
+    const auto found =
+        std::find_if(layers.begin(), layers.end(), [](const SchoolLayer& one) { return one.number > 0; });
+    return found == layers.end() ? MaskLayer{} : found->layer;
+  };
+  EXPECT_EQ(layer().line, OutlineLine::dashed);
+  desk_.ask("review.accept");
+  desk_.settle();
+  EXPECT_EQ(layer().line, OutlineLine::solid);
+  desk_.ask("review.reject");
+  desk_.settle();
+  EXPECT_EQ(layer().line, OutlineLine::dotted);
+  EXPECT_NEAR(255.0 * static_cast<double>(layer().rgb[0]), theme.muted.r, 0.5);
 }
 
 TEST(DrawnColour, RejectedIsGreyAndNoSchoolLooksLikeThePreview) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "session/slices/school_layers.h"
+#include "session/slices/slice_look.h"
 #include "view/theme.h"
 
 namespace sonar {
@@ -39,6 +40,8 @@ std::string title_of(const ObservationFiles& files) {
 void set_options(PictureOptions& options, const DisplayParams& display, const VolumeParams& volume) {
   options.scale = display.scale;
   options.filtered = display.filtered;
+  options.left_out = left_out_of_volume(display);
+  if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;
   options.masks = display.masks;
   options.mask_style.core_at = static_cast<float>(display.core_at);
   options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);

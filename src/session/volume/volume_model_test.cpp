@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "pipeline/weak_samples.h"
 #include "publish/renderer_choice.h"
 #include "session/volume/volume_test_ground.h"
 
@@ -57,7 +60,30 @@ class WatchedRenderer : public VolumeRenderer {
   std::unique_ptr<VolumeRenderer> inner_;
 };
 
-class VolumeAtWork : public testing::Test, public VolumeGround {};
+class VolumeAtWork : public testing::Test, public VolumeGround {
+ protected:
+  /// The ping's filtered Sv as the display's switches leave it, looked up one sample after another. Within rounding of the
+  /// limit a sample may be on either side.
+  Array3<std::int16_t> left_of(const StagedPing& staged, NoiseLook removed, NoiseLook weak) {
+    Array3<std::int16_t> left = staged.filtered->counts;
+    const double limit_db = workspace_.display.values().weak_below_db;
+    const Array3<std::int16_t>& drawn = model_->shown()->volume->sv;
+    const Shape3 shape = left.shape();
+    for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
+      for (int s = 0; s < shape.samples; ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        std::int16_t& count = left.view().row(row)[i];
+        const auto snr_db = signal_to_noise_db(staged, row, s);
+        const bool gone = removed != NoiseLook::shown && any(staged.filtered->flags.view().row(row)[i] & kNotFiltered);
+        const bool tie = weak != NoiseLook::shown && snr_db && std::abs(*snr_db - limit_db) < 0.02;
+        const bool noise = weak != NoiseLook::shown && snr_db && *snr_db < limit_db;
+        if (tie) count = drawn.view().row(row)[i] == kNoData ? kNoData : count;
+        if (gone || (noise && !tie)) count = kNoData;
+      }
+    }
+    return left;
+  }
+};
 
 TEST_F(VolumeAtWork, ItSettlesOnWhatRenderDraws) {
   // The bar of colours shows the curve, as it does where a transfer function is given.
@@ -96,10 +122,32 @@ TEST_F(VolumeAtWork, AnotherPingIsAnotherVolume) {
   look_at(3);
   EXPECT_EQ(model_->shown()->ping_index, 3);
   const StagedPing& staged = *workspace_.document.staged();
-  const VolumeData volume = volume_data(workspace_.document.shown()->sector(),
-                                        {staged.filtered->counts, staged.filtered->flags}, kNotFiltered, 0.0);
-  EXPECT_EQ(model_->shown()->volume->sv, volume.sv);
+  EXPECT_EQ(model_->shown()->volume->sv, left_of(staged, NoiseLook::hatched, NoiseLook::transparent));
   EXPECT_NE(model_->image(), first);
+}
+
+// Sample by sample, by the rules of the display's own figures; stripes are not drawn in three dimensions.
+TEST_F(VolumeAtWork, RemovedAndWeakSamplesAreLeftOutAsInSlices) {
+  const StagedPing& staged = *workspace_.document.staged();
+  DisplayParams display = workspace_.display.values();
+  std::set<std::string> seen;
+  for (const NoiseLook removed : {NoiseLook::shown, NoiseLook::hatched, NoiseLook::transparent}) {
+    for (const NoiseLook weak : {NoiseLook::shown, NoiseLook::hatched, NoiseLook::transparent}) {
+      display.removed = removed;
+      display.weak = weak;
+      workspace_.display.assign(display);
+      settle();
+      EXPECT_EQ(model_->shown()->volume->sv, left_of(staged, removed, weak));
+      const auto all = model_->shown()->volume->sv.all();
+      seen.insert(std::to_string(std::count(all.begin(), all.end(), kNoData)));
+    }
+  }
+  EXPECT_EQ(seen.size(), 4U) << "each switch leaves out samples of its own";
+  const auto volume = model_->shown()->volume;
+  display.core_at = 0.5;
+  workspace_.display.assign(display);
+  settle();
+  EXPECT_EQ(model_->shown()->volume, volume) << "what it does not depend on makes no new volume";
 }
 
 TEST_F(VolumeAtWork, WhatIsTriedIsDrawnButPointersPassThroughIt) {

@@ -82,6 +82,7 @@ class VolumeGround {
     options.transfer = workspace_.view_curve();
     options.camera = camera;
     options.frames = workspace_.volume.values().frames;
+    options.weak_below_db = workspace_.display.values().weak_below_db;
     options.renderer = RendererChoice::cpu;
     const std::filesystem::path folder = TestSurvey::easy().folder();
     Work work;
