@@ -209,6 +209,34 @@ class Bench {
   std::shared_ptr<const PingMask> before_;
 };
 
+/// Clicks upon the brightest voxels of one ping after another, until so many stand in the journal.
+void fill_journal(const std::filesystem::path& survey, const std::filesystem::path& folder, std::size_t acts) {
+  ChangeQueue queue;
+  DocumentOptions options;
+  options.program_version = "bench";
+  options.cache = {folder / "cache"};
+  options.journal_folders = [&](const auto&) { return std::vector{folder / "journal"}; };
+  Document document(queue, options);
+  document.open({survey});
+  document.settle();
+  for (std::size_t i = 0; document.choices().lines->size() < acts && i < 4 * acts; ++i) {
+    document.look_at(static_cast<std::int64_t>(i) % document.shown()->pings());
+    document.settle();
+    const Volume& filtered = *document.staged()->filtered;
+    const auto counts = filtered.counts.all();
+    std::size_t best = 0;
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      if (counts[v] > counts[best] && !any(filtered.flags.all()[v])) best = v;
+    }
+    const auto samples = static_cast<std::size_t>(filtered.counts.shape().samples);
+    GrowCommand command;
+    command.seeds = {{document.shown()->grid().channel[best / samples], static_cast<int>(best % samples)}};
+    document.act(command);
+    document.settle();
+  }
+  fmt::print("  a journal of {} acts\n", document.choices().lines->size());
+}
+
 /// From the wish to open a survey, indexed before, to the first slice on show.
 void opening(const std::filesystem::path& survey, const std::filesystem::path& folder, int repetitions) {
   std::vector<double> ms;
@@ -255,7 +283,10 @@ int run(int repetitions, const std::string& survey) {
     bench.hover(repetitions);
     bench.tolerance(repetitions);
     bench.step(repetitions);
-    opening(survey.empty() ? folder / "raw" : std::filesystem::path(survey), folder, 5);
+    const std::filesystem::path opened = survey.empty() ? folder / "raw" : std::filesystem::path(survey);
+    opening(opened, folder, 5);
+    fill_journal(opened, folder, 300);
+    opening(opened, folder, 5);
   }
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);

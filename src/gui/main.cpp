@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -25,6 +26,7 @@ DocumentOptions document_options(const Preferences& preferences) {
   options.cache = IndexCache::of_user();
   options.journal_folders = journal_folders_for;
   options.clock = utc_now;
+  options.memory_bytes = static_cast<std::uint64_t>(preferences.memory_gb * 1e9);
   return options;
 }
 

@@ -34,6 +34,9 @@ void answer_questions(QWidget& window, Asking& asking) {
     }
     return files;
   };
+  asking.file_to_open = [&window](const std::string& title, const std::string& pattern) {
+    return QFileDialog::getOpenFileName(&window, text(title), {}, text(pattern)).toStdString();
+  };
   asking.folder_to_open = [&window] {
     return QFileDialog::getExistingDirectory(&window, "Open a survey").toStdString();
   };
@@ -47,7 +50,7 @@ void answer_questions(QWidget& window, Asking& asking) {
     bool given = false;
     const QString answer =
         QInputDialog::getText(&window, text(title), text(label), QLineEdit::Normal, text(now), &given);
-    return given ? answer.toStdString() : std::string{};
+    return given ? std::optional(answer.toStdString()) : std::nullopt;
   };
   asking.yes = [&window](const std::string& question) {
     return QMessageBox::question(&window, "Sonar Explorer", text(question)) == QMessageBox::Yes;

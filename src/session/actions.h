@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,14 +38,18 @@ class Actions {
   std::vector<Action> list_;
 };
 
-/// What only a window can ask a human for. Each answers at once or not at all (empty = the human declined).
+/// What only a window can ask a human for. Each answers at once or not at all (empty = the human declined; an answer that is
+/// an empty text is one).
 struct Asking {
   std::function<std::vector<std::string>()> files_to_open;
+  /// pattern  "Pictures (*.png *.svg);;All files (*)"
+  std::function<std::string(const std::string& title, const std::string& pattern)> file_to_open;
   std::function<std::string()> folder_to_open;
   std::function<std::string(const std::string& title, const std::string& pattern, const std::string& name)>
       file_to_save;
   std::function<std::string(const std::string& title)> folder_to_save;
-  std::function<std::string(const std::string& title, const std::string& label, const std::string& text)> text;
+  std::function<std::optional<std::string>(const std::string& title, const std::string& label, const std::string& text)>
+      text;
   std::function<bool(const std::string& question)> yes;
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_keys;  ///< the sheet of keys

@@ -14,6 +14,7 @@ namespace sonar {
 Document::Document(ChangeQueue& queue, DocumentOptions options) : queue_(queue), options_(std::move(options)) {
   // What a window asks for is a choice of its own, and stands in the journal.
   options_.recipe.automatic = false;
+  if (options_.memory_bytes == 0) options_.memory_bytes = usual_memory();
 }
 
 Document::~Document() {
@@ -84,7 +85,11 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
 
 void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place) {
   choices_thread_.reset();
+  chosen_on_.clear();
+  unreplayed_.clear();
+  undetected_.clear();
   open_.clear();
+  calibration_.reset();
   shown_.reset();
   staged_.reset();
   choices_ = {};
@@ -110,12 +115,10 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
     tell(all.empty() ? "there are no pings in what was opened" : "no observation has a grid of fans and beams");
     return;
   }
-  (void)show(static_cast<std::size_t>(first - all.begin()));
-  std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].grid && asks_for_detection(lines, datagram_times(*survey_, all[i]))) asked.push_back(i);
+    if (all[i].grid && asks_for_detection(lines, datagram_times(*survey_, all[i]))) undetected_.push_back(i);
   }
-  if (!asked.empty()) detect(std::move(asked));
+  (void)show(static_cast<std::size_t>(first - all.begin()));
 }
 
 OpenObservationPtr Document::open_observation(std::size_t index) const {
@@ -126,10 +129,20 @@ OpenObservationPtr Document::open_observation(std::size_t index) const {
 OpenObservationPtr Document::opened(std::size_t index) {
   OpenObservationPtr& observation = open_[index];
   if (observation) return observation;
-  observation = std::make_shared<OpenObservation>(survey_, index, options_.recipe, options_.prefetch);
+  OpenObservationPtr& chosen_on = chosen_on_[index];
+  chosen_on =
+      std::make_shared<OpenObservation>(survey_, index, options_.recipe, options_.prefetch, options_.memory_bytes);
+  observation = calibrated(chosen_on);
   measured_[index] = std::make_shared<MeasuredPings>();
-  choices_thread_->open(observation);
+  unreplayed_.insert(index);
+  if (staged_) replay_journal();
   return observation;
+}
+
+/// The first picture does not wait for what the journal says of its observation.
+void Document::replay_journal() {
+  for (const std::size_t index : std::exchange(unreplayed_, {})) choices_thread_->open(chosen_on_.at(index));
+  if (!undetected_.empty()) detect(std::exchange(undetected_, {}));
 }
 
 Result<void> Document::show(std::size_t observation) {
@@ -137,8 +150,10 @@ Result<void> Document::show(std::size_t observation) {
   if (!survey_->observations[observation].grid) {
     return fail(ErrorCode::usage, survey_->observations[observation].name + " has no grid of fans and beams");
   }
-  shown_ = opened(observation);
+  // One observation is looked at, and one has its pings in memory.
+  if (shown_ && shown_->index() != observation) shown_->cache().rest();
   staged_.reset();
+  shown_ = opened(observation);
   propagating_.clear();
   ping_ = 0;
   changes_.tell(DocumentChange::observation);
@@ -161,6 +176,7 @@ void Document::look_at(std::int64_t ping_index) {
     staged_ = std::move(held);
     changes_.tell(DocumentChange::ping);
     shown_->cache().look_at(ping_);  // for what lies round it
+    replay_journal();
     return;
   }
   // Weak: what runs on the cache's own thread must not be the last to hold the observation.
@@ -168,9 +184,13 @@ void Document::look_at(std::int64_t ping_index) {
                         wanted = ping_](const Result<StagedPingPtr>& staged) {
     queue_.post_latest("document ping", [this, alive, of, wanted, staged] {
       if (alive.expired() || of.lock() != shown_ || wanted != ping_) return;
-      if (!staged) return tell(to_line(staged.error()));
-      staged_ = *staged;
-      changes_.tell(DocumentChange::ping);
+      if (staged) {
+        staged_ = *staged;
+        changes_.tell(DocumentChange::ping);
+      } else {
+        tell(to_line(staged.error()));
+      }
+      replay_journal();
     });
   };
   shown_->cache().look_at(ping_, arrived);
@@ -181,15 +201,21 @@ void Document::act(std::int64_t ping_index, Command command) {
 }
 
 void Document::act(std::size_t observation, std::int64_t ping_index, Command command) {
-  if (choices_thread_) choices_thread_->act(observation, ping_index, std::move(command));
+  if (!choices_thread_) return;
+  replay_journal();
+  choices_thread_->act(observation, ping_index, std::move(command));
 }
 
 void Document::undo() {
-  if (choices_thread_) choices_thread_->undo();
+  if (!choices_thread_) return;
+  replay_journal();
+  choices_thread_->undo();
 }
 
 void Document::redo() {
-  if (choices_thread_) choices_thread_->redo();
+  if (!choices_thread_) return;
+  replay_journal();
+  choices_thread_->redo();
 }
 
 void Document::stop_propagation() {
@@ -207,6 +233,7 @@ const JournalState& Document::state() const { return state(shown_ ? shown_->inde
 void Document::take_choices(ChoicesShown shown) {
   const ChoicesShown before = std::exchange(choices_, std::move(shown));
   propagating_.clear();
+  follow_calibration();
   changes_.tell(DocumentChange::state);
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
@@ -233,6 +260,9 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
                           const Wanted& wanted) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
+  if (const auto room = room_for(observation, options_.memory_bytes); !room) {
+    return post(wanted, [this, line = to_line(room.error())] { tell(line); });
+  }
   Recipe recipe = options_.recipe;
   recipe.automatic = true;
   auto product = observe(*survey, observation, recipe, {{}, {}, options_.program_version}, work);
@@ -248,7 +278,8 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
 
 void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools) {
   const OpenObservationPtr observation = opened(index);
-  choices_thread_->open(observation, std::move(schools));
+  unreplayed_.erase(index);
+  choices_thread_->open(chosen_on_[index], std::move(schools));
   detected_.insert(index);
   if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
     act(index, 0, DetectCommand{});

@@ -35,6 +35,7 @@ struct DocumentOptions {
   std::function<TimeNs()> clock;  ///< UTC now
   std::int64_t prefetch = 5;      ///< pings to each side that are made ahead
   int threads = 0;
+  std::uint64_t memory_bytes = 0;  ///< for the pings of the observation on show; 0 = half of the machine's
 };
 
 /// What has changed, for whoever shows it.
@@ -78,7 +79,10 @@ class Document {
   [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
   [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
   [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_path_; }
+  /// What choices stand on.
   [[nodiscard]] const Recipe& recipe() const { return options_.recipe; }
+  /// What Sv and measures follow: the recipe, under the calibration that a human has chosen.
+  [[nodiscard]] Recipe measuring_recipe() const;
   [[nodiscard]] const DocumentOptions& options() const { return options_; }
   /// What a user must be told, oldest first.
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
@@ -141,6 +145,9 @@ class Document {
   void take_detected(std::size_t index, std::vector<SchoolMasks> schools);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
+  void follow_calibration();
+  void replay_journal();
+  [[nodiscard]] OpenObservationPtr calibrated(const OpenObservationPtr& chosen_on) const;
 
   ChangeQueue& queue_;
   DocumentOptions options_;
@@ -150,7 +157,11 @@ class Document {
   std::filesystem::path journal_path_;
   std::vector<std::string> notices_;
   Progress progress_;
-  std::map<std::size_t, OpenObservationPtr> open_;
+  std::map<std::size_t, OpenObservationPtr> chosen_on_;  ///< under the recipe: what choices stand on
+  std::map<std::size_t, OpenObservationPtr> open_;       ///< the same, or under a calibration that a human chose
+  std::set<std::size_t> unreplayed_;                     ///< of these the journal's lines wait until something is seen
+  std::vector<std::size_t> undetected_;                  ///< so does the detection that they ask for
+  std::shared_ptr<const CalibrationParams> calibration_;
   OpenObservationPtr shown_;
   std::int64_t ping_ = 0;
   StagedPingPtr staged_;

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
+#include <vector>
 
+#include "base/test_full_disk.h"
 #include "pipeline/observe.h"
 #include "session/test_survey.h"
 
@@ -225,6 +228,68 @@ TEST_F(DocumentAtWork, AFolderWithoutPingsSaysSo) {
   document_->settle();
   EXPECT_THAT(document_->notices().back(), testing::HasSubstr("no"));
   EXPECT_FALSE(document_->shown());
+}
+
+TEST_F(DocumentAtWork, TheFirstPictureDoesNotWaitForTheJournal) {
+  grow(bright());
+  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
+  document_->detect({0});
+  document_->settle();
+  const auto schools = document_->state().schools.size();
+  document_.reset();
+  document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
+  std::vector<DocumentChange> order;
+  document_->changes().add([&](DocumentChange change) { order.push_back(change); });
+  document_->open({TestSurvey::easy().folder()});
+  document_->settle();
+  const auto first = [&](DocumentChange change) {
+    return std::find(order.begin(), order.end(), change) - order.begin();
+  };
+  EXPECT_LT(first(DocumentChange::ping), first(DocumentChange::state));
+  EXPECT_EQ(document_->state().schools.size(), schools);
+  EXPECT_EQ(document_->state().events.size(), 1U);
+}
+
+TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
+  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
+  document_->settle();
+  document_.reset();
+  document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
+  bool acted = false;
+  document_->changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::observation || acted) return;
+    acted = true;
+    EXPECT_FALSE(document_->staged());
+    document_->act(EventCommand{"station", document_->shown()->ground().times[4], ""});
+  });
+  document_->open({TestSurvey::easy().folder()});
+  document_->settle();
+  ASSERT_EQ(document_->state().events.size(), 2U);
+  EXPECT_EQ(document_->choices().lines->back().n, 2);
+}
+
+TEST_F(DocumentAtWork, AFullDiskRefusesTheActAndTheWindowGoesOn) {
+  const TimeNs time = document_->shown()->ground().times[2];
+  document_->act(EventCommand{"trawl", time, "haul 1"});
+  document_->settle();
+  const std::string journal = document_->journal_path().string();
+  const auto size = std::filesystem::file_size(journal);
+  {
+    const FullDisk disk(size + 20);
+    document_->act(EventCommand{"station", time, ""});
+    document_->undo();
+    document_->settle();
+    EXPECT_THAT(document_->choices().failure, testing::HasSubstr("could not be written: File too large"));
+    EXPECT_EQ(document_->choices().failure.find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(document_->state().events.size(), 1U) << "what is not in the journal is not shown";
+  EXPECT_EQ(std::filesystem::file_size(journal), size);
+  document_->act(EventCommand{"station", time, ""});
+  document_->settle();
+  EXPECT_EQ(document_->state().events.size(), 2U);
+  reopen();
+  EXPECT_EQ(document_->state().events.size(), 2U);
+  EXPECT_TRUE(document_->notices().empty());
 }
 
 }  // namespace

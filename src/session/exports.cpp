@@ -16,6 +16,7 @@
 #include "pipeline/write_survey.h"
 #include "publish/picture.h"
 #include "publish/picture_files.h"
+#include "session/slices/slice_look.h"
 #include "session/survey_schools.h"
 
 namespace sonar {
@@ -31,17 +32,25 @@ constexpr PixelSize kPictureSize{1600, 1200};
 struct Snapshot {
   const SurveyFiles* survey = nullptr;  ///< stands until the job is over: another survey comes only after it
   Recipe recipe;
+  Recipe measuring;  ///< the recipe under the calibration that was chosen
   std::string program_version;
   std::shared_ptr<const std::vector<JournalLine>> lines;
   std::map<std::size_t, JournalStatePtr> states;
   std::map<std::size_t, ProductPtr> products;
   std::vector<fs::path> paths;
+  std::uint64_t memory_bytes = 0;
 };
 
 Snapshot snapshot_of(const Document& document) {
-  Snapshot snapshot{document.survey(),        document.recipe(),         document.options().program_version,
-                    document.choices().lines, document.choices().states, {},
-                    document.paths()};
+  Snapshot snapshot{document.survey(),
+                    document.recipe(),
+                    document.measuring_recipe(),
+                    document.options().program_version,
+                    document.choices().lines,
+                    document.choices().states,
+                    {},
+                    document.paths(),
+                    document.options().memory_bytes};
   for (const auto& [index, state] : snapshot.states) {
     if (auto product = document.product(index)) snapshot.products[index] = std::move(product);
   }
@@ -51,12 +60,15 @@ Snapshot snapshot_of(const Document& document) {
 /// What an observation's file holds: measured from the state on show, or, where it is not open, from the journal.
 Result<ObservationProduct> product_of(const Snapshot& snapshot, std::size_t index, Work& work) {
   const ObservationFiles& observation = snapshot.survey->observations[index];
+  if (observation.grid) {
+    if (auto room = room_for(observation, snapshot.memory_bytes); !room) return pass_on(room);
+  }
   const std::vector<JournalLine> lines = effective_lines(*snapshot.lines);
   const auto state = snapshot.states.find(index);
   if (!observation.grid || state == snapshot.states.end() || !state->second) {
     return observe(*snapshot.survey, observation, snapshot.recipe, {{}, lines, snapshot.program_version}, work);
   }
-  Engine engine(*snapshot.survey, observation, snapshot.recipe);
+  Engine engine(*snapshot.survey, observation, snapshot.measuring);
   return state_product(engine, *state->second, {lines, snapshot.program_version, true, nullptr}, work);
 }
 
@@ -122,7 +134,7 @@ void run_job(Workspace& workspace, std::function<Result<std::string>(const Snaps
 std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {
   std::vector<ObservationProduct> products;
   for (const auto& [index, product] : snapshot.products) products.push_back(*product);
-  return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.recipe);
+  return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.measuring);
 }
 
 std::string shown_name(const Workspace& workspace) {
@@ -180,6 +192,9 @@ PictureOptions picture_options(const Workspace& workspace) {
   }
   options.masks = display.masks;
   options.filtered = display.filtered;
+  options.flags = flag_style(display);
+  options.left_out = left_out_of_volume(display);
+  if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;
   options.north_up = display.north_up;
   options.grid_lines = display.grid_lines;
   options.mode = static_cast<RayMode>(volume.mode);

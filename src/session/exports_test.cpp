@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
+#include "base/test_full_disk.h"
 #include "pipeline/journal.h"
 #include "pipeline/run.h"
 #include "publish/picture_source.h"
@@ -105,6 +107,37 @@ TEST_F(Exports, ResultsHaveTheMasksThatARunOfTheJournalGivesBitForBit) {
   }
 }
 
+TEST_F(Exports, UnderAChosenCalibrationARunOfTheJournalGivesTheSame) {
+  press("schools.detect_all");
+  document().settle();
+  CalibrateCommand calibrate;
+  calibrate.calibration = document().recipe().calibration;
+  for (int channel = 0; channel < static_cast<int>(document().shown()->grid().channel.size()); ++channel) {
+    calibrate.calibration.beams.push_back({channel, kUnknown, kUnknown, 1.5});
+  }
+  document().act(calibrate);
+  document().settle();
+  export_results(workspace(), out_ / "window");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("written: 2 observations"));
+  run_session(document().journal_path(), out_ / "run");
+  EXPECT_TRUE(masks_in(out_ / "window") == masks_in(out_ / "run"));
+  const auto levels = [&](const char* folder) {
+    Work work(1);
+    const std::vector<fs::path> paths{out_ / folder};
+    const auto source = PictureSource::open(paths, std::nullopt, work);
+    std::vector<double> db;
+    for (const ObservationProduct& product : (*source)->products()) {
+      EXPECT_EQ(product.recipe_hash, recipe_hash(document().measuring_recipe()));
+      for (const SchoolRow& school : product.schools) db.push_back(school.sv_mean_db);
+    }
+    std::sort(db.begin(), db.end());
+    return db;
+  };
+  EXPECT_FALSE(levels("run").empty());
+  EXPECT_EQ(levels("window"), levels("run"));
+}
+
 TEST_F(Exports, NumbersAreThoseOnTheScreen) {
   paint(4, 5, 5, 5, 200);
   paint(2, 3, 12, 12, 300);
@@ -157,6 +190,31 @@ TEST_F(Exports, AFullDiskIsOneLine) {
   document().settle();
   EXPECT_THAT(told(), HasSubstr("below"));
   EXPECT_EQ(told().find('\n'), std::string::npos);
+}
+
+// A disk that gets full half way: one line, what was there stays, and the next attempt finds nothing in its way.
+TEST_F(Exports, ADiskThatGetsFullHalfWayLeavesNothingTorn) {
+  paint(4, 5, 5, 5, 200);
+  document().settle();
+  const auto full = [&](const char* what, const std::function<void()>& write) {
+    const FullDisk disk(3000);
+    write();
+    document().settle();
+    EXPECT_THAT(told(), HasSubstr("File too large")) << what;
+    EXPECT_EQ(told().find('\n'), std::string::npos) << what;
+  };
+  full("products", [&] { export_results(workspace(), out_ / "results"); });
+  full("tables", [&] { export_as(workspace(), "csv", out_ / "csv"); });
+  full("picture",
+       [&] { save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), out_ / "slice.png"); });
+  fs::create_directories(out_ / "movie");
+  full("movie", [&] { save_movie(workspace(), PictureKind::slice_top, out_ / "movie"); });
+  for (const auto& entry : fs::recursive_directory_iterator(out_)) {
+    EXPECT_FALSE(entry.is_regular_file()) << entry.path();
+  }
+  export_results(workspace(), out_ / "results");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("written: 2 observations"));
 }
 
 TEST_F(Exports, APlannedRunsFolderIsLeftAlone) {

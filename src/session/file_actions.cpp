@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/calibration_json.h"
 #include "pipeline/export.h"
 #include "publish/picture_files.h"
 #include "session/desk_parts.h"
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "&File";
+constexpr const char* kCalibrations = "Calibrations and recipes (*.csv *.json *.CSV *.JSON);;All files (*)";
 constexpr const char* kExport = "&File/&Export";
 constexpr const char* kPictures = "&File/Save &picture";
 
@@ -72,6 +74,40 @@ void add_opening(Desk& desk) {
                       .enabled = [&desk, i] { return i < desk.preferences.recent.size(); },
                       .text_now = [&desk, i] { return recent_text(desk, i); }});
   }
+}
+
+void choose_calibration(Desk& desk) {
+  if (!desk.asking.file_to_open) return;
+  const std::string file = desk.asking.file_to_open("Calibration", kCalibrations);
+  if (file.empty()) return;
+  Document& document = desk.workspace.document;
+  auto calibration = read_calibration(file, document.recipe());
+  if (!calibration) return document.tell(to_line(calibration.error()));
+  document.act(CalibrateCommand{std::move(*calibration), fs::path(file).filename().string()});
+}
+
+void add_calibration(Desk& desk) {
+  const auto with_ping = [&desk] { return desk.workspace.document.shown() != nullptr; };
+  desk.actions.add(
+      {.id = "file.calibration",
+       .menu = kFile,
+       .text = "Calibration...",
+       .keys = {},
+       .tip = "Measure under another calibration (a table channel,gain_db,..., or a recipe): masks and decisions "
+              "stay",
+       .run = [&desk] { choose_calibration(desk); },
+       .enabled = with_ping});
+  desk.actions.add({.id = "file.own_calibration",
+                    .menu = kFile,
+                    .text = "Calibration of the recipe",
+                    .keys = {},
+                    .tip = "Measure again as the journal began: masks and decisions stay",
+                    .run =
+                        [&desk] {
+                          Document& document = desk.workspace.document;
+                          document.act(CalibrateCommand{document.recipe().calibration, "of the recipe"});
+                        },
+                    .enabled = with_ping});
 }
 
 /// Asks for a folder and hands it on.
@@ -137,7 +173,7 @@ void add_formats(Desk& desk) {
 /// Asks for a number; empty where the human declined, or gave none.
 std::optional<double> asked_number(Desk& desk, const std::string& label, double first) {
   if (!desk.asking.text) return std::nullopt;
-  const std::string text = desk.asking.text("Save picture", label, fmt::format("{:.0f}", first));
+  const std::string text = desk.asking.text("Save picture", label, fmt::format("{:.0f}", first)).value_or("");
   double value = 0.0;
   const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (!text.empty() && problem == std::errc() && after == text.data() + text.size()) return value;
@@ -211,6 +247,7 @@ void copy_view(Desk& desk) {
 
 void add_exports(Desk& desk) {
   add_opening(desk);
+  add_calibration(desk);
   add_formats(desk);
   add_picture_kinds(desk);
   desk.actions.add({.id = "file.save_view",

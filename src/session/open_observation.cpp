@@ -5,16 +5,50 @@
 
 namespace sonar {
 
+namespace {
+
+Shape3 shape_of(const ObservationFiles& observation) {
+  return {observation.grid->fans(), observation.grid->beams(), observation.range.count};
+}
+
+}  // namespace
+
+Result<void> room_for(const ObservationFiles& observation, std::uint64_t memory_bytes) {
+  const auto reach = reach_within(memory_bytes, shape_of(observation), 0);
+  if (!reach) return fail(reach.error().code, observation.name + ": " + reach.error().text);
+  return {};
+}
+
 OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std::size_t index, const Recipe& recipe,
-                                 std::int64_t prefetch)
-    : survey_(std::move(survey)), index_(index), engine_(*survey_, survey_->observations[index], recipe) {
-  cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), prefetch);
+                                 std::int64_t prefetch, std::uint64_t memory_bytes)
+    : survey_(std::move(survey)),
+      index_(index),
+      reach_(reach_within(memory_bytes, shape_of(survey_->observations[index]), prefetch)),
+      engine_(*survey_, survey_->observations[index], recipe) {
+  cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
   ground_ = ground_of(engine_, {0, engine_.pings() - 1});
   ground_.ping = [this](std::int64_t i) -> Result<FilteredPing> {
     auto staged = ping(i);
     if (!staged) return pass_on(staged);
     return FilteredPing{(*staged)->filtered, engine_.placement(i), ground_.times[static_cast<std::size_t>(i)], {}};
   };
+}
+
+OpenObservation::OpenObservation(std::shared_ptr<OpenObservation> chosen_on, const Recipe& measuring,
+                                 std::int64_t prefetch, std::uint64_t memory_bytes)
+    : survey_(chosen_on->survey_),
+      index_(chosen_on->index_),
+      chosen_on_(std::move(chosen_on)),
+      reach_(reach_within(memory_bytes, shape_of(survey_->observations[index_]), prefetch)),
+      identity_(chosen_on_->identity_),
+      engine_(*survey_, survey_->observations[index_], measuring),
+      ground_(chosen_on_->ground_) {
+  cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
+}
+
+std::string OpenObservation::title() const {
+  const bool synthetic = files().config.survey_name.find("SYNTHETIC") != std::string::npos;
+  return synthetic ? name() + " SYNTHETIC" : name();
 }
 
 void OpenObservation::estimate_background(std::int64_t ping_index) {
@@ -26,6 +60,7 @@ void OpenObservation::estimate_background(std::int64_t ping_index) {
 
 Result<StagedPingPtr> OpenObservation::made(std::int64_t ping_index) {
   if (ping_index < 0 || ping_index >= pings()) return fail(ErrorCode::usage, "there is no such ping");
+  if (!reach_) return fail(reach_.error().code, name() + ": " + reach_.error().text);
   estimate_background(ping_index);
   auto staged = engine_.staged(ping_index);
   if (!staged) return pass_on(staged);

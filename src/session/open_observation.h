@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -10,29 +11,44 @@
 #include "pipeline/manual.h"
 #include "pipeline/survey.h"
 #include "session/ping_cache.h"
+#include "session/ping_memory.h"
 
 namespace sonar {
 
+/// errors  no_space: not one ping of the observation, which has a grid, can be read within a budget
+[[nodiscard]] Result<void> room_for(const ObservationFiles& observation, std::uint64_t memory_bytes);
+
 /// An observation at work: everything that pictures and choices stand on. Opening one reads nothing; each ping is read
-/// when it is asked for, with the background levels of its neighbours.
+/// when it is asked for, with the background levels of its neighbours. Under another calibration pictures and measures are
+/// of that one, while choices stand on the ground that they always stood on.
 /// threads  all members may be called from any thread
 class OpenObservation {
  public:
   /// The observation has a grid.
-  /// prefetch  pings to each side of the one looked at that are made ahead
+  /// prefetch      pings to each side of the one looked at that are made ahead
+  /// memory_bytes  that its pings may take: fewer are made ahead, and where not even one fits, ping() says so
   OpenObservation(std::shared_ptr<const SurveyFiles> survey, std::size_t index, const Recipe& recipe,
-                  std::int64_t prefetch);
+                  std::int64_t prefetch, std::uint64_t memory_bytes = usual_memory());
+  /// The same observation under another calibration.
+  OpenObservation(std::shared_ptr<OpenObservation> chosen_on, const Recipe& measuring, std::int64_t prefetch,
+                  std::uint64_t memory_bytes = usual_memory());
 
   [[nodiscard]] std::size_t index() const { return index_; }
   [[nodiscard]] const SurveyFiles& survey() const { return *survey_; }
   [[nodiscard]] const ObservationFiles& files() const { return survey_->observations[index_]; }
   [[nodiscard]] const std::string& name() const { return files().name; }
+  /// "obs-0001", with SYNTHETIC behind it where the data is.
+  [[nodiscard]] std::string title() const;
   [[nodiscard]] std::int64_t pings() const { return engine_.pings(); }
   [[nodiscard]] const Sector& sector() const { return engine_.sector(); }
   [[nodiscard]] const BeamGrid& grid() const { return engine_.grid(); }
   [[nodiscard]] Engine& engine() { return engine_; }
-  /// What commands need; its pings come through the cache.
+  /// What commands need; its pings come through a cache.
   [[nodiscard]] const CommandGround& ground() const { return ground_; }
+  /// Whether pictures and measures follow another calibration than choices.
+  [[nodiscard]] bool recalibrated() const { return chosen_on_ != nullptr; }
+  /// The same object for the same observation, whatever its calibration.
+  [[nodiscard]] const std::shared_ptr<const int>& identity() const { return identity_; }
   [[nodiscard]] PingCache& cache() { return *cache_; }
 
   /// All stages of a ping, from the cache or made now. errors: as Engine::staged()
@@ -45,6 +61,9 @@ class OpenObservation {
 
   std::shared_ptr<const SurveyFiles> survey_;
   std::size_t index_;
+  std::shared_ptr<OpenObservation> chosen_on_;  ///< null = this one
+  Result<std::int64_t> reach_;                  ///< of the cache, or why no ping can be read
+  std::shared_ptr<const int> identity_ = std::make_shared<const int>(0);
   Engine engine_;
   std::mutex estimating_;
   CommandGround ground_;

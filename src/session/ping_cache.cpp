@@ -18,20 +18,34 @@ Result<StagedPingPtr> PingCache::ping(std::int64_t ping_index) {
 
 StagedPingPtr PingCache::held(std::int64_t ping_index) const {
   const std::scoped_lock lock(mutex_);
+  if (last_.second && last_.first == ping_index) return last_.second;
   const auto found = kept_.find(ping_index);
   return found == kept_.end() ? nullptr : found->second;
 }
 
 void PingCache::put(std::int64_t ping_index, const StagedPingPtr& ping) {
   const std::scoped_lock lock(mutex_);
-  if (std::abs(ping_index - centre_) <= reach_) kept_[ping_index] = ping;
+  if (keeps_last_) last_ = {ping_index, ping};
+  if (centre_ && std::abs(ping_index - *centre_) <= reach_) kept_[ping_index] = ping;
+}
+
+void PingCache::rest() {
+  (void)background_.post_latest([](const Wanted&) {});  // what was to be made ahead is given up
+  const std::scoped_lock lock(mutex_);
+  centre_.reset();
+  kept_.clear();
+}
+
+void PingCache::keep_last() {
+  const std::scoped_lock lock(mutex_);
+  keeps_last_ = true;
 }
 
 void PingCache::look_at(std::int64_t ping_index, std::function<void(const Result<StagedPingPtr>&)> arrived) {
   {
     const std::scoped_lock lock(mutex_);
     centre_ = ping_index;
-    std::erase_if(kept_, [&](const auto& entry) { return std::abs(entry.first - centre_) > reach_; });
+    std::erase_if(kept_, [&](const auto& entry) { return std::abs(entry.first - ping_index) > reach_; });
   }
   background_.post_latest([this, ping_index, arrived = std::move(arrived)](const Wanted& wanted) {
     const auto looked_at = ping(ping_index);

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "base/result.h"
 #include "base/task_thread.h"
@@ -22,7 +24,7 @@ using StagedPingSource = std::function<Result<StagedPingPtr>(std::int64_t ping_i
 class PingCache {
  public:
   /// pings  of the observation
-  /// reach  pings to each side that are made ahead and kept
+  /// reach  pings to each side of the one looked at that are made ahead and kept; while none is, nothing is kept
   PingCache(StagedPingSource source, std::int64_t pings, std::int64_t reach);
 
   /// From the cache, else made now.
@@ -32,6 +34,10 @@ class PingCache {
   /// The ping that is looked at: it and its neighbours, nearest first, are made in the background. Latest wins.
   /// arrived  called in the background as soon as the ping itself can be had, or with why it cannot
   void look_at(std::int64_t ping_index, std::function<void(const Result<StagedPingPtr>&)> arrived = {});
+  /// Nobody looks any more: what is kept is let go.
+  void rest();
+  /// Keeps the ping that was asked for last too, wherever it lies: one that nobody looks at serves many calls.
+  void keep_last();
   void wait() { background_.wait(); }
 
  private:
@@ -41,8 +47,10 @@ class PingCache {
   std::int64_t pings_;
   std::int64_t reach_;
   mutable std::mutex mutex_;
-  std::int64_t centre_ = 0;
+  std::optional<std::int64_t> centre_;  ///< empty = nobody looks
   std::map<std::int64_t, StagedPingPtr> kept_;
+  bool keeps_last_ = false;
+  std::pair<std::int64_t, StagedPingPtr> last_{-1, nullptr};
   TaskThread background_;  // the last member: it ends first
 };
 

@@ -75,6 +75,7 @@ void describe(Visitor& v, Preferences& p) {
   v.group("views", p.views, {});
   v.field("operator", p.operator_name, {});
   v.field("advance", p.advance, {});
+  v.field("memory_gb", p.memory_gb, {.unit = "GB", .min = 0.0, .max = 1e6});
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }

@@ -25,6 +25,7 @@ struct Preferences {
   VolumeParams volume;
   ViewSwitches views;
   std::string operator_name;
+  double memory_gb = 0.0;  ///< for the pings of the observation on show, 10^9 bytes; 0 = half of the machine's
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
                                    "cod",     "saithe",   "krill",   "other"};  ///< digits 1 to 9
   bool advance = true;  ///< review goes on to the next school after a decision

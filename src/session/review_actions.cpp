@@ -22,7 +22,7 @@ void decide_all(Desk& desk, Review& review) {
   std::string rule(kDefaultBulkRule);
   for (;;) {
     if (!desk.asking.text) return;
-    rule = desk.asking.text("Review by a rule", "Of all schools that are not reviewed, those with", rule);
+    rule = desk.asking.text("Review by a rule", "Of all schools that are not reviewed, those with", rule).value_or("");
     if (rule.empty()) return;
     const auto done = review.decide_all(rule);
     if (done) return;

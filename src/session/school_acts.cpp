@@ -9,6 +9,7 @@
 
 #include "session/desk_parts.h"
 #include "session/survey_schools.h"
+#include "session/timelines/timeline_actions.h"
 
 namespace sonar {
 namespace {
@@ -91,33 +92,34 @@ void carry_on(Workspace& workspace, bool backwards, bool forwards) {
   workspace.document.act(std::move(command));
 }
 
+/// A line of text about the selected school; empty where the human declined or left it as it is. An empty answer is one:
+/// it wipes out what was there.
+std::optional<std::string> asked_line(Desk& desk, const SurveySchool& school, const char* label,
+                                      const std::string& now) {
+  if (!desk.asking.text) return std::nullopt;
+  auto text = desk.asking.text(fmt::format("School {}", school.name.number), label, now);
+  if (!text || *text == now) return std::nullopt;
+  std::replace_if(
+      text->begin(), text->end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  return text;
+}
+
 void comment(Desk& desk) {
   const auto school = school_on_show(desk.workspace);
-  if (!school || !desk.asking.text) return;
-  std::string text =
-      desk.asking.text(fmt::format("School {}", school->name.number), "Comment", school->decided().comment);
-  // An empty answer is either a human who declined or a comment that is wiped out; only the latter has one to wipe.
-  if (text == school->decided().comment || text.empty()) return;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  if (!school) return;
   Decision decision;
   decision.school = school->key();
-  decision.comment = std::move(text);
-  desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.comment = asked_line(desk, *school, "Comment", school->decided().comment);
+  if (decision.comment) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
 void name_species(Desk& desk) {
   const auto school = school_on_show(desk.workspace);
-  if (!school || !desk.asking.text) return;
-  std::string text =
-      desk.asking.text(fmt::format("School {}", school->name.number), "Species", school->decided().species);
-  if (text == school->decided().species || text.empty()) return;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  if (!school) return;
   Decision decision;
   decision.school = school->key();
-  decision.species = std::move(text);
-  desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.species = asked_line(desk, *school, "Species", school->decided().species);
+  if (decision.species) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
 void detect(Document& document, bool all) {
@@ -258,18 +260,21 @@ void add_naming(Desk& desk) {
                     .tip = "A line of text about the selected school",
                     .run = [&desk] { comment(desk); },
                     .enabled = with_school(desk)});
-  desk.actions.add({.id = "school.delete",
-                    .menu = kMenu,
-                    .text = "Delete",
-                    .keys = {"Delete"},
-                    .tip = "The selected school is no more; undo brings it back",
-                    .run =
-                        [&workspace] {
-                          if (const auto school = school_on_show(workspace)) {
-                            workspace.document.act(DeleteCommand{school->key()});
-                          }
-                        },
-                    .enabled = with_school(desk)});
+  desk.actions.add(
+      {.id = "school.delete",
+       .menu = kMenu,
+       .text = "Delete",
+       .keys = {"Delete"},
+       .tip = "The selected school, or the mark that was clicked on a timeline, is no more; undo brings it back",
+       .run =
+           [&workspace] {
+             if (workspace.mark()) return remove_mark(workspace);
+             if (const auto school = school_on_show(workspace)) {
+               workspace.document.act(DeleteCommand{school->key()});
+             }
+           },
+       .enabled = [&workspace] { return workspace.mark() || school_on_show(workspace); },
+       .text_now = [&workspace] { return mark_text(workspace); }});
 }
 
 }  // namespace

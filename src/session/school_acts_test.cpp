@@ -108,11 +108,27 @@ TEST_F(SchoolActs, CommentsAndSpeciesAreAskedFor) {
   EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "two lines");
   act("school.species", "species", "Undo set species of school 1");
   EXPECT_EQ(document().state().schools.front()->masks.decided.species, "herring");
-  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::string(); };  // declined
+  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(); };  // declined
   const auto lines = document().choices().lines->size();
   press("school.comment");
   document().settle();
   EXPECT_EQ(document().choices().lines->size(), lines);
+}
+
+TEST_F(SchoolActs, AnEmptyAnswerWipesACommentAndUndoBringsItBack) {
+  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::string("a wreck"); };
+  act("school.comment", "comment", "Undo comment on school 1");
+  desk_->asking.text = [](const auto&, const auto&, const std::string& now) {
+    EXPECT_EQ(now, "a wreck");
+    return std::string();
+  };
+  act("school.comment", "comment", "Undo comment on school 1");
+  EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "");
+  begin();
+  EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "");  // it stands in the journal
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "a wreck");
 }
 
 TEST_F(SchoolActs, DecisionsAreWrittenDown) {

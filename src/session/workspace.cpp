@@ -23,6 +23,16 @@ TransferFunction first_view_curve() {
   return curve ? std::move(*curve) : TransferFunction{};
 }
 
+bool still_there(const std::optional<ChosenMark>& mark, const Document& document) {
+  if (!mark) return true;
+  const JournalState& state = document.state(mark->observation);
+  const auto holds = [](const auto& list, const auto& one) {
+    return std::find(list.begin(), list.end(), one) != list.end();
+  };
+  if (const auto* event = std::get_if<EventCommand>(&mark->what)) return holds(state.events, *event);
+  return holds(state.bad_pings, std::get<BadPingsCommand>(mark->what));
+}
+
 /// "school 3, f 0.82"; empty where nobody has the voxel.
 std::string school_text(const JournalState& state, std::int64_t ping_index, int row, int sample) {
   for (const auto& school : state.schools) {
@@ -43,12 +53,13 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       volume(changes),
       views(changes),
       view_curve(first_view_curve()) {
-  document.changes().add([this, last = std::make_shared<std::weak_ptr<OpenObservation>>()](DocumentChange change) {
+  document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;
     const auto& shown = document.shown();
-    // One more observation is open: what is looked at is the same.
-    if (change == DocumentChange::observation && last->lock() == shown) return;
-    *last = shown;
+    const auto identity = shown ? shown->identity() : nullptr;
+    // One more observation is open, or another calibration chosen: what is looked at is the same.
+    if (change == DocumentChange::observation && last->lock() == identity) return;
+    *last = identity;
     cursor.set(std::nullopt);
     preview.set({});
     if (shown) slices.set({shown->sector().fans() / 2, shown->sector().beams() / 2});
@@ -56,6 +67,12 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
   display.on_change([this](const DisplayParams& params) {
     if (!curve_follows_scale()) return;
     if (auto curve = transfer_function(params.scale, kMostOpacity)) view_curve.set(std::move(*curve));
+  });
+  school.changed().add([this] { mark.set(std::nullopt); });
+  document.changes().add([this](DocumentChange change) {
+    if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(mark(), document))) {
+      mark.set(std::nullopt);
+    }
   });
   view_curve.changed().add([this] {
     if (curves_linked()) growth_curve.set(view_curve());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "model/transfer_function.h"
 #include "session/change_queue.h"
@@ -63,6 +64,13 @@ struct MarkedInterval {
   friend bool operator==(const MarkedInterval&, const MarkedInterval&) = default;
 };
 
+/// A mark on a timeline that was clicked: what Delete takes away.
+struct ChosenMark {
+  std::size_t observation = 0;
+  std::variant<EventCommand, BadPingsCommand> what;
+  friend bool operator==(const ChosenMark&, const ChosenMark&) = default;
+};
+
 /// Where slices lie.
 struct SlicePlaces {
   int fan = 0;   ///< of the top slice
@@ -100,6 +108,7 @@ struct Workspace {
   Shared<bool> dark{false};
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
+  Shared<std::optional<ChosenMark>> mark;                 ///< on a timeline; another school or survey ends it
   Shared<bool> latencies{false};                          ///< how long each picture took, over it: for developers
 
   /// Index in the state of the selected school, where it is in the observation on show.

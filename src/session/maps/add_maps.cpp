@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +16,8 @@ namespace sonar {
 namespace {
 
 constexpr const char* kMenu = "&View";
+constexpr const char* kRasters =
+    "Rasters of depths (*.tif *.tiff *.nc *.asc *.grd *.TIF *.TIFF *.NC *.ASC *.GRD);;All files (*)";
 
 void add_chart_actions(Desk& desk) {
   desk.actions.add({.id = "map.depths",
@@ -23,9 +26,9 @@ void add_chart_actions(Desk& desk) {
                     .keys = {},
                     .tip = "A raster of depths (GEBCO, EMODnet, GeoTIFF, netCDF) to lie under the survey map",
                     .run = [&desk] {
-                      if (!desk.asking.files_to_open) return;
-                      const auto files = desk.asking.files_to_open();
-                      if (!files.empty()) desk.workspace.depth_raster.set(files.front());
+                      if (!desk.asking.file_to_open) return;
+                      const std::string file = desk.asking.file_to_open("Depth chart", kRasters);
+                      if (!file.empty()) desk.workspace.depth_raster.set(file);
                     }});
   desk.actions.add({.id = "map.no_depths",
                     .menu = kMenu,
@@ -43,14 +46,19 @@ void add_maps(Desk& desk) {
   auto map = std::make_unique<ObservationMapModel>(workspace);
   auto strip = std::make_unique<StripModel>(workspace);
   auto survey = std::make_unique<SurveyMapModel>(workspace);
+  const auto echograms = std::make_shared<Echograms>(workspace.queue, workspace.document);
+  auto of_one = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::observation);
+  auto of_all = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::survey);
+  const std::array timelines{of_one.get(), of_all.get()};
   desk.actions.add({.id = "map.all",
                     .menu = kMenu,
-                    .text = "Show whole maps",
+                    .text = "Show whole maps and timelines",
                     .keys = {"Shift+Home"},
-                    .tip = "Undo zooming and panning of the maps",
-                    .run = [map = map.get(), survey = survey.get()] {
+                    .tip = "Undo zooming and panning of maps and timelines",
+                    .run = [map = map.get(), survey = survey.get(), timelines] {
                       map->show_all();
                       survey->show_all();
+                      for (TimelineModel* one : timelines) one->show_all();
                     }});
   desk.actions.add({.id = "strip.side",
                     .menu = kMenu,
@@ -65,7 +73,6 @@ void add_maps(Desk& desk) {
                     .checked = [strip = strip.get()] { return strip->aspect() == MaskAspect::side; }});
   add_chart_actions(desk);
   add_timeline_actions(desk);
-  const auto echograms = std::make_shared<Echograms>(workspace.queue, workspace.document);
   const auto dock = [&](std::string id, std::string title, DockPlace place, std::string view_switch,
                         std::unique_ptr<LivePicture> picture) {
     desk.pictures.push_back({std::move(id), std::move(title), place, std::move(view_switch), std::move(picture)});
@@ -73,10 +80,8 @@ void add_maps(Desk& desk) {
   dock("observation_map", "Observation map", DockPlace::right, "observation_map", std::move(map));
   dock("propagation", "Propagation", DockPlace::bottom, "propagation", std::move(strip));
   dock("survey_map", "Survey map", DockPlace::centre, "survey_map", std::move(survey));
-  dock("observation_timeline", "Observation timeline", DockPlace::bottom, "timeline",
-       std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::observation));
-  dock("survey_timeline", "Survey timeline", DockPlace::bottom, "timeline",
-       std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::survey));
+  dock("observation_timeline", "Observation timeline", DockPlace::bottom, "timeline", std::move(of_one));
+  dock("survey_timeline", "Survey timeline", DockPlace::bottom, "timeline", std::move(of_all));
 }
 
 }  // namespace sonar

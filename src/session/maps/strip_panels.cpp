@@ -59,7 +59,7 @@ std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPi
 }
 
 std::string strip_title(const StripWish& wish) {
-  std::string title = fmt::format("{}, pings {} to {}", wish.observation->name(), wish.first,
+  std::string title = fmt::format("{}, pings {} to {}", wish.observation->title(), wish.first,
                                   std::min(wish.first + wish.panes, wish.observation->pings()) - 1);
   if (!wish.running.empty()) {
     return title + fmt::format(" · propagating: {} pings, {} to {}", wish.running.size(), wish.running.begin()->first,

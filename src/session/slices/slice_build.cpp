@@ -26,7 +26,7 @@ SlicePing titled(const SliceWish& wish) {
   const OpenObservation& observation = *wish.observation;
   const PingNavigation& navigation = observation.files().navigation[static_cast<std::size_t>(wish.ping->ping_index)];
   SlicePing ping;
-  ping.observation = observation.name();
+  ping.observation = observation.title();
   ping.ping_index = wish.ping->ping_index;
   ping.time = navigation.time;
   ping.heading_rad = rad_from_deg(navigation.heading_deg);

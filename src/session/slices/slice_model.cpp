@@ -50,9 +50,12 @@ SliceModel::~SliceModel() {
 void SliceModel::hear(DocumentChange change) {
   switch (change) {
     case DocumentChange::survey:
-    case DocumentChange::observation:
-      if (change == DocumentChange::observation && workspace_.document.shown() == of_.lock()) return;
-      of_ = workspace_.document.shown();
+    case DocumentChange::observation: {
+      const auto& shown = workspace_.document.shown();
+      const auto identity = shown ? shown->identity() : nullptr;
+      if (change == DocumentChange::observation && identity == of_.lock()) return;
+      of_ = identity;
+    }
       extent_.reset();
       picture_.reset();
       return update();

@@ -64,7 +64,7 @@ class SliceModel : public LivePicture {
   Workspace& workspace_;
   SeedTool& seed_;
   BrushTool& brush_;
-  std::weak_ptr<OpenObservation> of_;  ///< the observation on show
+  std::weak_ptr<const int> of_;  ///< identity of the observation on show
   std::shared_ptr<const SlicePicture> picture_;
   std::shared_ptr<const SvColours> colours_;                                              ///< null = to be made
   std::shared_ptr<Array3<SampleFlags>> flags_ = std::make_shared<Array3<SampleFlags>>();  ///< of builds

@@ -61,6 +61,16 @@ TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
   EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
 }
 
+TEST_F(SlicesAtWork, TitlesSayThatTheDataIsSimulated) {
+  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+    const auto& items = slice->picture()->frame.items;
+    EXPECT_TRUE(std::any_of(items.begin(), items.end(), [](const auto& item) {
+      const auto* text = std::get_if<TextItem>(&item);
+      return text != nullptr && text->text.starts_with("obs-0001 SYNTHETIC");
+    }));
+  }
+}
+
 TEST_F(SlicesAtWork, TheWheelTurnsToTheNextFanAndBeam) {
   PointerEvent wheel = desk_.at(desk_.top(), bright(), PointerAction::wheel);
   wheel.wheel_steps = 0.5;  // a fine wheel

@@ -30,6 +30,7 @@ struct Echograms::Filling {
   std::size_t index = 0;
   Recipe recipe;
   IndexCache cache;
+  std::uint64_t memory_bytes = 0;
 
   bool begun = false;
   bool whole = true;  ///< no ping failed for the disk's sake
@@ -49,7 +50,7 @@ struct Echograms::Filling {
 
 void Echograms::Filling::begin() {
   begun = true;
-  if (!keeps) keeps = std::make_shared<OpenObservation>(survey, index, recipe, 0);
+  if (!keeps) keeps = std::make_shared<OpenObservation>(survey, index, recipe, 0, memory_bytes);
   const EchogramRange range = echogram_range(keeps->sector().range());
   const int per_column = pings_per_column(pings());
   // What is filled more coarsely than a ping a column is not kept: readers expect every level.
@@ -89,6 +90,7 @@ void Echograms::Filling::finish() {
 Echograms::Echograms(ChangeQueue& queue, Document& document) : queue_(queue), document_(document) {
   listening_.to(document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) forget();
+    if (change == DocumentChange::observation) follow_calibration();
     if (change == DocumentChange::state || change == DocumentChange::ping) go_on();
   });
 }
@@ -98,6 +100,17 @@ Echograms::~Echograms() = default;
 void Echograms::forget() {
   kept_.clear();
   wanted_.clear();
+  fillings_.clear();
+  changed_.tell();
+}
+
+void Echograms::follow_calibration() {
+  std::string hash = recipe_hash(document_.measuring_recipe());
+  if (hash == recipe_) return;
+  const bool other = !recipe_.empty();
+  recipe_ = std::move(hash);
+  if (!other) return;
+  kept_.clear();
   fillings_.clear();
   changed_.tell();
 }
@@ -137,8 +150,9 @@ void Echograms::go_on() {
     filling->keeps = document_.open_observation(*next);
     filling->survey = {document_.shown(), &document_.shown()->survey()};
     filling->index = *next;
-    filling->recipe = document_.recipe();
+    filling->recipe = document_.measuring_recipe();
     filling->cache = document_.options().cache;
+    filling->memory_bytes = document_.options().memory_bytes;
   }
   read(filling);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/task_thread.h"
@@ -44,6 +45,7 @@ class Echograms {
     bool complete = false;
   };
   void forget();
+  void follow_calibration();
   void go_on();
   void read(const std::shared_ptr<Filling>& filling);
   void take(std::size_t observation, EchogramPtr echogram, bool complete);
@@ -55,6 +57,7 @@ class Echograms {
   std::map<const void*, std::vector<std::size_t>> wanted_;
   std::map<std::size_t, std::shared_ptr<Filling>> fillings_;
   bool reading_ = false;
+  std::string recipe_;                                          ///< hash of what echograms are made under
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   Listening listening_;
   TaskThread background_;  // the last member: it ends first

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace sonar {
 namespace {
@@ -20,9 +21,11 @@ void mark_event(Desk& desk, const std::string& kind) {
   Document& document = desk.workspace.document;
   if (!document.shown()) return;
   std::string text;
-  if (desk.asking.text) text = desk.asking.text(fmt::format("Mark {}", kind), "What happened here", kind);
-  // An empty answer is a human who thought better of it.
-  if (desk.asking.text && text.empty()) return;
+  if (desk.asking.text) {
+    text = desk.asking.text(fmt::format("Mark {}", kind), "What happened here", kind).value_or("");
+    // Without a word it is a human who thought better of it.
+    if (text.empty()) return;
+  }
   EventCommand event;
   event.kind = kind;
   event.time = document.shown()->ground().times[static_cast<std::size_t>(document.ping())];
@@ -39,6 +42,15 @@ void mark_bad(Desk& desk, const MarkedInterval& interval) {
   bad.first = times[static_cast<std::size_t>(interval.first_ping)];
   bad.last = times[static_cast<std::size_t>(interval.last_ping)];
   document.act(interval.observation, interval.first_ping, bad);
+}
+
+void mark_good(Document& document, const MarkedInterval& interval) {
+  const auto observation = document.open_observation(interval.observation);
+  if (!observation) return;
+  const auto& times = observation->ground().times;
+  document.act(interval.observation, interval.first_ping,
+               GoodPingsCommand{times[static_cast<std::size_t>(interval.first_ping)],
+                                times[static_cast<std::size_t>(interval.last_ping)]});
 }
 
 /// Index of the ping of the next event of the observation on show, in a direction.
@@ -80,7 +92,51 @@ void add_step(Desk& desk, const std::string& id, const std::string& text, const 
                     .enabled = [&desk, step] { return next_event(desk.workspace.document, step).has_value(); }});
 }
 
+void add_removing(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  desk.actions.add({.id = "mark.remove",
+                    .menu = kMenu,
+                    .text = "Remove the chosen mark",
+                    .keys = {},
+                    .tip = "The mark or bad interval that was clicked on a timeline; Delete does it too",
+                    .run = [&workspace] { remove_mark(workspace); },
+                    .enabled = [&workspace] { return workspace.mark().has_value(); }});
+  desk.actions.add(
+      {.id = "good.interval",
+       .menu = kMenu,
+       .text = "Mark the interval good",
+       .keys = {},
+       .tip = "Pings of the interval that was marked on a timeline (Shift and dragging) take part in measures "
+              "again",
+       .run =
+           [&workspace] {
+             const auto interval = workspace.marked_interval();
+             if (!interval) return;
+             mark_good(workspace.document, *interval);
+             workspace.marked_interval.set(std::nullopt);
+           },
+       .enabled = [&workspace] { return workspace.marked_interval().has_value(); }});
+}
+
 }  // namespace
+
+void remove_mark(Workspace& workspace) {
+  const auto chosen = workspace.mark();
+  if (!chosen) return;
+  workspace.mark.set(std::nullopt);
+  // Done on any ping of the observation: the act says something about times.
+  if (const auto* event = std::get_if<EventCommand>(&chosen->what)) {
+    return workspace.document.act(chosen->observation, 0, RemoveEventCommand{*event});
+  }
+  const auto& bad = std::get<BadPingsCommand>(chosen->what);
+  workspace.document.act(chosen->observation, 0, GoodPingsCommand{bad.first, bad.last});
+}
+
+std::string mark_text(const Workspace& workspace) {
+  if (!workspace.mark()) return {};
+  if (const auto* event = std::get_if<EventCommand>(&workspace.mark()->what)) return "Remove mark " + event->kind;
+  return "Remove bad interval";
+}
 
 void add_timeline_actions(Desk& desk) {
   add_event(desk, "trawl", "T");
@@ -115,6 +171,7 @@ void add_timeline_actions(Desk& desk) {
                           desk.workspace.marked_interval.set(std::nullopt);
                         },
                     .enabled = [&desk] { return desk.workspace.marked_interval().has_value(); }});
+  add_removing(desk);
 }
 
 }  // namespace sonar

@@ -20,6 +20,18 @@ void look_at_ping(Document& document, std::size_t observation, std::int64_t ping
   document.look_at(ping);
 }
 
+constexpr double kWheelStep = 1.25;           ///< of one notch
+constexpr TimeNs kShortest = 10 * kSecondNs;  ///< that fills a timeline: a few pings
+constexpr double kMarkReach_px = 6.0;
+
+/// Bad pings are shaded up to the next one.
+TimeNs bad_until(const OpenObservation& observation, const BadPingsCommand& bad) {
+  const auto& times = observation.ground().times;
+  const auto after = std::upper_bound(times.begin(), times.end(), bad.last);
+  return after == times.end() ? shown_time(observation, bad.last) + 1
+                              : observation.files().navigation[static_cast<std::size_t>(after - times.begin())].time;
+}
+
 }  // namespace
 
 double TimelinePlaces::x_of(TimeNs time) const {
@@ -39,6 +51,7 @@ TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> ec
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), [this] { update(); });
   listening_.to(workspace.marked_interval.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.mark.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(echograms_->changed(), [this] {
     // Nobody looks: what is being filled may rest.
@@ -54,12 +67,14 @@ void TimelineModel::hear(DocumentChange change) {
     case DocumentChange::survey:
       places_.reset();
       marking_from_.reset();
+      shown_.reset();
+      pan_.reset();
       workspace_.marked_interval.set(std::nullopt);
       return update();
     case DocumentChange::observation:
-      if (of_ == TimelineOf::observation) places_.reset();
-      return update();
+      return observation_changed();
     case DocumentChange::ping:
+      follow_ping();
       return changed().tell();  // the playhead is an overlay
     case DocumentChange::state:
     case DocumentChange::measures:
@@ -69,6 +84,18 @@ void TimelineModel::hear(DocumentChange change) {
     case DocumentChange::notice:
       return;
   }
+}
+
+void TimelineModel::observation_changed() {
+  const auto& shown = workspace_.document.shown();
+  const auto identity = shown ? shown->identity() : nullptr;
+  if (of_ == TimelineOf::observation && shown_of_.lock() != identity) {
+    places_.reset();
+    shown_.reset();
+    pan_.reset();
+  }
+  shown_of_ = identity;
+  update();
 }
 
 std::vector<std::size_t> TimelineModel::observations() const {
@@ -107,6 +134,7 @@ LivePicture::Build TimelineModel::build() {
   }
   echograms_->want(this, std::move(fill));
   wish.dark = workspace_.dark();
+  wish.shown = shown_;
   return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
@@ -153,42 +181,124 @@ void TimelineModel::mark(const SurveyPlace& from, const SurveyPlace& to) {
       MarkedInterval{from.observation, std::min(from.ping, last), std::max(from.ping, last)});
 }
 
+void TimelineModel::go_to(const SurveyPlace& there) {
+  const auto& shown = workspace_.document.shown();
+  if (shown->index() == there.observation && workspace_.document.ping() == there.ping) return;
+  look_at_ping(workspace_.document, there.observation, there.ping);
+}
+
+void TimelineModel::press(const PointerEvent& event, const SurveyPlace& there) {
+  if (event.button == PointerButton::middle) {
+    pan_ = Pan{event.at.x, part()};
+    return;
+  }
+  if (event.button != PointerButton::left) return;
+  if (event.shift) {
+    marking_from_ = there;
+    return mark(there, there);
+  }
+  scrubbing_ = true;
+  workspace_.marked_interval.set(std::nullopt);
+  workspace_.mark.set(mark_at(event.at));
+  go_to(there);
+}
+
 void TimelineModel::pointer(const PointerEvent& event) {
   const auto there = ping_at(event.at);
   if (!there) return;
-  const auto go = [&] {
-    const auto& shown = workspace_.document.shown();
-    if (shown->index() == there->observation && workspace_.document.ping() == there->ping) return;
-    look_at_ping(workspace_.document, there->observation, there->ping);
-  };
   switch (event.action) {
     case PointerAction::press:
-      if (event.button != PointerButton::left) return;
-      if (event.shift) {
-        marking_from_ = *there;
-        return mark(*there, *there);
-      }
-      scrubbing_ = true;
-      workspace_.marked_interval.set(std::nullopt);
-      return go();
+      return press(event, *there);
     case PointerAction::move:
+      if (event.button == PointerButton::middle) return pan_to(event.at.x);
       if (event.button != PointerButton::left) {
         scrubbing_ = false;
         marking_from_.reset();
+        pan_.reset();
         return;
       }
       if (marking_from_) return mark(*marking_from_, *there);
-      if (scrubbing_) go();
+      if (scrubbing_) go_to(*there);
       return;
     case PointerAction::release:
       scrubbing_ = false;
       marking_from_.reset();
+      pan_.reset();
       return;
-    case PointerAction::double_press:
     case PointerAction::wheel:
+      return zoom(event.at.x, std::pow(kWheelStep, event.wheel_steps));
+    case PointerAction::double_press:
+      return show_all();
     case PointerAction::leave:
       return;
   }
+}
+
+void TimelineModel::show_all() {
+  pan_.reset();
+  if (!shown_) return;
+  shown_.reset();
+  update();
+}
+
+void TimelineModel::show_part(TimeNs first, TimeNs length) {
+  const TimelineInterval& all = places_->all;
+  if (length >= all.last - all.first) return show_all();
+  first = std::clamp(first, all.first, all.last - length);
+  const TimelineInterval to{first, first + length};
+  if (shown_ == to) return;
+  shown_ = to;
+  update();
+}
+
+void TimelineModel::zoom(double x_px, double factor) {
+  if (!places_) return;
+  const TimelineInterval now = part();
+  const auto length = static_cast<double>(now.last - now.first);
+  const double share = std::clamp((x_px - places_->plot.place.x) / places_->plot.place.width, 0.0, 1.0);
+  const double to = std::max(length / factor, static_cast<double>(kShortest));
+  if (to >= length && factor > 1.0) return;
+  show_part(now.first + static_cast<TimeNs>(share * (length - to)), static_cast<TimeNs>(to));
+}
+
+void TimelineModel::pan_to(double x_px) {
+  if (!pan_ || !places_ || !shown_) return;
+  const TimeNs length = pan_->part.last - pan_->part.first;
+  const double share = (pan_->x - x_px) / places_->plot.place.width;
+  show_part(pan_->part.first + static_cast<TimeNs>(share * static_cast<double>(length)), length);
+}
+
+/// A ping that is looked at from elsewhere comes into sight.
+void TimelineModel::follow_ping() {
+  const auto& shown = workspace_.document.shown();
+  if (!shown_ || !places_ || !shown) return;
+  const TimeNs time = shown->files().navigation[static_cast<std::size_t>(workspace_.document.ping())].time;
+  if (time >= shown_->first && time <= shown_->last) return;
+  const TimeNs length = shown_->last - shown_->first;
+  show_part(time - length / 2, length);
+}
+
+std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
+  if (!places_ || !workspace_.document.shown()) return std::nullopt;
+  std::optional<ChosenMark> found;
+  double best = kMarkReach_px;
+  const TimeNs time = places_->time_at(at.x);
+  for (const std::size_t index : observations()) {
+    const auto open = workspace_.document.open_observation(index);
+    if (!open) continue;
+    const JournalState& state = workspace_.document.state(index);
+    for (const EventCommand& event : state.events) {
+      const double away = std::abs(places_->x_of(shown_time(*open, event.time)) - at.x);
+      if (away > best) continue;
+      best = away;
+      found = ChosenMark{index, event};
+    }
+    if (found) continue;
+    for (const BadPingsCommand& bad : state.bad_pings) {
+      if (time >= shown_time(*open, bad.first) && time < bad_until(*open, bad)) found = ChosenMark{index, bad};
+    }
+  }
+  return found;
 }
 
 std::vector<Overlay> TimelineModel::overlays() const {
@@ -199,22 +309,40 @@ std::vector<Overlay> TimelineModel::overlays() const {
   const auto& observations = shown->survey().observations;
   const auto x_of = [&](std::size_t observation, std::int64_t ping) {
     const auto& pings = observations[observation].navigation;
-    const double x = places_->x_of(pings[static_cast<std::size_t>(ping)].time);
-    return std::clamp(x, place.x, place.x + place.width);
+    return places_->x_of(pings[static_cast<std::size_t>(ping)].time);
   };
   const double bottom = place.y + place.height;
+  const auto box = [&](double from, double to) {
+    from = std::max(from, place.x);
+    to = std::min(to, place.x + place.width);
+    if (to < from) return;
+    Overlay lines;
+    lines.line = {{from, place.y}, {to, place.y}, {to, bottom}, {from, bottom}, {from, place.y}};
+    out.push_back(std::move(lines));
+  };
   const double now = x_of(shown->index(), workspace_.document.ping());
-  Overlay playhead;
-  playhead.line = {{now, place.y}, {now, bottom}};
-  out.push_back(std::move(playhead));
+  if (now >= place.x - 0.5 && now <= place.x + place.width + 0.5) {
+    Overlay playhead;
+    playhead.line = {{now, place.y}, {now, bottom}};
+    out.push_back(std::move(playhead));
+  }
   const auto& marked = workspace_.marked_interval();
   if (marked && marked->observation < observations.size() &&
       (of_ == TimelineOf::survey || marked->observation == shown->index())) {
     const double from = x_of(marked->observation, marked->first_ping);
-    const double to = std::max(from + 2.0, x_of(marked->observation, marked->last_ping));
-    Overlay box;
-    box.line = {{from, place.y}, {to, place.y}, {to, bottom}, {from, bottom}, {from, place.y}};
-    out.push_back(std::move(box));
+    box(from, std::max(from + 2.0, x_of(marked->observation, marked->last_ping)));
+  }
+  const auto& chosen = workspace_.mark();
+  const auto open = chosen ? workspace_.document.open_observation(chosen->observation) : nullptr;
+  if (open && (of_ == TimelineOf::survey || chosen->observation == shown->index())) {
+    if (const auto* event = std::get_if<EventCommand>(&chosen->what)) {
+      const double x = places_->x_of(shown_time(*open, event->time));
+      box(x - 3.0, x + 3.0);
+    } else {
+      const auto& bad = std::get<BadPingsCommand>(chosen->what);
+      const double from = places_->x_of(shown_time(*open, bad.first));
+      box(from, std::max(from + 2.0, places_->x_of(bad_until(*open, bad))));
+    }
   }
   return out;
 }
@@ -231,6 +359,9 @@ std::string TimelineModel::hint(PixelPoint at) const {
   for (const EventCommand& event : workspace_.document.state(there->observation).events) {
     if (std::abs(places_->x_of(shown_time(*open, event.time)) - at.x) > 8.0) continue;
     text += fmt::format("\n{}{}{}", event.kind, event.text.empty() ? "" : ": ", event.text);
+  }
+  if (const auto found = mark_at(at); found && std::holds_alternative<BadPingsCommand>(found->what)) {
+    text += "\nbad: takes no part in measures";
   }
   return text;
 }

@@ -21,6 +21,7 @@ class TimelinePainter;
 struct TimelinePlaces {
   PlotFrame plot;
   TimeNs zero = 0;
+  TimelineInterval all;  ///< what the whole time axis shows
   [[nodiscard]] double x_of(TimeNs time) const;
   [[nodiscard]] TimeNs time_at(double x_px) const;
 };
@@ -35,7 +36,8 @@ struct SurveyPlace {
 enum class TimelineOf : std::uint8_t { survey, observation };
 
 /// Range against time: echogram as far as it is read, schools, events, bad intervals; the ping on show is a line over it. A
-/// click or dragging goes to a ping, Shift and dragging marks an interval.
+/// click or dragging goes to a ping and chooses a mark that lies there, Shift and dragging marks an interval; the wheel
+/// zooms about the pointer, dragging with the middle button pans, a double press shows everything.
 class TimelineModel : public LivePicture {
  public:
   /// echograms  may be shared with other timelines of the survey
@@ -51,6 +53,11 @@ class TimelineModel : public LivePicture {
   [[nodiscard]] const std::shared_ptr<const TimelinePlaces>& places() const { return places_; }
   /// The ping whose time lies nearest to a place of the picture.
   [[nodiscard]] std::optional<SurveyPlace> ping_at(PixelPoint at) const;
+  /// The event within reach of a place, else the bad interval that covers it.
+  [[nodiscard]] std::optional<ChosenMark> mark_at(PixelPoint at) const;
+  /// All of the time axis again.
+  void show_all();
+  [[nodiscard]] bool zoomed() const { return shown_.has_value(); }
 
  protected:
   [[nodiscard]] Build build() override;
@@ -58,7 +65,15 @@ class TimelineModel : public LivePicture {
 
  private:
   void hear(DocumentChange change);
+  void observation_changed();
   void mark(const SurveyPlace& from, const SurveyPlace& to);
+  void press(const PointerEvent& event, const SurveyPlace& there);
+  void go_to(const SurveyPlace& there);
+  void zoom(double x_px, double factor);
+  void pan_to(double x_px);
+  void show_part(TimeNs first, TimeNs length);
+  void follow_ping();
+  [[nodiscard]] TimelineInterval part() const { return shown_.value_or(places_->all); }
   [[nodiscard]] std::vector<std::size_t> observations() const;
 
   Workspace& workspace_;
@@ -66,6 +81,13 @@ class TimelineModel : public LivePicture {
   TimelineOf of_;
   std::optional<SurveyPlace> marking_from_;
   bool scrubbing_ = false;
+  struct Pan {
+    double x = 0.0;
+    TimelineInterval part;
+  };
+  std::optional<Pan> pan_;
+  std::optional<TimelineInterval> shown_;  ///< empty = all
+  std::weak_ptr<const int> shown_of_;      ///< identity of the observation on show
   std::shared_ptr<TimelinePainter> painter_;
   std::shared_ptr<const TimelinePlaces> places_;
   Listening listening_;  // the last member: it ends first

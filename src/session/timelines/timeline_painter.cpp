@@ -60,11 +60,13 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
   TimelineStyle style;
   style.by_school = true;
   style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
+  style.shown = wish.shown;
   auto frame = timeline(observations, style, size, theme);
   if (!frame) return pass_on(frame);
   const auto plot = timeline_plot(observations, style, size, theme);
   if (!plot) return pass_on(plot);
-  return Painted{std::move(*frame), std::make_shared<const TimelinePlaces>(TimelinePlaces{plot->plot, plot->zero})};
+  return Painted{std::move(*frame),
+                 std::make_shared<const TimelinePlaces>(TimelinePlaces{plot->plot, plot->zero, plot->all})};
 }
 
 }  // namespace sonar

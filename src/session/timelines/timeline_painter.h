@@ -23,6 +23,7 @@ struct TimelineWish {
   };
   std::shared_ptr<const SurveyFiles> survey;
   std::vector<Observation> observations;
+  std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   bool rejected = true;
   bool dark = false;
 };

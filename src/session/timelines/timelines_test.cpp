@@ -78,6 +78,89 @@ TEST(TimelineModel, ShiftAndDraggingMarksAnInterval) {
   EXPECT_EQ(maps.timeline.overlays().size(), 2U);
 }
 
+TEST(TimelineModel, TheWheelZoomsAboutThePointerTheMiddleButtonPansAndADoublePressShowsAll) {
+  TestMaps maps;
+  maps.see(maps.timeline, {900, 300});
+  const Document& document = maps.workspace.document;
+  const TimelineInterval all = maps.timeline.places()->all;
+  const PixelPoint at = place_of(maps.timeline, document, 0, 7);
+  maps.timeline.pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = 2.0});
+  maps.timeline.pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = 1.0});
+  maps.settle();
+  EXPECT_TRUE(maps.timeline.zoomed());
+  EXPECT_NEAR(place_of(maps.timeline, document, 0, 7).x, at.x, 0.01) << "the time under the pointer stays";
+  const auto span_s = [&] {
+    const PlotFrame& plot = maps.timeline.places()->plot;
+    return plot.x.last - plot.x.first;
+  };
+  const double whole_s = static_cast<double>(all.last - all.first) / 1e9;
+  EXPECT_NEAR(span_s(), std::max(10.0, whole_s / (1.25 * 1.25 * 1.25)), 0.01);
+
+  const double before = place_of(maps.timeline, document, 0, 7).x;
+  maps.timeline.pointer({.action = PointerAction::press, .button = PointerButton::middle, .at = at});
+  maps.timeline.pointer({.action = PointerAction::move, .button = PointerButton::middle, .at = {at.x + 5.0, at.y}});
+  maps.timeline.pointer({.action = PointerAction::release, .button = PointerButton::middle, .at = {at.x + 5.0, at.y}});
+  maps.settle();
+  EXPECT_NEAR(place_of(maps.timeline, document, 0, 7).x, before + 5.0, 0.01);
+  EXPECT_EQ(document.ping(), 0) << "panning looks nowhere";
+  // However far it is dragged, it stays on the survey's time.
+  for (const double far : {1e6, -1e6}) {
+    maps.timeline.pointer({.action = PointerAction::press, .button = PointerButton::middle, .at = at});
+    maps.timeline.pointer({.action = PointerAction::move, .button = PointerButton::middle, .at = {at.x + far, at.y}});
+    maps.settle();
+    const PlotFrame& plot = maps.timeline.places()->plot;
+    EXPECT_NEAR(far > 0.0 ? plot.x.first : plot.x.last, far > 0.0 ? 0.0 : whole_s, 1e-6);
+  }
+  // What is looked at from elsewhere comes into sight.
+  maps.workspace.document.look_at(0);
+  maps.settle();
+  maps.workspace.document.look_at(11);
+  maps.settle();
+  const double last_x = place_of(maps.timeline, document, 0, 11).x;
+  const PixelRect& place = maps.timeline.places()->plot.place;
+  EXPECT_TRUE(last_x > place.x && last_x <= place.x + place.width + 0.5);
+
+  maps.timeline.pointer({.action = PointerAction::double_press, .button = PointerButton::left, .at = at});
+  maps.settle();
+  EXPECT_FALSE(maps.timeline.zoomed());
+  EXPECT_NEAR(place_of(maps.timeline, document, 0, 7).x, at.x, 0.01);
+  for (int i = 0; i < 60; ++i) {
+    maps.timeline.pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = 1.0});
+  }
+  maps.settle();
+  EXPECT_NEAR(span_s(), 10.0, 0.01);
+  for (int i = 0; i < 60; ++i) {
+    maps.timeline.pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = -1.0});
+  }
+  EXPECT_FALSE(maps.timeline.zoomed());
+}
+
+TEST(TimelineModel, AClickChoosesTheMarkThatLiesThere) {
+  TestMaps maps;
+  Document& document = maps.workspace.document;
+  const auto& times = document.shown()->ground().times;
+  const EventCommand trawl{"trawl", times[3], "haul 1"};
+  const BadPingsCommand bad{times[6], times[8]};
+  document.act(3, trawl);
+  document.act(6, bad);
+  maps.see(maps.timeline);
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 3));
+  EXPECT_EQ(maps.workspace.mark(), (ChosenMark{0, trawl}));
+  EXPECT_EQ(maps.timeline.overlays().size(), 2U);
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 7));
+  EXPECT_EQ(maps.workspace.mark(), (ChosenMark{0, bad}));
+  maps.workspace.school.set(SchoolName{0, 1});  // Delete is about the school again
+  EXPECT_FALSE(maps.workspace.mark());
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 7));
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 10));
+  EXPECT_FALSE(maps.workspace.mark()) << "nothing lies there";
+  TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 3));
+  document.undo();
+  document.undo();
+  maps.settle();
+  EXPECT_FALSE(maps.workspace.mark()) << "it is gone";
+}
+
 /// A desk with the actions of timelines, over a survey and its journal.
 class TimelineActions : public testing::Test {
  protected:
@@ -145,6 +228,39 @@ TEST_F(TimelineActions, PingsOfABadIntervalTakeNoPartInMeasuresUntilItIsUndone) 
   document().undo();
   document().settle();
   EXPECT_EQ(document().product(0)->school_pings.size(), before->school_pings.size());
+}
+
+TEST_F(TimelineActions, DeleteTakesTheChosenMarkAwayAndUndoBringsItBack) {
+  document().look_at(6);
+  document().settle();
+  ask("event.trawl");
+  ask("bad.ping");
+  const auto state = [&]() -> const JournalState& { return document().state(); };
+  desk_->workspace.mark.set(ChosenMark{0, state().events.at(0)});
+  EXPECT_EQ(desk_->actions.find("school.delete")->text_now(), "Remove mark trawl");
+  ask("school.delete");
+  EXPECT_FALSE(desk_->workspace.mark());
+  EXPECT_TRUE(state().events.empty());
+  EXPECT_EQ(document().choices().undo_text, "Undo remove mark trawl");
+  desk_->workspace.mark.set(ChosenMark{0, state().bad_pings.at(0)});
+  ask("mark.remove");
+  EXPECT_TRUE(state().bad_pings.empty());
+  EXPECT_EQ(document().choices().undo_text, "Undo mark good ping");
+  reopen();
+  EXPECT_TRUE(state().events.empty() && state().bad_pings.empty()) << "it stands in the journal";
+  document().undo();
+  document().undo();
+  document().settle();
+  EXPECT_EQ(state().events.size(), 1U);
+  EXPECT_EQ(state().bad_pings.size(), 1U);
+  // Of an interval a part can be made good.
+  desk_->workspace.marked_interval.set(MarkedInterval{0, 2, 6});
+  ask("bad.interval");
+  desk_->workspace.marked_interval.set(MarkedInterval{0, 4, 6});
+  ask("good.interval");
+  const auto& times = document().shown()->ground().times;
+  EXPECT_TRUE(is_bad(state(), times[3]));
+  for (const std::size_t ping : {1U, 4U, 6U, 7U}) EXPECT_FALSE(is_bad(state(), times[ping])) << ping;
 }
 
 TEST_F(TimelineActions, ABadPingIsTheOneOnShow) {

@@ -71,6 +71,12 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
   }
   FilteredPing ping;
   ping.volume = trial.ping->filtered;
+  if (trial.observation->recalibrated()) {
+    // What is tried is what the act will do, and that stands on the calibration of the choices.
+    auto of_choices = ground.ping(trial.ping->ping_index);
+    if (!of_choices) return pass_on(of_choices);
+    ping.volume = of_choices->volume;
+  }
   ping.taken = taken_by_others(trial, school);
   auto grown = grow_seeds(ground, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
   if (!grown) return grown;

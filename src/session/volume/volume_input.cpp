@@ -32,11 +32,6 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
   }
 }
 
-std::string title_of(const ObservationFiles& files) {
-  const bool synthetic = files.config.survey_name.find("SYNTHETIC") != std::string::npos;
-  return synthetic ? files.name + " SYNTHETIC" : files.name;
-}
-
 void set_options(PictureOptions& options, const DisplayParams& display, const VolumeParams& volume) {
   options.scale = display.scale;
   options.filtered = display.filtered;
@@ -69,7 +64,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.staged = document.staged();
   input.sector = std::shared_ptr<const Sector>(shown, &shown->sector());
   input.navigation = shown->files().navigation[static_cast<std::size_t>(input.staged->ping_index)];
-  input.title = title_of(shown->files());
+  input.title = shown->title();
   input.title_line = fmt::format("{}   ping {}", input.title, input.staged->ping_index);
   set_options(input.options, workspace.display.values(), workspace.volume.values());
   input.options.size = size;

@@ -60,11 +60,17 @@ VolumeModel::~VolumeModel() {
 void VolumeModel::hear(DocumentChange change) {
   switch (change) {
     case DocumentChange::survey:
-    case DocumentChange::observation:
+    case DocumentChange::observation: {
+      const auto& observation = workspace_.document.shown();
+      const auto identity = observation ? observation->identity() : nullptr;
+      // One more observation is open, or another calibration chosen: the camera stays.
+      if (change == DocumentChange::observation && identity == of_.lock()) return update();
+      of_ = identity;
       camera_.reset();
       drag_.reset();
       shown_.reset();
       return update();
+    }
     case DocumentChange::ping:
     case DocumentChange::propagating:
     case DocumentChange::state:

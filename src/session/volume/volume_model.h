@@ -73,6 +73,7 @@ class VolumeModel : public LivePicture {
   void press_voxel(const PointerEvent& event, bool double_press);
 
   Workspace& workspace_;
+  std::weak_ptr<const int> of_;   ///< identity of the observation on show
   std::optional<Camera> camera_;  ///< empty = the overview
   std::optional<Drag> drag_;
   std::shared_ptr<LiveVolume> live_;
