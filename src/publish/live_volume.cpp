@@ -155,7 +155,7 @@ void LiveVolume::State::draw_context(const VolumeFigure& figure, const LiveVolum
                        navigation.transducer_depth_m,
                        heading};
   if (context_key == key && drawn.sector == input.sector) return;
-  context = volume_context(figure, input.options, place, camera, std::nullopt, first);
+  context = volume_context(figure, input.options, place, camera, first);
   context_key = key;
 }
 

@@ -24,14 +24,37 @@ std::string time_text(TimeNs time) {
   return text + "UTC";
 }
 
-/// How the picture was made, for its second line.
-std::string view_line(const PictureOptions& options, bool data_too) {
-  if (!data_too) return "masks of schools";
-  std::string line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
-  if (options.mode == RayMode::accumulate) line += ", accumulated";
-  if (options.mode == RayMode::maximum) line += ", maximum along each ray";
-  if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
-  return options.lighting ? line + ", lit" : line;
+/// How the picture was made and what its bearings start from, for its second line.
+std::string view_line(const VolumeFigure& figure, const PictureOptions& options, bool data_too) {
+  std::string line = "masks of schools";
+  if (data_too) {
+    line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
+    if (options.mode == RayMode::accumulate) line += ", accumulated";
+    if (options.mode == RayMode::maximum) line += ", maximum along each ray";
+    if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
+    if (options.lighting) line += ", lit";
+  }
+  if (!options.context) return line;
+  return line + (std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings");
+}
+
+/// Sv above, the seabed's depths below it; where only one is drawn it takes all the room.
+void add_colour_bars(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
+                     const VolumePlace& place, bool data_too) {
+  const Theme& theme = place.theme;
+  const auto depths = figure.seabed ? depth_span(*figure.seabed) : std::nullopt;
+  PixelRect above = place.layout.colour_bar;
+  PixelRect below = above;
+  if (data_too && depths) {
+    // Room for the threshold's figure, which stands under the Sv bar.
+    const double gap = 4.2 * theme.text_px;
+    above.height = std::max(8.0, std::round(0.55 * (above.height - gap)));
+    below.y = above.y + above.height + gap;
+    below.height = std::max(8.0, below.height - above.height - gap);
+  }
+  if (data_too) add_colour_bar(frame, above, colours_of(options), theme);
+  if (depths)
+    add_colour_bar(frame, below, seabed_colours(), depths->first, depths->second, theme, "seabed depth (m)", true);
 }
 
 /// Which colour is which school, in the lower left corner.
@@ -105,12 +128,12 @@ ContextParams volume_surroundings(const PingNavigation& navigation, const Pictur
 }
 
 ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
-                              const Camera& camera, const std::optional<SeabedPatch>& seabed, Work& work) {
+                              const Camera& camera, Work& work) {
   const ContextParams params = volume_surroundings(figure.navigation, options);
   Theme theme = place.theme;
   theme.line_px *= place.scale;
   theme.text_px *= place.scale;
-  return draw_context(context_scene(figure.sector(), params, theme, seabed), camera, place.rays, theme.plot,
+  return draw_context(context_scene(figure.sector(), params, theme, figure.seabed), camera, place.rays, theme.plot,
                       -params.transducer_depth_m, work);
 }
 
@@ -137,8 +160,10 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
   FrameDescription labels{size, theme.background, {}, {}};
   if (options.context) {
+    OpaqueView opaque{view.size, {}};
+    if (view.opaque_m) opaque.metres = *view.opaque_m;
     add_context_labels(labels, figure.sector(), volume_surroundings(figure.navigation, options),
-                       basis(view.camera, size), theme);
+                       basis(view.camera, size), theme, opaque);
   }
   for (auto& item : labels.items) {
     if (auto* text = std::get_if<TextItem>(&item)) {
@@ -148,8 +173,8 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
     }
   }
   add_school_legend(frame, figure, options, place.rect, theme);
-  if (view.masks.data_too) add_colour_bar(frame, place.layout.colour_bar, colours_of(options), theme);
-  add_title(frame, place.layout, theme, {figure.title_line, view_line(options, view.masks.data_too)},
+  add_colour_bars(frame, figure, options, place, view.masks.data_too);
+  add_title(frame, place.layout, theme, {figure.title_line, view_line(figure, options, view.masks.data_too)},
             time_text(figure.navigation.time));
   return frame;
 }

@@ -25,8 +25,9 @@ struct VolumeFigure {
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   PingNavigation navigation;
   std::string title;
-  std::string title_line;  ///< of the picture; the title with the ping
-  bool samples = true;     ///< false: the masks alone are known
+  std::string title_line;               ///< of the picture; the title with the ping
+  bool samples = true;                  ///< false: the masks alone are known
+  std::optional<SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };
@@ -56,12 +57,11 @@ struct VolumePlace {
 /// What stands round the volume, and how it is labelled.
 [[nodiscard]] ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options);
 [[nodiscard]] ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options,
-                                            const VolumePlace& place, const Camera& camera,
-                                            const std::optional<SeabedPatch>& seabed, Work& work);
+                                            const VolumePlace& place, const Camera& camera, Work& work);
 [[nodiscard]] VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options,
                                      const VolumePlace& place, const Camera& camera, const ContextPicture& context);
 
-/// The whole picture: title, what stands behind and before the volume, its rays, labels, legend, colour bar.
+/// The whole picture: title, what stands behind and before the volume, its rays, labels, legend, colour bars.
 [[nodiscard]] FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOptions& options,
                                                    const VolumePlace& place, const VolumeView& view,
                                                    const ContextPicture& context, const RayImage& rays, Work& work);

@@ -107,14 +107,15 @@ Result<SeabedPatch> seabed_patch(const DepthGrid& grid, const Placement& ship, d
 }
 
 Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& options, Work& work) {
-  const auto figure = prepare(observation, options, work);
+  auto figure = prepare(observation, options, work);
   if (!figure) return pass_on(figure);
   const auto place = volume_place(options);
   if (!place) return pass_on(place);
-  const auto patch = seabed(*figure, options);
+  auto patch = seabed(*figure, options);
   if (!patch) return pass_on(patch);
+  figure->seabed = std::move(*patch);
   const Camera camera = volume_camera(figure->sector(), options, place->rays);
-  const ContextPicture context = volume_context(*figure, options, *place, camera, *patch, work);
+  const ContextPicture context = volume_context(*figure, options, *place, camera, work);
   const VolumeView view = volume_view(*figure, options, *place, camera, context);
   const auto rays = traced(*figure, view, options, work);
   if (!rays) return pass_on(rays);

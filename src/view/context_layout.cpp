@@ -15,6 +15,18 @@ double far_range_m(const Sector& sector) {
   return std::max(1.0, sector.range().range_m(std::max(0, sector.range().count - 1)));
 }
 
+namespace {
+
+/// As far as the sector reaches from the sonar's vertical, m.
+double reach_sideways_m(const Sector& sector) {
+  const double lowest = sector.elevation_rad(0);
+  const double highest = sector.elevation_rad(sector.fans() - 1);
+  const double flattest = std::clamp(0.0, lowest, highest);
+  return std::max(1.0, far_range_m(sector) * std::cos(flattest));
+}
+
+}  // namespace
+
 std::vector<double> even_angles(double first_rad, double last_rad) {
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(last_rad - first_rad) / rad_from_deg(1.5))));
   std::vector<double> out;
@@ -27,13 +39,13 @@ Point<Sonar> on_surface(double distance_m, double azimuth_rad, double z_m) {
 }
 
 SurfaceGrid surface_grid(const Sector& sector, const ContextParams& params) {
-  const double far_m = far_range_m(sector);
   SurfaceGrid out;
+  out.edge_m = reach_sideways_m(sector);
   double spacing = params.ring_spacing_m;
   // A spacing that would draw hundreds of rings is a slip of the hand.
-  if (!(spacing > far_m / 50.0)) spacing = nice_ticks(0.0, far_m, 6).step;
-  for (double radius = spacing; radius <= far_m * 1.0001; radius += spacing) out.radii_m.push_back(radius);
-  if (out.radii_m.empty()) out.radii_m.push_back(far_m);
+  if (!(spacing > out.edge_m / 50.0)) spacing = nice_ticks(0.0, out.edge_m, 6).step;
+  for (double radius = spacing; radius <= out.edge_m * 1.0001; radius += spacing) out.radii_m.push_back(radius);
+  if (out.radii_m.empty()) out.radii_m.push_back(out.edge_m);
   out.first_azimuth_rad = sector.azimuth_rad(0);
   out.last_azimuth_rad = sector.azimuth_rad(sector.beams() - 1);
   const double heading = params.heading_deg.value_or(0.0);
@@ -47,11 +59,9 @@ SurfaceGrid surface_grid(const Sector& sector, const ContextParams& params) {
 }
 
 std::string bearing_text(double azimuth_rad, const ContextParams& params) {
-  if (params.heading_deg) {
-    // Rounded before wrapping: 359.99 is 000, not 360.
-    return fmt::format("{:03.0f}\u00B0", wrap_360(std::round(deg_from_rad(azimuth_rad) + *params.heading_deg)));
-  }
-  return fmt::format("{:+.0f}\u00B0 bow", wrap_180(std::round(deg_from_rad(azimuth_rad))));
+  // Rounded before wrapping: 359.99 is 000, not 360.
+  return fmt::format("{:03.0f}\u00B0",
+                     wrap_360(std::round(deg_from_rad(azimuth_rad) + params.heading_deg.value_or(0.0))));
 }
 
 DepthAxis depth_axis(const Sector& sector, const ContextParams& params) {
@@ -70,15 +80,17 @@ DepthAxis depth_axis(const Sector& sector, const ContextParams& params) {
   return out;
 }
 
-std::pair<double, double> depth_span(const SeabedPatch& bed) {
+std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed) {
   double low = 1e300;
   double high = -1e300;
   for (const float depth : bed.depth_m) {
-    if (std::isnan(depth)) continue;
+    if (!(depth > 0.0F)) continue;  // land and what is not known
     low = std::min(low, static_cast<double>(depth));
     high = std::max(high, static_cast<double>(depth));
   }
-  return low <= high ? std::pair{low, high} : std::pair{0.0, 0.0};
+  if (low > high) return std::nullopt;
+  const double spare = std::max(0.0, 1.0 - (high - low)) / 2;
+  return std::pair{low - spare, high + spare};
 }
 
 }  // namespace sonar

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "view/context_scene.h"
@@ -20,13 +19,14 @@ namespace sonar {
 
 /// Rings and bearings as drawn on the sea surface.
 struct SurfaceGrid {
-  std::vector<double> radii_m;  ///< rising, at least one
+  double edge_m = 1.0;          ///< where the sector ends, as far as it reaches sideways
+  std::vector<double> radii_m;  ///< rising, at least one, none beyond the edge
   double first_azimuth_rad = 0.0;
   double last_azimuth_rad = 0.0;
   std::vector<double> azimuths_rad;  ///< of the bearing lines; whole tens of degrees as they are labelled
 };
 [[nodiscard]] SurfaceGrid surface_grid(const Sector& sector, const ContextParams& params);
-/// "283°", or "-77° bow" where the heading is not known.
+/// "283°": from true north where the heading is known, else from the bow; clockwise.
 [[nodiscard]] std::string bearing_text(double azimuth_rad, const ContextParams& params);
 
 /// A depth scale at the sector's far aft edge, from the sea surface to the sector's deepest place.
@@ -37,8 +37,5 @@ struct DepthAxis {
   std::vector<double> depths_m;  ///< of the ticks, below the sea surface
 };
 [[nodiscard]] DepthAxis depth_axis(const Sector& sector, const ContextParams& params);
-
-/// Smallest and largest known depth; equal where there is none.
-[[nodiscard]] std::pair<double, double> depth_span(const SeabedPatch& bed);
 
 }  // namespace sonar

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/context_scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
-#include "base/units.h"
-#include "view/axes.h"
 #include "view/colour_map.h"
 #include "view/context_layout.h"
 
@@ -72,7 +68,7 @@ void add_rings(ContextScene& scene, const Sector& sector, const ContextParams& p
   }
   for (const double azimuth : grid.azimuths_rad) {
     scene.lines.push_back(
-        {on_surface(0.0, azimuth, z), on_surface(grid.radii_m.back(), azimuth, z), theme.ring, theme.line_px});
+        {on_surface(0.0, azimuth, z), on_surface(grid.edge_m, azimuth, z), theme.ring, theme.line_px});
   }
 }
 
@@ -81,8 +77,8 @@ void add_sea(ContextScene& scene, const Sector& sector, const ContextParams& par
   const SurfaceGrid grid = surface_grid(sector, params);
   const std::vector<double> azimuths = even_angles(grid.first_azimuth_rad, grid.last_azimuth_rad);
   for (std::size_t i = 1; i < azimuths.size(); ++i) {
-    scene.translucent.push_back({{on_surface(0.0, 0.0, z), on_surface(grid.radii_m.back(), azimuths[i - 1], z),
-                                  on_surface(grid.radii_m.back(), azimuths[i], z)},
+    scene.translucent.push_back({{on_surface(0.0, 0.0, z), on_surface(grid.edge_m, azimuths[i - 1], z),
+                                  on_surface(grid.edge_m, azimuths[i], z)},
                                  {70, 130, 180, 34}});
   }
 }
@@ -96,9 +92,15 @@ void add_depth_axis(ContextScene& scene, const Sector& sector, const ContextPara
   }
 }
 
+/// Neither white nor black, so that light and shade still show; 0 = shallowest.
+Rgba8 seabed_colour(double share) {
+  return colour_map(ColourMapName::deep).at(0.15 + 0.6 * std::clamp(share, 0.0, 1.0));
+}
+
 void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_depth_m) {
-  const auto [low, high] = depth_span(bed);
-  const ColourMap& map = colour_map(ColourMapName::deep);
+  const auto span = depth_span(bed);
+  if (!span) return;
+  const auto [low, high] = *span;
   const auto node = [&](int ix, int iy) {
     const float depth =
         bed.depth_m[static_cast<std::size_t>(iy) * static_cast<std::size_t>(bed.nx) + static_cast<std::size_t>(ix)];
@@ -109,7 +111,7 @@ void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_d
     const double mean_depth = (c[0].z + c[1].z + c[2].z) / 3.0 + transducer_depth_m;
     // Land would hide the water that it stands beside.
     if (!(mean_depth > 0.0)) return;
-    scene.opaque.push_back({c, lit(map.at(high > low ? 0.15 + 0.6 * (mean_depth - low) / (high - low) : 0.4), c)});
+    scene.opaque.push_back({c, lit(seabed_colour((mean_depth - low) / (high - low)), c)});
   };
   for (int iy = 0; iy + 1 < bed.ny; ++iy) {
     for (int ix = 0; ix + 1 < bed.nx; ++ix) {
@@ -130,6 +132,14 @@ void add_ship(ContextScene& scene, const ContextParams& params) {
 
 }  // namespace
 
+ColourMap seabed_colours() {
+  constexpr int kKnots = 33;
+  const std::array<Point<Sonar>, 3> level{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
+  ColourMap out;
+  for (int i = 0; i < kKnots; ++i) out.knots.push_back(lit(seabed_colour(i / (kKnots - 1.0)), level));
+  return out;
+}
+
 ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
                            const std::optional<SeabedPatch>& seabed) {
   ContextScene scene;
@@ -140,37 +150,6 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (params.ship) add_ship(scene, params);
   if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m);
   return scene;
-}
-
-void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,
-                        const CameraBasis& camera, const Theme& theme) {
-  const auto label = [&](const Point<Sonar>& at, std::string text, TextAnchor anchor) {
-    const auto seen = camera.project(at);
-    if (!seen || seen->pixel.x < 0 || seen->pixel.y < 0 || seen->pixel.x > frame.size.width ||
-        seen->pixel.y > frame.size.height)
-      return;
-    frame.items.emplace_back(
-        TextItem{seen->pixel, std::move(text), theme.text_px, theme.text, anchor, 0.0, false, theme.halo});
-  };
-  const double z = -params.transducer_depth_m;
-  if (params.range_rings) {
-    const SurfaceGrid grid = surface_grid(sector, params);
-    for (const double radius : grid.radii_m) {
-      label(on_surface(radius, grid.first_azimuth_rad - 0.03, z), fmt::format("{:g} m", radius), TextAnchor::centre);
-    }
-    for (const double azimuth : grid.azimuths_rad) {
-      // The rings' own labels stand along the first edge.
-      if (azimuth < grid.first_azimuth_rad + rad_from_deg(8.0)) continue;
-      label(on_surface(grid.radii_m.back() * 1.05, azimuth, z), bearing_text(azimuth, params), TextAnchor::centre);
-    }
-  }
-  if (params.depth_axis) {
-    const DepthAxis axis = depth_axis(sector, params);
-    for (const double depth : axis.depths_m) {
-      const Point<Sonar> at{axis.top.x, axis.top.y, depth - params.transducer_depth_m};
-      label(at + axis.outwards * (0.05 * far_range_m(sector)), fmt::format("{:g} m", depth), TextAnchor::centre);
-    }
-  }
 }
 
 }  // namespace sonar

@@ -3,11 +3,14 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "geo/frames.h"
 #include "geo/sector.h"
 #include "view/camera.h"
+#include "view/colour_map.h"
 #include "view/frame_description.h"
 #include "view/theme.h"
 
@@ -54,7 +57,7 @@ struct ContextParams {
   double ring_spacing_m = 0.0;  ///< 0 = chosen by the range
   double ship_length_m = 60.0;
   double transducer_depth_m = 7.0;
-  std::optional<double> heading_deg;  ///< bearings are labelled true where it is known, else from the bow
+  std::optional<double> heading_deg;  ///< bearings are labelled from true north where it is known, else from the bow
 };
 
 [[nodiscard]] ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
@@ -63,8 +66,20 @@ struct ContextParams {
 /// Our own ship: hull, deck, superstructure and mast; waterline at z = 0, bow towards x, amidships at the origin.
 [[nodiscard]] std::vector<SceneTriangle> ship_mesh(double length_m);
 
-/// Labels of the rings, bearings and the depth axis, where the camera sees them.
+/// Colours of the seabed as its level parts are lit: 0 = its shallowest known depth, 1 = its deepest (see depth_span).
+[[nodiscard]] ColourMap seabed_colours();
+/// Smallest and largest depth of what lies below the sea, m, at least 1 m apart; empty where nothing does.
+[[nodiscard]] std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed);
+
+/// Where opaque things end rays: [height][width], metres along each pixel's ray; empty = nothing does.
+struct OpaqueView {
+  PixelSize size;
+  std::span<const float> metres;
+};
+
+/// Labels of the rings, bearings and the depth axis, where the camera sees them: each beside what it names, none on
+/// another, and off the lines where there is room. What has no room, or is hidden, is left out.
 void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,
-                        const CameraBasis& camera, const Theme& theme);
+                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque = {});
 
 }  // namespace sonar

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "base/units.h"
+#include "view/label_room.h"
+#include "view/plane_outline.h"
 #include "view/shapes.h"
 #include "view/slice_geometry.h"
 
@@ -33,6 +36,17 @@ class Context {
   Context(FrameDescription& frame, const SliceMap& map, PixelPoint corner, const Theme& theme)
       : frame_(&frame), map_(&map), corner_(corner), theme_(&theme) {}
 
+  /// The labels of all that was drawn before; none on another, none cut by the map's edge.
+  void words() {
+    LabelRoom room(
+        {corner_.x, corner_.y, static_cast<double>(map_->size().width), static_cast<double>(map_->size().height)});
+    for (TextItem& label : labels_) {
+      const PixelPoint at = label.at;
+      if (auto placed = room.place(std::move(label), std::span(&at, 1))) frame_->items.emplace_back(std::move(*placed));
+    }
+    labels_.clear();
+  }
+
   [[nodiscard]] PixelPoint pixel(PixelPoint slice) const {
     const PixelPoint p = map_->pixel_of(slice.x, slice.y);
     return {p.x + corner_.x, p.y + corner_.y};
@@ -44,6 +58,18 @@ class Context {
     for (int i = 0; i <= kArcSteps; ++i) points.push_back(arc_point(fan, i, fan.far_m));
     points.push_back(pixel({0.0, 0.0}));
     frame_->items.emplace_back(polyline_item(std::move(points), true, theme_->outline, theme_->line_px));
+  }
+
+  /// Lines in pixels of the map.
+  void outline(const std::vector<ContourLine>& lines) {
+    PathItem path;
+    path.stroke = {theme_->outline, theme_->line_px, {}};
+    for (const ContourLine& line : lines) {
+      PathItem::Part part{line.points, line.closed};
+      for (PixelPoint& p : part.points) p = {p.x + corner_.x, p.y + corner_.y};
+      path.parts.push_back(std::move(part));
+    }
+    frame_->items.emplace_back(std::move(path));
   }
 
   void rings(const Fan& fan) {
@@ -108,13 +134,14 @@ class Context {
   void label(PixelPoint at, std::string text) {
     TextItem item = text_item(at, std::move(text), 0.9 * em(), theme_->muted, TextAnchor::centre);
     item.halo = theme_->halo;
-    frame_->items.emplace_back(std::move(item));
+    labels_.push_back(std::move(item));
   }
 
   FrameDescription* frame_;
   const SliceMap* map_;
   PixelPoint corner_;
   const Theme* theme_;
+  std::vector<TextItem> labels_;  ///< drawn over all lines
 };
 
 double far_m(const Sector& sector) { return sector.range().range_m(sector.range().count - 0.5); }
@@ -133,20 +160,26 @@ Fan elevation_fan(const Sector& sector) {
           }};
 }
 
+/// Else they start from the bow, which then points up.
+bool true_bearings(const SlicePing& ping, const SliceStyle& style) {
+  return style.north_up && std::isfinite(ping.heading_rad);
+}
+
 void add_seen_from_above(Context& context, const Fan& fan, const SliceView& view, const SlicePing& ping,
                          const SliceStyle& style, bool outlined) {
-  const bool heading = std::isfinite(ping.heading_rad);
   if (style.rings) {
-    context.rays(fan, style.north_up && heading ? ping.heading_rad : 0.0, true);
+    context.rays(fan, true_bearings(ping, style) ? ping.heading_rad : 0.0, true);
     context.rings(fan);
     if (outlined) context.outline(fan);
+    context.words();
   }
   context.ship({0.0, 0.0}, -view.up_rad);
-  if (heading) context.north(-ping.heading_rad - view.up_rad);
+  if (std::isfinite(ping.heading_rad)) context.north(-ping.heading_rad - view.up_rad);
 }
 
 void add_plane_context(Context& context, const SliceMap& map, const PlaneSlice& plane, const SlicePing& ping,
                        const SliceStyle& style) {
+  if (style.rings) context.outline(plane_outline(map));
   if (plane.kind == PlaneSlice::Kind::vertical) {
     context.surface(-ping.transducer_depth_m - plane.origin.z);
     const double along = -(plane.origin.x * plane.right.x + plane.origin.y * plane.right.y);
@@ -163,16 +196,22 @@ void add_plane_context(Context& context, const SliceMap& map, const PlaneSlice& 
 
 std::string degrees(double rad, int decimals = 1) { return tick_text(deg_from_rad(rad), decimals) + "\u00B0"; }
 
-std::string plane_text(const PlaneSlice& plane, const SlicePing& ping) {
+/// What the bearings beside rings seen from above start from.
+std::string bearings_text(const SlicePing& ping, const SliceStyle& style) {
+  if (!style.rings) return {};
+  return true_bearings(ping, style) ? "; true bearings" : "; bearings from the bow";
+}
+
+std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const SliceStyle& style) {
   const double depth = plane.origin.z + ping.transducer_depth_m;
   if (plane.kind == PlaneSlice::Kind::horizontal)
-    return fmt::format("Horizontal plane, depth {} m", tick_text(depth, 1));
+    return fmt::format("Horizontal plane, depth {} m{}", tick_text(depth, 1), bearings_text(ping, style));
   if (plane.kind == PlaneSlice::Kind::vertical) {
     const double azimuth = std::atan2(plane.right.y, plane.right.x);
     if (!std::isfinite(ping.heading_rad)) {
       return fmt::format("Vertical plane, {:.1f}\u00B0 from the bow to the right", wrap_360(deg_from_rad(azimuth)));
     }
-    return fmt::format("Vertical plane, bearing {:.1f}\u00B0 to the right",
+    return fmt::format("Vertical plane, true bearing {:.1f}\u00B0 to the right",
                        wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
   }
   return fmt::format("Oblique plane through {} m ahead, {} m to starboard, depth {} m", tick_text(plane.origin.x, 1),
@@ -196,6 +235,7 @@ void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint 
       context.rays(fan, 0.0, false);
       context.rings(fan);
       context.outline(fan);
+      context.words();
     }
     context.transducer({0.0, 0.0});
   } else if (const auto* plane = std::get_if<PlaneSlice>(&view.slice)) {
@@ -203,26 +243,26 @@ void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint 
   }
 }
 
-std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping) {
+std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping, const SliceStyle& style) {
   if (const auto* top = std::get_if<TopSlice>(&view.slice)) {
     std::string out = fmt::format("Top: fan {}, elevation {}", top->fan, degrees(sector.elevation_rad(top->fan)));
     if (ping.frequency_hz.size() == static_cast<std::size_t>(sector.fans())) {
       out += fmt::format(", {:.1f} kHz", ping.frequency_hz[static_cast<std::size_t>(top->fan)] / 1000.0);
     }
-    return out;
+    return out + bearings_text(ping, style);
   }
   if (const auto* side = std::get_if<SideSlice>(&view.slice)) {
     const double azimuth = sector.azimuth_rad(side->beam);
     std::string out =
         fmt::format("Side: beam {}, {:.1f}\u00B0 from the bow", side->beam, wrap_360(deg_from_rad(azimuth)));
     if (std::isfinite(ping.heading_rad))
-      out += fmt::format(", bearing {:.1f}\u00B0", wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
+      out += fmt::format(", true bearing {:.1f}\u00B0", wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
     return out;
   }
   if (const auto* range = std::get_if<RangeSlice>(&view.slice)) {
     return fmt::format("Constant range {:.1f} m, sample {}", sector.range().range_m(range->sample), range->sample);
   }
-  return plane_text(std::get<PlaneSlice>(view.slice), ping);
+  return plane_text(std::get<PlaneSlice>(view.slice), ping, style);
 }
 
 }  // namespace sonar

@@ -10,7 +10,9 @@ namespace sonar {
 void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint corner, const SlicePing& ping,
                        const SliceStyle& style, const Theme& theme);
 
-/// One line on where the slice lies: "Top: fan 7 of 20, elevation -13.5 deg, 85.2 kHz".
-[[nodiscard]] std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping);
+/// One line on where the slice lies, and what the bearings along its edge start from: "Top: fan 7, elevation -13.5 deg,
+/// 85.2 kHz; bearings from the bow".
+[[nodiscard]] std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping,
+                                     const SliceStyle& style);
 
 }  // namespace sonar

@@ -66,7 +66,7 @@ void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, c
   add_axes(out.frame, out.plot, theme, {style.grid, true});
   std::string first = ping.observation;
   if (ping.ping_index >= 0) first += fmt::format("{}ping {}", first.empty() ? "" : "   ", ping.ping_index);
-  add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping)},
+  add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping, style)},
             ping.time != 0 ? time_text(ping.time) : "");
   add_colour_bar(out.frame, layout.colour_bar, style.colours, theme);
 }
@@ -116,7 +116,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
 
   out.frame.size = size;
   out.frame.background = theme.background;
-  out.frame.title = slice_text(sector, view, ping);
+  out.frame.title = slice_text(sector, view, ping, style);
   out.frame.items.emplace_back(rectangle_item(layout.plot, theme.plot));
   out.frame.items.emplace_back(ImageItem{layout.plot, std::make_shared<const Image>(std::move(*image)), false});
   out.frame.items.emplace_back(ClipItem{layout.plot});

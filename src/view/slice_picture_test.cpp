@@ -16,6 +16,15 @@ using slice_example::hand_sector;
 using slice_example::LitVolume;
 
 constexpr PixelSize kSize{400, 400};
+
+std::vector<std::string> texts_of(const SlicePicture& picture) {
+  std::vector<std::string> texts;
+  for (const auto& item : picture.frame.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(text->text);
+  }
+  return texts;
+}
+
 const Voxel kLit{4, 3, 20};
 const SliceView kTop{TopSlice{4}};
 
@@ -242,15 +251,54 @@ TEST(SlicePicture, TitlesNameThePingAndTheSlice) {
   SlicePing ping{"obs-0001", 12, *time_from_iso("2026-11-21T19:57:26.123Z"), 0.0, 7.0, std::vector<double>(8, 75000.0)};
   const PixelSize size{800, 600};
   const auto top = slice_picture(sector, volume.data(), ping, kTop, {}, light_theme(size), size);
-  std::vector<std::string> texts;
-  for (const auto& item : top->frame.items) {
-    if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(text->text);
-  }
+  const std::vector<std::string> texts = texts_of(*top);
   for (const std::string expected :
-       {"obs-0001   ping 12", "2026-11-21 19:57:26.123 UTC", "Top: fan 4, elevation \u221230.0\u00B0, 75.0 kHz",
-        "starboard (m)", "ahead (m)", "Sv (dB re 1 m\u207B\u00B9)", "100 m", "270\u00B0", "N"}) {
+       {"obs-0001   ping 12", "2026-11-21 19:57:26.123 UTC",
+        "Top: fan 4, elevation \u221230.0\u00B0, 75.0 kHz; bearings from the bow", "starboard (m)", "ahead (m)",
+        "Sv (dB re 1 m\u207B\u00B9)", "100 m", "270\u00B0", "N"}) {
     EXPECT_NE(std::find(texts.begin(), texts.end(), expected), texts.end()) << expected;
   }
+}
+
+// Heading 20: the beam at 270 from the bow looks along 290. Bow up it is labelled 270, north up 290; the title says which.
+TEST(SlicePicture, TitlesSayWhatBearingsStartFrom) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  const PixelSize size{800, 600};
+  SlicePing ping;
+  const auto second_line = [&](const SliceView& view, bool north_up, bool rings = true) {
+    SliceStyle style;
+    style.north_up = north_up;
+    style.rings = rings;
+    return slice_picture(sector, volume.data(), ping, view, style, light_theme(size), size)->frame.title;
+  };
+  const SliceView level{horizontal_plane(50.0, 0.0)};
+  EXPECT_EQ(second_line(level, true), "Horizontal plane, depth 50.0 m; bearings from the bow") << "no heading";
+  EXPECT_EQ(second_line({SideSlice{3}}, false), "Side: beam 3, 270.0\u00B0 from the bow");
+  ping.heading_rad = rad_from_deg(20.0);
+  EXPECT_EQ(second_line(level, false), "Horizontal plane, depth 50.0 m; bearings from the bow");
+  EXPECT_EQ(second_line(level, true), "Horizontal plane, depth 50.0 m; true bearings");
+  EXPECT_EQ(second_line(level, true, false), "Horizontal plane, depth 50.0 m");
+  EXPECT_EQ(second_line({SideSlice{3}}, false), "Side: beam 3, 270.0\u00B0 from the bow, true bearing 290.0\u00B0");
+  EXPECT_EQ(second_line({vertical_plane(rad_from_deg(270.0))}, false),
+            "Vertical plane, true bearing 290.0\u00B0 to the right");
+}
+
+// Words lie over lines, never under them.
+TEST(SlicePicture, LabelsOfRingsAndBearingsAreDrawnOverTheirLines) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  const PixelSize size{800, 600};
+  const auto top = slice_picture(sector, volume.data(), {}, kTop, {}, light_theme(size), size);
+  std::size_t last_line = 0;
+  std::size_t first_word = top->frame.items.size();
+  for (std::size_t i = 0; i < top->frame.items.size(); ++i) {
+    const auto* path = std::get_if<PathItem>(&top->frame.items[i]);
+    if (path != nullptr && !path->stroke.dashes_px.empty()) last_line = i;
+    const auto* text = std::get_if<TextItem>(&top->frame.items[i]);
+    if (text != nullptr) first_word = std::min(first_word, i);
+  }
+  EXPECT_LT(last_line, first_word);
 }
 
 TEST(SlicePicture, BadRequestsAreRefusedInOneLine) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/label_room.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "view/theme.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kTextHeight = 1.2;  // of its size, from the lowest descender to the highest capital
+
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+/// Whether a line meets a rectangle (Liang and Barsky 1984: the part of it within each pair of sides).
+bool meets(PixelPoint a, PixelPoint b, const PixelRect& r) {
+  double first = 0.0;
+  double last = 1.0;
+  const std::array<std::array<double, 2>, 2> axes{{{a.x, b.x - a.x}, {a.y, b.y - a.y}}};  // start, length
+  const std::array<std::array<double, 2>, 2> sides{{{r.x, r.x + r.width}, {r.y, r.y + r.height}}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double start = axes[i][0];
+    const double along = axes[i][1];
+    if (along == 0.0) {
+      if (start < sides[i][0] || start > sides[i][1]) return false;
+      continue;
+    }
+    const double enter = (sides[i][0] - start) / along;
+    const double leave = (sides[i][1] - start) / along;
+    first = std::max(first, std::min(enter, leave));
+    last = std::min(last, std::max(enter, leave));
+  }
+  return first <= last;
+}
+
+}  // namespace
+
+PixelRect LabelRoom::box_of(const TextItem& label) {
+  const double width = text_width_px(label.text.c_str(), label.size_px);
+  const double height = kTextHeight * label.size_px;
+  double left = label.at.x;
+  if (label.anchor == TextAnchor::centre) left -= width / 2;
+  if (label.anchor == TextAnchor::right) left -= width;
+  return {left, label.at.y - height / 2, width, height};
+}
+
+bool LabelRoom::free(const PixelRect& box) const {
+  if (box.x < inside_.x || box.y < inside_.y || box.x + box.width > inside_.x + inside_.width ||
+      box.y + box.height > inside_.y + inside_.height) {
+    return false;
+  }
+  return std::none_of(taken_.begin(), taken_.end(), [&](const PixelRect& t) { return overlap(t, box); });
+}
+
+bool LabelRoom::crossed(const PixelRect& box) const {
+  return std::any_of(lines_.begin(), lines_.end(), [&](const Line& l) { return meets(l.a, l.b, box); });
+}
+
+std::optional<TextItem> LabelRoom::place(TextItem label, std::span<const PixelPoint> places) {
+  std::optional<PixelPoint> second_best;
+  for (const PixelPoint& at : places) {
+    label.at = at;
+    const PixelRect box = box_of(label);
+    if (!free(box)) continue;
+    if (!crossed(box)) {
+      taken_.push_back(box);
+      return label;
+    }
+    if (!second_best) second_best = at;
+  }
+  if (!second_best) return std::nullopt;
+  label.at = *second_best;
+  taken_.push_back(box_of(label));
+  return label;
+}
+
+}  // namespace sonar
