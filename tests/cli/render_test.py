@@ -5,6 +5,7 @@
 """
 import json
 import os
+import shutil
 import struct
 import sys
 import unittest
@@ -124,6 +125,43 @@ class Files(unittest.TestCase):
         self.assertIn("no school 999 in obs-0001", error)
         self.assertEqual(render("observation-map", sonarx.OUT, "--schools", sorted(ids)[0], "--out",
                                 sonarx.WORK / "x.png")[0], 0)
+
+
+def silence(path):
+    """Every sample of a raw file becomes as weak as it can be; its size and the time of its last change stay."""
+    before = path.stat()
+    data = bytearray(path.read_bytes())
+    offset = 0
+    while offset + 16 <= len(data):
+        (length,) = struct.unpack_from("<i", data, offset)
+        if data[offset + 4:offset + 8] == b"RAW0":
+            (count,) = struct.unpack_from("<i", data, offset + 16 + 68)
+            first = offset + 16 + 72
+            data[first:first + 2 * count] = struct.pack("<h", -32000) * count
+        offset += length + 8
+    path.write_bytes(data)
+    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+class KeptEchogram(unittest.TestCase):
+    def test_a_second_timeline_is_equal_and_reads_no_raw_data(self):
+        survey, kept, other = (sonarx.Case.fresh(name) for name in ("kept_survey", "kept_cache", "other_cache"))
+        for raw in sonarx.SURVEY.glob("*.raw"):
+            shutil.copy2(raw, survey)
+        file = sonarx.WORK / "kept.png"
+
+        def timeline(cache):
+            code, out, error = sonarx.run("render", "timeline", survey, *SIZE, "--out", file, cache=cache)
+            self.assertEqual((code, error), (0, ""), out)
+            return file.read_bytes()
+
+        first = timeline(kept)
+        self.assertTrue(list(kept.rglob("*.echogram")))
+        # Raw data that were read again would now show nothing: that a picture without the cache is another says so.
+        for raw in survey.glob("*.raw"):
+            silence(raw)
+        self.assertEqual(timeline(kept), first)
+        self.assertNotEqual(timeline(other), first)
 
 
 def write_png(path, side):

@@ -27,9 +27,9 @@ SCHOOLS = (
     "comment").split(",")
 
 
-def run(*arguments, timeout=600):
-    """(exit code, standard output, standard error)"""
-    environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache")}
+def run(*arguments, timeout=600, cache=WORK / "cache"):
+    """(exit code, standard output, standard error); `cache` = where indexes and echograms are kept"""
+    environment = {**os.environ, "XDG_CACHE_HOME": str(cache)}
     for display in ("DISPLAY", "WAYLAND_DISPLAY"):
         environment.pop(display, None)
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, stdin=subprocess.DEVNULL,
