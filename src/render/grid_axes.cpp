@@ -38,6 +38,17 @@ double least_step(std::span<const double> centres) {
   return least;
 }
 
+bool even(std::span<const double> centres) {
+  constexpr double kSpacings = 1e-4;
+  constexpr double kMost_rad = std::numbers::pi / 4 + 1e-6;
+  if (centres.front() < -kMost_rad || centres.back() > kMost_rad) return false;
+  const double step = (centres.back() - centres.front()) / static_cast<double>(centres.size() - 1);
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (std::abs(centres[i] - centres.front() - static_cast<double>(i) * step) > kSpacings * step) return false;
+  }
+  return true;
+}
+
 std::vector<float> slopes(std::span<const double> centres) {
   std::vector<float> out;
   for (std::size_t i = 0; i + 1 < centres.size(); ++i) {
@@ -86,6 +97,8 @@ GridAxes grid_axes(const Sector& sector) {
   }
   out.beams_per_rad = slopes(azimuth);
   out.fans_per_rad = slopes(elevation);
+  out.even_beams = even(azimuth);
+  out.even_fans = even(elevation);
   out.least_beam_rad = least_step(azimuth);
   out.least_fan_rad = least_step(elevation);
   return out;

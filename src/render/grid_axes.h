@@ -46,7 +46,10 @@ struct GridAxes {
   std::vector<float> sin2_elevation;  ///< [fan]: the cone of a fan is z^2 = sin2 r^2
   std::vector<float> beams_per_rad;   ///< [beam - 1] slope of the index, for gradients
   std::vector<float> fans_per_rad;    ///< [fan - 1]
-  double least_beam_rad = 0.0;        ///< smallest spacing
+  bool even_beams = false;            ///< even, and within 45 degrees of the fan frame's x axis and of the level: the
+                                      ///< angle gives the index, as exactly as the table does
+  bool even_fans = false;
+  double least_beam_rad = 0.0;  ///< smallest spacing
   double least_fan_rad = 0.0;
 };
 

@@ -51,6 +51,28 @@ TEST(GridAxes, TablesGiveTheSectorsIndex) {
   }
 }
 
+// Where beams are even, an angle's share of the width is its index, and the table says the same.
+TEST(GridAxes, EvenGridsWithin45DegreesAreKnown) {
+  const auto axes = [](std::vector<double> fans, std::vector<double> beams) {
+    return grid_axes({std::move(fans), std::move(beams), RangeAxis{0.0, 0.5, 100}});
+  };
+  const GridAxes usual = axes(even(-45.0, 0.0, 20), even(240.0, 300.0, 25));
+  EXPECT_TRUE(usual.even_fans && usual.even_beams);
+  const GridAxes wide = axes(even(-50.0, 0.0, 20), even(0.0, 360.0, 37));
+  EXPECT_FALSE(wide.even_fans || wide.even_beams) << "the polynomial is one of -45 to 45 degrees";
+  const GridAxes other = axes(uneven(-45.0, 0.0, 20), uneven(240.0, 300.0, 25));
+  EXPECT_FALSE(other.even_fans || other.even_beams);
+  // A thousandth of a spacing off.
+  std::vector<double> nearly = even(240.0, 300.0, 25);
+  nearly[7] += 1e-3 * (nearly[1] - nearly[0]);
+  EXPECT_FALSE(axes(even(-45.0, 0.0, 20), nearly).even_beams);
+  for (const double angle : {-0.7, -0.3, 0.0}) {
+    const double index =
+        (angle - usual.first_elevation_rad) / (usual.last_elevation_rad - usual.first_elevation_rad) * 19;
+    EXPECT_NEAR(looked_up(usual.fan_of, diamond_angle(std::cos(angle), std::sin(angle))), index, 1e-3);
+  }
+}
+
 TEST(Macrocells, LeastAndLargestHoldEveryInterpolatedValue) {
   const auto data = volume(fan(50));
   const Macrocells cells = macrocells(filled_volume(data->sv));

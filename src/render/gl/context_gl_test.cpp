@@ -146,12 +146,14 @@ TEST_F(ContextGl, EveryVariantOfTheShaderCompiles) {
       good(v);
     }
   }
-  for (int bits = 0; bits < 16; ++bits) {
+  for (int bits = 0; bits < 64; ++bits) {
     RayVariant v;
     v.inner = (bits & 1) != 0;
     v.wide = (bits & 2) != 0;
     v.low_hole = (bits & 4) != 0;
     v.high_hole = (bits & 8) != 0;
+    v.even_beams = (bits & 16) != 0;
+    v.even_fans = (bits & 32) != 0;
     good(v);
   }
 }

@@ -46,6 +46,14 @@ void fill_grid(const RayBlockSource& s, RayBlock& out) {
   out.cones = {f(std::abs(std::sin(a.first_elevation_rad))), f(std::abs(std::sin(a.last_elevation_rad))),
                f(2.0 * h / narrowest), 0.0F};
   out.angle = {f(a.beam_of.first), f(a.beam_of.per_unit), f(a.fan_of.first), f(a.fan_of.per_unit)};
+  if (a.even_beams) {
+    out.angle[0] = f(-a.half_width_rad);
+    out.angle[1] = f((a.beams - 1) / (2.0 * a.half_width_rad));
+  }
+  if (a.even_fans) {
+    out.angle[2] = f(a.first_elevation_rad);
+    out.angle[3] = f((a.fans - 1) / (a.last_elevation_rad - a.first_elevation_rad));
+  }
   out.range = {f(a.first_m), f(1.0 / a.spacing_m), f(a.spacing_m), f(counts_from_db(s.view.first_hit_db))};
   out.cells = {s.cells[0], s.cells[1], s.cells[2], 0};
   out.size = {a.samples, a.beams, a.fans, 0};

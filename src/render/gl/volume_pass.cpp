@@ -28,9 +28,9 @@ std::string defines(const RayVariant& v) {
   return flag("MODE", static_cast<int>(v.mode)) + flag("LIT", v.lit) + flag("DATA", v.data) + flag("GAPPED", v.gapped) +
          flag("FOLDED", v.folded) + flag("OPAQUE", v.opaque) + flag("MASKS", v.mask_words > 0) +
          flag("MASK_WORDS", v.mask_words) + flag("INNER", v.inner) + flag("WIDE", v.wide) +
-         flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) + flag("ANGLE_ENTRIES", kAngleEntries) +
-         flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow) +
-         fmt::format("#define ALONG_BEAMS {:.3f}\n", kAlongBeams);
+         flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) + flag("EVEN_BEAMS", v.even_beams) +
+         flag("EVEN_FANS", v.even_fans) + flag("ANGLE_ENTRIES", kAngleEntries) + flag("CELL_SAMPLES", kCellSamples) +
+         flag("CELL_ROW", kCellRow) + fmt::format("#define ALONG_BEAMS {:.3f}\n", kAlongBeams);
 }
 
 void set_slots(const Program& program) {
@@ -55,6 +55,8 @@ RayVariant sector_variant(const GridAxes& axes) {
   out.wide = axes.half_width_rad > 1.5707963267948966;
   out.low_hole = axes.first_elevation_rad < 0.0;
   out.high_hole = axes.last_elevation_rad >= 0.0;
+  out.even_beams = axes.even_beams;
+  out.even_fans = axes.even_fans;
   return out;
 }
 

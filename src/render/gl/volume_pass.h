@@ -27,6 +27,8 @@ struct RayVariant {
   bool wide = false;       ///< over 180 degrees
   bool low_hole = false;   ///< the lower cone is left out (it opens downwards), not kept
   bool high_hole = false;  ///< likewise the upper one
+  bool even_beams = false;
+  bool even_fans = false;
   friend auto operator<=>(const RayVariant&, const RayVariant&) = default;
 };
 

@@ -9,7 +9,8 @@ layout(std140) uniform Ray {
   vec4 lighting;    // ambient, diffuse, specular; w: dB of one count
   vec4 sides;       // sine and cosine of half the width, nearest and farthest range, m
   vec4 cones;       // sines of the first and the last elevation, made positive; z: range below which steps shorten
-  vec4 angle;       // first diamond angle and entries a unit: of the beams, of the fans
+  vec4 angle;       // first diamond angle and entries a unit: of the beams, of the fans; even ones: first angle and
+                    // indices a radian
   vec4 range;       // first range, m; samples a metre; metres a sample; w: level of first hit, counts
   vec4 table;       // entries a count, entry of count 0, last entry; w: counts a unit of the volume's texture
   vec4 texel;       // 1 / size of the volume's texture
