@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/depth_raster.h"
+#include "io/product_example.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr PixelSize kSize{400, 300};
+constexpr std::array kKinds{PictureKind::slice_top,   PictureKind::slice_side,      PictureKind::slice_range,
+                            PictureKind::slice_plane, PictureKind::volume,          PictureKind::propagation,
+                            PictureKind::survey_map,  PictureKind::observation_map, PictureKind::timeline};
+
+/// One observation of five pings off Norway with two schools; no raw files.
+class Pictures : public testing::Test {
+ protected:
+  Pictures() {
+    ObservationProduct product = example::empty("obs-0001", 5);
+    example::add_school(product, 1, 0, 3, example::block(1, 1, 2, 20, 8, 200));
+    example::add_school(product, 2, 2, 4, example::block(0, 0, 3, 40, 5));
+    source_ = PictureSource::of(nullptr, {product}, Recipe{});
+    options_.size = kSize;
+    options_.frames = 0;
+    options_.renderer = RendererChoice::cpu;
+  }
+  Result<FrameDescription> picture(PictureKind kind, const std::string& observation = "") {
+    return picture_frame(kind, *source_, observation, options_, work_);
+  }
+  /// Refused with one line that says these words.
+  void refused(PictureKind kind, const std::string& says, const std::function<void(PictureOptions&)>& change,
+               const std::string& observation = "") {
+    const PictureOptions before = options_;
+    change(options_);
+    const auto made = picture(kind, observation);
+    options_ = before;
+    ASSERT_FALSE(made) << says;
+    const std::string line = to_line(made.error());
+    EXPECT_THAT(line, testing::HasSubstr(says));
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+  static std::vector<std::string> texts(const FrameDescription& frame) {
+    std::vector<std::string> out;
+    for (const auto& item : frame.items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) out.push_back(text->text);
+    }
+    return out;
+  }
+
+  std::unique_ptr<PictureSource> source_;
+  PictureOptions options_;
+  Work work_{2};
+};
+
+TEST_F(Pictures, EveryKindIsMadeOfAProductAlone) {
+  EXPECT_EQ(picture_kinds().size(), kKinds.size());
+  for (const PictureKind kind : kKinds) {
+    const auto frame = picture(kind);
+    ASSERT_TRUE(frame) << to_line(frame.error());
+    EXPECT_EQ(frame->size, kSize);
+    EXPECT_THAT(texts(*frame), testing::Contains(testing::HasSubstr("SYNTHETIC")));
+    EXPECT_GT(frame->items.size(), 5U);
+  }
+}
+
+TEST_F(Pictures, TheSameTwiceIsTheSame) {
+  for (const PictureKind kind : kKinds) {
+    const auto first = picture(kind);
+    const auto second = picture(kind);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(texts(*first), texts(*second));
+    EXPECT_EQ(first->items.size(), second->items.size());
+  }
+}
+
+TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
+  using enum PictureKind;
+  for (const PictureKind kind : {slice_top, volume, propagation}) {
+    refused(kind, "no ping 99", [](PictureOptions& o) { o.ping = 99; });
+    refused(kind, "no school 7", [](PictureOptions& o) { o.schools = {7}; });
+  }
+  refused(
+      slice_top, "obs-0009", [](PictureOptions&) {}, "obs-0009");
+  refused(slice_top, "no fan 3", [](PictureOptions& o) { o.fan = 3; });
+  refused(slice_side, "no beam 4", [](PictureOptions& o) { o.beam = 4; });
+  refused(slice_range, "900", [](PictureOptions& o) { o.range_m = 900.0; });
+  refused(slice_plane, "does not meet", [](PictureOptions& o) { o.plane.depth_m = 900.0; });
+  refused(volume, "pixels", [](PictureOptions& o) { o.size = {40, 30}; });
+  for (const PictureKind kind : {volume, survey_map}) {
+    refused(kind, "no such depth raster", [](PictureOptions& o) { o.depth_raster = "nowhere.tif"; });
+  }
+}
+
+// Depths rise by 10 m a hundredth of a degree northwards, 300 m where the ship is.
+TEST_F(Pictures, AVolumeWithASeabedHasAScaleOfItsDepths) {
+  const fs::path file = fs::temp_directory_path() / ("sonar_picture_" + std::to_string(::getpid()) + ".tif");
+  DepthGrid grid;
+  grid.rows = grid.columns = 4;
+  grid.south_deg = 59.985;
+  grid.west_deg = 4.985;
+  grid.step_latitude_deg = grid.step_longitude_deg = 0.01;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) grid.depth_m.push_back(285.0F + 10.0F * static_cast<float>(row));
+  }
+  ASSERT_TRUE(write_depth_raster(file, grid));
+  const auto without = picture(PictureKind::volume);
+  options_.depth_raster = file;
+  const auto with = picture(PictureKind::volume);
+  fs::remove(file);
+  ASSERT_TRUE(without);
+  ASSERT_TRUE(with) << to_line(with.error());
+  EXPECT_THAT(texts(*without), testing::Not(testing::Contains("seabed depth (m)")));
+  EXPECT_THAT(texts(*with), testing::Contains("seabed depth (m)"));
+  // Ends of the scale: +- 117 x 1.1 m northwards are +- 0.00116 degrees, +- 1.2 m; the first ping lies at 60 degrees.
+  EXPECT_THAT(texts(*with), testing::IsSupersetOf({"298.8", "301.2"}));
+}
+
+// The heading is known: it is 0.
+TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
+  EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools; true bearings"));
+  options_.context = false;
+  EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools"));
+}
+
+}  // namespace
+}  // namespace sonar
