@@ -14,6 +14,8 @@
 #include <QSpinBox>
 #include <cmath>
 
+#include "gui/own_keys.h"
+
 namespace sonar {
 namespace {
 
@@ -95,6 +97,7 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
   if (property.unit != "1") box->setSuffix(text(" " + property.unit));
   box->setKeyboardTracking(false);
   box->setObjectName(text(property.name + ".box"));
+  keep_own_keys(*box);
   follow(source, property.name, box,
          [](QDoubleSpinBox& b, const PropertyValue& v) { b.setValue(std::get<double>(v)); });
   QObject::connect(box, &QDoubleSpinBox::valueChanged, box,
@@ -104,6 +107,7 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
     slider->setRange(0, kSliderSteps);
     slider->setObjectName(text(property.name + ".slider"));
     slider->setMinimumWidth(60);
+    keep_own_keys(*slider);
     const double low = property.min;
     const double step = (property.max - property.min) / kSliderSteps;
     follow(source, property.name, slider, [low, step](QSlider& s, const PropertyValue& v) {
@@ -151,7 +155,7 @@ QWidget* bound_control(const Source& source, const Property& property, QWidget* 
   }
   control->setObjectName(text(property.name));
   control->setToolTip(text(tooltip_of(property)));
-  control->setFocusPolicy(Qt::StrongFocus);
+  keep_own_keys(*control);
   return control;
 }
 

@@ -12,8 +12,10 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <initializer_list>
 
 #include "gui/bind.h"
+#include "gui/own_keys.h"
 #include "gui/picture_view.h"
 
 namespace sonar {
@@ -73,6 +75,7 @@ void add_section(QVBoxLayout& column, const PanelSection& section, QWidget* pare
   head->setCheckable(true);
   head->setChecked(section.open);
   head->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  keep_own_keys(*head);
   QWidget* body = section_body(section, parent);
   const auto fold = [head, body](bool open) {
     head->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
@@ -110,6 +113,7 @@ QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent
     if (index > 0) editor.take_preset(preset->itemData(index).toString().toStdString());
     preset->setCurrentIndex(0);
   });
+  for (QWidget* control : std::initializer_list<QWidget*>{which, linked, preset}) keep_own_keys(*control);
   layout->addWidget(which, 1);
   layout->addWidget(preset, 1);
   layout->addWidget(linked);

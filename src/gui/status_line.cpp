@@ -7,6 +7,8 @@
 #include <QStatusBar>
 #include <algorithm>
 
+#include "gui/own_keys.h"
+
 namespace sonar {
 namespace {
 
@@ -46,6 +48,7 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   bar->setMaximumWidth(240);
   auto* cancel = new QPushButton("Cancel", status);
   cancel->setFlat(true);
+  keep_own_keys(*cancel);
   status->addWidget(cursor, 1);
   status->addPermanentWidget(bar);
   status->addPermanentWidget(cancel);

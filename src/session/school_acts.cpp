@@ -285,15 +285,18 @@ void add_school_acts(Desk& desk) {
   add_search(desk);
   add_carrying(desk);
   Workspace& workspace = desk.workspace;
-  desk.actions.add({.id = "school.stop",
-                    .menu = kMenu,
-                    .text = "Stop",
-                    .keys = {"Esc"},
-                    .tip = "End the propagation that runs: what it reached stays",
-                    .run = [&workspace, merging] {
-                      merging->first.reset();
-                      workspace.document.stop_propagation();
-                    }});
+  desk.actions.add(
+      {.id = "school.stop",
+       .menu = kMenu,
+       .text = "Stop",
+       .keys = {},
+       .tip = "End the propagation that runs: what it reached stays (Esc)",
+       .run =
+           [&workspace, merging] {
+             merging->first.reset();
+             workspace.document.stop_propagation();
+           },
+       .enabled = [&workspace, merging] { return workspace.document.busy() || merging->first.has_value(); }});
   add_reshaping(desk);
   add_parting(desk, merging);
   add_naming(desk);

@@ -81,10 +81,14 @@ TEST_F(SchoolActs, EscapeGivesUpAMerge) {
   press("school.split");
   document().settle();
   press("school.merge");
-  press("school.stop");
+  const auto selected = workspace().school();
+  press("tool.cancel");
+  EXPECT_EQ(workspace().school(), selected) << "the merge was waiting, not the selection";
   select(2);
   document().settle();
   EXPECT_EQ(last_line().command, "split");
+  press("tool.cancel");
+  EXPECT_EQ(workspace().school(), std::nullopt);
 }
 
 TEST_F(SchoolActs, ThePieceUnderTheCursorBecomesASchool) {

@@ -47,9 +47,11 @@ void copy_read_out(Desk& desk) {
   if (cursor && desk.asking.copy) desk.asking.copy(read_out(desk.workspace, *cursor).line());
 }
 
-/// The drag, else the selection.
+/// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(Desk& desk) {
   if (desk.brush_tool->drawing()) return desk.brush_tool->cancel();
+  const Action* stop = desk.actions.find("school.stop");
+  if (stop != nullptr && stop->enabled()) return stop->run();
   desk.workspace.school.set(std::nullopt);
 }
 
@@ -65,7 +67,12 @@ void add_tool_actions(Desk& desk) {
   add_tool(desk, "tool.eraser", "Eraser", "E", "Takes voxels from the selected school, or from all", ToolName::eraser);
   add_brush_size(desk, "tool.larger", "Larger brush", "]", 1.25);
   add_brush_size(desk, "tool.smaller", "Smaller brush", "[", 0.8);
-  desk.actions.add({"tool.cancel", kMenu, "Cancel drag, or select nothing", {"Escape"}, "", [&desk] { let_go(desk); }});
+  desk.actions.add({"tool.cancel",
+                    kMenu,
+                    "Cancel, stop, or select nothing",
+                    {"Esc"},
+                    "Ends a drag; else stops what is being followed through time; else no school is selected any more",
+                    [&desk] { let_go(desk); }});
   desk.actions.add({"cursor.copy",
                     "&Edit",
                     "Copy read-out",
