@@ -7,6 +7,8 @@
 #include <array>
 #include <map>
 
+#include "session/context_menu.h"
+
 namespace sonar {
 namespace {
 
@@ -53,6 +55,14 @@ QAction* make_action(QMainWindow& window, const Action& action) {
   return shown;
 }
 
+void ask_when_opened(QMenu& menu, QAction& shown, const Action& action) {
+  QObject::connect(&menu, &QMenu::aboutToShow, &shown, [&shown, &action] {
+    shown.setEnabled(!action.enabled || action.enabled());
+    refresh(shown, action);
+  });
+  QObject::connect(&menu, &QMenu::aboutToHide, &shown, [&shown] { shown.setEnabled(true); });
+}
+
 }  // namespace
 
 void add_menus(QMainWindow& window, const Actions& actions) {
@@ -63,12 +73,24 @@ void add_menus(QMainWindow& window, const Actions& actions) {
     QAction* shown = make_action(window, action);
     menu->addAction(shown);
     window.addAction(shown);
-    QObject::connect(menu, &QMenu::aboutToShow, shown, [shown, &action] {
-      shown->setEnabled(!action.enabled || action.enabled());
-      refresh(*shown, action);
-    });
-    QObject::connect(menu, &QMenu::aboutToHide, shown, [shown] { shown->setEnabled(true); });
+    ask_when_opened(*menu, *shown, action);
   }
+}
+
+QMenu* add_context_menu(QMainWindow& window, const std::string& dock, const Actions& actions) {
+  auto* menu = new QMenu(&window);
+  menu->setObjectName(QString::fromStdString(dock + ".menu"));
+  for (const ActionGroup& group : context_menu(dock)) {
+    if (!menu->isEmpty()) menu->addSeparator();
+    for (const std::string_view id : group) {
+      const Action* action = actions.find(id);
+      QAction* shown = find_action(window, std::string(id));
+      if (action == nullptr || shown == nullptr) continue;
+      menu->addAction(shown);
+      ask_when_opened(*menu, *shown, *action);
+    }
+  }
+  return menu;
 }
 
 QAction* find_action(const QMainWindow& window, const std::string& id) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QMenu>
 
 #include "session/actions.h"
 
@@ -9,6 +10,9 @@ namespace sonar {
 
 /// Menus and keys of a window. Texts, switches and greyed entries are asked for whenever a menu opens.
 void add_menus(QMainWindow& window, const Actions& actions);
+
+/// The menu that a right click into a dock opens, of the window's own actions: add_menus() comes first.
+QMenu* add_context_menu(QMainWindow& window, const std::string& dock, const Actions& actions);
 
 /// The Qt action of an id; null where there is none.
 [[nodiscard]] QAction* find_action(const QMainWindow& window, const std::string& id);

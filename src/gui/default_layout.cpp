@@ -72,7 +72,7 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, tables, {"school_pings", "review"});
   const int width = window.width();
   const int height = window.height();
-  share(window, Qt::Horizontal, {{left, width / 7}, {top, width * 3 / 10}, {side, width * 3 / 10}, {right, width / 5}});
+  share(window, Qt::Horizontal, {{left, width / 6}, {top, width * 3 / 10}, {side, width * 3 / 10}, {right, width / 5}});
   share(window, Qt::Horizontal, {{time, width * 3 / 10}, {tables, width * 3 / 10}});
   share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
   share(window, Qt::Vertical, {{top, height * 3 / 8}, {maps, height * 3 / 8}, {time, height / 4}});

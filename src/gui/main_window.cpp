@@ -26,7 +26,7 @@ namespace sonar {
 namespace {
 
 constexpr QSize kFirstSize{1600, 1000};
-constexpr int kLayoutVersion = 1;  // raised when docks come or go
+constexpr int kLayoutVersion = 2;  // raised when docks come or go
 
 QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
   auto* dock = new QDockWidget(QString::fromStdString(title), &window);
@@ -37,6 +37,11 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
   return dock;
 }
 
+template <class View>
+View& view_of(const QMainWindow& window, const std::string& id) {
+  return dynamic_cast<View&>(*window.findChild<QDockWidget*>(QString::fromStdString(id))->widget());
+}
+
 }  // namespace
 
 MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
@@ -45,6 +50,10 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: each step of the way would be drawn anew
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   setAcceptDrops(true);
+  // Without a middle, Qt shares the room anew at each layout, and docks creep: a flat one holds them.
+  auto* middle = new QWidget(this);
+  middle->setMaximumHeight(0);
+  setCentralWidget(middle);
   for (PictureDock& dock : desk.pictures) {
     auto* view = new PictureView(*dock.picture, desk.workspace.latencies);
     QDockWidget* shown = add_dock(*this, dock.id, dock.title, view);
@@ -55,6 +64,12 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   for (RowsDock& dock : desk.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
   add_dock(*this, "controls", "Controls", new ControlPanelView(*desk.transfer, desk.workspace, desk.panel));
   add_menus(*this, desk.actions);
+  for (const PictureDock& dock : desk.pictures) {
+    view_of<PictureView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
+  }
+  for (const RowsDock& dock : desk.lists) {
+    view_of<RowsView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
+  }
   add_tool_bar(*this);
   add_status_line(*this, desk.workspace);
   answer();
@@ -97,6 +112,14 @@ void MainWindow::answer() {
   desk_.asking.reset_layout = [this] { lay_out_docks(*this); };
   desk_.asking.full_screen = [this] { isFullScreen() ? showNormal() : showFullScreen(); };
   answer_questions(*this, desk_.asking);
+  desk_.asking.copy_rows = [] {
+    for (QWidget* at = QApplication::focusWidget(); at != nullptr; at = at->parentWidget()) {
+      auto* list = dynamic_cast<RowsView*>(at);
+      if (list != nullptr) list->copy();
+      if (list != nullptr) return true;
+    }
+    return false;
+  };
 }
 
 void MainWindow::show_title() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/picture_view.h"
 
+#include <QContextMenuEvent>
 #include <QHelpEvent>
+#include <QMetaObject>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
@@ -128,7 +130,33 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   picture_.pointer(with_keys(wheel, event->modifiers()));
 }
 
-void PictureView::leaveEvent(QEvent* /*event*/) { picture_.pointer({PointerAction::leave, PointerButton::none, {}}); }
+void PictureView::leaveEvent(QEvent* /*event*/) {
+  // An open menu is about what is pointed at.
+  if (!menu_open_) picture_.pointer({PointerAction::leave, PointerButton::none, {}});
+}
+
+void PictureView::set_menu(QMenu* menu) {
+  menu_ = menu;
+  connect(menu, &QMenu::aboutToHide, this, [this] {
+    // After what was chosen has been done.
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+          menu_open_ = false;
+          if (!underMouse()) leaveEvent(nullptr);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void PictureView::contextMenuEvent(QContextMenuEvent* event) {
+  if (menu_ == nullptr) return;
+  if (event->reason() == QContextMenuEvent::Mouse) {
+    picture_.aim({static_cast<double>(event->x()), static_cast<double>(event->y())});
+  }
+  menu_open_ = true;
+  menu_->popup(event->globalPos());
+}
 
 bool PictureView::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QWidget::event(event);

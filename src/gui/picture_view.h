@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QMenu>
 #include <QWidget>
 
 #include "session/live_picture.h"
@@ -18,6 +19,8 @@ class PictureView : public QWidget {
   [[nodiscard]] LivePicture& picture() { return picture_; }
   /// What stands there while there is no picture and nothing wrong.
   void set_idle_text(const QString& text) { idle_text_ = text; }
+  /// What a right click opens; it outlives the view.
+  void set_menu(QMenu* menu);
   /// Whether its dock is in front of others that share its place.
   void set_uncovered(bool uncovered);
   [[nodiscard]] QSize sizeHint() const override { return {480, 360}; }
@@ -34,6 +37,7 @@ class PictureView : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   bool event(QEvent* event) override;
 
  private:
@@ -44,6 +48,8 @@ class PictureView : public QWidget {
   int listening_;
   int listening_latencies_;
   QString idle_text_;
+  QMenu* menu_ = nullptr;
+  bool menu_open_ = false;
 };
 
 }  // namespace sonar

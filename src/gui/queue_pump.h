@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 
 #include "session/change_queue.h"
 
@@ -10,7 +11,8 @@ namespace sonar {
 /// Drains the change queue once a turn of Qt's loop.
 class QueuePump : public QObject {
  public:
-  QueuePump();
+  /// woken  called by whoever brought a change, after the loop was told; for tests that hold it there
+  explicit QueuePump(std::function<void()> woken = {});
   [[nodiscard]] ChangeQueue& queue() { return queue_; }
 
  private:

@@ -3,15 +3,21 @@
 
 #include <QApplication>
 #include <QClipboard>
+#include <QContextMenuEvent>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMetaObject>
+#include <QPersistentModelIndex>
 #include <QScrollBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "gui/own_keys.h"
 
 namespace sonar {
 namespace {
@@ -72,19 +78,28 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   list_->header()->setSortIndicator(-1, Qt::AscendingOrder);
   list_->installEventFilter(this);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
-    if (!following_ && now.isValid()) rows_.select(RowsModel::row_of(order_.mapToSource(now)));
+    if (following_ || !now.isValid()) return;
+    // When the click has been worked in: what it brings may make the rows anew.
+    QMetaObject::invokeMethod(
+        this,
+        [this, at = QPersistentModelIndex(now)] {
+          if (at.isValid()) rows_.select(RowsModel::row_of(order_.mapToSource(at)));
+        },
+        Qt::QueuedConnection);
   });
   // A click on the row that is current already goes there once more.
-  connect(list_, &QTreeView::clicked, this, [this](const QModelIndex& at) {
-    if (rows_.selected() != RowsModel::row_of(order_.mapToSource(at)))
-      rows_.select(RowsModel::row_of(order_.mapToSource(at)));
-  });
+  connect(list_, &QTreeView::clicked, this,
+          [this](const QModelIndex& at) { go_to(RowsModel::row_of(order_.mapToSource(at))); });
   connect(list_, &QTreeView::doubleClicked, this,
           [this](const QModelIndex& at) { rows_.open(RowsModel::row_of(order_.mapToSource(at))); });
   listening_ = rows_.changed().add([this] { rows_changed(); });
   following_moves_ = rows_.moved().add([this] {
     if (!stale_) show_selected();
   });
+}
+
+void RowsView::go_to(std::size_t row) {
+  if (rows_.selected() != row) rows_.select(row);
 }
 
 RowsView::~RowsView() {
@@ -97,10 +112,15 @@ void RowsView::add_filter_line() {
   line->setObjectName("filter");
   line->setPlaceholderText("Filter: words, or a title's beginning and a limit, as in depth>80");
   line->setClearButtonEnabled(true);
+  keep_own_keys(*line);
   layout()->addWidget(line);
   connect(line, &QLineEdit::textChanged, this, [this](const QString& text) {
     rows_.narrow(text.toStdString());
+    // The list moves on where its current row goes. Nobody clicked there, and rows that are made anew meanwhile would pull
+    // the ground from under the filter.
+    following_ = true;
     order_.set_filter(text.toStdString());
+    following_ = false;
     show_selected();
   });
 }
@@ -119,7 +139,10 @@ void RowsView::rows_changed() {
   for (std::size_t row = 0; list_->rootIsDecorated() && row < model_.rows_known(); ++row) {
     if (list_->isExpanded(order_.mapFromSource(model_.index_of(row)))) open.insert(row);
   }
+  const std::size_t before = model_.rows_known();
+  const std::vector<std::size_t> chosen = chosen_rows();
   model_.reset();
+  if (model_.rows_known() == before) choose(chosen);
   for (const std::size_t row : open) list_->setExpanded(order_.mapFromSource(model_.index_of(row)), true);
   if (!fitted_ && rows_.rows() > 0) fit_columns();
   list_->verticalScrollBar()->setValue(scrolled);
@@ -133,7 +156,10 @@ void RowsView::show_selected() {
   if (at == list_->currentIndex().siblingAtColumn(0) && at.isValid()) return;
   following_ = true;
   if (at.isValid()) {
-    list_->selectionModel()->setCurrentIndex(at, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    // One of several that were chosen to be copied stays one of them.
+    const bool chosen = list_->selectionModel()->isSelected(at);
+    list_->selectionModel()->setCurrentIndex(
+        at, chosen ? QItemSelectionModel::NoUpdate : QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     list_->scrollTo(at);
   }
   following_ = false;
@@ -148,18 +174,41 @@ void RowsView::fit_columns() {
   }
 }
 
+std::vector<std::size_t> RowsView::chosen_rows() const {
+  const QModelIndexList chosen = list_->selectionModel()->selectedRows();
+  std::vector<std::size_t> rows;
+  for (const QModelIndex& at : chosen) rows.push_back(RowsModel::row_of(order_.mapToSource(at)));
+  return rows;
+}
+
+void RowsView::choose(const std::vector<std::size_t>& rows) {
+  for (const std::size_t row : rows) {
+    list_->selectionModel()->select(order_.mapFromSource(model_.index_of(row)),
+                                    QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  }
+}
+
 void RowsView::copy() {
-  QModelIndexList chosen = list_->selectionModel()->selectedRows();
+  const std::vector<std::size_t> chosen = chosen_rows();
   std::vector<std::size_t> which;
   // In the order in which they are seen, not in which they were clicked.
   for (QModelIndex at = order_.index(0, 0); at.isValid(); at = list_->indexBelow(at)) {
-    if (chosen.contains(at.siblingAtColumn(0))) which.push_back(RowsModel::row_of(order_.mapToSource(at)));
+    const std::size_t row = RowsModel::row_of(order_.mapToSource(at));
+    if (std::find(chosen.begin(), chosen.end(), row) != chosen.end()) which.push_back(row);
   }
   QApplication::clipboard()->setText(QString::fromStdString(tab_separated(rows_, which)));
 }
 
+void RowsView::contextMenuEvent(QContextMenuEvent* event) {
+  if (menu_ == nullptr) return;
+  // What the menu offers is asked for as it opens: the row comes first.
+  const QModelIndex at = list_->currentIndex();
+  if (at.isValid() && list_->selectionModel()->isSelected(at)) go_to(RowsModel::row_of(order_.mapToSource(at)));
+  menu_->popup(event->globalPos());
+}
+
 bool RowsView::key_is_ours(const QKeyEvent& event) const {
-  if (event.matches(QKeySequence::Copy) || event.matches(QKeySequence::SelectAll)) return true;
+  if (event.matches(QKeySequence::SelectAll)) return true;
   if ((event.modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) != 0) return false;
   switch (event.key()) {
     case Qt::Key_Up:
@@ -184,10 +233,6 @@ bool RowsView::eventFilter(QObject* watched, QEvent* event) {
   if (key == nullptr) return QWidget::eventFilter(watched, event);
   if (event->type() == QEvent::ShortcutOverride && key_is_ours(*key)) {
     event->accept();  // the key moves in the list and is no shortcut of the window
-    return true;
-  }
-  if (event->type() == QEvent::KeyPress && key->matches(QKeySequence::Copy)) {
-    copy();
     return true;
   }
   const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;

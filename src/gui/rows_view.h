@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QMenu>
 #include <QSortFilterProxyModel>
 #include <QTreeView>
 #include <QWidget>
@@ -39,23 +40,32 @@ class RowsView : public QWidget {
   RowsView(Rows& rows, bool tree, QWidget* parent = nullptr);
   ~RowsView() override;
   [[nodiscard]] QSize sizeHint() const override { return {420, 220}; }
+  /// The marked rows into the clipboard, in the order in which they are seen.
+  void copy();
+  /// What a right click opens; it outlives the view.
+  void set_menu(QMenu* menu) { menu_ = menu; }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
 
  private:
   void add_filter_line();
   void rows_changed();
   void show_selected();
+  void go_to(std::size_t row);
   void fit_columns();
-  void copy();
+  /// Rows that are marked, in no order; and marking them again.
+  [[nodiscard]] std::vector<std::size_t> chosen_rows() const;
+  void choose(const std::vector<std::size_t>& rows);
   [[nodiscard]] bool key_is_ours(const class QKeyEvent& event) const;
 
   Rows& rows_;
   RowsModel model_;
   RowsOrder order_;
   QTreeView* list_;
+  QMenu* menu_ = nullptr;
   bool following_ = false;  ///< the selection follows the rows: nobody clicked
   bool stale_ = true;       ///< changed while nobody saw it
   bool fitted_ = false;

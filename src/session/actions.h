@@ -57,6 +57,7 @@ struct Asking {
   std::function<void()> reset_layout;
   std::function<void()> full_screen;  ///< on and off
   std::function<void(const Image& image)> copy_image;
+  std::function<bool()> copy_rows;           ///< those marked in the list that has the keyboard; false = no list has it
   std::function<std::string()> view_in_use;  ///< id of the dock that has, or last had, the keyboard or the pointer
   std::function<void()> quit;
 };

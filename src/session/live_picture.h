@@ -58,6 +58,8 @@ class LivePicture {
   [[nodiscard]] Listeners<>& changed() { return changed_; }
 
   virtual void pointer(const PointerEvent& /*event*/) {}
+  /// A menu opens at a place: what lies there becomes what its acts are about.
+  virtual void aim(PixelPoint /*at*/) {}
   [[nodiscard]] virtual std::vector<Overlay> overlays() const { return {}; }
   /// What a tooltip says at a place; empty = nothing.
   [[nodiscard]] virtual std::string hint(PixelPoint /*at*/) const { return {}; }

@@ -107,6 +107,15 @@ void add_lists(Desk& desk) {
                     .tip = "Off: of the selected school alone",
                     .run = [&ping_table] { ping_table.show_all(!ping_table.all()); },
                     .checked = [&ping_table] { return ping_table.all(); }});
+  desk.actions.add({.id = "list.copy",
+                    .menu = "&Edit",
+                    .text = "Copy rows",
+                    .keys = {"Ctrl+C"},
+                    .tip = "The marked rows of the list in use, with their titles, for a spreadsheet",
+                    .run = [&desk] {
+                      if (desk.asking.copy_rows && desk.asking.copy_rows()) return;
+                      desk.workspace.document.tell("click into the list whose rows are wanted");
+                    }});
   // What was decided in earlier runs is seen at once, wherever in the survey it lies.
   workspace.document.changes().add(
       [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {

@@ -137,6 +137,10 @@ void ObservationMapModel::pointer(const PointerEvent& event) {
   }
 }
 
+void ObservationMapModel::aim(PixelPoint at) {
+  if (places_ && places_->map) click(at);
+}
+
 void ObservationMapModel::click(PixelPoint at) {
   const auto& shown = workspace_.document.shown();
   if (!shown || shown->index() != places_->observation) return;

@@ -182,6 +182,13 @@ void StripModel::pointer(const PointerEvent& event) {
   }
 }
 
+void StripModel::aim(PixelPoint at) {
+  const auto* pane = places_ ? places_->pane_at(at) : nullptr;
+  if (pane == nullptr) return;
+  clicked_ = pane->ping;
+  workspace_.document.look_at(pane->ping);
+}
+
 std::string StripModel::hint(PixelPoint at) const {
   const auto* pane = places_ ? places_->pane_at(at) : nullptr;
   if (pane == nullptr) return {};

@@ -111,6 +111,10 @@ void SurveyMapModel::pointer(const PointerEvent& event) {
   }
 }
 
+void SurveyMapModel::aim(PixelPoint at) {
+  if (places_ && places_->map) click(at);
+}
+
 void SurveyMapModel::click(PixelPoint at) {
   if (const auto* school = places_->school_at(at)) {
     const SurveyMapPlaces::School clicked = *school;  // what follows may bring another picture

@@ -22,8 +22,7 @@ enum class SliceSide : std::uint8_t {
 };
 
 /// A slice of the ping on show with everything that lies over it, and what pointers do to it: move = cursor and preview;
-/// left = the tool; alt-left = select only; middle = pan; wheel = next fan or beam, with control zoom; right twice = all
-/// of it.
+/// left = the tool; alt-left = select only; middle = pan; wheel = next fan or beam, with control zoom.
 class SliceModel : public LivePicture {
  public:
   /// All outlive the model.
@@ -31,6 +30,7 @@ class SliceModel : public LivePicture {
   ~SliceModel() override;
 
   void pointer(const PointerEvent& event) override;
+  void aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// All of the sector again.

@@ -80,7 +80,6 @@ void SliceModel::move(const PointerEvent& event) {
 }
 
 void SliceModel::press(const PointerEvent& event, bool double_press) {
-  if (event.button == PointerButton::right && double_press) return show_all();
   if (event.button == PointerButton::middle) {
     panned_ = event.at;
     return;
@@ -93,6 +92,12 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
   } else {
     seed_.press(*voxel, event.shift, event.control, double_press);
   }
+}
+
+void SliceModel::aim(PixelPoint at) {
+  point({PointerAction::move, PointerButton::none, at});
+  const auto voxel = voxel_at(at);
+  if (voxel && seed_.school_under(*voxel)) seed_.select(*voxel);
 }
 
 void SliceModel::release(const PointerEvent& event) {

@@ -301,6 +301,10 @@ std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
   return found;
 }
 
+void TimelineModel::aim(PixelPoint at) {
+  if (const auto there = ping_at(at)) look_at_ping(workspace_.document, there->observation, there->ping);
+}
+
 std::vector<Overlay> TimelineModel::overlays() const {
   std::vector<Overlay> out;
   const auto& shown = workspace_.document.shown();

@@ -47,6 +47,7 @@ class TimelineModel : public LivePicture {
   TimelineModel& operator=(const TimelineModel&) = delete;
 
   void pointer(const PointerEvent& event) override;
+  void aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// Of the picture on show; null before the first.

@@ -39,6 +39,8 @@ class SeedTool {
   void press(const Voxel& voxel, bool shift, bool control, bool double_press);
   /// Selects the school there, or none; grows nothing.
   void select(const Voxel& voxel);
+  /// Index in the state of the school that has a voxel of the ping on show.
+  [[nodiscard]] std::optional<std::size_t> school_under(const Voxel& voxel) const;
 
   /// How long parameters rest before a growth is done anew, s.
   static constexpr double kRest_s = 0.3;
@@ -75,7 +77,6 @@ class SeedTool {
   void say(std::string text);
   void drop_preview();
   [[nodiscard]] Result<GrowCommand> command_at(const Place& place) const;
-  [[nodiscard]] std::optional<std::size_t> school_under(const Voxel& voxel) const;
   // What is selected:
   void hear(DocumentChange change);
   void forget();

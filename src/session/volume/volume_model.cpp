@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "session/tools/growth.h"
 #include "session/volume/volume_input.h"
 
 namespace sonar {
@@ -221,6 +222,15 @@ void VolumeModel::hover(const PointerEvent& event) {
   if (workspace_.tool() != ToolName::seed) return;
   if (voxel && hooks.hover) hooks.hover(*voxel, event.shift, event.control);
   if (!voxel && hooks.leave) hooks.leave();
+}
+
+void VolumeModel::aim(PixelPoint at) {
+  const auto voxel = voxel_at(at);
+  const Document& document = workspace_.document;
+  if (!voxel) return;
+  workspace_.cursor.set(voxel);
+  const auto under = school_of_voxel(document.state(), shown_->ping_index, document.shown()->sector(), *voxel);
+  if (under && hooks.select) hooks.select(*voxel);
 }
 
 void VolumeModel::leave() {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/context_menu.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sonar {
+namespace {
+
+using Id = std::string_view;
+
+constexpr std::array<Id, 3> kTools{"tool.seed", "tool.brush", "tool.eraser"};
+constexpr std::array<Id, 5> kDecide{"review.accept", "review.reject", "review.unreview", "school.species",
+                                    "school.comment"};
+constexpr std::array<Id, 4> kFollow{"school.propagate", "school.propagate_forwards", "school.propagate_backwards",
+                                    "school.stop"};
+constexpr std::array<Id, 7> kShape{"school.fill_holes",  "school.smooth", "school.largest_part", "school.split",
+                                   "school.split_piece", "school.merge",  "school.delete"};
+constexpr std::array<Id, 4> kReview{"review.next", "review.rule", "schools.detect", "schools.detect_all"};
+constexpr std::array<Id, 4> kParts{"school.split", "school.merge", "school.delete", "school.none"};
+constexpr std::array<Id, 4> kSliceLook{"display.all", "display.filtered", "display.masks", "cursor.copy"};
+constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.starboard", "volume.port",
+                                   "volume.behind"};
+constexpr std::array<Id, 1> kReadOut{"cursor.copy"};
+constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
+constexpr std::array<Id, 1> kMap{"map.all"};
+constexpr std::array<Id, 1> kStrip{"strip.side"};
+constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise", "event.other"};
+constexpr std::array<Id, 2> kBad{"bad.ping", "bad.interval"};
+constexpr std::array<Id, 2> kNextEvent{"event.previous", "event.next"};
+constexpr std::array<Id, 2> kPicture{"file.copy_view", "file.save_view"};
+constexpr std::array<Id, 2> kSearch{"schools.detect", "schools.detect_all"};
+constexpr std::array<Id, 4> kResults{"export.results", "export.csv", "export.gpkg", "file.open_folder"};
+constexpr std::array<Id, 1> kAllPings{"list.pings_of_all"};
+constexpr std::array<Id, 2> kUndo{"edit.undo", "edit.redo"};
+constexpr std::array<Id, 1> kRows{"list.copy"};
+
+constexpr std::array<ActionGroup, 6> kSlice{kTools, kDecide, kFollow, kShape, kSliceLook, kPicture};
+constexpr std::array<ActionGroup, 6> kVolume{kDecide, kFollow, kParts, kSides, kReadOut, kPicture};
+constexpr std::array<ActionGroup, 4> kObservationMap{kDecide, kFollow, kMap, kPicture};
+constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
+constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
+constexpr std::array<ActionGroup, 4> kTimeline{kEvents, kBad, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
+constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
+constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
+constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
+constexpr std::array<ActionGroup, 1> kNotes{kRows};
+
+struct Menu {
+  Id dock;
+  std::span<const ActionGroup> groups;
+};
+constexpr std::array<Menu, 14> kMenus{{{"top_slice", kSlice},
+                                       {"side_slice", kSlice},
+                                       {"volume", kVolume},
+                                       {"observation_map", kObservationMap},
+                                       {"survey_map", kSurveyMap},
+                                       {"propagation", kPropagation},
+                                       {"observation_timeline", kTimeline},
+                                       {"survey_timeline", kTimeline},
+                                       {"survey_tree", kTree},
+                                       {"schools", kSchoolRows},
+                                       {"review", kSchoolRows},
+                                       {"school_pings", kPingRows},
+                                       {"journal", kJournal},
+                                       {"diagnostics", kNotes}}};
+
+}  // namespace
+
+std::span<const ActionGroup> context_menu(std::string_view dock) {
+  const auto found = std::find_if(kMenus.begin(), kMenus.end(), [&](const Menu& menu) { return menu.dock == dock; });
+  return found == kMenus.end() ? std::span<const ActionGroup>{} : found->groups;
+}
+
+}  // namespace sonar

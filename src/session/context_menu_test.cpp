@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/context_menu.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+class ContextMenus : public testing::Test, protected TestDesk {
+ protected:
+  void SetUp() override { begin(); }
+};
+
+TEST_F(ContextMenus, EveryDockHasOneAndEveryEntryIsAnActionOfTheWindow) {
+  std::set<std::string> docks;
+  for (const PictureDock& dock : desk_->pictures) docks.insert(dock.id);
+  for (const RowsDock& dock : desk_->lists) docks.insert(dock.id);
+  ASSERT_GE(docks.size(), 14U);
+  for (const std::string& dock : docks) {
+    EXPECT_FALSE(context_menu(dock).empty()) << dock;
+    std::set<std::string_view> once;
+    for (const ActionGroup& group : context_menu(dock)) {
+      for (const std::string_view id : group) {
+        EXPECT_NE(desk_->actions.find(id), nullptr) << dock << ": " << id;
+        EXPECT_TRUE(once.insert(id).second) << dock << " has twice: " << id;
+      }
+    }
+  }
+  EXPECT_TRUE(context_menu("controls").empty());
+}
+
+}  // namespace
+}  // namespace sonar
