@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QAction>
 #include <QDoubleSpinBox>
+#include <QKeySequence>
 #include <QLineEdit>
 #include <QTextBrowser>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -105,54 +108,17 @@ TEST_F(Desktop, TheToleranceInThePanelGrowsTheSchoolAnew) {
   EXPECT_LT(document().state().schools[0]->masks.pings[0].mask.voxels(), before);
 }
 
-TEST_F(Desktop, AViewThatIsOffCostsNothing) {
-  LivePicture* map = desk_->picture("observation_map");
-  ASSERT_NE(map, nullptr);
-  (void)desk_->workspace.views.set("observation_map", false);
-  settle();
-  EXPECT_FALSE(view("observation_map")->isVisible());
-  const std::int64_t pictures = map->pictures();
-  key(Qt::Key_Right);
-  click("top_slice", {200, 150});
-  EXPECT_EQ(map->pictures(), pictures);
-  (void)desk_->workspace.views.set("observation_map", true);
-  settle();
-  EXPECT_TRUE(map->seen());
-  EXPECT_TRUE(view("observation_map")->isVisible());
-  EXPECT_GT(map->pictures(), pictures);
-}
-
-TEST_F(Desktop, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
-  auto* dock = window_->findChild<QDockWidget*>("volume");
-  ASSERT_NE(dock, nullptr);
-  dock->resize(dock->size());
-  settle();
-  const Image before = desk_->picture("volume")->image();
-  ASSERT_GT(before.size.width, 0);
-  const QSize size = view("volume")->size();
-  dock->setFloating(true);
-  settle();
-  dock->setFloating(false);
-  settle();
-  if (view("volume")->size() == size) {
-    EXPECT_EQ(desk_->picture("volume")->image(), before);
-  } else {
-    EXPECT_GT(desk_->picture("volume")->image().size.width, 0);
-  }
-}
-
-TEST_F(Desktop, ResizingKeepsEveryPictureAsLargeAsItsView) {
-  window_->resize(1400, 900);
-  settle();
-  for (const PictureDock& dock : desk_->pictures) {
-    if (!dock.picture->seen()) continue;
-    EXPECT_EQ(dock.picture->image().size.width, view(dock.id)->width()) << dock.id;
-    EXPECT_EQ(dock.picture->image().size.height, view(dock.id)->height()) << dock.id;
-  }
-}
-
 TEST_F(Desktop, NoTwoActionsShareAKeyAndTheSheetShowsThemAll) {
   EXPECT_THAT(desk_->actions.clashes(), testing::IsEmpty());
+  // One key may have two names: Esc and Escape.
+  std::map<QString, std::string> of_key;
+  for (const Action& action : desk_->actions.list()) {
+    for (const QKeySequence& keys : find_action(*window_, action.id)->shortcuts()) {
+      EXPECT_FALSE(keys.isEmpty()) << action.id << " has a key that is none";
+      const auto [known, fresh] = of_key.emplace(keys.toString(), action.id);
+      EXPECT_TRUE(fresh) << keys.toString().toStdString() << ": " << known->second << " and " << action.id;
+    }
+  }
   key(Qt::Key_F1);
   auto* sheet = window_->findChild<QTextBrowser*>();
   ASSERT_NE(sheet, nullptr);

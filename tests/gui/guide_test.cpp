@@ -19,6 +19,7 @@ class Guide : public WindowAtWork {
     survey_ = survey;
     out_ = out;
     open();
+    workspace().volume.assign(VolumeParams{});
     window_->resize(1760, 1100);
     settle();
   }

@@ -7,6 +7,61 @@
 
 namespace sonar {
 
+void WindowAtWork::open() {
+  pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
+  desk_ = std::make_unique<Desk>(pump_->queue(), TestSurvey::options(journal_));
+  // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
+  VolumeParams quick;
+  quick.frames = 1;
+  workspace().volume.assign(quick);
+  window_ = std::make_unique<MainWindow>(*desk_);
+  window_->show();
+  window_->activateWindow();  // keys go to the window that is active
+  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  document().open({survey_});
+  settle();
+}
+
+void WindowAtWork::close() {
+  gate_.open();
+  window_.reset();
+  desk_.reset();
+  pump_.reset();
+}
+
+void WindowAtWork::keep_picture(const std::string& name) {
+  const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
+  if (folder.isEmpty() || !window_) return;
+  window_->grab().save(folder + "/" + QString::fromStdString(name) + ".png");
+}
+
+void WindowAtWork::settle_jobs() {
+  for (int quiet = 0; quiet < 3; ++quiet) {
+    QApplication::sendPostedEvents();
+    QApplication::processEvents();
+    document().settle();
+    for (PictureDock& dock : desk_->pictures) dock.picture->wait();
+    desk_->transfer->wait();
+    desk_->seed_tool->wait();
+    if (pump_->queue().drain() > 0) quiet = -1;
+  }
+}
+
+void WindowAtWork::settle() {
+  do {
+    while (desk_->pulse.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    settle_jobs();
+  } while (desk_->pulse.running());
+}
+
+PixelPoint WindowAtWork::place_in(const std::string& dock, const Voxel& voxel) {
+  const auto* slice = dynamic_cast<SliceModel*>(desk_->picture(dock));
+  EXPECT_NE(slice, nullptr);
+  const auto place = slice->picture()->place_of(voxel);
+  EXPECT_TRUE(place);
+  return place.value_or(PixelPoint{});
+}
+
 WindowAtWork::Target WindowAtWork::look_at_school() {
   Work work;
   const auto found = observe(*document().survey(), document().shown()->files(), Recipe{}, {{}, {}, "test"}, work);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "gate.h"
 #include "gui/main_window.h"
 #include "gui/picture_view.h"
 #include "gui/queue_pump.h"
@@ -26,65 +27,77 @@ class WindowAtWork : public testing::Test {
   void SetUp() override { open(); }
   void TearDown() override {
     // For whoever looks into a failure: the window as it was at the end.
-    const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    if (!folder.isEmpty()) window_->grab().save(folder + "/" + test->name() + ".png");
+    keep_picture(testing::UnitTest::GetInstance()->current_test_info()->name());
     close();
   }
 
-  void open() {
-    pump_ = std::make_unique<QueuePump>();
-    desk_ = std::make_unique<Desk>(pump_->queue(), TestSurvey::options(journal_));
-    window_ = std::make_unique<MainWindow>(*desk_);
-    window_->show();
-    window_->activateWindow();  // keys go to the window that is active
-    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
-    document().open({survey_});
-    settle();
-  }
-  void close() {
-    window_.reset();
-    desk_.reset();
-    pump_.reset();
-  }
+  void open();
+  void close();
+  /// The window as it is now, in the folder that SONAR_GUI_PICTURES names; nothing where it names none.
+  void keep_picture(const std::string& name);
 
   [[nodiscard]] Document& document() { return desk_->workspace.document; }
+  [[nodiscard]] Workspace& workspace() { return desk_->workspace; }
 
   /// Until an event, a job and a picture more bring nothing more.
-  void settle() {
-    for (int quiet = 0; quiet < 3; ++quiet) {
-      QApplication::sendPostedEvents();
-      QApplication::processEvents();
-      document().settle();
-      for (PictureDock& dock : desk_->pictures) dock.picture->wait();
-      desk_->transfer->wait();
-      desk_->seed_tool->wait();
-      while (desk_->pulse.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
-      if (pump_->queue().drain() > 0) quiet = -1;
-    }
-  }
+  void settle();
+  /// The same while something goes on by itself.
+  void settle_jobs();
 
   [[nodiscard]] QWidget* view(const std::string& dock) {
     return window_->findChild<QWidget*>(QString::fromStdString(dock + ".view"));
   }
+  [[nodiscard]] QDockWidget* dock(const std::string& id) {
+    return window_->findChild<QDockWidget*>(QString::fromStdString(id));
+  }
+  /// In front of the docks that share its place.
+  void raise(const std::string& id) {
+    dock(id)->raise();
+    settle();
+  }
+
+  // --- a user's hands
   /// In the window's own coordinates, as the platform has them.
   [[nodiscard]] QPoint in_window(QWidget* widget, PixelPoint at) const {
     return widget->mapTo(window_.get(), QPoint(static_cast<int>(at.x), static_cast<int>(at.y)));
   }
-  void move(const std::string& dock, PixelPoint to) {
-    QTest::mouseMove(window_->windowHandle(), in_window(view(dock), to));
+  void move(const std::string& dock, PixelPoint to) { move_on(view(dock), to); }
+  void move_on(QWidget* widget, PixelPoint to) {
+    QTest::mouseMove(window_->windowHandle(), in_window(widget, to));
     settle();
   }
   void click(const std::string& dock, PixelPoint at, Qt::KeyboardModifiers keys = {}) {
-    QTest::mouseClick(window_->windowHandle(), Qt::LeftButton, keys, in_window(view(dock), at));
+    click_on(view(dock), at, keys);
+  }
+  void click_on(QWidget* widget, PixelPoint at, Qt::KeyboardModifiers keys = {}) {
+    QTest::mouseClick(window_->windowHandle(), Qt::LeftButton, keys, in_window(widget, at));
     settle();
   }
   void double_click(const std::string& dock, PixelPoint at) {
     QTest::mouseDClick(window_->windowHandle(), Qt::LeftButton, {}, in_window(view(dock), at));
     settle();
   }
+  void press_on(QWidget* widget, PixelPoint at, Qt::KeyboardModifiers keys = {}) {
+    QTest::mousePress(window_->windowHandle(), Qt::LeftButton, keys, in_window(widget, at));
+    settle();
+  }
+  void release_on(QWidget* widget, PixelPoint at, Qt::KeyboardModifiers keys = {}) {
+    QTest::mouseRelease(window_->windowHandle(), Qt::LeftButton, keys, in_window(widget, at));
+    settle();
+  }
+  /// Pressed at one place, moved over the middle, released at another.
+  void drag(const std::string& dock, PixelPoint from, PixelPoint to, Qt::KeyboardModifiers keys = {}) {
+    press_on(view(dock), from, keys);
+    move(dock, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)});
+    move(dock, to);
+    release_on(view(dock), to, keys);
+  }
   void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) {
     QTest::keyClick(window_->windowHandle(), key, keys);
+    settle();
+  }
+  void type(const std::string& text) {
+    for (const char letter : text) QTest::keyClick(window_->windowHandle(), letter);
     settle();
   }
 
@@ -94,16 +107,15 @@ class WindowAtWork : public testing::Test {
     Voxel voxel;
   };
   Target look_at_school();
-  [[nodiscard]] PixelPoint place_in(const std::string& dock, const Voxel& voxel) {
-    const auto* slice = dynamic_cast<SliceModel*>(desk_->picture(dock));
-    EXPECT_NE(slice, nullptr);
-    const auto place = slice->picture()->place_of(voxel);
-    EXPECT_TRUE(place);
-    return place.value_or(PixelPoint{});
+  [[nodiscard]] PixelPoint place_in(const std::string& dock, const Voxel& voxel);
+  /// Masks of the only school, by ping.
+  [[nodiscard]] const std::vector<SchoolMasks::InPing>& masks() {
+    return document().state().schools.at(0)->masks.pings;
   }
 
   std::filesystem::path survey_ = TestSurvey::easy().folder();
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
+  Gate gate_;
   std::unique_ptr<QueuePump> pump_;
   std::unique_ptr<Desk> desk_;
   std::unique_ptr<MainWindow> window_;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Docks: floating and coming back, views that are switched off, sizes.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class Docks : public WindowAtWork {
+ protected:
+  /// A double-click on a dock's title, which makes it float or come back.
+  void double_click_title(QDockWidget& dock) {
+    QWidget* top = dock.window();
+    const QPoint in_dock(60, dock.widget()->y() / 2);
+    QTest::mouseDClick(top->windowHandle(), Qt::LeftButton, {}, dock.mapTo(top, in_dock));
+    settle();
+  }
+  std::map<std::string, std::int64_t> pictures() {
+    std::map<std::string, std::int64_t> all;
+    for (const PictureDock& one : desk_->pictures) all[one.id] = one.picture->pictures();
+    return all;
+  }
+};
+
+TEST_F(Docks, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
+  QDockWidget* volume = dock("volume");
+  const std::string layout = window_->layout();
+  const Image before = desk_->picture("volume")->image();
+  const QSize size = view("volume")->size();
+  ASSERT_GT(before.size.width, 0);
+  const QImage seen = view("volume")->grab().toImage();
+  double_click_title(*volume);
+  ASSERT_TRUE(volume->isFloating());
+  volume->resize(500, 420);
+  settle();
+  EXPECT_EQ(desk_->picture("volume")->image().size.width, view("volume")->width());
+  EXPECT_NE(desk_->picture("volume")->image().size, before.size) << "drawn for the floating dock";
+  double_click_title(*volume);
+  ASSERT_FALSE(volume->isFloating());
+  EXPECT_GT(desk_->picture("volume")->image().size.width, 0);
+  window_->take_layout(layout);  // docks share their room a little differently each time
+  settle();
+  ASSERT_EQ(view("volume")->size(), size);
+  EXPECT_EQ(desk_->picture("volume")->image(), before);
+  EXPECT_EQ(view("volume")->grab().toImage(), seen);
+}
+
+TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
+  const Target target = look_at_school();
+  std::set<std::string> switches;
+  for (const PictureDock& one : desk_->pictures) switches.insert(one.view_switch);
+  switches.erase("");
+  ASSERT_EQ(switches.size(), 7U);
+  for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, false));
+  settle();
+  for (const PictureDock& one : desk_->pictures) {
+    if (one.view_switch.empty()) continue;
+    EXPECT_FALSE(dock(one.id)->isVisible()) << one.id;
+    EXPECT_FALSE(one.picture->seen()) << one.id;
+  }
+  const auto before = pictures();
+  key(Qt::Key_Right);
+  document().look_at(target.ping);
+  workspace().dark.set(true);
+  workspace().dark.set(false);
+  settle();
+  EXPECT_EQ(pictures(), before);
+  for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, true));
+  settle();
+  desk_->asking.reset_layout();  // where all were away, Qt gives them what room it likes
+  settle();
+  for (const PictureDock& one : desk_->pictures) {
+    if (one.view_switch.empty()) continue;
+    EXPECT_FALSE(dock(one.id)->isHidden()) << one.id;
+    raise(one.id);
+    EXPECT_GT(one.picture->pictures(), before.at(one.id)) << one.id;
+    EXPECT_EQ(one.picture->problem(), "") << one.id;
+  }
+}
+
+TEST_F(Docks, KeysSwitchViewsOffAndOn) {
+  const std::map<Qt::Key, std::string> keys{{Qt::Key_1, "top_slice"},      {Qt::Key_2, "side_slice"},
+                                            {Qt::Key_3, "volume"},         {Qt::Key_4, "observation_map"},
+                                            {Qt::Key_5, "propagation"},    {Qt::Key_6, "survey_map"},
+                                            {Qt::Key_7, "survey_timeline"}};
+  for (const auto& [digit, id] : keys) {
+    key(digit, Qt::AltModifier);
+    EXPECT_FALSE(dock(id)->isVisible()) << id;
+    key(digit, Qt::AltModifier);
+    EXPECT_TRUE(dock(id)->isVisible()) << id;
+  }
+}
+
+TEST_F(Docks, ClosingADockIsSwitchingItsViewOff) {
+  dock("side_slice")->toggleViewAction()->trigger();
+  settle();
+  EXPECT_FALSE(workspace().views.values().side_slice);
+  dock("side_slice")->toggleViewAction()->trigger();
+  settle();
+  EXPECT_TRUE(workspace().views.values().side_slice);
+  EXPECT_TRUE(desk_->picture("side_slice")->seen());
+}
+
+TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {
+  window_->resize(1400, 900);
+  settle();
+  for (const PictureDock& one : desk_->pictures) {
+    if (!one.picture->seen()) continue;
+    EXPECT_EQ(one.picture->image().size.width, view(one.id)->width()) << one.id;
+    EXPECT_EQ(one.picture->image().size.height, view(one.id)->height()) << one.id;
+  }
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// What comes into the window and what goes out of it. Dialogs are answered by the test.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QClipboard>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QUrl>
+#include <fstream>
+
+#include "gui/action_menus.h"
+#include "publish/picture_options.h"
+#include "publish/picture_source.h"
+#include "render/draw_frame.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public WindowAtWork {
+ protected:
+  void SetUp() override {
+    WindowAtWork::SetUp();
+    desk_->asking.folder_to_save = [this](const std::string&) { return out_.string(); };
+    desk_->asking.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
+      return (out_ / name).string();
+    };
+  }
+  /// What a menu's entry does.
+  void trigger(const std::string& id) {
+    find_action(*window_, id)->trigger();
+    settle();
+  }
+  const std::string& told() { return document().notices().back(); }
+  static std::vector<std::string> lines_of(const fs::path& file) {
+    std::ifstream in(file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+  }
+  void follow_a_school() {
+    const Target target = look_at_school();
+    double_click("top_slice", place_in("top_slice", target.voxel));
+    ASSERT_GT(masks().size(), 2U);
+  }
+
+  fs::path out_ = TestSurvey::easy().fresh();
+};
+
+TEST_F(Files, ResultsAreAsARunWritesThem) {
+  follow_a_school();
+  key(Qt::Key_E, Qt::ControlModifier);
+  EXPECT_THAT(told(), testing::HasSubstr("written: 2 observations"));
+  Work work(1);
+  const std::vector<fs::path> paths{out_};
+  const auto source = PictureSource::open(paths, std::nullopt, work);
+  ASSERT_TRUE(source);
+  ASSERT_EQ((*source)->products().size(), 2U);
+  const ObservationProduct& product = (*source)->products()[0];
+  ASSERT_EQ(product.schools.size(), 1U);
+  ASSERT_EQ(product.masks.size(), masks().size());
+  for (std::size_t i = 0; i < masks().size(); ++i) {
+    EXPECT_EQ(product.masks[i].mask, masks()[i].mask) << "the masks on the screen, bit for bit";
+  }
+  EXPECT_EQ(lines_of(out_ / "schools.csv").size(), 2U) << "titles and one school";
+  EXPECT_EQ(lines_of(out_ / "school_pings.csv").size(), 1U + masks().size());
+  EXPECT_EQ(lines_of(out_ / "survey.gpkg").at(0).substr(0, 15), "SQLite format 3");
+}
+
+TEST_F(Files, TheMovieOfASchoolIsOnePictureAPing) {
+  follow_a_school();
+  trigger("export.movie");
+  std::size_t pictures = 0;
+  for (const auto& entry : fs::directory_iterator(out_)) {
+    const auto image = read_png(entry.path());
+    ASSERT_TRUE(image) << entry.path();
+    EXPECT_GT(image->size.width, 100);
+    if (entry.path().filename().string().starts_with("ping-")) ++pictures;
+  }
+  EXPECT_EQ(pictures, masks().size());
+  EXPECT_TRUE(fs::exists(out_ / "movie.png"));
+}
+
+TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
+  click("side_slice", {10.0, 10.0});
+  const QSize size = view("side_slice")->size();
+  key(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(view("side_slice")->size(), size) << "a notice pushes nothing about";
+  const auto kept = read_png(out_ / "side_slice.png");
+  ASSERT_TRUE(kept) << told();
+  EXPECT_EQ(*kept, desk_->picture("side_slice")->image());
+  key(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
+  const QImage copied = QApplication::clipboard()->image().convertToFormat(QImage::Format_RGBA8888);
+  const Image& shown = desk_->picture("side_slice")->image();
+  ASSERT_EQ(copied.size(), QSize(shown.size.width, shown.size.height));
+  for (int y = 0; y < copied.height(); y += 7) {
+    for (int x = 0; x < copied.width(); x += 7) {
+      const Rgba8 c = shown.at(x, y);
+      ASSERT_EQ(copied.pixelColor(x, y), QColor(c.r, c.g, c.b, c.a)) << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(Files, APictureOfAnyKindIsMadeFromTheMenu) {
+  follow_a_school();
+  for (const PictureKindInfo& kind : picture_kinds()) {
+    EXPECT_NE(find_action(*window_, "picture." + std::string(kind.name)), nullptr) << kind.name;
+  }
+  for (const char* kind : {"slice-top", "survey-map"}) {
+    trigger(std::string("picture.") + kind);
+    EXPECT_TRUE(read_png(out_ / (std::string(kind) + ".png"))) << told();
+  }
+}
+
+TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
+  desk_->asking.folder_to_open = [this] { return survey_.string(); };
+  int opened = 0;
+  document().changes().add([&](DocumentChange change) { opened += change == DocumentChange::survey ? 1 : 0; });
+  key(Qt::Key_O, Qt::ControlModifier);
+  EXPECT_EQ(opened, 1);
+  QMimeData dropped;
+  dropped.setUrls({QUrl::fromLocalFile(QString::fromStdString(survey_.string()))});
+  QDragEnterEvent enter(QPoint(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+  QApplication::sendEvent(window_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+  QApplication::sendEvent(window_.get(), &drop);
+  settle();
+  EXPECT_EQ(opened, 2);
+  EXPECT_EQ(document().shown()->name(), "obs-0001");
+}
+
+TEST_F(Files, AFolderWithoutPingsAndOneThatIsNotThereSaySo) {
+  desk_->asking.folder_to_open = [this] { return out_.string(); };
+  key(Qt::Key_O, Qt::ControlModifier);
+  const std::string empty = told();
+  EXPECT_THAT(empty, testing::Not(testing::IsEmpty()));
+  desk_->asking.folder_to_open = [this] { return (out_ / "nowhere").string(); };
+  key(Qt::Key_O, Qt::ControlModifier);
+  EXPECT_THAT(told(), testing::HasSubstr("nowhere"));
+  desk_->asking.folder_to_open = [this] { return survey_.string(); };
+  key(Qt::Key_O, Qt::ControlModifier);
+  EXPECT_TRUE(document().staged()) << "and work goes on";
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists by mouse and keys: order, filter, jump, copy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QClipboard>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QTreeView>
+#include <algorithm>
+
+#include "session/review.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class Lists : public WindowAtWork {
+ protected:
+  QTreeView& list(const std::string& id) { return *view(id)->findChild<QTreeView*>("rows"); }
+  QLineEdit& filter(const std::string& id) { return *view(id)->findChild<QLineEdit*>("filter"); }
+  Rows& rows(const std::string& id) { return *desk_->rows(id); }
+  std::size_t column(const std::string& id, const std::string& title) {
+    const auto& all = rows(id).columns();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ListColumn& c) { return c.title == title; });
+    EXPECT_NE(found, all.end()) << title;
+    return static_cast<std::size_t>(found - all.begin());
+  }
+  /// A click on a column's title; the list is scrolled to it first.
+  void click_title(const std::string& id, std::size_t at) {
+    QHeaderView& header = *list(id).header();
+    list(id).scrollTo(list(id).model()->index(0, static_cast<int>(at)));
+    settle();
+    const int x = header.sectionViewportPosition(static_cast<int>(at)) + 12;
+    click_on(header.viewport(), {static_cast<double>(x), 0.5 * header.height()});
+  }
+  void click_row(const std::string& id, int row, Qt::KeyboardModifiers keys = {}) {
+    const QRect place = list(id).visualRect(list(id).model()->index(row, list(id).columnAt(8)));
+    click_on(list(id).viewport(), {12.0, static_cast<double>(place.center().y())}, keys);
+  }
+  /// What a column shows, from the top down.
+  std::vector<std::string> shown(const std::string& id, std::size_t at) {
+    const auto& model = *list(id).model();
+    std::vector<std::string> texts;
+    for (int row = 0; row < model.rowCount(); ++row) {
+      texts.push_back(model.index(row, static_cast<int>(at)).data().toString().toStdString());
+    }
+    return texts;
+  }
+  /// Two schools of an observation each, made by hands.
+  void make_schools() {
+    key(Qt::Key_D, Qt::ControlModifier);
+    raise("schools");
+    ASSERT_GE(rows("schools").rows(), 3U);
+  }
+};
+
+TEST_F(Lists, AClickOnATitleSortsAndASecondTurnsTheOrder) {
+  make_schools();
+  const std::size_t depth = column("schools", "Depth");
+  std::vector<std::pair<double, std::string>> known;
+  for (std::size_t row = 0; row < rows("schools").rows(); ++row) {
+    const Cell cell = rows("schools").cell(row, depth);
+    ASSERT_TRUE(std::holds_alternative<double>(cell.key)) << "measured";
+    known.emplace_back(std::get<double>(cell.key), cell.text);
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<std::string> rising;
+  for (const auto& [key, text] : known) rising.push_back(text);
+  click_title("schools", depth);
+  EXPECT_EQ(shown("schools", depth), rising);
+  click_title("schools", depth);
+  std::reverse(rising.begin(), rising.end());
+  EXPECT_EQ(shown("schools", depth), rising);
+}
+
+TEST_F(Lists, TheFilterLeavesWhatMatchesAndEnterDecidesNothing) {
+  make_schools();
+  const std::size_t all = rows("schools").rows();
+  click_row("schools", 0);
+  ASSERT_TRUE(workspace().school());
+  const std::size_t lines = document().choices().lines->size();
+  QLineEdit& line = filter("schools");
+  click_on(&line, {20.0, 0.5 * line.height()});
+  type("obs-0002");
+  const auto names = shown("schools", column("schools", "Observation"));
+  EXPECT_LT(names.size(), all);
+  EXPECT_THAT(names, testing::Each("obs-0002"));
+  EXPECT_EQ(document().choices().lines->size(), lines) << "digits and letters are no keys of the window";
+  key(Qt::Key_Return);
+  EXPECT_EQ(document().choices().lines->size(), lines) << "Enter in the line accepts no school";
+  EXPECT_EQ(line.text(), "obs-0002");
+  line.clear();
+  settle();
+  EXPECT_EQ(shown("schools", 0).size(), all);
+}
+
+TEST_F(Lists, AClickOnARowGoesToItsSchool) {
+  make_schools();
+  for (std::size_t row = 0; row < 3; ++row) {
+    click_row("schools", static_cast<int>(row));
+    ASSERT_TRUE(workspace().school());
+    EXPECT_EQ(std::to_string(workspace().school()->number), shown("schools", column("schools", "School")).at(row));
+    EXPECT_EQ(document().shown()->name(), shown("schools", column("schools", "Observation")).at(row));
+    const auto selected = workspace().selected();
+    ASSERT_TRUE(selected);
+    EXPECT_NE(in_ping(document().state().schools[*selected]->masks, document().ping()), nullptr)
+        << "a ping in which the school is";
+  }
+}
+
+TEST_F(Lists, CtrlCCopiesRowsForASpreadsheet) {
+  make_schools();
+  const std::size_t depth = column("schools", "Depth");
+  click_title("schools", depth);
+  click_row("schools", 0);
+  click_row("schools", 2, Qt::ControlModifier);
+  key(Qt::Key_C, Qt::ControlModifier);
+  const QStringList lines = QApplication::clipboard()->text().split('\n', Qt::SkipEmptyParts);
+  ASSERT_EQ(lines.size(), 3) << "titles and two rows";
+  const auto columns = static_cast<qsizetype>(rows("schools").columns().size());
+  for (const QString& line : lines) EXPECT_EQ(line.split('\t').size(), columns);
+  EXPECT_EQ(lines[0].split('\t')[static_cast<qsizetype>(depth)], "Depth [m]");
+  EXPECT_EQ(lines[1].split('\t')[static_cast<qsizetype>(depth)].toStdString(), shown("schools", depth).at(0));
+  EXPECT_EQ(lines[2].split('\t')[static_cast<qsizetype>(depth)].toStdString(), shown("schools", depth).at(2));
+  key(Qt::Key_A, Qt::ControlModifier);
+  key(Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text().split('\n', Qt::SkipEmptyParts).size(),
+            static_cast<qsizetype>(rows("schools").rows()) + 1);
+}
+
+TEST_F(Lists, ADoubleClickInTheTreeOpensAnObservation) {
+  const QRect place = list("survey_tree").visualRect(list("survey_tree").model()->index(1, 0));
+  QTest::mouseDClick(window_->windowHandle(), Qt::LeftButton, {},
+                     list("survey_tree").viewport()->mapTo(window_.get(), place.center()));
+  settle();
+  EXPECT_EQ(document().shown()->name(), "obs-0002");
+}
+
+TEST_F(Lists, AReviewIsThreeKeysASchool) {
+  make_schools();
+  const std::size_t all = rows("schools").rows();
+  raise("review");
+  desk_->preferences.advance = true;
+  key(Qt::Key_N);
+  for (std::size_t i = 0; i < all; ++i) {
+    ASSERT_TRUE(workspace().school());
+    key(Qt::Key_2);
+    key(i % 2 == 0 ? Qt::Key_A : Qt::Key_R);
+  }
+  std::size_t accepted = 0;
+  std::size_t rejected = 0;
+  for (const std::size_t observation : {0U, 1U}) {
+    for (const auto& school : document().state(observation).schools) {
+      accepted += school->masks.decided.status == "accepted" ? 1U : 0U;
+      rejected += school->masks.decided.status == "rejected" ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(accepted, (all + 1) / 2);
+  EXPECT_EQ(rejected, all / 2);
+}
+
+}  // namespace
+}  // namespace sonar

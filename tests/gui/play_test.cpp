@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Playing through pings, on a clock that the test turns.
+#include <gtest/gtest.h>
+
+#include "gui/pulse_timer.h"
+#include "session/playback.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+/// Stops the window's own timer: time passes when the test says so.
+class NoTimer : public QObject {
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    return event->type() == QEvent::Timer && dynamic_cast<PulseTimer*>(watched) != nullptr;
+  }
+};
+
+class Playing : public WindowAtWork {
+ protected:
+  void SetUp() override {
+    WindowAtWork::SetUp();
+    QApplication::instance()->installEventFilter(&no_timer_);
+  }
+  /// Seconds from a ping to the next, as they were recorded.
+  double between_s(std::int64_t ping) {
+    const auto& pings = document().shown()->files().navigation;
+    const auto i = static_cast<std::size_t>(ping);
+    return static_cast<double>(pings[i + 1].time - pings[i].time) / 1e9;
+  }
+  void tick(double later_s) {
+    now_s_ += later_s;
+    desk_->pulse.tick(now_s_);
+    settle_jobs();
+  }
+  void press(Qt::Key key) {
+    QTest::keyClick(window_->windowHandle(), key);
+    settle_jobs();
+  }
+
+  NoTimer no_timer_;
+  double now_s_ = 100.0;
+};
+
+TEST_F(Playing, SpaceShowsEveryPingAtItsTimeAndSpaceStopsIt) {
+  press(Qt::Key_Space);
+  ASSERT_TRUE(desk_->playback->playing());
+  tick(0.0);
+  std::int64_t pictures = desk_->picture("top_slice")->pictures();
+  for (std::int64_t ping = 0; ping < 3; ++ping) {
+    tick(0.9 * between_s(ping));
+    EXPECT_EQ(document().ping(), ping) << "too early";
+    tick(0.2 * between_s(ping));
+    EXPECT_EQ(document().ping(), ping + 1);
+    EXPECT_EQ(document().staged()->ping_index, ping + 1);
+    EXPECT_GT(desk_->picture("top_slice")->pictures(), pictures) << "the slice follows";
+    pictures = desk_->picture("top_slice")->pictures();
+    tick(0.0);  // the ping is seen from now on
+  }
+  press(Qt::Key_Space);
+  EXPECT_FALSE(desk_->playback->playing());
+  tick(100.0);
+  EXPECT_EQ(document().ping(), 3);
+}
+
+TEST_F(Playing, PlusIsTwiceAsFastAndTheEndStops) {
+  press(Qt::Key_Plus);
+  press(Qt::Key_Space);
+  tick(0.0);
+  tick(0.45 * between_s(0));
+  EXPECT_EQ(document().ping(), 0);
+  tick(0.1 * between_s(0));
+  EXPECT_EQ(document().ping(), 1);
+  press(Qt::Key_End);
+  tick(0.0);
+  tick(0.0);
+  EXPECT_FALSE(desk_->playback->playing());
+  EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The timeline by mouse: going to a ping, events, bad intervals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session/timelines/timeline_model.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class Timeline : public WindowAtWork {
+ protected:
+  static constexpr const char* kDock = "observation_timeline";
+  TimelineModel& timeline() { return dynamic_cast<TimelineModel&>(*desk_->picture(kDock)); }
+  TimeNs time_of(std::int64_t ping) {
+    return document().shown()->files().navigation[static_cast<std::size_t>(ping)].time;
+  }
+  PixelPoint place_of(std::int64_t ping) {
+    const PixelRect& plot = timeline().places()->plot.place;
+    return {timeline().places()->x_of(time_of(ping)), plot.y + 0.5 * plot.height};
+  }
+};
+
+TEST_F(Timeline, AClickGoesToItsPingAndADragFollowsThePointer) {
+  click(kDock, place_of(7));
+  EXPECT_EQ(document().ping(), 7);
+  EXPECT_EQ(document().staged()->ping_index, 7);
+  press_on(view(kDock), place_of(7));
+  move(kDock, place_of(4));
+  EXPECT_EQ(document().ping(), 4);
+  move(kDock, place_of(2));
+  EXPECT_EQ(document().ping(), 2);
+  release_on(view(kDock), place_of(2));
+  move(kDock, place_of(9));
+  EXPECT_EQ(document().ping(), 2) << "a pointer that holds nothing moves nothing";
+}
+
+TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {
+  std::string asked;
+  desk_->asking.text = [&](const std::string& title, const std::string&, const std::string&) {
+    asked = title;
+    return std::string("trawl 12");
+  };
+  click(kDock, place_of(5));
+  const Image before = timeline().image();
+  key(Qt::Key_T);
+  EXPECT_EQ(asked, "Mark trawl");
+  ASSERT_EQ(document().state().events.size(), 1U);
+  const EventCommand& event = document().state().events[0];
+  EXPECT_EQ(event.kind, "trawl");
+  EXPECT_EQ(event.text, "trawl 12");
+  EXPECT_EQ(event.time, document().shown()->ground().times[5]);
+  EXPECT_FALSE(timeline().image() == before) << "the mark is drawn";
+  EXPECT_THAT(timeline().hint(place_of(5)), testing::HasSubstr("trawl: trawl 12"));
+  click(kDock, place_of(1));
+  key(Qt::Key_BracketRight, Qt::ControlModifier);
+  EXPECT_EQ(document().ping(), 5) << "the next event";
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(document().state().events.empty());
+}
+
+TEST_F(Timeline, AnIntervalThatIsMarkedBadTakesNoPartInMeasures) {
+  const Target target = look_at_school();
+  double_click("top_slice", place_in("top_slice", target.voxel));
+  const auto& product = document().product(0);
+  ASSERT_TRUE(product);
+  ASSERT_EQ(product->schools.size(), 1U);
+  const auto measured = product->schools[0].n_pings;
+  const std::int64_t first = masks().front().ping_index;
+  const std::int64_t last = masks().back().ping_index;
+  ASSERT_GT(last, first);
+  drag(kDock, place_of(first), place_of(first + 1), Qt::ShiftModifier);
+  ASSERT_TRUE(workspace().marked_interval());
+  EXPECT_EQ(*workspace().marked_interval(), (MarkedInterval{0, first, first + 1}));
+  key(Qt::Key_X, Qt::ShiftModifier);
+  ASSERT_EQ(document().state().bad_pings.size(), 1U);
+  const auto& times = document().shown()->ground().times;
+  EXPECT_TRUE(is_bad(document().state(), times[static_cast<std::size_t>(first)]));
+  EXPECT_TRUE(is_bad(document().state(), times[static_cast<std::size_t>(first + 1)]));
+  EXPECT_EQ(document().product(0)->schools.at(0).n_pings, measured - 2);
+}
+
+}  // namespace
+}  // namespace sonar
