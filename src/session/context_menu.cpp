@@ -26,7 +26,8 @@ constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
 constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise", "event.other"};
-constexpr std::array<Id, 2> kBad{"bad.ping", "bad.interval"};
+constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
+constexpr std::array<Id, 1> kMark{"mark.remove"};
 constexpr std::array<Id, 2> kNextEvent{"event.previous", "event.next"};
 constexpr std::array<Id, 2> kPicture{"file.copy_view", "file.save_view"};
 constexpr std::array<Id, 2> kSearch{"schools.detect", "schools.detect_all"};
@@ -40,7 +41,7 @@ constexpr std::array<ActionGroup, 6> kVolume{kDecide, kFollow, kParts, kSides, k
 constexpr std::array<ActionGroup, 4> kObservationMap{kDecide, kFollow, kMap, kPicture};
 constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
-constexpr std::array<ActionGroup, 4> kTimeline{kEvents, kBad, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 5> kTimeline{kMark, kEvents, kBad, kNextEvent, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};

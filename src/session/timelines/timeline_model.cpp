@@ -302,6 +302,7 @@ std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
 }
 
 void TimelineModel::aim(PixelPoint at) {
+  workspace_.mark.set(mark_at(at));
   if (const auto there = ping_at(at)) look_at_ping(workspace_.document, there->observation, there->ping);
 }
 

@@ -149,6 +149,8 @@ TEST(TimelineModel, AClickChoosesTheMarkThatLiesThere) {
   EXPECT_EQ(maps.timeline.overlays().size(), 2U);
   TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 7));
   EXPECT_EQ(maps.workspace.mark(), (ChosenMark{0, bad}));
+  maps.timeline.aim(place_of(maps.timeline, document, 0, 3));
+  EXPECT_EQ(maps.workspace.mark(), (ChosenMark{0, trawl})) << "a context menu is about what lies under it";
   maps.workspace.school.set(SchoolName{0, 1});  // Delete is about the school again
   EXPECT_FALSE(maps.workspace.mark());
   TestMaps::click(maps.timeline, place_of(maps.timeline, document, 0, 7));
