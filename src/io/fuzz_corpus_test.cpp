@@ -11,6 +11,7 @@
 #include "base/source_tree.h"
 #include "io/fuzz_bodies.h"
 #include "io/fuzz_product.h"
+#include "io/fuzz_raster.h"
 
 namespace sonar {
 namespace {
@@ -59,6 +60,14 @@ TEST(FuzzCorpus, Product) {
   fs::create_directories(folder);
   const fuzz::ProductFuzz product(folder);
   replay("product", [&](const std::string& bytes) { product(std::as_bytes(std::span(bytes))); });
+  fs::remove_all(folder);
+}
+
+TEST(FuzzCorpus, DepthRaster) {
+  const fs::path folder = fs::temp_directory_path() / ("sonar_fuzz_rasters_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const fuzz::RasterFuzz raster(folder);
+  replay("depth_raster", [&](const std::string& bytes) { raster(std::as_bytes(std::span(bytes))); });
   fs::remove_all(folder);
 }
 

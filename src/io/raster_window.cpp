@@ -16,6 +16,8 @@ constexpr double kMetresPerDegree = 111'195.0;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /// Deeper than the deepest trench, or higher than any mountain: no value, whatever the file calls it.
 constexpr double kImpossible_m = 12'500.0;
+/// Of a block, GiB: GDAL takes memory for a whole one before it looks whether the file has it.
+constexpr double kMostOfBlock_GiB = 1.0;
 
 bool sound(const std::array<double, 6>& g) {
   return std::all_of(g.begin(), g.end(), [](double v) { return std::isfinite(v); });
@@ -27,6 +29,20 @@ bool looks_geographic(const std::array<double, 6>& g, int width, int height) {
   const double y1 = g[3] + g[5] * height;
   return g[2] == 0.0 && g[4] == 0.0 && std::min(g[0], x1) >= -361.0 && std::max(g[0], x1) <= 541.0 &&
          std::min(g[3], y1) >= -91.0 && std::max(g[3], y1) <= 91.0;
+}
+
+/// errors  format: more memory for one block than any raster of depths needs
+Result<void> check_blocks(GDALRasterBand& band, const std::string& named) {
+  int wide = 0;
+  int high = 0;
+  band.GetBlockSize(&wide, &high);
+  const double gib = static_cast<double>(wide) * high * GDALGetDataTypeSizeBytes(band.GetRasterDataType()) / 0x1p30;
+  if (gib <= kMostOfBlock_GiB) return {};
+  return fail(
+      ErrorCode::format,
+      fmt::format("the raster is stored in blocks of {} x {} values, {:.1f} GiB each; expected {:g} GiB or less", wide,
+                  high, gib, kMostOfBlock_GiB),
+      {.file = named});
 }
 
 }  // namespace
@@ -118,6 +134,7 @@ float RasterValues::at(const RasterPoint& p) const {
 
 Result<RasterValues> read_window(GDALRasterBand& band, const PixelWindow& window, int most_side,
                                  const std::string& named) {
+  if (auto ok = check_blocks(band, named); !ok) return pass_on(ok);
   RasterValues out;
   out.window = window;
   const int wide = window.end_x - window.first_x;

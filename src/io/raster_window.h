@@ -78,7 +78,7 @@ struct RasterValues {
 };
 
 /// most_side  of the values read
-/// errors     format: the bytes cannot be read
+/// errors     format: the bytes cannot be read; a block of them would take over 1 GiB
 [[nodiscard]] Result<RasterValues> read_window(GDALRasterBand& band, const PixelWindow& window, int most_side,
                                                const std::string& named);
 
