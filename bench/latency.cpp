@@ -209,7 +209,8 @@ class Bench {
   std::shared_ptr<const PingMask> before_;
 };
 
-/// Clicks upon the brightest voxels of one ping after another, until so many stand in the journal.
+/// Clicks upon the brightest voxels of one ping after another, each school deleted again, until so many acts stand in the
+/// journal.
 void fill_journal(const std::filesystem::path& survey, const std::filesystem::path& folder, std::size_t acts) {
   ChangeQueue queue;
   DocumentOptions options;
@@ -230,8 +231,11 @@ void fill_journal(const std::filesystem::path& survey, const std::filesystem::pa
     }
     const auto samples = static_cast<std::size_t>(filtered.counts.shape().samples);
     GrowCommand command;
-    command.seeds = {{document.shown()->grid().channel[best / samples], static_cast<int>(best % samples)}};
+    const SeedKey seed{document.shown()->grid().channel[best / samples], static_cast<int>(best % samples)};
+    command.seeds = {seed};
     document.act(command);
+    const auto ping = static_cast<std::size_t>(document.ping());
+    document.act(DeleteCommand{{document.shown()->ground().times[ping], seed.channel, seed.sample}});
     document.settle();
   }
   fmt::print("  a journal of {} acts\n", document.choices().lines->size());
