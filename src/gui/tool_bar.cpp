@@ -17,7 +17,7 @@ namespace {
 constexpr int kIcon_px = 16;
 
 struct Button {
-  const char* id;                                       ///< empty = a separator
+  const char* id = "";                                  ///< empty = a separator
   QStyle::StandardPixmap icon = QStyle::SP_CustomBase;  ///< SP_CustomBase: the action's text
 };
 

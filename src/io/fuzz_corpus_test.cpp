@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "io/fuzz_bodies.h"
 #include "io/fuzz_product.h"
 #include "io/fuzz_raster.h"

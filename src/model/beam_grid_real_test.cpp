@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "model/beam_grid.h"
 
 namespace sonar {

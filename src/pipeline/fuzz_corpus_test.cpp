@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "io/atomic_file.h"
 #include "pipeline/fuzz_bodies.h"
 

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/test_paths.h"
 #include "io/depth_raster.h"
 #include "io/product_example.h"
 
@@ -106,7 +106,7 @@ TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
 
 // Depths rise by 10 m a hundredth of a degree northwards, 300 m where the ship is.
 TEST_F(Pictures, AVolumeWithASeabedHasAScaleOfItsDepths) {
-  const fs::path file = fs::temp_directory_path() / ("sonar_picture_" + std::to_string(::getpid()) + ".tif");
+  const fs::path file = test::scratch_path(".tif");
   DepthGrid grid;
   grid.rows = grid.columns = 4;
   grid.south_deg = 59.985;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "base/test_paths.h"
 #include "render/fuzz_bodies.h"
 
 namespace sonar {
@@ -14,10 +14,10 @@ namespace {
 
 TEST(FuzzCorpus, Png) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("sonar_fuzz_png_" + std::to_string(::getpid()));
+  const fs::path folder = test::scratch_path("-png");
   fs::create_directories(folder);
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(__FILE__).parent_path() / "../../tests/data/fuzz/png")) {
+  for (const auto& entry : fs::directory_iterator(test::source_tree() / "tests/data/fuzz/png")) {
     std::ifstream in(entry.path(), std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(in), {});
     fuzz::png(std::as_bytes(std::span(bytes)), folder);

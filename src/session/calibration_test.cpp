@@ -81,7 +81,7 @@ TEST_F(ChosenCalibration, AClickSelectsWhatItSelectedBefore) {
     command.seeds = {{channel(6, 6), 205}};
     document().act(8, command);
     document().settle();
-    const auto mask = document().state().schools.back()->masks.pings.at(0).mask;
+    auto mask = document().state().schools.back()->masks.pings.at(0).mask;
     ask("edit.undo");
     return mask;
   };

@@ -23,7 +23,7 @@ class TestSurvey {
   /// A fresh folder for journals and results.
   [[nodiscard]] std::filesystem::path fresh() const {
     static int count = 0;
-    const auto path = root_ / ("work-" + std::to_string(++count));
+    auto path = root_ / ("work-" + std::to_string(++count));
     std::filesystem::create_directories(path);
     return path;
   }

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "io/atomic_file.h"
 #include "synth/fuzz_bodies.h"
 

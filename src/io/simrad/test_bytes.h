@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "base/time.h"
 
 namespace sonar::test {

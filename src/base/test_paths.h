@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 namespace sonar::test {
 
@@ -18,6 +21,11 @@ inline std::filesystem::path source_tree() {
 inline std::filesystem::path recorded_data() {
   const char* told = std::getenv("SONAR_DATA");  // NOLINT(concurrency-mt-unsafe): nobody sets it
   return told != nullptr ? std::filesystem::path(told) : source_tree() / "../shared/data";
+}
+
+/// For tests: a path below the system's temporary folder that no other process has. Nothing is made there.
+inline std::filesystem::path scratch_path(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("sonar-" + std::to_string(::getpid()) + name);
 }
 
 }  // namespace sonar::test
