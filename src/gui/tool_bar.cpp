@@ -2,6 +2,7 @@
 #include "gui/tool_bar.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QIcon>
 #include <QPainter>
 #include <QPixmap>
@@ -76,7 +77,7 @@ void tint_tool_bar(QMainWindow& window) {
     if (action == nullptr || button.icon == QStyle::SP_CustomBase) continue;
     const QIcon icon = window.style()->standardIcon(button.icon);
     const bool black = button.icon >= QStyle::SP_MediaPlay && button.icon <= QStyle::SP_MediaSeekBackward;
-    action->setIcon(black ? tinted(icon, window.palette().color(QPalette::ButtonText)) : icon);
+    action->setIcon(black ? tinted(icon, QApplication::palette().color(QPalette::ButtonText)) : icon);
   }
 }
 
