@@ -37,21 +37,24 @@ void draw_twice(QPainter& painter, const QPainterPath& path) {
   painter.drawPath(path);
 }
 
-QPainterPath path_of(const Overlay& overlay) {
+/// In the window's units.
+QPainterPath path_of(const Overlay& overlay, double scale) {
   QPainterPath path;
   for (std::size_t i = 0; i < overlay.line.size(); ++i) {
-    const QPointF at(overlay.line[i].x, overlay.line[i].y);
+    const QPointF at(overlay.line[i].x / scale, overlay.line[i].y / scale);
     i == 0 ? path.moveTo(at) : path.lineTo(at);
   }
   if (overlay.cross) {
-    const auto [x, y] = *overlay.cross;
+    const double x = overlay.cross->x / scale;
+    const double y = overlay.cross->y / scale;
     path.moveTo(x - kCrossArm_px, y);
     path.lineTo(x + kCrossArm_px, y);
     path.moveTo(x, y - kCrossArm_px);
     path.lineTo(x, y + kCrossArm_px);
   }
   if (overlay.circle_at) {
-    path.addEllipse(QPointF(overlay.circle_at->x, overlay.circle_at->y), overlay.circle_px, overlay.circle_px);
+    const double radius = overlay.circle_px / scale;
+    path.addEllipse(QPointF(overlay.circle_at->x / scale, overlay.circle_at->y / scale), radius, radius);
   }
   return path;
 }
@@ -78,6 +81,7 @@ PictureView::~PictureView() {
 void PictureView::paintEvent(QPaintEvent* /*event*/) {
   // What is painted is seen. A tab behind another counts as shown, somewhere off the window, and is never painted.
   picture_.set_seen(true);
+  show_size();  // the window may have come to another screen
   QPainter painter(this);
   const Image& image = picture_.image();
   painter.fillRect(rect(), palette().color(QPalette::Base));
@@ -85,6 +89,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
     // The image outlives the call: Qt borrows its pixels.
     const QImage shown(reinterpret_cast<const uchar*>(image.pixels.data()), image.size.width, image.size.height,
                        QImage::Format_RGBA8888);
+    // Pixel for pixel: the picture was made for this screen.
     const QSizeF drawn = QSizeF(image.size.width, image.size.height) / picture_.scale();
     painter.drawImage(QRectF(QPointF(0, 0), drawn), shown);
   } else {
@@ -93,7 +98,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
                      picture_.problem().empty() ? idle_text_ : QString::fromStdString(picture_.problem()));
   }
   painter.setRenderHint(QPainter::Antialiasing);
-  for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay));
+  for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));
   if (latencies_()) {
     QPainterPath text;
     text.addText(QPointF(8, height() - 8.0), font(), QString("%1 ms").arg(picture_.latency_ms(), 0, 'f', 1));
@@ -101,9 +106,13 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   }
 }
 
-void PictureView::resizeEvent(QResizeEvent* /*event*/) { picture_.resize({width(), height()}, devicePixelRatioF()); }
+void PictureView::show_size() { picture_.resize({width(), height()}, devicePixelRatioF()); }
 
-void PictureView::showEvent(QShowEvent* /*event*/) { picture_.resize({width(), height()}, devicePixelRatioF()); }
+PixelPoint PictureView::pixel_at(QPointF at) const { return {at.x() * picture_.scale(), at.y() * picture_.scale()}; }
+
+void PictureView::resizeEvent(QResizeEvent* /*event*/) { show_size(); }
+
+void PictureView::showEvent(QShowEvent* /*event*/) { show_size(); }
 
 void PictureView::set_uncovered(bool uncovered) {
   if (!uncovered) picture_.set_seen(false);
@@ -115,8 +124,7 @@ void PictureView::hideEvent(QHideEvent* /*event*/) { picture_.set_seen(false); }
 void PictureView::forward(QMouseEvent* event, PointerAction action) {
   const bool moving = action == PointerAction::move;
   const Qt::MouseButtons buttons = moving ? event->buttons() : Qt::MouseButtons(event->button());
-  picture_.pointer(
-      with_keys({action, button_of(buttons), {event->position().x(), event->position().y()}}, event->modifiers()));
+  picture_.pointer(with_keys({action, button_of(buttons), pixel_at(event->position())}, event->modifiers()));
 }
 
 void PictureView::mouseMoveEvent(QMouseEvent* event) { forward(event, PointerAction::move); }
@@ -125,7 +133,7 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event) { forward(event, Pointer
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) { forward(event, PointerAction::double_press); }
 
 void PictureView::wheelEvent(QWheelEvent* event) {
-  PointerEvent wheel{PointerAction::wheel, PointerButton::none, {event->position().x(), event->position().y()}};
+  PointerEvent wheel{PointerAction::wheel, PointerButton::none, pixel_at(event->position())};
   wheel.wheel_steps = event->angleDelta().y() / kWheelUnitsPerStep;
   picture_.pointer(with_keys(wheel, event->modifiers()));
 }
@@ -152,7 +160,7 @@ void PictureView::set_menu(QMenu* menu) {
 void PictureView::contextMenuEvent(QContextMenuEvent* event) {
   if (menu_ == nullptr) return;
   if (event->reason() == QContextMenuEvent::Mouse) {
-    picture_.aim({static_cast<double>(event->x()), static_cast<double>(event->y())});
+    picture_.aim(pixel_at(event->pos()));
   }
   menu_open_ = true;
   menu_->popup(event->globalPos());
@@ -161,8 +169,7 @@ void PictureView::contextMenuEvent(QContextMenuEvent* event) {
 bool PictureView::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QWidget::event(event);
   const auto* help = dynamic_cast<QHelpEvent*>(event);
-  const std::string hint =
-      help == nullptr ? std::string{} : picture_.hint({static_cast<double>(help->x()), static_cast<double>(help->y())});
+  const std::string hint = help == nullptr ? std::string{} : picture_.hint(pixel_at(help->pos()));
   if (hint.empty()) {
     QToolTip::hideText();
   } else {

@@ -41,6 +41,9 @@ class PictureView : public QWidget {
   bool event(QEvent* event) override;
 
  private:
+  void show_size();
+  /// A place of the view in the picture's pixels.
+  [[nodiscard]] PixelPoint pixel_at(QPointF at) const;
   void forward(QMouseEvent* event, PointerAction action);
 
   LivePicture& picture_;

@@ -2,6 +2,7 @@
 #include "session/live_picture.h"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "publish/painted.h"
@@ -21,10 +22,11 @@ LivePicture::~LivePicture() {
   if (wish_) wish_->give_up();
 }
 
-void LivePicture::resize(PixelSize size, double scale) {
-  if (size == size_ && scale == scale_) return;
-  size_ = size;
+void LivePicture::resize(PixelSize units, double scale) {
+  if (units == units_ && scale == scale_) return;
+  units_ = units;
   scale_ = scale;
+  size_ = {static_cast<int>(std::lround(units.width * scale)), static_cast<int>(std::lround(units.height * scale))};
   update();
 }
 
@@ -62,7 +64,7 @@ void LivePicture::update() {
     return;
   }
   const double asked_s = seconds_now();
-  wish_ = background_.post_latest([this, build_now = std::move(build_now), size = size_, scale = scale_, asked_s,
+  wish_ = background_.post_latest([this, build_now = std::move(build_now), size = size_, asked_s,
                                    alive = std::weak_ptr<bool>(alive_)](const Wanted& wanted) {
     const auto post = [&](std::function<void()> change) {
       queue_.post([alive, change = std::move(change)] {
@@ -71,7 +73,7 @@ void LivePicture::update() {
     };
     // Shown even where a later wish has come: while wishes come faster than pictures something must be seen.
     const Show show = [&](Built built) {
-      auto image = built.image ? Result<Image>(std::move(*built.image)) : painted(built.frame, scale);
+      auto image = built.image ? Result<Image>(std::move(*built.image)) : painted(built.frame, built.scale);
       if (!image) return post([this, line = to_line(image.error())] { fail_with(line); });
       post([this, built = std::move(built), image = std::move(*image), asked_s]() mutable {
         put(std::move(built), std::move(image), asked_s);

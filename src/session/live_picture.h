@@ -38,15 +38,18 @@ class LivePicture {
   LivePicture(const LivePicture&) = delete;
   LivePicture& operator=(const LivePicture&) = delete;
 
-  /// Size of the picture on the screen; scale = device pixels per pixel.
-  void resize(PixelSize size, double scale);
-  [[nodiscard]] PixelSize size() const { return size_; }
+  /// Size on the screen in the window's units; scale = pixels of the screen a unit: 2 where it is dense.
+  void resize(PixelSize units, double scale);
+  [[nodiscard]] PixelSize units() const { return units_; }
   [[nodiscard]] double scale() const { return scale_; }
+  /// In pixels of the screen. Whatever is drawn is drawn for them, and pointers, overlays and hints speak of them, so that
+  /// nothing is enlarged; what has a size for eyes and hands (text, lines, how far a pointer reaches) is times scale().
+  [[nodiscard]] PixelSize size() const { return size_; }
   /// Off or hidden: nothing is built. Shown again: built anew where something changed meanwhile.
   void set_seen(bool seen);
   [[nodiscard]] bool seen() const { return seen_; }
 
-  /// The picture as it was last drawn, size() * scale() pixels; empty before the first.
+  /// The picture as it was last drawn, of size(); empty before the first.
   [[nodiscard]] const Image& image() const { return image_; }
   /// Why there is no picture; empty where there is one.
   [[nodiscard]] const std::string& problem() const { return problem_; }
@@ -74,6 +77,7 @@ class LivePicture {
     FrameDescription frame;
     std::optional<Image> image;          ///< instead of drawing the frame
     std::shared_ptr<const void> detail;  ///< handed to take()
+    double scale = 1.0;                  ///< pixels a unit of the frame
   };
   using Show = std::function<void(Built)>;
   /// Runs behind the window on copies of everything it needs. `wanted` is false once a later wish came: a build goes on to
@@ -101,8 +105,9 @@ class LivePicture {
   void fail_with(std::string line);
 
   ChangeQueue& queue_;
-  PixelSize size_;
+  PixelSize units_;
   double scale_ = 1.0;
+  PixelSize size_;
   bool seen_ = false;
   bool stale_ = true;
   Image image_;

@@ -142,8 +142,8 @@ std::vector<OpacityPoint> TransferEditor::points() const {
 PlotFrame TransferEditor::plot() const {
   PlotFrame plot;
   const double text_px = light_theme({640, 480}).text_px;
-  plot.place = {3.2 * text_px, 8.0, std::max(20.0, size().width - 4.4 * text_px),
-                std::max(20.0, size().height - 8.0 - 2 * kBar_px - 3.4 * text_px)};
+  plot.place = {3.2 * text_px, 8.0, std::max(20.0, units().width - 4.4 * text_px),
+                std::max(20.0, units().height - 8.0 - 2 * kBar_px - 3.4 * text_px)};
   plot.x = {kFirst_db, kLast_db, "", false};
   plot.y = {1.0, 0.0, "", false};
   return plot;
@@ -151,7 +151,7 @@ PlotFrame TransferEditor::plot() const {
 
 PixelRect TransferEditor::bar() const {
   const PlotFrame frame = plot();
-  return {frame.place.x, size().height - kBar_px - 8.0, frame.place.width, kBar_px};
+  return {frame.place.x, units().height - kBar_px - 8.0, frame.place.width, kBar_px};
 }
 
 PixelPoint TransferEditor::place_of(const OpacityPoint& point) const { return plot().at(point.sv_db, point.opacity); }
@@ -170,10 +170,11 @@ LivePicture::Build TransferEditor::build() {
              growth_shown_(),
              workspace_.dark()};
   const StagedPingPtr staged = workspace_.document.staged();
-  return [what = std::move(what), staged](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+  return [what = std::move(what), staged, units = units(), scale = scale()](PixelSize, const Wanted&,
+                                                                            const Show& show) -> Result<void> {
     const auto bins = staged ? sv_histogram(*staged->filtered, kFirst_db, static_cast<int>(kLast_db - kFirst_db))
                              : std::vector<double>{};
-    show({drawn(what, bins, size), std::nullopt, nullptr});
+    show({drawn(what, bins, units), std::nullopt, nullptr, scale});
     return {};
   };
 }
@@ -250,7 +251,9 @@ void TransferEditor::drag(PixelPoint to) {
   if (validate(params)) workspace_.display.assign(params);
 }
 
-void TransferEditor::pointer(const PointerEvent& event) {
+void TransferEditor::pointer(const PointerEvent& pointed) {
+  PointerEvent event = pointed;
+  event.at = in_frame(pointed.at);
   switch (event.action) {
     case PointerAction::press:
     case PointerAction::double_press:
@@ -267,7 +270,8 @@ void TransferEditor::pointer(const PointerEvent& event) {
   }
 }
 
-std::string TransferEditor::hint(PixelPoint at) const {
+std::string TransferEditor::hint(PixelPoint pixel) const {
+  const PixelPoint at = in_frame(pixel);
   if (at.y >= bar().y - 2) return "Display limits: drag the two marks";
   const OpacityPoint there = point_at(at);
   return fmt::format("{:.1f} dB, opacity {:.2f}\nDouble-click adds a corner, a right click takes one away", there.sv_db,

@@ -26,7 +26,7 @@ class TransferEditor : public LivePicture {
   void take_preset(std::string_view name);
   /// Corners of the curve that is edited.
   [[nodiscard]] std::vector<OpacityPoint> points() const;
-  /// Places in the picture, for tests and rubber bands.
+  /// Places in the frame, which is in the window's units.
   [[nodiscard]] PixelPoint place_of(const OpacityPoint& point) const;
   [[nodiscard]] PlotFrame plot() const;
 
@@ -36,6 +36,7 @@ class TransferEditor : public LivePicture {
  private:
   enum class Grip : std::uint8_t { none, corner, low_limit, high_limit };
 
+  [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
   void set_points(std::vector<OpacityPoint> points);
   void press(const PointerEvent& event);
   void drag(PixelPoint to);

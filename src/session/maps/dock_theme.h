@@ -6,6 +6,6 @@
 namespace sonar {
 
 /// The theme of a picture in a dock: text stays readable however small the dock is.
-[[nodiscard]] Theme dock_theme(PixelSize size, bool dark);
+[[nodiscard]] Theme dock_theme(PixelSize pixels, double scale, bool dark);
 
 }  // namespace sonar

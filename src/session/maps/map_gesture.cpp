@@ -11,7 +11,8 @@ constexpr double kStep = 1.25;     ///< of one notch of the wheel
 
 }  // namespace
 
-MapGesture::Did MapGesture::take(const PointerEvent& event, const PixelRect& place, double whole_metres_per_px) {
+MapGesture::Did MapGesture::take(const PointerEvent& event, const PixelRect& place, double whole_metres_per_px,
+                                 double scale) {
   const MapZoom before = zoom_;
   switch (event.action) {
     case PointerAction::wheel:
@@ -25,7 +26,8 @@ MapGesture::Did MapGesture::take(const PointerEvent& event, const PixelRect& pla
       break;
     case PointerAction::move:
       if (!press_ || event.button == PointerButton::none) break;
-      press_->moved = press_->moved || std::hypot(event.at.x - press_->at.x, event.at.y - press_->at.y) > kStill_px;
+      press_->moved =
+          press_->moved || std::hypot(event.at.x - press_->at.x, event.at.y - press_->at.y) > kStill_px * scale;
       if (press_->moved) zoom_ = dragged(whole_metres_per_px, press_->zoom, press_->at, event.at);
       break;
     case PointerAction::release: {

@@ -17,7 +17,8 @@ class MapGesture {
   [[nodiscard]] const MapZoom& zoom() const { return zoom_; }
   /// place                of the map in the picture
   /// whole_metres_per_px  of the map that shows everything
-  Did take(const PointerEvent& event, const PixelRect& place, double whole_metres_per_px);
+  /// scale                pixels a unit of the window
+  Did take(const PointerEvent& event, const PixelRect& place, double whole_metres_per_px, double scale = 1.0);
   /// Everything is shown again.
   void reset() { *this = {}; }
 

@@ -24,7 +24,7 @@ constexpr double kCellReach_px = 4.0;
 std::int64_t ObservationMapPlaces::school_at(PixelPoint at) const {
   if (cells.empty()) return 0;
   // A school may be a few cells: the surest within reach counts, the nearest first.
-  const int reach = std::max(1, static_cast<int>(kCellReach_px / cell_px));
+  const int reach = std::max(1, static_cast<int>(kCellReach_px * scale / cell_px));
   const int x = static_cast<int>(std::floor((at.x - map->place.x) / cell_px));
   const int y = static_cast<int>(std::floor((at.y - map->place.y) / cell_px));
   for (int r = 0; r <= reach; ++r) {
@@ -107,6 +107,7 @@ LivePicture::Build ObservationMapModel::build() {
   wish.palette.fuzzy_above = display.fuzzy_above;
   if (wish.state) wish.palette.rejected = rejected_schools(*wish.state);
   wish.dark = workspace_.dark();
+  wish.scale = scale();
   wish.zoom = gesture_.zoom();
   return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
@@ -127,7 +128,7 @@ void ObservationMapModel::show_all() {
 
 void ObservationMapModel::pointer(const PointerEvent& event) {
   if (!places_ || !places_->map) return;
-  switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px)) {
+  switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px, scale())) {
     case MapGesture::Did::moved:
       return update();
     case MapGesture::Did::clicked:
@@ -144,7 +145,7 @@ void ObservationMapModel::aim(PixelPoint at) {
 void ObservationMapModel::click(PixelPoint at) {
   const auto& shown = workspace_.document.shown();
   if (!shown || shown->index() != places_->observation) return;
-  if (const auto ping = places_->ping_at(at, kTrackReach_px)) return workspace_.document.look_at(*ping);
+  if (const auto ping = places_->ping_at(at, kTrackReach_px * scale())) return workspace_.document.look_at(*ping);
   if (const std::int64_t school = places_->school_at(at)) workspace_.school.set(SchoolName{shown->index(), school});
 }
 
@@ -165,7 +166,7 @@ std::string ObservationMapModel::hint(PixelPoint at) const {
   const auto& shown = workspace_.document.shown();
   if (!places_ || !places_->map || !shown) return {};
   std::string text;
-  if (const auto ping = places_->ping_at(at, kTrackReach_px)) {
+  if (const auto ping = places_->ping_at(at, kTrackReach_px * scale())) {
     const TimeNs time = shown->files().navigation[static_cast<std::size_t>(*ping)].time;
     text = fmt::format("ping {}, {} UTC\n", *ping, clock_text(time, true));
   } else if (const std::int64_t school = places_->school_at(at)) {

@@ -22,6 +22,7 @@ struct ObservationMapPlaces {
   std::size_t observation = 0;
   std::shared_ptr<const MapFrame> map;
   double whole_metres_per_px = 1.0;
+  double scale = 1.0;                                    ///< pixels a unit of the window: how far a pointer reaches
   std::shared_ptr<const std::vector<PixelPoint>> track;  ///< [ping], NaN without a position
   double cell_px = 1.0;
   int width = 0;

@@ -34,14 +34,16 @@ std::vector<MapSchool> schools_of(const ObservationProduct& product, std::int64_
 
 Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, PixelSize size) {
   const bool other = observation_ != wish.observation;
-  if (!other && base_ && base_->size == size && dark_ == wish.dark && zoom_ == wish.zoom) return {};
+  if (!other && base_ && base_->size == size && scale_ == wish.scale && dark_ == wish.dark && zoom_ == wish.zoom)
+    return {};
   if (other) head_ = observation_head(wish.observation->files());
   base_.reset();
   observation_ = wish.observation;
-  auto base = observation_map_base(head_, size, dock_theme(size, wish.dark), wish.zoom);
+  auto base = observation_map_base(head_, size, dock_theme(size, wish.scale, wish.dark), wish.zoom);
   if (!base) return pass_on(base);
   base_ = std::move(*base);
   dark_ = wish.dark;
+  scale_ = wish.scale;
   zoom_ = wish.zoom;
   map_ = std::make_shared<const MapFrame>(base_->map);
   std::vector<PixelPoint> track;
@@ -69,6 +71,7 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   if (wish.product) add_map_schools(painted.frame, *base_, schools_of(shown, wish.selected, wish.rejected));
   places->observation = observation_->index();
   places->map = map_;
+  places->scale = wish.scale;
   places->whole_metres_per_px = map_->metres_per_px * wish.zoom.factor;
   places->track = track_;
   places->cell_px = mosaic.cell_px();

@@ -20,6 +20,7 @@ struct ObservationMapWish {
   bool rejected = true;
   MaskPalette palette;
   bool dark = false;
+  double scale = 1.0;  ///< pixels a unit of the window
   MapZoom zoom;
 };
 
@@ -39,6 +40,7 @@ class ObservationMapPainter {
 
   OpenObservationPtr observation_;
   bool dark_ = false;
+  double scale_ = 1.0;
   MapZoom zoom_;
   ObservationProduct head_;
   std::optional<ObservationMapBase> base_;

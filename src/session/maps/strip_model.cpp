@@ -58,7 +58,7 @@ void StripModel::hear(DocumentChange change) {
 }
 
 int StripModel::panes() const {
-  const double em = dock_theme(size(), false).text_px;
+  const double em = dock_theme(size(), scale(), false).text_px;
   const double wide = size().width - 2.0 * em;
   const double high = std::max(kNarrowest_em * em, size().height - kAround_em * em);
   const int most = std::max(1, static_cast<int>(wide / (kNarrowest_em * em)));
@@ -116,10 +116,11 @@ LivePicture::Build StripModel::build() {
     wish.style.focus = static_cast<int>(wish.selected);
   }
   wish.dark = workspace_.dark();
+  wish.scale = scale();
   return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
     const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected);
     const auto panels = strip_panels(wish, masks);
-    const Theme theme = dock_theme(size, wish.dark);
+    const Theme theme = dock_theme(size, wish.scale, wish.dark);
     const Sector& sector = wish.observation->sector();
     auto frame = propagation_view(sector, panels, wish.style, size, theme, strip_title(wish));
     if (!frame) return pass_on(frame);
@@ -163,7 +164,7 @@ void StripModel::pointer(const PointerEvent& event) {
     case PointerAction::move: {
       if (!press_ || event.button == PointerButton::none || !places_ || places_->panes.empty()) return;
       const double moved_px = event.at.x - press_->at.x;
-      press_->moved = press_->moved || std::abs(moved_px) > kStill_px;
+      press_->moved = press_->moved || std::abs(moved_px) > kStill_px * scale();
       const double pane_px = std::max(1.0, places_->panes.front().place.width);
       if (press_->moved) scroll_to(press_->first - static_cast<std::int64_t>(std::llround(moved_px / pane_px)));
       return;

@@ -21,6 +21,7 @@ struct StripWish {
   bool rejected = true;
   PropagationStyle style;
   bool dark = false;
+  double scale = 1.0;  ///< pixels a unit of the window
 };
 
 /// masks  own what the panels point to

@@ -31,7 +31,7 @@ const SurveyMapPlaces::School* SurveyMapPlaces::school_at(PixelPoint at) const {
   double best = 1e300;
   for (const School& school : schools) {
     const double away = std::hypot(school.at.x - at.x, school.at.y - at.y);
-    if (away > std::max(kSchoolReach_px, school.radius_px) || away >= best) continue;
+    if (away > std::max(kSchoolReach_px * scale, school.radius_px) || away >= best) continue;
     best = away;
     nearest = &school;
   }
@@ -40,7 +40,7 @@ const SurveyMapPlaces::School* SurveyMapPlaces::school_at(PixelPoint at) const {
 
 std::optional<SurveyMapPlaces::Ping> SurveyMapPlaces::ping_at(PixelPoint at) const {
   std::optional<Ping> nearest;
-  double best = kTrackReach_px;
+  double best = kTrackReach_px * scale;
   for (std::size_t o = 0; o < tracks.size(); ++o) {
     for (std::size_t i = 0; i < tracks[o].size(); ++i) {
       const double away = std::hypot(tracks[o][i].x - at.x, tracks[o][i].y - at.y);
@@ -83,6 +83,7 @@ LivePicture::Build SurveyMapModel::build() {
   wish.style.zoom = gesture_.zoom();
   wish.style.rejected = workspace_.display.values().rejected;
   wish.dark = workspace_.dark();
+  wish.scale = scale();
   return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted& wanted, const Show& show) {
     return painter->paint(wish, size, wanted, [&show](SurveyMapPainter::Painted painted) {
       show({std::move(painted.frame), std::nullopt, std::move(painted.places)});
@@ -101,7 +102,7 @@ void SurveyMapModel::show_all() {
 
 void SurveyMapModel::pointer(const PointerEvent& event) {
   if (!places_ || !places_->map) return;
-  switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px)) {
+  switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px, scale())) {
     case MapGesture::Did::moved:
       return update();
     case MapGesture::Did::clicked:
@@ -136,7 +137,7 @@ std::vector<Overlay> SurveyMapModel::overlays() const {
     Overlay overlay;
     if (cross) overlay.cross = at;
     if (!cross) overlay.circle_at = at;
-    overlay.circle_px = kRing_px;
+    overlay.circle_px = kRing_px * scale();
     out.push_back(std::move(overlay));
   };
   const auto ping = static_cast<std::size_t>(workspace_.document.ping());

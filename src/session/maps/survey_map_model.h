@@ -30,6 +30,7 @@ struct SurveyMapPlaces {
   };
   std::shared_ptr<const MapFrame> map;
   double whole_metres_per_px = 1.0;
+  double scale = 1.0;  ///< pixels a unit of the window: how far a pointer reaches
   std::vector<School> schools;
   std::vector<std::vector<PixelPoint>> tracks;  ///< [observation][ping], NaN without a position
 

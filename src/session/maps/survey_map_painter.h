@@ -23,6 +23,7 @@ struct SurveyMapWish {
   std::filesystem::path depth_raster;
   SurveyMapStyle style;
   bool dark = false;
+  double scale = 1.0;  ///< pixels a unit of the window
 };
 
 /// Draws survey maps one after another, and keeps what stays the same between them.

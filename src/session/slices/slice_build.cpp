@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "pipeline/weak_samples.h"
+#include "session/screen_theme.h"
 
 namespace sonar {
 namespace {
@@ -86,7 +87,7 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   style.masks.core_at = wish.display.core_at;
   style.grid = wish.display.grid_lines;
   style.north_up = wish.north_up;
-  const Theme theme = wish.dark ? dark_theme(size) : light_theme(size);
+  const Theme theme = screen_theme(size, wish.scale, wish.dark);
   auto picture =
       slice_picture(wish.observation->sector(), data, titled(wish), wish.view, style, theme, size, wish.earlier);
   if (picture) name_selected(*picture, wish, theme);

@@ -20,6 +20,7 @@ struct SliceWish {
   std::vector<SchoolLayer> layers;
   bool north_up = false;
   bool dark = false;
+  double scale = 1.0;  ///< pixels a unit of the window: for text and lines
   std::shared_ptr<const SliceMap> earlier;
   std::shared_ptr<Array3<SampleFlags>> flags;  ///< room for the flags of this slice; one picture at a time uses it
 };

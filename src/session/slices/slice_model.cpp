@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/weak_samples.h"
+#include "session/screen_theme.h"
 #include "session/slices/slice_build.h"
 
 namespace sonar {
@@ -94,7 +95,8 @@ LivePicture::Build SliceModel::build() {
   wish.view = {slice(), wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
   if (!colours_) colours_ = std::make_shared<const SvColours>(slice_colours(workspace_));
   wish.colours = colours_;
-  const Theme theme = wish.dark ? dark_theme(size()) : light_theme(size());
+  wish.scale = scale();
+  const Theme theme = screen_theme(size(), wish.scale, wish.dark);
   wish.layers = school_layers(workspace_, wish.ping->ping_index, theme);
   if (picture_) wish.earlier = picture_->map;
   wish.flags = flags_;

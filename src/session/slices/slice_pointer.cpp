@@ -88,7 +88,7 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
   if (event.button != PointerButton::left || !voxel) return;
   if (event.alt) return seed_.select(*voxel);
   if (on_brush()) {
-    brush_.press(*picture_->map, on_map(event.at), workspace_.tool() == ToolName::eraser);
+    brush_.press(*picture_->map, on_map(event.at), workspace_.tool() == ToolName::eraser, scale());
   } else {
     seed_.press(*voxel, event.shift, event.control, double_press);
   }
@@ -188,7 +188,7 @@ std::vector<Overlay> SliceModel::overlays() const {
     if (at && inside(plot, *at)) over.push_back({{}, at, {}, 0.0});
   }
   if (pointer_ && on_brush() && inside(plot, *pointer_)) {
-    over.push_back({{}, {}, pointer_, static_cast<double>(workspace_.brush_px())});
+    over.push_back({{}, {}, pointer_, workspace_.brush_px() * scale()});
   }
   return over;
 }

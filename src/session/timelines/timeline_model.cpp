@@ -13,6 +13,8 @@
 namespace sonar {
 namespace {
 
+constexpr double kEventReach_px = 8.0;  ///< times the scale, as all that a hand reaches
+
 /// Opens the observation where needed.
 void look_at_ping(Document& document, std::size_t observation, std::int64_t ping) {
   const auto& shown = document.shown();
@@ -135,6 +137,7 @@ LivePicture::Build TimelineModel::build() {
   echograms_->want(this, std::move(fill));
   wish.dark = workspace_.dark();
   wish.shown = shown_;
+  wish.scale = scale();
   return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
@@ -281,7 +284,7 @@ void TimelineModel::follow_ping() {
 std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
   if (!places_ || !workspace_.document.shown()) return std::nullopt;
   std::optional<ChosenMark> found;
-  double best = kMarkReach_px;
+  double best = kMarkReach_px * scale();
   const TimeNs time = places_->time_at(at.x);
   for (const std::size_t index : observations()) {
     const auto open = workspace_.document.open_observation(index);
@@ -362,7 +365,7 @@ std::string TimelineModel::hint(PixelPoint at) const {
   const auto open = workspace_.document.open_observation(there->observation);
   if (!open) return text;
   for (const EventCommand& event : workspace_.document.state(there->observation).events) {
-    if (std::abs(places_->x_of(shown_time(*open, event.time)) - at.x) > 8.0) continue;
+    if (std::abs(places_->x_of(shown_time(*open, event.time)) - at.x) > kEventReach_px * scale()) continue;
     text += fmt::format("\n{}{}{}", event.kind, event.text.empty() ? "" : ": ", event.text);
   }
   if (const auto found = mark_at(at); found && std::holds_alternative<BadPingsCommand>(found->what)) {

@@ -56,7 +56,7 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
     }
     observations.push_back(drawn(one, *product));
   }
-  const Theme theme = dock_theme(size, wish.dark);
+  const Theme theme = dock_theme(size, wish.scale, wish.dark);
   TimelineStyle style;
   style.by_school = true;
   style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;

@@ -26,6 +26,7 @@ struct TimelineWish {
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   bool rejected = true;
   bool dark = false;
+  double scale = 1.0;  ///< pixels a unit of the window
 };
 
 /// Draws timelines one after another.

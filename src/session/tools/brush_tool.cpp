@@ -98,12 +98,13 @@ BrushTool::BrushTool(Workspace& workspace)
 
 BrushTool::~BrushTool() { workspace_.document.changes().remove(listening_); }
 
-void BrushTool::press(const SliceMap& map, PixelPoint at, bool erase) {
+void BrushTool::press(const SliceMap& map, PixelPoint at, bool erase, double scale) {
   const Document& document = workspace_.document;
   if (!document.shown() || !document.staged() || drawing()) return;
   observation_ = document.shown();
   ping_ = document.staged();
   erase_ = erase;
+  scale_ = scale;
   last_ = at;
   stroke_ = {};
   paint(map, at);
@@ -114,7 +115,7 @@ void BrushTool::move(const SliceMap& map, PixelPoint at) {
 }
 
 void BrushTool::paint(const SliceMap& map, PixelPoint to) {
-  const auto runs = runs_under(map, last_, to, workspace_.brush_px());
+  const auto runs = runs_under(map, last_, to, workspace_.brush_px() * scale_);
   last_ = to;
   stroke_ = unite(stroke_, that_can_belong(runs, ping_->filtered->flags.view()));
   Preview preview;

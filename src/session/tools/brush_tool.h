@@ -27,8 +27,9 @@ class BrushTool {
   BrushTool(const BrushTool&) = delete;
   BrushTool& operator=(const BrushTool&) = delete;
 
-  /// at  in the map's pixels
-  void press(const SliceMap& map, PixelPoint at, bool erase);
+  /// at     in the map's pixels
+  /// scale  of the map's pixels in a unit of the window, in which the brush has its size
+  void press(const SliceMap& map, PixelPoint at, bool erase, double scale = 1.0);
   void move(const SliceMap& map, PixelPoint at);
   void release();
   /// The drag has never been.
@@ -43,6 +44,7 @@ class BrushTool {
   OpenObservationPtr observation_;
   StagedPingPtr ping_;  ///< that is drawn upon; null = no drag
   bool erase_ = false;
+  double scale_ = 1.0;
   PixelPoint last_;
   PingMask stroke_;
   bool selects_ = false;  ///< the next state brings a school that was drawn

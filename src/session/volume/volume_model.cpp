@@ -83,13 +83,13 @@ void VolumeModel::hear(DocumentChange change) {
 
 LivePicture::Build VolumeModel::build() {
   if (better_) better_->cancel();  // what is under way shows something that is past
-  auto input = volume_input(workspace_, camera_, size(), scale());
+  auto input = volume_input(workspace_, camera_, units(), scale());
   if (!input) return {};
   better_ = std::make_shared<Work>(workspace_.document.options().threads);
-  return [live = live_, better = better_, input = std::move(*input)](PixelSize /*size*/, const Wanted& wanted,
-                                                                     const Show& show) {
+  return [live = live_, better = better_, scale = scale(), input = std::move(*input)](
+             PixelSize /*size*/, const Wanted& wanted, const Show& show) {
     return live->draw(input, wanted, *better, [&](LiveVolume::Picture picture) {
-      show({std::move(picture.frame), std::nullopt, std::move(picture.shown)});
+      show({std::move(picture.frame), std::nullopt, std::move(picture.shown), scale});
     });
   };
 }
@@ -139,11 +139,13 @@ void VolumeModel::look_from(VolumeSide side) {
         return Sector::direction(0.0, rad_from_deg(180.0));
     }
   };
-  const PixelSize rays = shown_ ? shown_->view.size : size();
+  const PixelSize rays = shown_ ? shown_->view.size : units();
   set_camera(seen_from(observation->sector(), from(), rays));
 }
 
-void VolumeModel::pointer(const PointerEvent& event) {
+void VolumeModel::pointer(const PointerEvent& pointed) {
+  PointerEvent event = pointed;
+  event.at = in_frame(pointed.at);
   switch (event.action) {
     case PointerAction::press:
       return press(event);
@@ -225,7 +227,7 @@ void VolumeModel::hover(const PointerEvent& event) {
 }
 
 void VolumeModel::aim(PixelPoint at) {
-  const auto voxel = voxel_at(at);
+  const auto voxel = voxel_at(in_frame(at));
   const Document& document = workspace_.document;
   if (!voxel) return;
   workspace_.cursor.set(voxel);
@@ -245,12 +247,12 @@ std::vector<Overlay> VolumeModel::overlays() const {
   const auto at = shown_->place_of(observation->sector().centre(cursor->fan, cursor->beam, cursor->sample));
   if (!at) return {};
   Overlay cross;
-  cross.cross = *at;
+  cross.cross = PixelPoint{at->x * scale(), at->y * scale()};
   return {cross};
 }
 
 std::string VolumeModel::hint(PixelPoint at) const {
-  const auto voxel = voxel_at(at);
+  const auto voxel = voxel_at(in_frame(at));
   return voxel ? read_out(workspace_, *voxel).line() : std::string{};
 }
 

@@ -63,6 +63,8 @@ class VolumeModel : public LivePicture {
     bool moved = false;
   };
   void hear(DocumentChange change);
+  /// Places in the frame, which is in the window's units: the back-end has a scale of its own.
+  [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
   void press(const PointerEvent& event);
   void drag(const PointerEvent& event);
   void release(const PointerEvent& event);

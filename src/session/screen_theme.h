@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "view/theme.h"
+
+namespace sonar {
+
+/// Colours and sizes of a picture on the screen: text and lines as large as its extent in the window's units asks for, in
+/// its own pixels.
+/// scale  pixels a unit of the window
+[[nodiscard]] Theme screen_theme(PixelSize pixels, double scale, bool dark);
+
+/// The same, with the theme's sizes of text and lines times a factor.
+[[nodiscard]] Theme scaled(Theme theme, double factor);
+
+}  // namespace sonar
