@@ -11,7 +11,7 @@
 #include <QTreeView>
 #include <filesystem>
 
-#include "base/source_tree.h"
+#include "base/test_paths.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 #include "window_at_work.h"
