@@ -42,6 +42,9 @@ std::vector<std::size_t> chunk_shape(const std::vector<Dimension>& dimensions, s
 std::unique_lock<std::mutex> lock() {
   static std::mutex mutex;
   std::unique_lock held(mutex);
+  // HDF5 keeps files that it could not finish on a full disk, and breaks on them when it tidies up at the program's end.
+  // Every sound file is closed by then.
+  [[maybe_unused]] static const auto no_tidying = H5dont_atexit();
   // HDF5 prints its inner errors on standard error, thread by thread, unless told not to.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   return held;
