@@ -113,8 +113,13 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
     follow(source, property.name, slider, [low, step](QSlider& s, const PropertyValue& v) {
       s.setValue(static_cast<int>(std::lround((std::get<double>(v) - low) / step)));
     });
-    QObject::connect(slider, &QSlider::valueChanged, slider,
-                     [source, name = property.name, low, step](int at) { (void)source->set(name, low + step * at); });
+    // What the box shows is what counts, unless the slider is finer than that.
+    const double unit = std::pow(10.0, -decimals_of(property));
+    const double grain = unit < step ? unit : 0.0;
+    QObject::connect(slider, &QSlider::valueChanged, slider, [source, name = property.name, low, step, grain](int at) {
+      const double value = low + step * at;
+      (void)source->set(name, grain > 0.0 ? std::round(value / grain) * grain : value);
+    });
     row->addWidget(slider, 1);
   }
   row->addWidget(box);

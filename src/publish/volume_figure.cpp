@@ -115,7 +115,15 @@ Result<OpticalTable> volume_table(const PictureOptions& options) {
   const auto curve = view_curve(options);
   if (!curve) return pass_on(curve);
   const double first = curve->points().front().sv_db;
-  return optical_table(*curve, options.table_entries, first, std::max(first + 1.0, curve->points().back().sv_db));
+  auto table = optical_table(*curve, options.table_entries, first, std::max(first + 1.0, curve->points().back().sv_db));
+  if (!table) return table;
+  // What lies below the analysis threshold is not shown, whatever curve is given.
+  const double step_db = (table->last_db - table->first_db) / (options.table_entries - 1);
+  for (std::size_t i = 0; i < table->rgb_extinction.size(); ++i) {
+    if (table->first_db + step_db * static_cast<double>(i) < options.scale.threshold_db)
+      table->rgb_extinction[i][3] = 0.0F;
+  }
+  return table;
 }
 
 ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options) {

@@ -210,6 +210,7 @@ PictureOptions picture_options(const Workspace& workspace) {
 }
 
 void save_picture(Workspace& workspace, PictureKind kind, PictureOptions options, const fs::path& file) {
+  if (kind == PictureKind::survey_map) options.depth_raster = workspace.depth_raster();
   run_job(workspace,
           [kind, observation = shown_name(workspace), options = std::move(options), file](
               const Snapshot& snapshot, Work& work) -> Result<std::string> {

@@ -68,7 +68,7 @@ class LivePicture {
   [[nodiscard]] virtual std::string hint(PixelPoint /*at*/) const { return {}; }
 
   /// Returns when the picture of the last wish is on its way through the queue; for tests.
-  void wait() { background_.wait(); }
+  virtual void wait() { background_.wait(); }
 
  protected:
   /// What a build brings back: a description to draw, or (for volumes) pixels that are drawn already, and something for

@@ -10,6 +10,7 @@
 #include "session/desk_parts.h"
 #include "session/survey_schools.h"
 #include "session/timelines/timeline_actions.h"
+#include "session/tools/growth.h"
 
 namespace sonar {
 namespace {
@@ -73,19 +74,7 @@ void split_under_cursor(Workspace& workspace) {
 void carry_on(Workspace& workspace, bool backwards, bool forwards) {
   const auto school = school_on_show(workspace);
   if (!school) return;
-  const SelectParams& select = workspace.select.values();
-  const Recipe& recipe = workspace.document.recipe();
-  PropagateCommand command;
-  command.mode = select.mode;
-  command.grow = recipe.grow;
-  command.grow.mode = select.mode;
-  command.grow.connectivity = select.connectivity;
-  command.grow.tolerance_db = select.tolerance_db;
-  command.grow.tolerance_opacity = select.tolerance_opacity;
-  command.growth_curve = workspace.growth_curve();
-  command.paper = recipe.propagate_paper;
-  command.tracked = recipe.propagate_tracked;
-  command.reach = select.reach_pings;
+  PropagateCommand command = propagation_as_set(workspace);
   if (!backwards) command.reach_backward = 0;
   if (!forwards) command.reach_forward = 0;
   command.school = school->key();
@@ -130,6 +119,9 @@ void detect(Document& document, bool all) {
     for (std::size_t i = 0; i < document.survey()->observations.size(); ++i) {
       if (document.survey()->observations[i].grid) observations.push_back(i);
     }
+  }
+  if (!document.progress().stage.empty()) {
+    return document.tell(fmt::format("wait until {} is done, or cancel it", document.progress().stage));
   }
   document.detect(std::move(observations));
 }

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/commands/command.h"
 #include "session/test_desk.h"
+#include "session/tools/growth.h"
 
 namespace sonar {
 namespace {
@@ -50,6 +52,23 @@ TEST_F(SchoolActs, DeleteTakesTheSchoolAndUndoBringsItBack) {
   press("edit.redo");
   document().settle();
   EXPECT_TRUE(document().state().schools.empty());
+}
+
+TEST_F(SchoolActs, PropagationFollowsTheControlPanel) {
+  ASSERT_TRUE(workspace().select.set("tolerance_db", 7.0));
+  const PropagateCommand command = propagation_as_set(workspace());
+  EXPECT_EQ(command.tracked.tolerance_db, 7.0);
+  EXPECT_EQ(command.grow.tolerance_db, 7.0);
+  EXPECT_EQ(command.tracked.connectivity, workspace().select.values().connectivity);
+  EXPECT_EQ(command.paper.connectivity, workspace().select.values().connectivity);
+  press("school.propagate_forwards");
+  document().settle();
+  ASSERT_EQ(last_line().command, "propagate");
+  const auto act = act_of(last_line());
+  ASSERT_TRUE(act);
+  const auto& done = std::get<PropagateCommand>(act->command);
+  EXPECT_EQ(done.tracked.tolerance_db, 7.0);
+  EXPECT_EQ(done.reach_backward, 0);
 }
 
 TEST_F(SchoolActs, ReshapingIsOfThePingOrOfTheWholeTrack) {

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "session/curves.h"
 #include "session/place_text.h"
 #include "view/slice_picture.h"
 
@@ -65,8 +66,11 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     if (shown) slices.set({shown->sector().fans() / 2, shown->sector().beams() / 2});
   });
   display.on_change([this](const DisplayParams& params) {
-    if (!curve_follows_scale()) return;
-    if (auto curve = transfer_function(params.scale, kMostOpacity)) view_curve.set(std::move(*curve));
+    // A curve that a human drew keeps its shape and takes the scale's colours.
+    auto curve = curve_follows_scale()
+                     ? transfer_function(params.scale, kMostOpacity)
+                     : curve_of(params.scale, corners_of(view_curve()), view_curve().opacity_length_m());
+    if (curve) view_curve.set(std::move(*curve));
   });
   school.changed().add([this] { mark.set(std::nullopt); });
   document.changes().add([this](DocumentChange change) {
@@ -74,12 +78,22 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       mark.set(std::nullopt);
     }
   });
-  view_curve.changed().add([this] {
-    if (curves_linked()) growth_curve.set(view_curve());
-  });
-  growth_curve.changed().add([this] {
-    if (curves_linked()) view_curve.set(growth_curve());
-  });
+  view_curve.changed().add([this] { link(true); });
+  growth_curve.changed().add([this] { link(false); });
+  curves_linked.changed().add([this] { link(true); });
+}
+
+void Workspace::link(bool from_view) {
+  if (!curves_linked() || linking_) return;
+  linking_ = true;
+  if (from_view) {
+    if (auto curve = growth_curve_of(corners_of(view_curve()))) growth_curve.set(std::move(*curve));
+  } else if (auto curve =
+                 curve_of(display.values().scale, corners_of(growth_curve()), view_curve().opacity_length_m())) {
+    curve_follows_scale.set(false);
+    view_curve.set(std::move(*curve));
+  }
+  linking_ = false;
 }
 
 std::optional<std::size_t> Workspace::selected() const {

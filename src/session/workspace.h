@@ -91,8 +91,8 @@ struct Workspace {
   Parameters<VolumeParams> volume;
   Parameters<ViewSwitches> views;
 
-  /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, a change of one is a
-  /// change of both.
+  /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
+  /// the same opacity.
   Shared<TransferFunction> view_curve;
   Shared<TransferFunction> growth_curve;
   Shared<bool> curves_linked{false};
@@ -113,6 +113,11 @@ struct Workspace {
 
   /// Index in the state of the selected school, where it is in the observation on show.
   [[nodiscard]] std::optional<std::size_t> selected() const;
+
+ private:
+  /// Gives one curve the other's opacity where they are linked; colours are the view curve's alone.
+  void link(bool from_view);
+  bool linking_ = false;
 };
 
 /// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC.

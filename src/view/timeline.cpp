@@ -373,7 +373,8 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   if (style.brief) return frame;
   if (laid->any_echogram) add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value));
   std::string line = time_span_text(laid->zero, laid->last);
-  if (laid->raw_gone) {
+  if (laid->raw_gone && style.raw_there) line += " · echograms are being read";
+  if (laid->raw_gone && !style.raw_there) {
     line += laid->any_echogram ? " · schools only where raw data are gone" : " · raw data are gone: schools only";
   }
   add_title(frame, laid->layout, theme, {frame.title, line});

@@ -48,6 +48,10 @@ class TimelineModel : public LivePicture {
 
   void pointer(const PointerEvent& event) override;
   void aim(PixelPoint at) override;
+  void wait() override {
+    echograms_->wait();
+    LivePicture::wait();
+  }
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// Of the picture on show; null before the first.

@@ -59,6 +59,7 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
   const Theme theme = dock_theme(size, wish.scale, wish.dark);
   TimelineStyle style;
   style.by_school = true;
+  style.raw_there = true;
   style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
   style.shown = wish.shown;
   auto frame = timeline(observations, style, size, theme);

@@ -40,6 +40,22 @@ GrowParams grow_params(const SelectParams& params) {
   return {params.mode, params.connectivity, params.tolerance_db, params.tolerance_opacity};
 }
 
+PropagateCommand propagation_as_set(const Workspace& workspace) {
+  const SelectParams& select = workspace.select.values();
+  const Recipe& recipe = workspace.document.recipe();
+  PropagateCommand command;
+  command.mode = select.mode;
+  command.grow = grow_params(select);
+  command.growth_curve = workspace.growth_curve();
+  command.paper = recipe.propagate_paper;
+  command.paper.connectivity = select.connectivity;
+  command.tracked = recipe.propagate_tracked;
+  command.tracked.tolerance_db = select.tolerance_db;
+  command.tracked.connectivity = select.connectivity;
+  command.reach = select.reach_pings;
+  return command;
+}
+
 SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel) {
   const auto row = static_cast<std::size_t>(voxel.fan * observation.grid().beams() + voxel.beam);
   return {observation.grid().channel[row], voxel.sample};

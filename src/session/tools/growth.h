@@ -34,6 +34,8 @@ struct GrowthTrial {
 [[nodiscard]] Preview preview_of(const GrowthTrial& trial);
 
 [[nodiscard]] GrowParams grow_params(const SelectParams& params);
+/// A propagation as the control panel has it, both ways as far as its reach; the school is still to be named.
+[[nodiscard]] PropagateCommand propagation_as_set(const Workspace& workspace);
 [[nodiscard]] SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel);
 /// The state of an observation; null before it is known.
 [[nodiscard]] JournalStatePtr state_of(const Document& document, std::size_t observation);

@@ -146,16 +146,8 @@ void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKe
   const auto open = document.open_observation(observation);
   const SelectParams& select = workspace_.select.values();
   if (!open || (!select.backwards && !select.forwards)) return;
-  PropagateCommand command;
-  command.mode = select.mode;
+  PropagateCommand command = propagation_as_set(workspace_);
   command.grow = params_;
-  command.growth_curve = workspace_.growth_curve();
-  command.paper = document.recipe().propagate_paper;
-  command.paper.connectivity = select.connectivity;
-  command.tracked = document.recipe().propagate_tracked;
-  command.tracked.tolerance_db = select.tolerance_db;
-  command.tracked.connectivity = select.connectivity;
-  command.reach = select.reach_pings;
   if (!select.backwards) command.reach_backward = 0;
   if (!select.forwards) command.reach_forward = 0;
   command.school = SchoolKey{open->ground().times[static_cast<std::size_t>(ping)], seed.channel, seed.sample};
