@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
+#include "render/fuzz_bodies.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
-#include <string>
 
-#include "render/fuzz_bodies.h"
-
-namespace {
-
-/// In memory where the system has such a folder: each input is written as a file.
-std::filesystem::path make_folder() {
-  namespace fs = std::filesystem;
-  const fs::path shared = "/dev/shm";
-  std::error_code absent;
-  fs::path folder = (fs::is_directory(shared, absent) ? shared : fs::temp_directory_path()) /
-                    ("sonar_fuzz_png_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  return folder;
-}
-
-}  // namespace
+#include "scratch_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  struct Folder {
-    std::filesystem::path path = make_folder();
-    ~Folder() { std::filesystem::remove_all(path); }
-  };
-  static const Folder folder;
-  sonar::fuzz::png(std::as_bytes(std::span(data, size)), folder.path);
+  static const sonar::fuzz::ScratchFolder folder("png");
+  sonar::fuzz::png(std::as_bytes(std::span(data, size)), folder.path());
   return 0;
 }

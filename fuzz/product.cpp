@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
+#include "io/fuzz_product.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 #include <span>
-#include <string>
 
-#include "io/fuzz_product.h"
-
-namespace {
-
-/// In memory where the system has such a folder: each input writes a few small files.
-std::filesystem::path make_folder() {
-  namespace fs = std::filesystem;
-  const fs::path shared = "/dev/shm";
-  std::error_code absent;
-  fs::path folder = (fs::is_directory(shared, absent) ? shared : fs::temp_directory_path()) /
-                    ("sonar_fuzz_product_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  return folder;
-}
-
-}  // namespace
+#include "scratch_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  struct Folder {
-    std::filesystem::path path = make_folder();
-    ~Folder() { std::filesystem::remove_all(path); }
-  };
-  static const Folder folder;
-  static const sonar::fuzz::ProductFuzz product(folder.path);
+  static const sonar::fuzz::ScratchFolder folder("product");
+  static const sonar::fuzz::ProductFuzz product(folder.path());
   product(std::as_bytes(std::span(data, size)));
   return 0;
 }
