@@ -12,7 +12,9 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gui/own_keys.h"
 
@@ -95,6 +97,7 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
   box->setRange(std::max(property.min, -1e9), std::min(property.max, 1e9));
   box->setSingleStep(property.max - property.min > 2.0 ? 1.0 : 0.05);
   if (property.unit != "1") box->setSuffix(text(" " + property.unit));
+  if (!property.at_min.empty()) box->setSpecialValueText(text(property.at_min));
   box->setKeyboardTracking(false);
   box->setObjectName(text(property.name + ".box"));
   keep_own_keys(*box);
@@ -102,24 +105,27 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
          [](QDoubleSpinBox& b, const PropertyValue& v) { b.setValue(std::get<double>(v)); });
   QObject::connect(box, &QDoubleSpinBox::valueChanged, box,
                    [source, name = property.name](double value) { (void)source->set(name, value); });
-  if (property.max - property.min <= kMostSlider) {
+  if (property.slider || property.max - property.min <= kMostSlider) {
     auto* slider = new QSlider(Qt::Horizontal, both);
     slider->setRange(0, kSliderSteps);
     slider->setObjectName(text(property.name + ".slider"));
     slider->setMinimumWidth(60);
     keep_own_keys(*slider);
-    const double low = property.min;
-    const double step = (property.max - property.min) / kSliderSteps;
-    follow(source, property.name, slider, [low, step](QSlider& s, const PropertyValue& v) {
-      s.setValue(static_cast<int>(std::lround((std::get<double>(v) - low) / step)));
+    const auto [low, high] = property.slider.value_or(std::pair(property.min, property.max));
+    const double step = (high - low) / kSliderSteps;
+    follow(source, property.name, slider, [low = low, step](QSlider& s, const PropertyValue& v) {
+      s.setValue(
+          static_cast<int>(std::lround(std::clamp((std::get<double>(v) - low) / step, 0.0, 1.0 * kSliderSteps))));
     });
     // What the box shows is what counts, unless the slider is finer than that.
     const double unit = std::pow(10.0, -decimals_of(property));
     const double grain = unit < step ? unit : 0.0;
-    QObject::connect(slider, &QSlider::valueChanged, slider, [source, name = property.name, low, step, grain](int at) {
-      const double value = low + step * at;
-      (void)source->set(name, grain > 0.0 ? std::round(value / grain) * grain : value);
-    });
+    const double lowest = property.at_min.empty() ? low : property.min;
+    QObject::connect(slider, &QSlider::valueChanged, slider,
+                     [source, name = property.name, low = low, lowest, step, grain](int at) {
+                       const double value = at == 0 ? lowest : low + step * at;
+                       (void)source->set(name, grain > 0.0 && at > 0 ? std::round(value / grain) * grain : value);
+                     });
     row->addWidget(slider, 1);
   }
   row->addWidget(box);
@@ -139,6 +145,10 @@ std::string tooltip_of(const Property& property) {
   const std::string unit = property.unit.empty() || property.unit == "1" ? "" : " " + property.unit;
   if (std::isfinite(property.min) && std::isfinite(property.max) && property.max > property.min) {
     tip += fmt::format("\n{:g} to {:g}{}", property.min, property.max, unit);
+  }
+  if (const auto* number = std::get_if<double>(&property.initial);
+      number != nullptr && *number <= property.min && !property.at_min.empty()) {
+    return tip + "\nDefault: " + property.at_min;
   }
   return tip + "\nDefault: " + value_text(property.initial, property) + unit;
 }

@@ -3,19 +3,16 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFormLayout>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <initializer_list>
 
-#include "gui/bind.h"
 #include "gui/own_keys.h"
+#include "gui/panel_section.h"
 #include "gui/picture_view.h"
 
 namespace sonar {
@@ -24,48 +21,6 @@ namespace {
 constexpr int kEditorHeight_px = 200;
 
 QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
-
-QLabel* note_label(const PanelSection::Note& note, const PanelSection& section, QWidget* parent) {
-  auto* label = new QLabel(text(note.text()), parent);
-  label->setEnabled(false);
-  label->setWordWrap(true);
-  const auto refresh = [label = QPointer<QLabel>(label), tell = note.text] {
-    if (!label.isNull()) label->setText(text(tell()));
-  };
-  section.source->on_change(refresh);
-  return label;
-}
-
-void add_property(QFormLayout& form, const PanelSection& section, const Property& property, QWidget* parent) {
-  QWidget* control = bound_control(section.source, property, parent);
-  // A switch carries its own label.
-  if (std::holds_alternative<bool>(property.initial)) {
-    form.addRow(control);
-  } else {
-    auto* label = new QLabel(text(property.label), parent);
-    label->setToolTip(control->toolTip());
-    form.addRow(label, control);
-  }
-  for (const PanelSection::Note& note : section.notes) {
-    if (note.name == property.name) form.addRow(QString(), note_label(note, section, parent));
-  }
-}
-
-QWidget* section_body(const PanelSection& section, QWidget* parent) {
-  auto* body = new QWidget(parent);
-  auto* form = new QFormLayout(body);
-  form->setContentsMargins(8, 2, 4, 8);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  const auto& all = section.source->properties();
-  if (section.names.empty()) {
-    for (const Property& property : all) add_property(*form, section, property, body);
-  }
-  for (const std::string& name : section.names) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
-    if (found != all.end()) add_property(*form, section, *found, body);
-  }
-  return body;
-}
 
 void add_section(QVBoxLayout& column, const PanelSection& section, QWidget* parent) {
   auto* head = new QToolButton(parent);
@@ -76,7 +31,7 @@ void add_section(QVBoxLayout& column, const PanelSection& section, QWidget* pare
   head->setChecked(section.open);
   head->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   keep_own_keys(*head);
-  QWidget* body = section_body(section, parent);
+  QWidget* body = panel_section(section, parent);
   const auto fold = [head, body](bool open) {
     head->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
     body->setVisible(open);
@@ -100,6 +55,10 @@ QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent
   auto* linked = new QCheckBox("Linked", row);
   linked->setObjectName("curves_linked");
   linked->setToolTip("A change of one curve is a change of both.\nDefault: off");
+  linked->setChecked(workspace.curves_linked());
+  workspace.curves_linked.changed().add([linked = QPointer<QCheckBox>(linked), &workspace] {
+    if (!linked.isNull()) linked->setChecked(workspace.curves_linked());
+  });
   QObject::connect(linked, &QCheckBox::toggled, linked, [&workspace](bool on) { workspace.curves_linked.set(on); });
   auto* preset = new QComboBox(row);
   preset->setObjectName("curve_preset");

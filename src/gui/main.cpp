@@ -57,7 +57,7 @@ int run_program(int argc, char** argv) {
   std::vector<std::filesystem::path> paths;
   for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());
   if (parser.isSet(demo)) {
-    open_demo(desk.workspace.document);
+    open_demo(desk);
   } else if (!paths.empty()) {
     desk.workspace.document.open(std::move(paths));
   }

@@ -10,6 +10,8 @@
 #include <QInputDialog>
 #include <QMessageBox>
 
+#include "gui/parameter_dialog.h"
+
 namespace sonar {
 namespace {
 
@@ -54,6 +56,9 @@ void answer_questions(QWidget& window, Asking& asking) {
   };
   asking.yes = [&window](const std::string& question) {
     return QMessageBox::question(&window, "Sonar Explorer", text(question)) == QMessageBox::Yes;
+  };
+  asking.parameters = [&window](const std::string& title, const PanelSection& section) {
+    return change_parameters(window, title, section);
   };
   asking.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
   asking.copy_image = [](const Image& image) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/status_line.h"
 
+#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStatusBar>
 #include <algorithm>
+#include <memory>
 
 #include "gui/own_keys.h"
 
@@ -13,6 +15,7 @@ namespace sonar {
 namespace {
 
 constexpr int kNoticeTime_ms = 15000;
+constexpr int kNoticeAtLeast_ms = 4000;  // then a pointer that moves has its read-out back
 constexpr int kMargin_px = 4;
 
 QString text_at_cursor(const Workspace& workspace) {
@@ -23,10 +26,11 @@ QString text_at_cursor(const Workspace& workspace) {
   return QString::fromStdString(line);
 }
 
-void show_progress(QProgressBar& bar, QPushButton& cancel, const Progress& progress) {
+void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& document) {
+  const Progress progress = document.activity();
   const bool running = !progress.stage.empty();
   bar.setVisible(running);
-  cancel.setVisible(running);
+  cancel.setVisible(!document.progress().stage.empty() || document.busy());
   if (!running) return;
   bar.setFormat(QString::fromStdString(progress.stage) + " %p %");
   bar.setRange(0, static_cast<int>(progress.total));
@@ -55,19 +59,28 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   // What comes and goes must not push the views about.
   status->setFixedHeight(
       std::max({status->sizeHint().height(), bar->sizeHint().height(), cancel->sizeHint().height()}) + kMargin_px);
-  show_progress(*bar, *cancel, {});
-  QObject::connect(cancel, &QPushButton::clicked, status, [&workspace] { workspace.document.cancel(); });
-  const auto read = [cursor, &workspace] {
+  show_progress(*bar, *cancel, workspace.document);
+  QObject::connect(cancel, &QPushButton::clicked, status, [&workspace] {
+    Document& document = workspace.document;
+    document.progress().stage.empty() ? document.stop_propagation() : document.cancel();
+  });
+  const auto told = std::make_shared<QElapsedTimer>();
+  const auto read = [cursor, status, told, &workspace] {
+    if (told->isValid() && told->hasExpired(kNoticeAtLeast_ms)) {
+      told->invalidate();
+      status->clearMessage();
+    }
     cursor->setText(text_at_cursor(workspace));
     cursor->setCursorPosition(0);
   };
   workspace.cursor.changed().add(read);
   workspace.preview.changed().add(read);
-  workspace.document.changes().add([read, status, bar, cancel, &workspace](DocumentChange change) {
+  workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();
-    if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document.progress());
+    if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document);
     if (change == DocumentChange::notice) {
       status->showMessage(QString::fromStdString(workspace.document.notices().back()), kNoticeTime_ms);
+      told->start();
     }
   });
 }

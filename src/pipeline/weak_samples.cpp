@@ -32,6 +32,18 @@ void flag_weak_rows(const StagedPing& ping, std::span<const int> rows, double ma
   }
 }
 
+Array3<std::int16_t> counts_put_back(const StagedPing& ping, SampleFlags reasons) {
+  Array3<std::int16_t> out = ping.filtered->counts;
+  const auto flags = ping.filtered->flags.all();
+  const auto recorded = ping.sv.counts.all();
+  const auto to = out.all();
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const SampleFlags out_for = flags[i] & kNotFiltered;
+    if (any(out_for) && (out_for & reasons) == out_for) to[i] = recorded[i];
+  }
+  return out;
+}
+
 std::optional<double> signal_to_noise_db(const StagedPing& ping, int row, int sample) {
   const Background background = ping.background();
   const std::int16_t count = ping.filtered->counts.view().row(row)[static_cast<std::size_t>(sample)];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -16,6 +17,11 @@ namespace sonar {
 void flag_weak_rows(const StagedPing& ping, std::span<const int> rows, double margin_db, View3<SampleFlags> out);
 /// The same of all rows.
 void flag_weak(const StagedPing& ping, double margin_db, View3<SampleFlags> out);
+
+/// Filtered Sv counts, but as recorded where samples were taken out for no other reason than these.
+/// out     [fan][beam][sample]
+/// cost    one pass over the ping
+[[nodiscard]] Array3<std::int16_t> counts_put_back(const StagedPing& ping, SampleFlags reasons);
 
 /// Filtered Sv above the expected background, dB; empty where one of them is not known.
 [[nodiscard]] std::optional<double> signal_to_noise_db(const StagedPing& ping, int row, int sample);

@@ -79,6 +79,9 @@ struct PictureOptions {
   std::optional<double>
       weak_below_db;  ///< samples with less signal-to-noise carry low_snr; empty = none do. Volumes too
 
+  /// Samples that were taken out for these reasons alone are shown as recorded. Volumes too
+  SampleFlags put_back = SampleFlags::none;
+
   // volumes
   SampleFlags left_out = kNotFiltered | SampleFlags::low_snr;  ///< samples with one of these are not drawn
   std::optional<Camera> camera;                                ///< empty = an overview

@@ -91,9 +91,14 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   const Array3<std::int16_t> nothing(ping->staged ? Shape3{} : shape, kNoData);
   SliceData data;
   Array3<SampleFlags> flags;
+  Array3<std::int16_t> put_back;
   if (ping->staged) {
     const Volume& volume = options.filtered.value_or(false) ? *ping->staged->filtered : ping->staged->sv;
     data.sv = volume.counts.view();
+    if (options.filtered.value_or(false) && any(options.put_back)) {
+      put_back = counts_put_back(*ping->staged, options.put_back);
+      data.sv = View3<const std::int16_t>(put_back.view());
+    }
     data.flags = ping->staged->filtered->flags.view();
     if (options.weak_below_db) {
       flags = Array3<SampleFlags>(data.flags.shape());

@@ -79,7 +79,10 @@ void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, cons
 std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
                                                const PictureOptions& options, double transducer_depth_m) {
   const bool filtered = options.filtered.value_or(true);
-  Volume shown{filtered ? staged.filtered->counts : staged.sv.counts, staged.filtered->flags};
+  Volume shown{!filtered               ? staged.sv.counts
+               : any(options.put_back) ? counts_put_back(staged, options.put_back)
+                                       : staged.filtered->counts,
+               staged.filtered->flags};
   if (options.weak_below_db && any(options.left_out & SampleFlags::low_snr)) {
     flag_weak(staged, *options.weak_below_db, shown.flags.view());
   }
@@ -87,7 +90,8 @@ std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const Stage
 }
 
 bool same_volume(const PictureOptions& a, const PictureOptions& b) {
-  return a.filtered == b.filtered && a.left_out == b.left_out && a.weak_below_db == b.weak_below_db;
+  return a.filtered == b.filtered && a.put_back == b.put_back && a.left_out == b.left_out &&
+         a.weak_below_db == b.weak_below_db;
 }
 
 Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {

@@ -11,6 +11,8 @@
 
 namespace sonar {
 
+struct PanelSection;
+
 /// Something that a user can ask for: the one list from which menus, keys, buttons and the sheet of keys are made.
 struct Action {
   std::string id;                 ///< "ping.next"
@@ -51,6 +53,8 @@ struct Asking {
   std::function<std::optional<std::string>(const std::string& title, const std::string& label, const std::string& text)>
       text;
   std::function<bool(const std::string& question)> yes;
+  /// Lets a human change parameters; false = declined
+  std::function<bool(const std::string& title, const PanelSection& section)> parameters;
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_keys;  ///< the sheet of keys
   std::function<void()> show_about;

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/within_memory.h"
+
 namespace sonar {
 namespace {
 
@@ -34,7 +36,7 @@ TimeNs Choices::now() const {
 void Choices::run(std::function<Result<std::int64_t>()> job) {
   ++waiting_;
   thread_.post([this, job = std::move(job)](const Wanted&) {
-    const auto line = job();
+    const auto line = within_memory(job);
     publish(line ? std::string{} : to_line(line.error()), line ? *line : 0);
   });
 }
@@ -176,7 +178,10 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
     auto other = apply(act, *of.state, of.observation->ground());
     if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
   }
-  if (auto written = write(line_of(act)); !written) return pass_on(written);
+  const JournalLine line = line_of(act);
+  // What the next start could not read must not be shown as done.
+  if (const auto read = act_of(line); !read) return pass_on(read);
+  if (auto written = write(line); !written) return pass_on(written);
   if (asks_to_detect(act.n)) {
     rebuild();  // what was found lies under every other line
     return act.n;

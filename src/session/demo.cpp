@@ -29,12 +29,14 @@ Result<void> make_demo(const std::filesystem::path& folder, const std::string& p
 
 }  // namespace
 
-void open_demo(Document& document, std::filesystem::path folder) {
+void open_demo(Desk& desk, std::filesystem::path folder) {
+  Document& document = desk.workspace.document;
   const std::string version = document.options().program_version;
   if (folder.empty()) {
     const auto cache = IndexCache::of_user().folder;
     folder = (cache.empty() ? std::filesystem::temp_directory_path() : cache) / ("demo-" + version);
   }
+  desk.preferences.set_chart(folder, folder / "truth" / "depth.tif");
   document.open({folder}, [folder, version](Work& work) { return make_demo(folder, version, work); });
 }
 

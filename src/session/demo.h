@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-#include "session/document.h"
+#include "session/desk.h"
 
 namespace sonar {
 
-/// Opens the simulated `demo` survey, made in a folder of the user's cache where it is not there yet.
+/// Opens the simulated `demo` survey, made in a folder of the user's cache with its depth chart, where it is not there yet.
 /// folder  empty = the user's
-void open_demo(Document& document, std::filesystem::path folder = {});
+void open_demo(Desk& desk, std::filesystem::path folder = {});
 
 }  // namespace sonar

@@ -13,10 +13,42 @@ namespace sonar {
 enum class NoiseLook : std::uint8_t { shown, hatched, transparent };
 inline constexpr std::array<std::string_view, 3> kNoiseLookNames{"shown", "hatched", "transparent"};
 
+/// Which samples noise removal takes out of the pictures; growing keeps to the recipe.
+struct TakenOut {
+  bool near_field = true;
+  bool surface = true;
+  bool hot_beams = true;
+  bool walls = true;
+  bool impulses = true;
+  bool seabed = true;
+};
+
+template <class Visitor>
+void describe(Visitor& v, TakenOut& p) {
+  v.field(
+      "near_field", p.near_field,
+      {.text = "take out ringing near the transducer; off = it is shown as recorded (growing keeps to the recipe)"});
+  v.field("surface", p.surface,
+          {.text = "take out the sea surface; off = it is shown as recorded (growing keeps to the recipe)"});
+  v.field(
+      "hot_beams", p.hot_beams,
+      {.text = "take out stretches of lost packets; off = they are shown as recorded (growing keeps to the recipe)"});
+  v.field("walls", p.walls,
+          {.text = "take out walls at one range; off = they are shown as recorded (growing keeps to the recipe)"});
+  v.field(
+      "impulses", p.impulses,
+      {.text = "take out impulses of other devices; off = they are shown as recorded (growing keeps to the recipe)"});
+  v.field(
+      "seabed", p.seabed,
+      {.text =
+           "take out the seabed and what lies behind; off = it is shown as recorded (growing keeps to the recipe)"});
+}
+
 /// How data and schools look in every view.
 struct DisplayParams {
   SvScale scale;
   bool filtered = true;
+  TakenOut take_out;
   NoiseLook removed = NoiseLook::hatched;
   NoiseLook weak = NoiseLook::transparent;
   double weak_below_db = 3.0;
@@ -32,6 +64,7 @@ template <class Visitor>
 void describe(Visitor& v, DisplayParams& p) {
   v.group("scale", p.scale, "how Sv becomes colour");
   v.field("filtered", p.filtered, {.text = "show Sv after the median filter, on which schools are grown"});
+  v.group("take_out", p.take_out, "what noise removal takes out");
   v.choice("removed", p.removed, kNoiseLookNames, "samples that noise removal took out; their reason shows on hover");
   v.choice("weak", p.weak, kNoiseLookNames, "samples that hardly rise above the background noise");
   v.field("weak_below_db", p.weak_below_db,

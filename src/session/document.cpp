@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/within_memory.h"
 #include "pipeline/observe.h"
 
 namespace sonar {
@@ -48,7 +49,9 @@ void Document::run(std::function<void(Work&, const Wanted&)> job) {
     work->set_progress([show](std::string_view stage, std::int64_t done, std::int64_t total) {
       show({std::string(stage), done, total});
     });
-    job(*work, wanted);
+    if (const auto done = within_memory([&] { job(*work, wanted); }); !done) {
+      post(wanted, [this, line = to_line(done.error())] { tell(line); });
+    }
     show({});
   });
 }
@@ -99,9 +102,10 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   measured_.clear();
   survey_ = std::move(survey);
   journal_path_ = place ? place->path : std::filesystem::path{};
-  if (!place) notices_.push_back(to_line(place.error()));
-  if (place) notices_.insert(notices_.end(), place->notices.begin(), place->notices.end());
-  const std::vector<JournalLine> lines = place ? effective_lines(place->journal.lines) : std::vector<JournalLine>{};
+  const std::vector<std::string> to_tell = place ? place->notices : std::vector{to_line(place.error())};
+  const std::vector<JournalLine> all_lines = place ? place->journal.lines : std::vector<JournalLine>{};
+  const std::vector<JournalLine> lines = effective_lines(all_lines);
+  choices_.lines = std::make_shared<const std::vector<JournalLine>>(all_lines);  // known before they are replayed
   choices_thread_ = std::make_unique<Choices>(
       queue_, place ? std::move(*place) : JournalPlace{}, Choices::Options{options_.operator_name, options_.clock},
       [this](ChoicesShown shown) { take_choices(std::move(shown)); },
@@ -109,6 +113,7 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
         take_step(observation, ping_index, mask);
       });
   changes_.tell(DocumentChange::survey);
+  for (const std::string& notice : to_tell) tell(notice);
   const auto& all = survey_->observations;
   const auto first = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); });
   if (first == all.end()) {
@@ -203,7 +208,23 @@ void Document::act(std::int64_t ping_index, Command command) {
 void Document::act(std::size_t observation, std::int64_t ping_index, Command command) {
   if (!choices_thread_) return;
   replay_journal();
+  if (const auto* propagate = std::get_if<PropagateCommand>(&command); propagate != nullptr && shown_) {
+    const std::int64_t later = shown_->pings() - 1 - ping_index;
+    const std::int64_t reach = propagate->reach < 0 ? shown_->pings() : propagate->reach;
+    const std::int64_t before = std::min(propagate->reach_backward.value_or(reach), ping_index);
+    const std::int64_t after = std::min(propagate->reach_forward.value_or(reach), later);
+    following_ = {"propagating", 0, std::max<std::int64_t>(1, before + after)};
+  }
   choices_thread_->act(observation, ping_index, std::move(command));
+  if (!following_.stage.empty()) changes_.tell(DocumentChange::progress);
+}
+
+Progress Document::activity() const {
+  if (!progress_.stage.empty()) return progress_;
+  if (!following_.stage.empty()) return following_;
+  // One observation is measured after each act, in no time.
+  if (measures_begun_ > 1) return {"measuring", measures_done_, measures_begun_};
+  return {};
 }
 
 void Document::undo() {
@@ -233,6 +254,7 @@ const JournalState& Document::state() const { return state(shown_ ? shown_->inde
 void Document::take_choices(ChoicesShown shown) {
   const ChoicesShown before = std::exchange(choices_, std::move(shown));
   propagating_.clear();
+  if (!busy() && !std::exchange(following_, {}).stage.empty()) changes_.tell(DocumentChange::progress);
   follow_calibration();
   changes_.tell(DocumentChange::state);
   changes_.tell(DocumentChange::propagating);
@@ -243,17 +265,39 @@ void Document::take_choices(ChoicesShown shown) {
 void Document::take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask) {
   if (!shown_ || shown_->index() != observation) return;
   propagating_[ping_index] = mask;
+  following_.done = std::min(following_.total, static_cast<std::int64_t>(propagating_.size()));
   changes_.tell(DocumentChange::propagating);
+  if (!following_.stage.empty()) changes_.tell(DocumentChange::progress);
 }
 
 void Document::detect(std::vector<std::size_t> observations) {
   if (!survey_) return;
   run([this, survey = survey_, observations = std::move(observations)](Work& work, const Wanted& wanted) {
     for (const std::size_t index : observations) {
-      if (work.cancelled() || !wanted() || index >= survey->observations.size()) return;
+      if (work.cancelled() || !wanted() || index >= survey->observations.size()) break;
       detect_one(survey, index, work, wanted);
     }
+    if (!work.cancelled()) return;
+    queue_.post([this, alive = std::weak_ptr<bool>(alive_), survey, observations] {
+      if (!alive.expired() && survey == survey_) tell_lacking(observations);
+    });
   });
+}
+
+bool Document::lacks_detected(std::size_t observation) const {
+  return choices_.lines && !detected(observation) && observation < survey_->observations.size() &&
+         asks_for_detection(effective_lines(*choices_.lines),
+                            datagram_times(*survey_, survey_->observations[observation]));
+}
+
+void Document::tell_lacking(const std::vector<std::size_t>& observations) {
+  const auto lacking = std::count_if(observations.begin(), observations.end(),
+                                     [this](std::size_t index) { return lacks_detected(index); });
+  if (lacking == 0) return;
+  tell(
+      fmt::format("stopped: the schools that were found before in {} observation{} are not shown; look for schools "
+                  "again to have them back (nothing is lost)",
+                  lacking, lacking == 1 ? "" : "s"));
 }
 
 void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
@@ -286,46 +330,11 @@ void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools
   }
 }
 
-ProductPtr Document::product(std::size_t observation) const {
-  const auto found = products_.find(observation);
-  return found == products_.end() ? nullptr : found->second;
-}
-
-void Document::measure_changed(const ChoicesShown& before) {
-  for (const auto& [index, state] : choices_.states) {
-    const auto old = before.states.find(index);
-    if (old == before.states.end() || old->second != state) measure(index);
-  }
-}
-
-void Document::measure(std::size_t index) {
-  const OpenObservationPtr observation = open_observation(index);
-  const JournalStatePtr state = choices_.states[index];
-  if (!observation || !state) return;
-  if (const auto running = measuring_.find(index); running != measuring_.end()) running->second.give_up();
-  const auto lines = choices_.lines;
-  measuring_[index] = measures_.post([this, observation, state, lines, kept = measured_[index]](const Wanted& wanted) {
-    if (!wanted()) return;
-    for (const auto& school : state->schools) {
-      for (const auto& there : school->masks.pings) observation->estimate_background(there.ping_index);
-    }
-    Work one(1);
-    const std::vector<JournalLine> effective = effective_lines(*lines);
-    auto product =
-        state_product(observation->engine(), *state, {effective, options_.program_version, false, kept.get()}, one);
-    if (!product) return;
-    auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
-    post(wanted, [this, index = observation->index(), shared] {
-      products_[index] = shared;
-      changes_.tell(DocumentChange::measures);
-    });
-  });
-}
-
 void Document::settle() {
   // A change may start more work, and work may bring more changes.
   do {
     background_.wait();
+    beside_.wait();
     if (choices_thread_) choices_thread_->wait();
     for (const auto& [index, observation] : open_) observation->cache().wait();
     measures_.wait();

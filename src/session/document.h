@@ -88,8 +88,12 @@ class Document {
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   void tell(std::string notice);
   [[nodiscard]] const Progress& progress() const { return progress_; }
+  /// Whatever a user waits for: that, else a propagation, else measures.
+  [[nodiscard]] Progress activity() const;
   /// Runs a job behind the window, with progress; one that runs is ended first. It must not touch the document.
   void run(std::function<void(Work&, const Wanted&)> job);
+  /// Runs something short behind the window, beside what else runs there. It must not touch the document.
+  void run_beside(std::function<void(const Wanted&)> job) { (void)beside_.post(std::move(job)); }
   /// Brings a change from such a job into the window's turn, unless another job has followed it.
   void post(const Wanted& wanted, std::function<void()> change);
 
@@ -129,6 +133,8 @@ class Document {
   /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found.
   void detect(std::vector<std::size_t> observations);
   [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
+  /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
+  [[nodiscard]] bool lacks_detected(std::size_t observation) const;
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
 
@@ -143,8 +149,12 @@ class Document {
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
                   const Wanted& wanted);
   void take_detected(std::size_t index, std::vector<SchoolMasks> schools);
+  void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
+  void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
+                      const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted);
+  void take_measured();
   void follow_calibration();
   void replay_journal();
   [[nodiscard]] OpenObservationPtr calibrated(const OpenObservationPtr& chosen_on) const;
@@ -173,7 +183,11 @@ class Document {
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   std::map<std::size_t, Wanted> measuring_;
+  Progress following_;  ///< a propagation's pings
+  std::int64_t measures_begun_ = 0;
+  std::int64_t measures_done_ = 0;
   std::unique_ptr<Choices> choices_thread_;
+  TaskThread beside_;
   TaskThread measures_;
   TaskThread background_;  // the last members: they end first
 };

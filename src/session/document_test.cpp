@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <set>
 #include <vector>
 
@@ -140,10 +141,18 @@ TEST_F(DocumentAtWork, APropagationTellsEveryPingAndItsRerunGivesTheSameMasks) {
     if (change != DocumentChange::propagating) return;
     for (const auto& [ping, mask] : document_->propagating()) seen.insert(ping);
   });
+  std::int64_t most = 0;
+  document_->changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::progress || document_->activity().stage != "propagating") return;
+    EXPECT_LE(document_->activity().done, document_->activity().total);
+    most = std::max(most, document_->activity().done);
+  });
   document_->act(at.ping, command);
   document_->settle();
   ASSERT_EQ(document_->state().schools.size(), 1U);
   EXPECT_GT(seen.size(), 1U);
+  EXPECT_EQ(most, static_cast<std::int64_t>(seen.size()));
+  EXPECT_EQ(document_->activity().stage, "");
   Work work;
   Recipe recipe = document_->recipe();
   const auto lines = effective_lines(read_journal(document_->journal_path().string())->lines);
@@ -207,6 +216,14 @@ TEST_F(DocumentAtWork, WhatCannotBeDoneIsToldAndChangesNothing) {
   EXPECT_FALSE(std::filesystem::exists(document_->journal_path()));
 }
 
+TEST_F(DocumentAtWork, WhatAJournalCouldNotGiveBackIsRefused) {
+  document_->act(EventCommand{"picnic", document_->shown()->ground().times[2], "ashore"});
+  document_->settle();
+  EXPECT_TRUE(document_->state().events.empty());
+  EXPECT_THAT(document_->notices().back(), testing::HasSubstr("picnic"));
+  EXPECT_FALSE(std::filesystem::exists(document_->journal_path()));
+}
+
 TEST_F(DocumentAtWork, LookingLeavesNothingBehindAndTheFirstChoiceMakesTheFolder) {
   journal_ /= "not/yet/there";
   reopen();
@@ -266,6 +283,16 @@ TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
   document_->settle();
   ASSERT_EQ(document_->state().events.size(), 2U);
   EXPECT_EQ(document_->choices().lines->back().n, 2);
+}
+
+TEST_F(DocumentAtWork, MemoryThatRunsOutBehindTheWindowIsOneLine) {
+  document_->run([](Work&, const Wanted&) { throw std::bad_alloc(); });
+  document_->settle();
+  EXPECT_THAT(document_->notices().back(), testing::HasSubstr("not enough memory"));
+  EXPECT_EQ(document_->progress().stage, "");
+  grow(bright());
+  document_->settle();
+  EXPECT_EQ(document_->state().schools.size(), 1U);
 }
 
 TEST_F(DocumentAtWork, AFullDiskRefusesTheActAndTheWindowGoesOn) {

@@ -24,10 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMovieFrame_s = 0.2;
-constexpr PixelSize kMovieSize{960, 720};
-constexpr PixelSize kPictureSize{1600, 1200};
-
 /// The survey and all that was chosen, as it was when something was asked for.
 struct Snapshot {
   const SurveyFiles* survey = nullptr;  ///< stands until the job is over: another survey comes only after it
@@ -39,9 +35,11 @@ struct Snapshot {
   std::map<std::size_t, ProductPtr> products;
   std::vector<fs::path> paths;
   std::uint64_t memory_bytes = 0;
+  ReduceParams reduce;
 };
 
-Snapshot snapshot_of(const Document& document) {
+Snapshot snapshot_of(const Workspace& workspace) {
+  const Document& document = workspace.document;
   Snapshot snapshot{document.survey(),
                     document.recipe(),
                     document.measuring_recipe(),
@@ -50,7 +48,10 @@ Snapshot snapshot_of(const Document& document) {
                     document.choices().states,
                     {},
                     document.paths(),
-                    document.options().memory_bytes};
+                    document.options().memory_bytes,
+                    workspace.reduce.values()};
+  // A state without the schools that its journal asks for is not what a run would leave.
+  std::erase_if(snapshot.states, [&document](const auto& one) { return document.lacks_detected(one.first); });
   for (const auto& [index, state] : snapshot.states) {
     if (auto product = document.product(index)) snapshot.products[index] = std::move(product);
   }
@@ -109,7 +110,7 @@ Result<std::string> exported(const Snapshot& snapshot, const std::string& format
   if (passing.path().empty()) return fail(ErrorCode::io, "cannot be written to", {folder.string()});
   const auto products = write_products(*snapshot.survey, passing.path(), source_of_products(snapshot, work), work);
   if (!products) return pass_on(products);
-  const auto files = export_products({passing.path(), format, folder, snapshot.paths.front(), {}}, work);
+  const auto files = export_products({passing.path(), format, folder, snapshot.paths.front(), snapshot.reduce}, work);
   if (!files) return pass_on(files);
   if (files->size() == 1) return fmt::format("written: {}", files->front().string());
   return fmt::format("written: {} files in {}", files->size(), folder.string());
@@ -122,7 +123,7 @@ void run_job(Workspace& workspace, std::function<Result<std::string>(const Snaps
   if (!document.progress().stage.empty()) {
     return document.tell(fmt::format("wait until {} is done, or cancel it", document.progress().stage));
   }
-  document.run([&document, snapshot = snapshot_of(document), job = std::move(job)](Work& work, const Wanted& wanted) {
+  document.run([&document, snapshot = snapshot_of(workspace), job = std::move(job)](Work& work, const Wanted& wanted) {
     work.progress("writing", 0, 1);
     const auto done = job(snapshot, work);
     std::string line = done ? *done : to_line(done.error());
@@ -142,21 +143,30 @@ std::string shown_name(const Workspace& workspace) {
   return shown ? shown->name() : std::string{};
 }
 
-Result<std::string> movie(const Snapshot& snapshot, PictureKind kind, const std::string& observation,
-                          PictureOptions options, const std::vector<int>& pings, const fs::path& folder, Work& work) {
+/// What a picture or a movie is made with.
+struct PictureJob {
+  PictureKind kind = PictureKind::slice_top;
+  std::string observation;
+  PictureOptions options;
+  double scale = 1.0;
+  double frame_s = 0.2;
+};
+
+Result<std::string> movie(const Snapshot& snapshot, PictureJob job, const std::vector<int>& pings,
+                          const fs::path& folder, Work& work) {
   if (auto outside = require_outside_raw(*snapshot.survey, folder); !outside) return pass_on(outside);
   const auto source = pictures_of(snapshot);
   std::vector<fs::path> pictures;
   for (const int ping : pings) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    options.ping = ping;
-    const auto frame = picture_frame(kind, *source, observation, options, work);
+    job.options.ping = ping;
+    const auto frame = picture_frame(job.kind, *source, job.observation, job.options, work);
     if (!frame) return pass_on(frame);
     pictures.push_back(folder / fmt::format("ping-{:04d}.png", ping));
-    if (auto written = write_picture(*frame, pictures.back()); !written) return pass_on(written);
+    if (auto written = write_picture(*frame, pictures.back(), job.scale); !written) return pass_on(written);
     work.progress("movie", static_cast<std::int64_t>(pictures.size()), static_cast<std::int64_t>(pings.size()));
   }
-  if (auto written = write_movie(pictures, kMovieFrame_s, folder / "movie.png"); !written) return pass_on(written);
+  if (auto written = write_movie(pictures, job.frame_s, folder / "movie.png"); !written) return pass_on(written);
   return fmt::format("written: {} pictures and movie.png in {}", pictures.size(), folder.string());
 }
 
@@ -176,11 +186,11 @@ void export_as(Workspace& workspace, const std::string& format, const fs::path& 
           [format, folder](const Snapshot& snapshot, Work& work) { return exported(snapshot, format, folder, work); });
 }
 
-PictureOptions picture_options(const Workspace& workspace) {
+Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind kind) {
   const DisplayParams& display = workspace.display.values();
   const VolumeParams& volume = workspace.volume.values();
+  const PictureFileParams& file = workspace.picture_file.values();
   PictureOptions options;
-  options.size = kPictureSize;
   options.dark = workspace.dark();
   options.scale = display.scale;
   options.limits_given = true;
@@ -192,6 +202,7 @@ PictureOptions picture_options(const Workspace& workspace) {
   }
   options.masks = display.masks;
   options.filtered = display.filtered;
+  options.put_back = put_back(display);
   options.flags = flag_style(display);
   options.left_out = left_out_of_volume(display);
   if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;
@@ -206,27 +217,42 @@ PictureOptions picture_options(const Workspace& workspace) {
   options.context = volume.context;
   options.frames = volume.frames;
   options.renderer = static_cast<RendererChoice>(volume.renderer);
-  return options;
+  options.camera = workspace.camera();
+  options.depth_raster = workspace.depth_raster();
+  if (const auto school = selected_school(workspace); school && file.selected_school_alone) {
+    options.schools = {school->name.number};
+  }
+  return with(file, kind, std::move(options));
 }
 
-void save_picture(Workspace& workspace, PictureKind kind, PictureOptions options, const fs::path& file) {
-  if (kind == PictureKind::survey_map) options.depth_raster = workspace.depth_raster();
-  run_job(workspace,
-          [kind, observation = shown_name(workspace), options = std::move(options), file](
-              const Snapshot& snapshot, Work& work) -> Result<std::string> {
-            const auto source = pictures_of(snapshot);
-            if (auto outside = source->require_outside_raw(file); !outside) return pass_on(outside);
-            const auto frame = picture_frame(kind, *source, observation, options, work);
-            if (!frame) return pass_on(frame);
-            if (auto written = write_picture(*frame, file); !written) return pass_on(written);
-            return fmt::format("written: {}", file.string());
-          });
+namespace {
+
+Result<PictureJob> picture_job(const Workspace& workspace, PictureKind kind) {
+  auto options = picture_options(workspace, kind);
+  if (!options) return pass_on(options);
+  const PictureFileParams& file = workspace.picture_file.values();
+  return PictureJob{kind, shown_name(workspace), std::move(*options), file.scale, file.frame_s};
+}
+
+}  // namespace
+
+void save_picture(Workspace& workspace, PictureKind kind, const fs::path& file) {
+  auto wanted = picture_job(workspace, kind);
+  if (!wanted) return workspace.document.tell(to_line(wanted.error()));
+  run_job(workspace, [job = std::move(*wanted), file](const Snapshot& snapshot, Work& work) -> Result<std::string> {
+    const auto source = pictures_of(snapshot);
+    if (auto outside = source->require_outside_raw(file); !outside) return pass_on(outside);
+    const auto frame = picture_frame(job.kind, *source, job.observation, job.options, work);
+    if (!frame) return pass_on(frame);
+    if (auto written = write_picture(*frame, file, job.scale); !written) return pass_on(written);
+    return fmt::format("written: {}", file.string());
+  });
 }
 
 void save_movie(Workspace& workspace, PictureKind kind, const fs::path& folder) {
   if (!workspace.document.shown()) return workspace.document.tell("no observation is open: there is nothing to show");
-  PictureOptions options = picture_options(workspace);
-  options.size = kMovieSize;
+  auto wanted = picture_job(workspace, kind);
+  if (!wanted) return workspace.document.tell(to_line(wanted.error()));
   std::vector<int> pings;
   const auto school = selected_school(workspace);
   if (school && school->name.observation == workspace.document.shown()->index()) {
@@ -234,10 +260,8 @@ void save_movie(Workspace& workspace, PictureKind kind, const fs::path& folder) 
   } else {
     for (std::int64_t i = 0; i < workspace.document.shown()->pings(); ++i) pings.push_back(static_cast<int>(i));
   }
-  run_job(workspace, [kind, observation = shown_name(workspace), options = std::move(options), pings = std::move(pings),
-                      folder](const Snapshot& snapshot, Work& work) {
-    return movie(snapshot, kind, observation, options, pings, folder, work);
-  });
+  run_job(workspace, [job = std::move(*wanted), pings = std::move(pings), folder](
+                         const Snapshot& snapshot, Work& work) { return movie(snapshot, job, pings, folder, work); });
 }
 
 }  // namespace sonar

@@ -20,10 +20,11 @@ void export_results(Workspace& workspace, const std::filesystem::path& folder);
 /// One of export_formats(), into a folder.
 void export_as(Workspace& workspace, const std::string& format, const std::filesystem::path& folder);
 
-/// How the window shows things, as options of a picture.
-[[nodiscard]] PictureOptions picture_options(const Workspace& workspace);
+/// How the window shows things, and what Workspace::picture_file asks for, as options of a picture.
+/// errors  as with() of picture_file.h
+[[nodiscard]] Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind kind);
 /// A picture of any kind, of the observation on show, as .png, .svg or .pdf.
-void save_picture(Workspace& workspace, PictureKind kind, PictureOptions options, const std::filesystem::path& file);
+void save_picture(Workspace& workspace, PictureKind kind, const std::filesystem::path& file);
 /// The selected school through its pings (without one: the whole observation) as one picture a ping, ping-0012.png ...,
 /// and movie.png, which plays them.
 void save_movie(Workspace& workspace, PictureKind kind, const std::filesystem::path& folder);

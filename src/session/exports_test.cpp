@@ -107,6 +107,34 @@ TEST_F(Exports, ResultsHaveTheMasksThatARunOfTheJournalGivesBitForBit) {
   }
 }
 
+// The schools that the journal asks for are looked for again at each opening; whoever cancels that must not export less.
+TEST_F(Exports, WithTheSearchAtOpeningCancelledTheSchoolsAreStillThere) {
+  press("schools.detect_all");
+  document().settle();
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  const std::size_t all = document().state(0).schools.size() + document().state(1).schools.size();
+  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  document().open({TestSurvey::easy().folder()});
+  while (!document().staged()) queue_.drain();  // the search begins with the first picture
+  document().cancel();
+  document().settle();
+  ASSERT_TRUE(document().lacks_detected(0));
+  EXPECT_EQ(document().state(0).schools.size(), 1U);
+  EXPECT_THAT(told(), HasSubstr("stopped: the schools that were found before in 2 observations are not shown"));
+  export_results(workspace(), out_ / "window");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("written: 2 observations"));
+  run_session(document().journal_path(), out_ / "run");
+  const Masks window = masks_in(out_ / "window");
+  EXPECT_EQ(window.size(), all);
+  EXPECT_TRUE(window == masks_in(out_ / "run"));
+  press("schools.detect_all");
+  document().settle();
+  EXPECT_FALSE(document().lacks_detected(0));
+  EXPECT_EQ(document().state(0).schools.size() + document().state(1).schools.size(), all);
+}
+
 TEST_F(Exports, UnderAChosenCalibrationARunOfTheJournalGivesTheSame) {
   press("schools.detect_all");
   document().settle();
@@ -177,7 +205,7 @@ TEST_F(Exports, NothingIsWrittenWhereRawFilesLie) {
   refused();
   export_as(workspace(), "csv", raw / "inner");
   refused();
-  save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), raw / "a.png");
+  save_picture(workspace(), PictureKind::slice_top, raw / "a.png");
   refused();
   save_movie(workspace(), PictureKind::slice_top, raw / "movie");
   refused();
@@ -205,8 +233,7 @@ TEST_F(Exports, ADiskThatGetsFullHalfWayLeavesNothingTorn) {
   };
   full("products", [&] { export_results(workspace(), out_ / "results"); });
   full("tables", [&] { export_as(workspace(), "csv", out_ / "csv"); });
-  full("picture",
-       [&] { save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), out_ / "slice.png"); });
+  full("picture", [&] { save_picture(workspace(), PictureKind::slice_top, out_ / "slice.png"); });
   fs::create_directories(out_ / "movie");
   full("movie", [&] { save_movie(workspace(), PictureKind::slice_top, out_ / "movie"); });
   for (const auto& entry : fs::recursive_directory_iterator(out_)) {
@@ -229,14 +256,14 @@ TEST_F(Exports, PicturesAreDrawnAsTheWindowShowsThem) {
   document().settle();
   for (const char* name : {"map.svg", "slice.pdf", "slice.png"}) {
     const PictureKind kind = name == std::string("map.svg") ? PictureKind::observation_map : PictureKind::slice_top;
-    save_picture(workspace(), kind, picture_options(workspace()), out_ / name);
+    save_picture(workspace(), kind, out_ / name);
     document().settle();
     EXPECT_EQ(told(), "written: " + (out_ / name).string());
     EXPECT_GT(fs::file_size(out_ / name), 1000U);
   }
   EXPECT_THAT(text_of(out_ / "map.svg"), HasSubstr("<svg"));
   EXPECT_THAT(text_of(out_ / "slice.pdf"), testing::StartsWith("%PDF"));
-  save_picture(workspace(), PictureKind::slice_top, picture_options(workspace()), out_ / "a.bmp");
+  save_picture(workspace(), PictureKind::slice_top, out_ / "a.bmp");
   document().settle();
   EXPECT_THAT(told(), HasSubstr(".png, .svg or .pdf"));
 }

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "pipeline/calibration_json.h"
 #include "pipeline/export.h"
-#include "publish/picture_files.h"
 #include "session/desk_parts.h"
 #include "session/exports.h"
 
@@ -22,7 +19,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "&File";
 constexpr const char* kCalibrations = "Calibrations and recipes (*.csv *.json *.CSV *.JSON);;All files (*)";
 constexpr const char* kExport = "&File/&Export";
-constexpr const char* kPictures = "&File/Save &picture";
 
 std::function<bool()> with_survey(const Desk& desk) {
   return [&desk] { return desk.workspace.document.survey() != nullptr; };
@@ -81,9 +77,13 @@ void choose_calibration(Desk& desk) {
   const std::string file = desk.asking.file_to_open("Calibration", kCalibrations);
   if (file.empty()) return;
   Document& document = desk.workspace.document;
-  auto calibration = read_calibration(file, document.recipe());
-  if (!calibration) return document.tell(to_line(calibration.error()));
-  document.act(CalibrateCommand{std::move(*calibration), fs::path(file).filename().string()});
+  document.run_beside([&document, file, recipe = document.recipe()](const Wanted& wanted) {
+    auto calibration = read_calibration(file, recipe);
+    document.post(wanted, [&document, file, read = std::move(calibration)] {
+      if (!read) return document.tell(to_line(read.error()));
+      document.act(CalibrateCommand{*read, fs::path(file).filename().string()});
+    });
+  });
 }
 
 void add_calibration(Desk& desk) {
@@ -145,102 +145,14 @@ void add_formats(Desk& desk) {
          .text = menu_text(name),
          .keys = {},
          .tip = std::string(format.text),
-         .run = into_folder(desk, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
-                            [&workspace, name](const fs::path& folder) { export_as(workspace, name, folder); }),
+         .run =
+             [&desk, name,
+              into = into_folder(desk, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
+                                 [&workspace, name](const fs::path& folder) { export_as(workspace, name, folder); })] {
+               if (name != "raw-reduced" || asked(desk, "Reduced raw files", desk.workspace.reduce)) into();
+             },
          .enabled = with_survey(desk)});
   }
-  desk.actions.add({.id = "export.movie",
-                    .menu = kExport,
-                    .text = "Movie of the school, from above...",
-                    .keys = {},
-                    .tip = "One picture a ping of the selected school's track, and one that plays them",
-                    .run = into_folder(desk, "Folder for the movie",
-                                       [&workspace](const fs::path& folder) {
-                                         save_movie(workspace, PictureKind::slice_top, folder);
-                                       }),
-                    .enabled = with_survey(desk)});
-  desk.actions.add(
-      {.id = "export.movie_volume",
-       .menu = kExport,
-       .text = "Movie of the school, three dimensions...",
-       .keys = {},
-       .tip = "One picture a ping of the selected school's track, and one that plays them",
-       .run = into_folder(desk, "Folder for the movie",
-                          [&workspace](const fs::path& folder) { save_movie(workspace, PictureKind::volume, folder); }),
-       .enabled = with_survey(desk)});
-}
-
-/// Asks for a number; empty where the human declined, or gave none.
-std::optional<double> asked_number(Desk& desk, const std::string& label, double first) {
-  if (!desk.asking.text) return std::nullopt;
-  const std::string text = desk.asking.text("Save picture", label, fmt::format("{:.0f}", first)).value_or("");
-  double value = 0.0;
-  const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (!text.empty() && problem == std::errc() && after == text.data() + text.size()) return value;
-  if (!text.empty()) desk.workspace.document.tell(fmt::format("{}: expected a number, not \"{}\"", label, text));
-  return std::nullopt;
-}
-
-void ask_for_picture(Desk& desk, PictureKind kind, const std::string& name) {
-  PictureOptions options = picture_options(desk.workspace);
-  if (kind == PictureKind::slice_range) {
-    options.range_m = asked_number(desk, "Slant range, m", 200.0);
-    if (!options.range_m) return;
-  }
-  if (kind == PictureKind::slice_plane) {
-    options.plane.depth_m = asked_number(desk, "Depth below the sea surface, m", 50.0);
-    if (!options.plane.depth_m) return;
-  }
-  if (!desk.asking.file_to_save) return;
-  const std::string file = desk.asking.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", name + ".png");
-  if (!file.empty()) save_picture(desk.workspace, kind, std::move(options), file);
-}
-
-void add_picture_kinds(Desk& desk) {
-  for (std::size_t i = 0; i < picture_kinds().size(); ++i) {
-    const PictureKindInfo& info = picture_kinds()[i];
-    const auto kind = static_cast<PictureKind>(i);
-    desk.actions.add({.id = "picture." + std::string(info.name),
-                      .menu = kPictures,
-                      .text = std::string(info.name) + "...",
-                      .keys = {},
-                      .tip = std::string(info.text),
-                      .run = [&desk, kind, name = std::string(info.name)] { ask_for_picture(desk, kind, name); },
-                      .enabled = with_survey(desk)});
-  }
-}
-
-/// The picture in use, where it has something to show.
-const LivePicture* picture_in_use(Desk& desk) {
-  const std::string id = desk.asking.view_in_use ? desk.asking.view_in_use() : std::string{};
-  const LivePicture* picture = desk.picture(id);
-  if (picture != nullptr && !picture->image().pixels.empty()) return picture;
-  desk.workspace.document.tell("click into the view whose picture is wanted");
-  return nullptr;
-}
-
-void save_view(Desk& desk) {
-  const LivePicture* picture = picture_in_use(desk);
-  if (picture == nullptr || !desk.asking.file_to_save) return;
-  const Image image = picture->image();
-  const std::string file =
-      desk.asking.file_to_save("Save picture of view", "Pictures (*.png)", desk.asking.view_in_use() + ".png");
-  if (file.empty()) return;
-  Document& document = desk.workspace.document;
-  if (document.survey() != nullptr) {
-    if (auto outside = require_outside_raw(*document.survey(), fs::absolute(file).parent_path()); !outside) {
-      return document.tell(to_line(outside.error()));
-    }
-  }
-  const auto written = write_pixels(image, file);
-  document.tell(written ? "written: " + file : to_line(written.error()));
-}
-
-void copy_view(Desk& desk) {
-  const LivePicture* picture = picture_in_use(desk);
-  if (picture == nullptr || !desk.asking.copy_image) return;
-  desk.asking.copy_image(picture->image());
-  desk.workspace.document.tell("the picture is in the clipboard");
 }
 
 }  // namespace
@@ -249,19 +161,7 @@ void add_exports(Desk& desk) {
   add_opening(desk);
   add_calibration(desk);
   add_formats(desk);
-  add_picture_kinds(desk);
-  desk.actions.add({.id = "file.save_view",
-                    .menu = kFile,
-                    .text = "Save picture of view...",
-                    .keys = {"Ctrl+S"},
-                    .tip = "The view in use as it is on the screen",
-                    .run = [&desk] { save_view(desk); }});
-  desk.actions.add({.id = "file.copy_view",
-                    .menu = kFile,
-                    .text = "Copy picture of view",
-                    .keys = {"Ctrl+Alt+C"},
-                    .tip = "The view in use into the clipboard",
-                    .run = [&desk] { copy_view(desk); }});
+  add_pictures(desk);
   desk.actions.add({.id = "file.quit",
                     .menu = kFile,
                     .text = "Quit",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/within_memory.h"
 #include "publish/painted.h"
 
 namespace sonar {
@@ -79,7 +80,8 @@ void LivePicture::update() {
         put(std::move(built), std::move(image), asked_s);
       });
     };
-    if (auto done = build_now(size, wanted, show); !done && done.error().code != ErrorCode::cancelled) {
+    if (auto done = within_memory([&] { return build_now(size, wanted, show); });
+        !done && done.error().code != ErrorCode::cancelled) {
       post([this, line = to_line(done.error())] { fail_with(line); });
     }
   });

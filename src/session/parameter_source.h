@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/parameters.h"
@@ -49,6 +50,13 @@ struct PanelSection {
   };
   std::vector<Note> notes = {};
   bool open = true;  ///< folded out at first
+  /// How a number's control differs from others.
+  struct Look {
+    std::string name;
+    std::string at_min;
+    std::pair<double, double> slider;
+  };
+  std::vector<Look> looks = {};
 };
 
 }  // namespace sonar

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 namespace sonar {
 
@@ -15,6 +16,11 @@ std::string label_of(std::string_view name, std::string_view unit) {
       name.remove_suffix(suffix.size());
       break;
     }
+  }
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kProper{
+      {{"ek500", "EK500"}, {"cpu", "Processor"}, {"gl", "OpenGL"}}};
+  for (const auto& [written, spoken] : kProper) {
+    if (name == written) return std::string(spoken);
   }
   std::string label(name);
   std::replace(label.begin(), label.end(), '_', ' ');

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,9 @@ struct Property {
   double max = 0.0;
   std::vector<std::string> choices;
   PropertyValue initial;  ///< default
+  std::string at_min;     ///< what the minimum means, "none"; empty = the number
+  /// Where a slider ends, of numbers whose own range helps no hand; at its lower end it gives the minimum.
+  std::optional<std::pair<double, double>> slider;
 };
 
 /// "tolerance_db" with unit "dB" -> "Tolerance": the unit stands beside the control.
@@ -52,7 +56,9 @@ class PropertyLister {
                      info.min,
                      info.max,
                      {},
-                     value});
+                     value,
+                     {},
+                     {}});
   }
   template <class E>
   void choice(std::string_view name, E& value, ChoiceNames names, std::string_view text) {
@@ -63,7 +69,9 @@ class PropertyLister {
                      0.0,
                      0.0,
                      {names.begin(), names.end()},
-                     Choice{static_cast<std::size_t>(value)}});
+                     Choice{static_cast<std::size_t>(value)},
+                     {},
+                     {}});
   }
   template <class P>
   void group(std::string_view name, P& p, std::string_view) {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/within_memory.h"
+
 namespace sonar {
 
 PingCache::PingCache(StagedPingSource source, std::int64_t pings, std::int64_t reach)
@@ -11,7 +13,7 @@ PingCache::PingCache(StagedPingSource source, std::int64_t pings, std::int64_t r
 
 Result<StagedPingPtr> PingCache::ping(std::int64_t ping_index) {
   if (auto ready = held(ping_index)) return ready;
-  auto made = source_(ping_index);
+  auto made = within_memory([&] { return source_(ping_index); });
   if (made) put(ping_index, *made);
   return made;
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "session/test_survey.h"
@@ -53,6 +54,24 @@ struct Made {
     };
   }
 };
+
+TEST(PingCacheJobs, MemoryThatRunsOutIsAnErrorAndTheNextPingComes) {
+  PingCache cache(
+      [](std::int64_t i) -> Result<StagedPingPtr> {
+        if (i == 3) throw std::bad_alloc();
+        return StagedPingPtr(std::make_shared<StagedPing>());
+      },
+      10, 0);
+  Result<StagedPingPtr> arrived = fail(ErrorCode::usage, "nothing came");
+  cache.look_at(3, [&](const Result<StagedPingPtr>& ping) { arrived = ping; });
+  cache.wait();
+  ASSERT_FALSE(arrived);
+  EXPECT_EQ(arrived.error().code, ErrorCode::no_space);
+  EXPECT_THAT(to_line(arrived.error()), HasSubstr("not enough memory"));
+  cache.look_at(4, [&](const Result<StagedPingPtr>& ping) { arrived = ping; });
+  cache.wait();
+  EXPECT_TRUE(arrived);
+}
 
 TEST(PingCacheJobs, KeepsPingsRoundTheOneLookedAtAndNoneWhereNobodyLooks) {
   const Made made;

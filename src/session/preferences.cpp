@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "pipeline/json_file.h"
 #include "pipeline/json_parameters.h"
+#include "pipeline/transfer_function_json.h"
 
 namespace sonar {
 namespace {
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kMostSpecies = 9;
+constexpr std::size_t kMostCharts = 100;
 constexpr std::size_t kMostFiles = 10000;
 
 /// Visitor: takes from JSON what fits and passes over the rest.
@@ -73,6 +75,9 @@ void describe(Visitor& v, Preferences& p) {
   v.group("select", p.select, {});
   v.group("volume", p.volume, {});
   v.group("views", p.views, {});
+  v.group("picture_file", p.picture_file, {});
+  v.group("reduce", p.reduce, {});
+  v.field("curves_linked", p.curves_linked, {});
   v.field("operator", p.operator_name, {});
   v.field("advance", p.advance, {});
   v.field("memory_gb", p.memory_gb, {.unit = "GB", .min = 0.0, .max = 1e6});
@@ -105,6 +110,33 @@ void read_lists(const json& from, Preferences& to) {
   }
 }
 
+void read_charts(const json& from, Preferences& to) {
+  const auto found = from.find("charts");
+  if (found == from.end() || !found->is_object()) return;
+  for (const auto& [survey, raster] : found->items()) {
+    if (raster.is_string() && to.charts.size() < kMostCharts) to.charts[survey] = raster.get<std::string>();
+  }
+}
+
+void read_curves(const json& from, Preferences& to) {
+  const auto curve = [&from](const char* name) -> std::optional<TransferFunction> {
+    const auto found = from.find(name);
+    if (found == from.end()) return std::nullopt;
+    auto read = transfer_function_from_json(*found);
+    return read ? std::optional(std::move(*read)) : std::nullopt;
+  };
+  to.view_curve = curve("view_curve");
+  to.growth_curve = curve("growth_curve");
+}
+
+fs::path whole_path(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path whole = fs::absolute(path, unknown);
+  if (unknown) return path;
+  const fs::path normal = whole.lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
 fs::path home_folder(const char* variable, const char* below_home) {
   if (const char* named = std::getenv(variable); named != nullptr && fs::path(named).is_absolute()) return named;
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return fs::path(home) / below_home;
@@ -132,6 +164,8 @@ LoadedPreferences Preferences::load(const fs::path& path) {
   LenientReader reader(*from);
   describe(reader, loaded.preferences);
   read_lists(*from, loaded.preferences);
+  read_curves(*from, loaded.preferences);
+  read_charts(*from, loaded.preferences);
   return loaded;
 }
 
@@ -141,7 +175,10 @@ Result<void> Preferences::save() const {
   Preferences copy = *this;
   describe(writer, copy);
   json to = writer.json();
+  if (view_curve) to["view_curve"] = to_json(*view_curve);
+  if (growth_curve) to["growth_curve"] = to_json(*growth_curve);
   to["species"] = species;
+  to["charts"] = charts;
   to["recent"] = json::array();
   for (const auto& paths : recent) {
     json texts = json::array();
@@ -156,7 +193,15 @@ void Preferences::apply(Workspace& workspace) const {
   workspace.select.assign(select);
   workspace.volume.assign(volume);
   workspace.views.assign(views);
+  workspace.picture_file.assign(picture_file);
+  workspace.reduce.assign(reduce);
   workspace.dark.set(dark);
+  if (growth_curve) workspace.growth_curve.set(*growth_curve);
+  if (view_curve) {
+    workspace.curve_follows_scale.set(false);
+    workspace.view_curve.set(*view_curve);
+  }
+  workspace.curves_linked.set(curves_linked);
 }
 
 void Preferences::take(const Workspace& workspace) {
@@ -164,15 +209,32 @@ void Preferences::take(const Workspace& workspace) {
   select = workspace.select.values();
   volume = workspace.volume.values();
   views = workspace.views.values();
+  picture_file = workspace.picture_file.values();
+  reduce = workspace.reduce.values();
   dark = workspace.dark();
+  growth_curve = workspace.growth_curve();
+  view_curve.reset();
+  if (!workspace.curve_follows_scale()) view_curve = workspace.view_curve();
+  curves_linked = workspace.curves_linked();
+}
+
+fs::path Preferences::chart_of(const fs::path& survey) const {
+  const auto found = charts.find(whole_path(survey).string());
+  return found == charts.end() ? fs::path{} : fs::path(found->second);
+}
+
+void Preferences::set_chart(const fs::path& survey, const fs::path& raster) {
+  const std::string name = whole_path(survey).string();
+  if (raster.empty()) {
+    charts.erase(name);
+  } else if (charts.size() < kMostCharts || charts.contains(name)) {
+    charts[name] = whole_path(raster).string();
+  }
 }
 
 void Preferences::remember(std::vector<fs::path> opened) {
   if (opened.empty()) return;
-  std::error_code unknown;
-  for (fs::path& one : opened) {
-    if (const fs::path whole = fs::absolute(one, unknown); !unknown) one = whole.lexically_normal();
-  }
+  for (fs::path& one : opened) one = whole_path(one);
   std::erase(recent, opened);
   recent.insert(recent.begin(), std::move(opened));
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,12 @@ struct Preferences {
   SelectParams select;
   VolumeParams volume;
   ViewSwitches views;
+  PictureFileParams picture_file;
+  ReduceParams reduce;
+  std::optional<TransferFunction> view_curve;    ///< that a human drew; empty = the scale's
+  std::optional<TransferFunction> growth_curve;  ///< empty = the default
+  bool curves_linked = false;
+  std::map<std::string, std::string> charts;  ///< survey -> its raster of depths
   std::string operator_name;
   double memory_gb = 0.0;  ///< for the pings of the observation on show, 10^9 bytes; 0 = half of the machine's
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
@@ -40,6 +48,9 @@ struct Preferences {
 
   void apply(Workspace& workspace) const;
   void take(const Workspace& workspace);
+  /// The raster of depths that was last chosen for a survey; empty = none.
+  [[nodiscard]] std::filesystem::path chart_of(const std::filesystem::path& survey) const;
+  void set_chart(const std::filesystem::path& survey, const std::filesystem::path& raster);
   /// What was opened comes first among the recent.
   void remember(std::vector<std::filesystem::path> opened);
 };

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
+#include "session/curves.h"
 #include "session/desk_parts.h"
 #include "session/journal_place.h"
 #include "session/test_survey.h"
@@ -33,6 +35,14 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.select.tolerance_db = 12.5;
   out.volume.frames = 3;
   out.views.volume = false;
+  out.display.take_out.walls = false;
+  out.picture_file.width_px = 777;
+  out.reduce.margin_beams = 3;
+  out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
+  out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
+  out.set_chart("/data/one", "/charts/gebco.nc");
+  out.set_chart("/data/two", "/charts/emodnet.tif");
+  out.set_chart("/data/two", {});
   out.remember({"/data/one"});
   out.remember({"/data/a.raw", "/data/b.raw"});
   out.remember({"/data/one"});
@@ -51,12 +61,22 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   Workspace workspace(queue, {});
   in.preferences.apply(workspace);
   EXPECT_TRUE(workspace.dark());
+  EXPECT_EQ(in.preferences.chart_of("/data/one/."), "/charts/gebco.nc");
+  EXPECT_EQ(in.preferences.chart_of("/data/two"), "");
+  EXPECT_FALSE(workspace.curve_follows_scale());
+  EXPECT_EQ(workspace.view_curve(), *out.view_curve);
+  EXPECT_EQ(workspace.growth_curve(), *out.growth_curve);
   Preferences taken;
   taken.take(workspace);
   EXPECT_EQ(taken.display.scale.low_db, -70.0);
   EXPECT_EQ(taken.display.removed, NoiseLook::transparent);
   EXPECT_EQ(taken.select.tolerance_db, 12.5);
   EXPECT_EQ(taken.volume.frames, 3);
+  EXPECT_FALSE(taken.display.take_out.walls);
+  EXPECT_EQ(taken.picture_file.width_px, 777);
+  EXPECT_EQ(taken.reduce.margin_beams, 3);
+  EXPECT_EQ(taken.view_curve, out.view_curve);
+  EXPECT_EQ(taken.growth_curve, out.growth_curve);
   EXPECT_FALSE(taken.views.volume);
 }
 
@@ -106,6 +126,27 @@ TEST(Preferences, WhatHindersTheirKeepingIsToldOnce) {
   keep_preferences(desk);
   ASSERT_EQ(desk.workspace.document.notices().size(), 1U);
   EXPECT_THAT(desk.workspace.document.notices().front(), HasSubstr("preferences cannot be kept"));
+}
+
+TEST(Preferences, EachSurveyHasItsOwnDepthChart) {
+  const fs::path folder = TestSurvey::easy().fresh();
+  ChangeQueue queue;
+  Desk desk(queue, TestSurvey::options(folder));
+  desk.preferences.path = folder / "preferences.json";
+  Document& document = desk.workspace.document;
+  document.open({TestSurvey::easy().folder()});
+  document.settle();
+  desk.workspace.depth_raster.set(TestSurvey::easy().folder() / "truth" / "depth.tif");
+  const fs::directory_iterator files(TestSurvey::easy().folder());
+  const auto raw = std::find_if(fs::begin(files), fs::end(files),
+                                [](const auto& entry) { return entry.path().extension() == ".raw"; });
+  document.open({raw->path()});
+  document.settle();
+  EXPECT_EQ(desk.workspace.depth_raster(), "");
+  document.open({TestSurvey::easy().folder()});
+  document.settle();
+  EXPECT_EQ(desk.workspace.depth_raster(), TestSurvey::easy().folder() / "truth" / "depth.tif");
+  EXPECT_EQ(Preferences::load(desk.preferences.path).preferences.charts.size(), 1U);
 }
 
 TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {

@@ -98,7 +98,7 @@ FrameDescription drawn(const Drawn& what, const std::vector<double>& bins, Pixel
   FrameDescription frame;
   frame.size = size;
   frame.background = theme.background;
-  frame.title = "Transfer function";
+  frame.title = "Transfer function: opacity over Sv (dB)";
   add_histogram(frame, what.plot, bins, theme);
   add_axes(frame, what.plot, theme);
   add_bar(frame, what.plot, what.bar, what.scale, theme);

@@ -12,6 +12,7 @@
 #include "geo/geodesic.h"
 #include "session/curves.h"
 #include "session/place_text.h"
+#include "session/slices/slice_look.h"
 #include "view/slice_picture.h"
 
 namespace sonar {
@@ -44,6 +45,16 @@ std::string school_text(const JournalState& state, std::int64_t ping_index, int 
   return {};
 }
 
+/// As the pictures have it.
+std::int16_t shown_count(const StagedPing& staged, const DisplayParams& display, const Voxel& voxel) {
+  const auto flags = staged.filtered->flags.view();
+  const bool flagged = flags.shape() == staged.sv.counts.shape();
+  const SampleFlags why = flagged ? flags(voxel.fan, voxel.beam, voxel.sample) & kNotFiltered : SampleFlags::none;
+  const bool back = any(why) && (why & put_back(display)) == why;
+  const Volume& volume = display.filtered && !back ? *staged.filtered : staged.sv;
+  return volume.counts.view()(voxel.fan, voxel.beam, voxel.sample);
+}
+
 }  // namespace
 
 Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
@@ -53,6 +64,8 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       select(changes),
       volume(changes),
       views(changes),
+      picture_file(changes),
+      reduce(changes),
       view_curve(first_view_curve()) {
   document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;
@@ -124,6 +137,8 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
   text.range = fmt::format("range {:.1f} m", norm(place));
   text.depth = fmt::format("depth {:.1f} m", place.z + placement.transducer_depth_m);
   text.time = fmt::format("{} UTC", iso_time(navigation.time));
+  if (!std::isnan(navigation.speed_mps)) text.ship = fmt::format("ship {:.1f} kn", navigation.speed_mps / kKnot_mps);
+  if (!std::isnan(navigation.distance_nmi)) text.log = fmt::format("log {:.3f} nmi", navigation.distance_nmi);
   const double bow_deg = deg_from_rad(std::atan2(place.y, place.x));
   const bool headed = !std::isnan(navigation.heading_deg);
   text.bearing = headed ? fmt::format("bearing {:05.1f}\u00B0", wrap_360(bow_deg + navigation.heading_deg))
@@ -134,10 +149,9 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
     text.longitude = longitude_minutes_text(there.longitude_deg);
   }
   if (const auto& staged = workspace.document.staged(); staged && staged->ping_index == ping) {
-    const Volume& volume = workspace.display.values().filtered ? *staged->filtered : staged->sv;
-    const std::int16_t count = volume.counts.view()(voxel.fan, voxel.beam, voxel.sample);
+    const std::int16_t count = shown_count(*staged, workspace.display.values(), voxel);
     text.sv = count == kNoData ? "Sv none" : fmt::format("Sv {:.1f} dB", db_from_counts(count));
-    if (staged->filtered->flags.shape() == volume.counts.shape()) {
+    if (staged->filtered->flags.shape() == staged->sv.counts.shape()) {
       text.flags = flag_text(staged->filtered->flags.view()(voxel.fan, voxel.beam, voxel.sample));
     }
   }
@@ -147,8 +161,8 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
 
 std::string ReadOut::line() const {
   std::string all;
-  for (const std::string* part :
-       std::array{&sv, &fan, &beam, &sample, &range, &depth, &bearing, &latitude, &longitude, &time, &flags, &school}) {
+  for (const std::string* part : std::array{&sv, &fan, &beam, &sample, &range, &depth, &bearing, &latitude, &longitude,
+                                            &time, &flags, &school, &ship, &log}) {
     if (part->empty()) continue;
     if (!all.empty()) all += ", ";
     all += *part;

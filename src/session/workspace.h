@@ -10,11 +10,14 @@
 #include <variant>
 
 #include "model/transfer_function.h"
+#include "pipeline/reduce.h"
 #include "session/change_queue.h"
 #include "session/display.h"
 #include "session/document.h"
 #include "session/listeners.h"
 #include "session/parameters.h"
+#include "session/picture_file.h"
+#include "view/camera.h"
 #include "view/slice.h"
 
 namespace sonar {
@@ -90,6 +93,8 @@ struct Workspace {
   Parameters<SelectParams> select;
   Parameters<VolumeParams> volume;
   Parameters<ViewSwitches> views;
+  Parameters<PictureFileParams> picture_file;
+  Parameters<ReduceParams> reduce;
 
   /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
   /// the same opacity.
@@ -109,6 +114,7 @@ struct Workspace {
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
   Shared<std::optional<ChosenMark>> mark;                 ///< on a timeline; another school or survey ends it
+  Shared<std::optional<Camera>> camera;                   ///< of the volume; empty = the overview
   Shared<bool> latencies{false};                          ///< how long each picture took, over it: for developers
 
   /// Index in the state of the selected school, where it is in the observation on show.
@@ -120,9 +126,10 @@ struct Workspace {
   bool linking_ = false;
 };
 
-/// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC.
+/// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC, the ship's
+/// speed in knots, its log in nautical miles.
 struct ReadOut {
-  std::string sv, fan, beam, sample, range, depth, bearing, latitude, longitude, time, flags, school;
+  std::string sv, fan, beam, sample, range, depth, bearing, latitude, longitude, time, flags, school, ship, log;
   /// "Sv -48.2 dB, fan 7, beam 12, ...": what one key copies.
   [[nodiscard]] std::string line() const;
 };

@@ -4,10 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <QClipboard>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDropEvent>
 #include <QMimeData>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTimer>
 #include <QUrl>
 #include <fstream>
+#include <functional>
+#include <utility>
 
 #include "gui/action_menus.h"
 #include "publish/picture_options.h"
@@ -24,6 +31,7 @@ class Files : public WindowAtWork {
  protected:
   void SetUp() override {
     WindowAtWork::SetUp();
+    real_parameters_ = std::exchange(desk_->asking.parameters, [](const auto&, const auto&) { return true; });
     desk_->asking.folder_to_save = [this](const std::string&) { return out_.string(); };
     desk_->asking.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
       return (out_ / name).string();
@@ -41,6 +49,10 @@ class Files : public WindowAtWork {
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
   }
+  static void keep_dialog(QDialog& dialog) {
+    const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
+    if (!folder.isEmpty()) dialog.grab().save(folder + "/dialog.png");
+  }
   void follow_a_school() {
     const Target target = look_at_school();
     double_click("top_slice", place_in("top_slice", target.voxel));
@@ -48,7 +60,41 @@ class Files : public WindowAtWork {
   }
 
   fs::path out_ = TestSurvey::easy().fresh();
+  decltype(Asking::parameters) real_parameters_;
 };
+
+TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
+  desk_->asking.parameters = real_parameters_;
+  const auto answer = [this](const std::function<void(QDialog&)>& act) {
+    QTimer::singleShot(0, window_.get(), [act] {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      ASSERT_NE(dialog, nullptr);
+      EXPECT_EQ(dialog->objectName(), "parameters");
+      act(*dialog);
+    });
+    trigger("picture.slice-plane");
+  };
+  answer([this](QDialog& dialog) {
+    auto* width = dialog.findChild<QSpinBox*>("width_px");
+    ASSERT_NE(width, nullptr);
+    width->setFocus();
+    width->selectAll();
+    QTest::keyClicks(width, "640");
+    keep_dialog(dialog);
+    QTest::keyClick(width, Qt::Key_Return);
+    EXPECT_EQ(workspace().picture_file.values().width_px, 640);
+  });
+  const auto picture = read_png(out_ / "slice-plane.png");
+  ASSERT_TRUE(picture) << told();
+  EXPECT_EQ(picture->size.width, 640);
+  fs::remove(out_ / "slice-plane.png");
+  answer([](QDialog& dialog) {
+    dialog.findChild<QSpinBox*>("width_px")->setValue(999);
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel), Qt::LeftButton);
+  });
+  EXPECT_EQ(workspace().picture_file.values().width_px, 640);
+  EXPECT_FALSE(fs::exists(out_ / "slice-plane.png"));
+}
 
 TEST_F(Files, ResultsAreAsARunWritesThem) {
   follow_a_school();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -39,10 +40,28 @@ void add_chart_actions(Desk& desk) {
                     .enabled = [&desk] { return !desk.workspace.depth_raster().empty(); }});
 }
 
+/// Each survey has its own chart, kept for the next time.
+void remember_charts(Desk& desk) {
+  Workspace& workspace = desk.workspace;
+  const auto survey = [&workspace] {
+    const auto& paths = workspace.document.paths();
+    return paths.empty() ? std::filesystem::path{} : paths.front();
+  };
+  workspace.document.changes().add([&desk, &workspace, survey](DocumentChange change) {
+    if (change == DocumentChange::survey) workspace.depth_raster.set(desk.preferences.chart_of(survey()));
+  });
+  workspace.depth_raster.changed().add([&desk, &workspace, survey] {
+    if (survey().empty() || desk.preferences.chart_of(survey()) == workspace.depth_raster()) return;
+    desk.preferences.set_chart(survey(), workspace.depth_raster());
+    keep_preferences(desk);
+  });
+}
+
 }  // namespace
 
 void add_maps(Desk& desk) {
   Workspace& workspace = desk.workspace;
+  remember_charts(desk);
   auto map = std::make_unique<ObservationMapModel>(workspace);
   auto strip = std::make_unique<StripModel>(workspace);
   auto survey = std::make_unique<SurveyMapModel>(workspace);

@@ -69,6 +69,11 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   const Volume& volume = wish.display.filtered ? *wish.ping->filtered : wish.ping->sv;
   SliceData data;
   data.sv = volume.counts.view();
+  Array3<std::int16_t> restored;
+  if (const SampleFlags reasons = put_back(wish.display); wish.display.filtered && any(reasons)) {
+    restored = counts_put_back(*wish.ping, reasons);
+    data.sv = View3<const std::int16_t>(restored.view());
+  }
   data.flags = wish.ping->filtered->flags.view();
   if (wish.display.weak != NoiseLook::shown) {
     if (wish.flags->shape() != data.flags.shape()) *wish.flags = Array3<SampleFlags>(data.flags.shape());

@@ -2,6 +2,13 @@
 #include "session/slices/slice_look.h"
 
 namespace sonar {
+namespace {
+
+SampleFlags all_but(SampleFlags flags) {
+  return static_cast<SampleFlags>(static_cast<std::uint8_t>(~static_cast<unsigned>(flags)));
+}
+
+}  // namespace
 
 FlagStyle flag_style(const DisplayParams& display) {
   FlagStyle style;
@@ -17,13 +24,33 @@ FlagStyle flag_style(const DisplayParams& display) {
       style.hidden = faults | kNeverMember;
       break;
   }
+  const SampleFlags styled = all_but(put_back(display));
+  style.hidden = style.hidden & styled;
+  style.hatched = style.hatched & styled;
+  style.faded = style.faded & styled;
   if (display.weak == NoiseLook::hatched) style.hatched |= SampleFlags::low_snr;
   if (display.weak == NoiseLook::transparent) style.faded |= SampleFlags::low_snr;
   return style;
 }
 
+SampleFlags put_back(const DisplayParams& display) {
+  const TakenOut& out = display.take_out;
+  SampleFlags back = SampleFlags::none;
+  const auto unless = [&back](bool taken_out, SampleFlags reason) {
+    if (!taken_out) back |= reason;
+  };
+  unless(out.near_field, SampleFlags::near_field);
+  unless(out.surface, SampleFlags::surface);
+  unless(out.hot_beams, SampleFlags::hot_beam);
+  unless(out.walls, SampleFlags::wall);
+  unless(out.impulses, SampleFlags::impulse);
+  unless(out.seabed, SampleFlags::seabed);
+  return back;
+}
+
 SampleFlags left_out_of_volume(const DisplayParams& display) {
-  SampleFlags hidden = display.removed == NoiseLook::shown ? SampleFlags::none : kNotFiltered;
+  SampleFlags hidden =
+      display.removed == NoiseLook::shown ? SampleFlags::none : kNotFiltered & all_but(put_back(display));
   if (display.weak != NoiseLook::shown) hidden |= SampleFlags::low_snr;
   return hidden;
 }

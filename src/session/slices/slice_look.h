@@ -14,6 +14,9 @@ namespace sonar {
 /// Colours of the display scale, or of the view curve where a human has changed that.
 [[nodiscard]] SvColours slice_colours(const Workspace& workspace);
 
+/// Reasons whose samples are shown as recorded: those that are not taken out.
+[[nodiscard]] SampleFlags put_back(const DisplayParams& display);
+
 /// Samples that a volume leaves out: stripes cannot be told apart there, so that what slices hatch is left out too.
 [[nodiscard]] SampleFlags left_out_of_volume(const DisplayParams& display);
 

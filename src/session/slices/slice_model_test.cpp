@@ -61,6 +61,42 @@ TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
   EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
 }
 
+// Near the transducer every beam rings.
+TEST_F(SlicesAtWork, AReasonThatIsSwitchedOffShowsItsSamplesAsRecorded) {
+  const Voxel ringing{bright().fan, bright().beam, 30};
+  const StagedPing& ping = *desk_.document().staged();
+  ASSERT_EQ(ping.filtered->flags(ringing.fan, ringing.beam, ringing.sample), SampleFlags::near_field);
+  const auto recorded = ping.sv.counts(ringing.fan, ringing.beam, ringing.sample);
+  ASSERT_NE(recorded, ping.filtered->counts(ringing.fan, ringing.beam, ringing.sample));
+  DisplayParams params = workspace().display.values();
+  params.filtered = true;
+  params.removed = NoiseLook::transparent;
+  params.scale.low_db = -150.0;
+  params.scale.span_db = 200.0;
+  workspace().display.assign(params);
+  desk_.settle();
+  const Rgba8 nothing = pixel(desk_.top(), ringing);
+  EXPECT_NE(read_out(workspace(), ringing).sv, fmt::format("Sv {:.1f} dB", db_from_counts(recorded)));
+  ASSERT_TRUE(workspace().display.set("take_out.walls", false));
+  desk_.settle();
+  EXPECT_EQ(pixel(desk_.top(), ringing), nothing) << "another reason's switch";
+  ASSERT_TRUE(workspace().display.set("take_out.near_field", false));
+  desk_.settle();
+  EXPECT_NE(pixel(desk_.top(), ringing), nothing);
+  EXPECT_EQ(read_out(workspace(), ringing).sv, fmt::format("Sv {:.1f} dB", db_from_counts(recorded)));
+  EXPECT_THAT(read_out(workspace(), ringing).flags, testing::HasSubstr("near field"))
+      << "the reason stays in the read-out";
+}
+
+TEST_F(SlicesAtWork, TheReadOutTellsTheShipsSpeedInKnotsAndItsLogInNauticalMiles) {
+  const PingNavigation& ship =
+      desk_.document().shown()->files().navigation[static_cast<std::size_t>(desk_.document().ping())];
+  const ReadOut text = read_out(workspace(), bright());
+  EXPECT_EQ(text.ship, fmt::format("ship {:.1f} kn", ship.speed_mps * 3600.0 / 1852.0));
+  EXPECT_EQ(text.log, fmt::format("log {:.3f} nmi", ship.distance_nmi));
+  EXPECT_THAT(text.line(), testing::HasSubstr(text.ship + ", " + text.log));
+}
+
 TEST_F(SlicesAtWork, TitlesSayThatTheDataIsSimulated) {
   for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
     const auto& items = slice->picture()->frame.items;

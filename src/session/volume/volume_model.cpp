@@ -67,7 +67,7 @@ void VolumeModel::hear(DocumentChange change) {
       // One more observation is open, or another calibration chosen: the camera stays.
       if (change == DocumentChange::observation && identity == of_.lock()) return update();
       of_ = identity;
-      camera_.reset();
+      workspace_.camera.set(std::nullopt);
       drag_.reset();
       shown_.reset();
       return update();
@@ -83,7 +83,7 @@ void VolumeModel::hear(DocumentChange change) {
 
 LivePicture::Build VolumeModel::build() {
   if (better_) better_->cancel();  // what is under way shows something that is past
-  auto input = volume_input(workspace_, camera_, units(), scale());
+  auto input = volume_input(workspace_, workspace_.camera(), units(), scale());
   if (!input) return {};
   better_ = std::make_shared<Work>(workspace_.document.options().threads);
   return [live = live_, better = better_, scale = scale(), input = std::move(*input)](
@@ -114,14 +114,14 @@ void VolumeModel::set_camera(const Camera& camera) {
   const double far_m = shown_ ? shown_->volume->sector.range().range_m(shown_->volume->sector.range().count) : 1e3;
   const double distance_m = norm(camera.eye - camera.target);
   if (distance_m < kNearest_m || distance_m > kFarthest * far_m) return;
-  if (camera_ == camera) return;
-  camera_ = camera;
+  if (workspace_.camera() == camera) return;
+  workspace_.camera.set(camera);
   update();
 }
 
 void VolumeModel::look_from(VolumeSide side) {
   if (side == VolumeSide::overview) {
-    camera_.reset();
+    workspace_.camera.set(std::nullopt);
     return update();
   }
   const auto& observation = workspace_.document.shown();
@@ -166,7 +166,7 @@ void VolumeModel::pointer(const PointerEvent& pointed) {
 
 void VolumeModel::press(const PointerEvent& event) {
   if (!shown_ || (event.button != PointerButton::left && event.button != PointerButton::middle)) return;
-  drag_ = Drag{event.button, event.at, camera_.value_or(shown_->view.camera), false};
+  drag_ = Drag{event.button, event.at, workspace_.camera().value_or(shown_->view.camera), false};
 }
 
 void VolumeModel::drag(const PointerEvent& event) {
@@ -189,7 +189,7 @@ void VolumeModel::release(const PointerEvent& event) {
 
 void VolumeModel::zoom(const PointerEvent& event) {
   if (!shown_ || event.wheel_steps == 0.0) return;
-  const Camera camera = camera_.value_or(shown_->view.camera);
+  const Camera camera = workspace_.camera().value_or(shown_->view.camera);
   const CameraBasis b = basis(camera, shown_->view.size);
   const double scale = shown_->view.size.width / shown_->place.width;
   const PixelPoint pixel{(event.at.x - shown_->place.x) * scale, (event.at.y - shown_->place.y) * scale};

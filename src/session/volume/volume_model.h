@@ -29,7 +29,7 @@ class VolumeModel : public LivePicture {
   ~VolumeModel() override;
 
   void look_from(VolumeSide side);
-  [[nodiscard]] const std::optional<Camera>& camera() const { return camera_; }
+  [[nodiscard]] const std::optional<Camera>& camera() const { return workspace_.camera(); }
   /// Of the picture on show; null before the first.
   [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }
 
@@ -76,8 +76,7 @@ class VolumeModel : public LivePicture {
   void press_voxel(const PointerEvent& event, bool double_press);
 
   Workspace& workspace_;
-  std::weak_ptr<const int> of_;   ///< identity of the observation on show
-  std::optional<Camera> camera_;  ///< empty = the overview
+  std::weak_ptr<const int> of_;  ///< identity of the observation on show
   std::optional<Drag> drag_;
   std::shared_ptr<LiveVolume> live_;
   std::shared_ptr<const LiveVolumeShown> shown_;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/panel_section.h"
+
+#include <QFormLayout>
+#include <QLabel>
+#include <QPointer>
+#include <algorithm>
+
+#include "gui/bind.h"
+
+namespace sonar {
+namespace {
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+QLabel* note_label(const PanelSection::Note& note, const PanelSection& section, QWidget* parent) {
+  auto* label = new QLabel(text(note.text()), parent);
+  label->setEnabled(false);
+  label->setWordWrap(true);
+  const auto refresh = [label = QPointer<QLabel>(label), tell = note.text] {
+    if (!label.isNull()) label->setText(text(tell()));
+  };
+  section.source->on_change(refresh);
+  return label;
+}
+
+Property as_it_looks(Property property, const PanelSection& section) {
+  for (const PanelSection::Look& look : section.looks) {
+    if (look.name != property.name) continue;
+    property.at_min = look.at_min;
+    property.slider = look.slider;
+  }
+  return property;
+}
+
+void add_property(QFormLayout& form, const PanelSection& section, const Property& plain, QWidget* parent) {
+  const Property property = as_it_looks(plain, section);
+  QWidget* control = bound_control(section.source, property, parent);
+  // A switch carries its own label.
+  if (std::holds_alternative<bool>(property.initial)) {
+    form.addRow(control);
+  } else {
+    auto* label = new QLabel(text(property.label), parent);
+    label->setToolTip(control->toolTip());
+    form.addRow(label, control);
+  }
+  for (const PanelSection::Note& note : section.notes) {
+    if (note.name == property.name) form.addRow(QString(), note_label(note, section, parent));
+  }
+}
+
+}  // namespace
+
+QWidget* panel_section(const PanelSection& section, QWidget* parent) {
+  auto* body = new QWidget(parent);
+  auto* form = new QFormLayout(body);
+  form->setContentsMargins(8, 2, 4, 8);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  const auto& all = section.source->properties();
+  if (section.names.empty()) {
+    for (const Property& property : all) add_property(*form, section, property, body);
+  }
+  for (const std::string& name : section.names) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
+    if (found != all.end()) add_property(*form, section, *found, body);
+  }
+  return body;
+}
+
+}  // namespace sonar

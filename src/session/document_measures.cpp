@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The schools' figures: measured behind the window after each act, those of earlier acts given up.
+#include <utility>
+
+#include "base/within_memory.h"
+#include "session/document.h"
+
+namespace sonar {
+
+ProductPtr Document::product(std::size_t observation) const {
+  const auto found = products_.find(observation);
+  return found == products_.end() ? nullptr : found->second;
+}
+
+void Document::measure_changed(const ChoicesShown& before) {
+  for (const auto& [index, state] : choices_.states) {
+    const auto old = before.states.find(index);
+    if (old == before.states.end() || old->second != state) measure(index);
+  }
+}
+
+void Document::measure(std::size_t index) {
+  const OpenObservationPtr observation = open_observation(index);
+  const JournalStatePtr state = choices_.states[index];
+  if (!observation || !state) return;
+  if (const auto running = measuring_.find(index); running != measuring_.end()) running->second.give_up();
+  if (++measures_begun_ > 1) changes_.tell(DocumentChange::progress);
+  const auto lines = choices_.lines;
+  measuring_[index] = measures_.post([this, observation, state, lines, kept = measured_[index]](const Wanted& wanted) {
+    if (wanted()) measure_behind(observation, *state, *lines, *kept, wanted);
+    queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
+      if (!alive.expired()) take_measured();
+    });
+  });
+}
+
+void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
+                              const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted) {
+  for (const auto& school : state.schools) {
+    for (const auto& there : school->masks.pings) observation->estimate_background(there.ping_index);
+  }
+  Work one(1);
+  const std::vector<JournalLine> effective = effective_lines(lines);
+  auto product = within_memory([&] {
+    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept}, one);
+  });
+  if (!product) {
+    if (product.error().code != ErrorCode::no_space) return;
+    return post(wanted, [this, line = to_line(product.error())] { tell(line); });
+  }
+  auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
+  post(wanted, [this, index = observation->index(), shared] {
+    products_[index] = shared;
+    changes_.tell(DocumentChange::measures);
+  });
+}
+
+void Document::take_measured() {
+  const bool shown = measures_begun_ > 1;
+  if (++measures_done_ == measures_begun_) measures_begun_ = measures_done_ = 0;
+  if (shown) changes_.tell(DocumentChange::progress);
+}
+
+}  // namespace sonar

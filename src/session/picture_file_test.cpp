@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/picture_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/draw_frame.h"
+#include "session/exports.h"
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+class PictureFile : public testing::Test, protected TestDesk {
+ protected:
+  void SetUp() override {
+    begin();
+    desk_->asking.file_to_save = [this](const auto&, const auto&, const std::string& name) {
+      return (out_ / name).string();
+    };
+    desk_->asking.parameters = [this](const std::string&, const PanelSection& section) {
+      asked_ = section.names;
+      answer_(*section.source);
+      return accept_;
+    };
+  }
+  void answer(std::function<void(ParameterSource&)> answer) { answer_ = std::move(answer); }
+  Result<Image> made(const std::string& kind) {
+    press("picture." + kind);
+    document().settle();
+    return read_png(out_ / (kind + ".png"));
+  }
+  [[nodiscard]] const std::string& told() { return document().notices().back(); }
+
+  fs::path out_ = TestSurvey::easy().fresh();
+  std::vector<std::string> asked_;
+  std::function<void(ParameterSource&)> answer_ = [](ParameterSource&) {};
+  bool accept_ = true;
+};
+
+TEST_F(PictureFile, HasTheSizeThatWasAskedFor) {
+  answer([](ParameterSource& source) {
+    (void)source.set("width_px", 640);
+    (void)source.set("height_px", 480);
+    (void)source.set("scale", 1.5);
+  });
+  const auto image = made("slice-top");
+  ASSERT_TRUE(image) << told();
+  EXPECT_EQ(image->size, (PixelSize{960, 720}));
+  EXPECT_THAT(asked_, Not(Contains("range_m")));
+}
+
+TEST_F(PictureFile, IsNotMadeWhereTheHumanDeclines) {
+  accept_ = false;
+  answer([](ParameterSource& source) { (void)source.set("width_px", 640); });
+  EXPECT_FALSE(made("slice-top"));
+  EXPECT_EQ(workspace().picture_file.values().width_px, 1600) << "what was there comes back";
+}
+
+TEST_F(PictureFile, EveryKindAsksForWhatItNeedsAndIsMade) {
+  for (const PictureKindInfo& kind : picture_kinds()) {
+    answer([](ParameterSource& source) {
+      (void)source.set("width_px", 480);
+      (void)source.set("height_px", 360);
+    });
+    EXPECT_TRUE(made(std::string(kind.name))) << kind.name << ": " << told();
+    for (const std::string& name : asked_)
+      EXPECT_TRUE(workspace().picture_file.value(name)) << kind.name << ": " << name;
+  }
+}
+
+TEST_F(PictureFile, AllPlanesOfTheCommandLineCanBeHad) {
+  for (std::size_t i = 0; i < kPlaneLiesNames.size(); ++i) {
+    answer([i](ParameterSource& source) { (void)source.set("plane", Choice{i}); });
+    EXPECT_TRUE(made("slice-plane")) << kPlaneLiesNames[i] << ": " << told();
+    fs::remove(out_ / "slice-plane.png");
+  }
+  answer([](ParameterSource& source) {
+    for (const char* name : {"normal_bow", "normal_starboard", "normal_down"}) (void)source.set(name, 0.0);
+  });
+  EXPECT_FALSE(made("slice-plane"));
+  EXPECT_THAT(told(), HasSubstr("make no plane"));
+}
+
+TEST_F(PictureFile, ThatIsTooLargeIsRefusedInOneLine) {
+  answer([](ParameterSource& source) {
+    (void)source.set("width_px", 16384);
+    (void)source.set("height_px", 16384);
+  });
+  EXPECT_FALSE(made("slice-top"));
+  EXPECT_THAT(told(), HasSubstr("16384 x 16384 at scale 1 makes 268 million pixels; expected 64 at most"));
+}
+
+TEST_F(PictureFile, OfAVolumeLooksFromWhereTheWindowDoes) {
+  Camera camera;
+  camera.eye = {0.0, -100.0, -200.0};
+  camera.target = {0.0, 200.0, 50.0};
+  workspace().camera.set(camera);
+  EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->camera, camera);
+  PictureFileParams params;
+  params.camera_of_window = false;
+  workspace().picture_file.assign(params);
+  EXPECT_FALSE(picture_options(workspace(), PictureKind::volume)->camera);
+}
+
+TEST_F(PictureFile, ShowsTheSelectedSchoolAloneWhereThatIsAsked) {
+  paint(2, 4, 5, 5, 200);
+  paint(2, 4, 10, 10, 400);
+  document().settle();
+  select(2);
+  EXPECT_TRUE(picture_options(workspace(), PictureKind::slice_top)->schools.empty());
+  PictureFileParams params;
+  params.selected_school_alone = true;
+  workspace().picture_file.assign(params);
+  EXPECT_EQ(picture_options(workspace(), PictureKind::slice_top)->schools, (std::vector<std::int64_t>{2}));
+}
+
+TEST_F(PictureFile, OfATimelineMayBeOfTheWholeSurveyAgainstTheLog) {
+  answer([](ParameterSource& source) {
+    (void)source.set("whole_survey", true);
+    (void)source.set("along_log", true);
+    (void)source.set("maximum", true);
+  });
+  EXPECT_TRUE(made("timeline")) << told();
+  const auto options = picture_options(workspace(), PictureKind::timeline);
+  EXPECT_TRUE(options->whole_survey && options->along_log && options->maximum);
+}
+
+TEST_F(PictureFile, AMovieIsAskedForItsPace) {
+  paint(4, 6, 5, 5, 200);
+  document().settle();
+  select(1);
+  desk_->asking.folder_to_save = [this](const auto&) { return out_.string(); };
+  answer([](ParameterSource& source) {
+    (void)source.set("frame_s", 0.5);
+    (void)source.set("width_px", 400);
+    (void)source.set("height_px", 300);
+  });
+  for (const char* movie : {"export.movie_side", "export.movie_map"}) {
+    press(movie);
+    document().settle();
+    EXPECT_THAT(told(), HasSubstr("3 pictures and movie.png"));
+    EXPECT_THAT(asked_, Contains("frame_s"));
+    EXPECT_EQ(read_png(out_ / "ping-0004.png")->size, (PixelSize{400, 300}));
+  }
+}
+
+TEST_F(PictureFile, ReducedRawFilesAreAskedForTheirMargins) {
+  paint(4, 6, 5, 5, 200);
+  document().settle();
+  desk_->asking.folder_to_save = [this](const auto&) { return (out_ / "reduced").string(); };
+  const auto size = [&] {
+    press("export.raw-reduced");
+    document().settle();
+    EXPECT_THAT(told(), HasSubstr("written: "));
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out_ / "reduced")) {
+      if (entry.is_regular_file()) bytes += entry.file_size();
+    }
+    fs::remove_all(out_ / "reduced");
+    return bytes;
+  };
+  const auto narrow = size();
+  answer([](ParameterSource& source) { (void)source.set("margin_samples", 300); });
+  EXPECT_GT(size(), narrow);
+}
+
+}  // namespace
+}  // namespace sonar

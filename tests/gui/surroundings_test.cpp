@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies round the survey: its depth chart, a folder that cannot be written to, the developer's overlay.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QStatusBar>
+#include <fstream>
+
+#include "gui/action_menus.h"
+#include "session/demo.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Surroundings : public WindowAtWork {
+ protected:
+  void trigger(const std::string& id) {
+    find_action(*window_, id)->trigger();
+    settle();
+  }
+};
+
+TEST_F(Surroundings, ADepthChartLiesUnderTheSurveyMapAndIsTakenAway) {
+  raise("survey_map");
+  const Image plain = desk_->picture("survey_map")->image();
+  desk_->asking.file_to_open = [this](const auto&, const auto&) { return (survey_ / "truth" / "depth.tif").string(); };
+  trigger("map.depths");
+  const Image charted = desk_->picture("survey_map")->image();
+  EXPECT_TRUE(desk_->picture("survey_map")->problem().empty());
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i) changed += plain.pixels[i] == charted.pixels[i] ? 0U : 1U;
+  EXPECT_GT(changed, plain.pixels.size() / 4) << "the sea takes the chart's colours";
+  trigger("map.no_depths");
+  EXPECT_EQ(desk_->picture("survey_map")->image(), plain);
+}
+
+TEST_F(Surroundings, AJournalThatMustGoElsewhereIsTold) {
+  close();
+  const fs::path blocked = TestSurvey::easy().fresh() / "survey-work";
+  std::ofstream(blocked) << "a file where a folder is wanted";
+  const fs::path own = TestSurvey::easy().fresh();
+  pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
+  DocumentOptions options = TestSurvey::options(own);
+  options.journal_folders = [blocked, own](const auto&) { return std::vector{blocked, own}; };
+  desk_ = std::make_unique<Desk>(pump_->queue(), options);
+  window_ = std::make_unique<MainWindow>(*desk_);
+  window_->show();
+  document().open({survey_});
+  settle();
+  ASSERT_FALSE(document().notices().empty());
+  EXPECT_THAT(document().notices().back(), testing::HasSubstr("cannot be written to"));
+  EXPECT_THAT(window_->statusBar()->currentMessage().toStdString(), testing::HasSubstr(own.string()));
+  document().act(EventCommand{"other", document().shown()->ground().times[1], "kept"});
+  settle();
+  EXPECT_TRUE(fs::exists(own / "session.jsonl"));
+}
+
+TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {
+  move("side_slice", {5.0, 5.0});
+  const QImage plain = view("top_slice")->grab().toImage();
+  key(Qt::Key_F12);
+  EXPECT_TRUE(workspace().latencies());
+  EXPECT_NE(view("top_slice")->grab().toImage(), plain);
+  key(Qt::Key_F12);
+  EXPECT_EQ(view("top_slice")->grab().toImage(), plain);
+}
+
+TEST_F(Surroundings, ADemoThatWasMadeOpensWithItsDepthChart) {
+  const fs::path made = TestSurvey::easy().fresh() / "demo";
+  fs::create_directories(made);
+  fs::copy(survey_, made, fs::copy_options::recursive);
+  fs::create_directories(made / "truth" / "complete");
+  open_demo(*desk_, made);
+  settle();
+  ASSERT_TRUE(document().staged());
+  EXPECT_EQ(document().paths().front(), made);
+  EXPECT_EQ(workspace().depth_raster(), made / "truth" / "depth.tif");
+}
+
+}  // namespace
+}  // namespace sonar

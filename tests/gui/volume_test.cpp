@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view in three dimensions under a real mouse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <cmath>
+
+#include "gui/action_menus.h"
+#include "session/volume/volume_model.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+class VolumeInTheWindow : public WindowAtWork {
+ protected:
+  void SetUp() override {
+    WindowAtWork::SetUp();
+    target_ = look_at_school();
+    raise("volume");
+  }
+  VolumeModel& model() { return dynamic_cast<VolumeModel&>(*desk_->picture("volume")); }
+  PixelPoint middle() {
+    const PixelRect& place = model().shown()->place;
+    return {place.x + 0.5 * place.width, place.y + 0.5 * place.height};
+  }
+  /// Where the school is seen.
+  PixelPoint seen() {
+    const Sector& sector = document().shown()->sector();
+    const auto at =
+        model().shown()->place_of(sector.centre(target_.voxel.fan, target_.voxel.beam, target_.voxel.sample));
+    EXPECT_TRUE(at && model().shown()->picked_at(*at));
+    return at ? PixelPoint{std::floor(at->x), std::floor(at->y)} : PixelPoint{};
+  }
+  Target target_;
+};
+
+TEST_F(VolumeInTheWindow, ADragTurnsItAndTheWheelComesNearer) {
+  ASSERT_TRUE(model().shown());
+  const Camera first = model().shown()->view.camera;
+  const PixelPoint at = middle();
+  drag("volume", at, {at.x + 60.0, at.y + 20.0});
+  const Camera turned = model().shown()->view.camera;
+  EXPECT_GT(norm(turned.eye - first.eye), 10.0);
+  EXPECT_NEAR(norm(turned.eye - turned.target), norm(first.eye - first.target), 1e-6);
+  QWheelEvent wheel(view("volume")->mapFromGlobal(view("volume")->mapToGlobal(QPoint(int(at.x), int(at.y)))),
+                    view("volume")->mapToGlobal(QPoint(int(at.x), int(at.y))), {}, {0, 240}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(view("volume"), &wheel);
+  settle();
+  const Camera nearer = model().shown()->view.camera;
+  EXPECT_LT(norm(nearer.eye - nearer.target), norm(turned.eye - turned.target));
+  find_action(*window_, "volume.overview")->trigger();
+  settle();
+  EXPECT_EQ(model().shown()->view.camera, first);
+}
+
+TEST_F(VolumeInTheWindow, HoverPreviewsAndAClickSelectsWhatIsSeen) {
+  const PixelPoint at = seen();
+  move("volume", at);
+  ASSERT_TRUE(workspace().cursor());
+  const Voxel voxel = *workspace().cursor();
+  ASSERT_TRUE(workspace().preview().mask) << workspace().preview().text;
+  click("volume", at);
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  const auto& seeds = document().choices().lines->back().args["seeds"];
+  EXPECT_EQ(seeds[0]["sample"], voxel.sample);
+  double_click("volume", at);
+  EXPECT_GT(masks().size(), 1U);
+}
+
+}  // namespace
+}  // namespace sonar
