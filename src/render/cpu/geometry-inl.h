@@ -124,45 +124,56 @@ HWY_INLINE W cell_of(const TraceGrid& grid, const Place& p) {
   return hn::Add(hn::Mul(row, seti(grid.cell_ranges)), hn::ShiftRight<4>(p.sample0));
 }
 
-/// Lanes that stand at a face of their block, within what indices are wrong by, and move towards it: they may be past it
-/// already, and then its root lies behind them and would be missed, the whole way along a face that a ray grazes.
-HWY_INLINE M at_exit(const Rays& ray, const Place& p, V u, W b0, W b1, W f0, W f1, V k0, V k1) {
-  const V near = set(4e-3F);
-  const auto close = [&](V rate, V at, V low, V high) {
-    return hn::Or(hn::And(hn::Lt(rate, zero()), hn::Lt(hn::Sub(at, low), near)),
-                  hn::And(hn::Gt(rate, zero()), hn::Lt(hn::Sub(high, at), near)));
-  };
-  const auto number = [](W i) { return hn::ConvertTo(D(), i); };
-  const V azimuth_rate = hn::MulSub(ray.nx, ray.dy, hn::Mul(ray.ny, ray.dx));
-  const V elevation_rate = hn::MulSub(p.z, u, hn::Mul(ray.dz, hn::Mul(p.r, p.r)));
-  const M beam = close(azimuth_rate, hn::Add(number(p.beam0), p.beam), number(b0), number(b1));
-  const M fan = close(elevation_rate, hn::Add(number(p.fan0), p.fan), number(f0), number(f1));
-  const M sample = close(u, hn::Add(number(p.sample0), p.sample), k0, k1);
-  return hn::Or(hn::Or(beam, fan), sample);
+// Azimuth turns one way only along a straight ray and elevation turns back once at most: of each pair of a block's faces
+// one need be met, and rarely the other.
+
+/// Rate of the fan's index: linear in u, so that it changes its sign once.
+HWY_INLINE V climbing(const Rays& ray, V u) { return hn::MulSub(ray.nz, u, hn::Mul(ray.dz, ray.m2)); }
+
+/// Nearest meeting with the cones of a block, the one moved towards first.
+HWY_INLINE V nearer_fan(const TraceGrid& grid, const Rays& ray, W ahead, W behind, V rate, V best, V u) {
+  best = nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, ahead), best, u);
+  const M turns = hn::Lt(hn::Mul(climbing(ray, best), rate), zero());
+  if (!any(turns)) return best;
+  return nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, behind), best, u);
 }
 
-/// Where the rays leave the block of `reach` cells to each side of their cell; `u` where they stand at its face.
+/// Where the rays leave the block of `reach` cells to each side of their cell; `u` where they stand at its face, within
+/// what indices are wrong by, and move towards it: they may be past it already, and then its root lies behind them and
+/// would be missed, the whole way along a face that a ray grazes.
 HWY_INLINE V block_exit(const TraceGrid& grid, const Rays& ray, const Place& p, W reach, V u, V best) {
+  const auto number = [](W i) { return hn::ConvertTo(D(), i); };
+  const auto choose = [](M m, W yes, W no) { return hn::IfThenElse(hn::RebindMask(I(), m), yes, no); };
+  const V azimuth_rate = hn::MulSub(ray.nx, ray.dy, hn::Mul(ray.ny, ray.dx));
+  const V elevation_rate = climbing(ray, u);
+  const W above = hn::Add(reach, seti(1));
   const W b0 = hn::Max(hn::Sub(p.beam0, reach), seti(0));
-  const W b1 = hn::Min(hn::Add(p.beam0, hn::Add(reach, seti(1))), seti(grid.beams - 1));
+  const W b1 = hn::Min(hn::Add(p.beam0, above), seti(grid.beams - 1));
   const W f0 = hn::Max(hn::Sub(p.fan0, reach), seti(0));
-  const W f1 = hn::Min(hn::Add(p.fan0, hn::Add(reach, seti(1))), seti(grid.fans - 1));
+  const W f1 = hn::Min(hn::Add(p.fan0, above), seti(grid.fans - 1));
+  const W beam = choose(hn::Gt(azimuth_rate, zero()), b1, b0);
+  const M rising = hn::Gt(elevation_rate, zero());
+  const W fan = choose(rising, f1, f0);
+  // Inwards to the nearer sphere, if it is met, else out through the farther.
   const W k = hn::ShiftRight<4>(p.sample0);
-  const V k0 = hn::ConvertTo(D(), hn::ShiftLeft<4>(hn::Sub(k, reach)));
-  const V k1 = hn::ConvertTo(D(), hn::ShiftLeft<4>(hn::Add(k, hn::Add(reach, seti(1)))));
+  const V k0 = number(hn::ShiftLeft<4>(hn::Sub(k, reach)));
+  const V k1 = number(hn::ShiftLeft<4>(hn::Add(k, above)));
   const V r0 = hn::MulAdd(k0, set(grid.spacing_m), set(grid.first_m));
   const V r1 = hn::MulAdd(k1, set(grid.spacing_m), set(grid.first_m));
-  best = nearer_root(best, root(hn::MulSub(r1, r1, ray.m2)), u);
-  const V h2 = hn::MulSub(r0, r0, ray.m2);
-  const M meets = hn::And(hn::Gt(h2, zero()), hn::Gt(r0, zero()));
-  best = hn::IfThenElse(meets, nearer_root(best, hn::Neg(root(h2)), u), best);
+  const V in2 = hn::MulSub(r0, r0, ray.m2);
+  const M falling = hn::Lt(u, zero());
+  const M inwards = hn::And(falling, hn::And(hn::Gt(in2, zero()), hn::Gt(r0, zero())));
+  const V half = root(hn::IfThenElse(inwards, in2, hn::MulSub(r1, r1, ray.m2)));
+  best = nearer_root(best, hn::IfThenElse(inwards, hn::Neg(half), half), u);
   best = nearer_root(
-      best, plane_root(ray, hn::GatherIndex(D(), grid.sin_azimuth, b0), hn::GatherIndex(D(), grid.cos_azimuth, b0)), u);
-  best = nearer_root(
-      best, plane_root(ray, hn::GatherIndex(D(), grid.sin_azimuth, b1), hn::GatherIndex(D(), grid.cos_azimuth, b1)), u);
-  best = nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, f0), best, u);
-  best = nearer_cone(ray, hn::GatherIndex(D(), grid.sin2_elevation, f1), best, u);
-  return hn::IfThenElse(at_exit(ray, p, u, b0, b1, f0, f1, k0, k1), u, best);
+      best,
+      plane_root(ray, hn::GatherIndex(D(), grid.sin_azimuth, beam), hn::GatherIndex(D(), grid.cos_azimuth, beam)), u);
+  best = nearer_fan(grid, ray, fan, choose(rising, f0, f1), elevation_rate, best, u);
+  const auto close = [](V face, V index) { return hn::Lt(hn::Abs(hn::Sub(face, index)), set(4e-3F)); };
+  const M at_sample = close(hn::IfThenElse(falling, k0, k1), hn::Add(number(p.sample0), p.sample));
+  const M at_beam = close(number(beam), hn::Add(number(p.beam0), p.beam));
+  const M at_fan = close(number(fan), hn::Add(number(p.fan0), p.fan));
+  return hn::IfThenElse(hn::Or(hn::Or(at_beam, at_fan), at_sample), u, best);
 }
 
 }  // namespace sonar::HWY_NAMESPACE
