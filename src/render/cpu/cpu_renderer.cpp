@@ -42,6 +42,10 @@ Packed packed(const AngleTable& table) {
   return out;
 }
 
+EvenAngle even_angle(double first_rad, double last_rad, int count) {
+  return {f(first_rad), f((count - 1) / (last_rad - first_rad)), f(count - 1)};
+}
+
 bool same_beams(const Sector& a, const Sector& b) {
   if (a.fans() != b.fans() || a.beams() != b.beams()) return false;
   for (int i = 0; i < a.fans(); ++i) {
@@ -187,6 +191,10 @@ TraceGrid CpuRenderer::grid() const {
   g.beam_of.words = beam_of_.words.data();
   g.fan_of = fan_of_.angle;
   g.fan_of.words = fan_of_.words.data();
+  g.even_beams = axes_.even_beams;
+  g.even_fans = axes_.even_fans;
+  g.even_beam = even_angle(-axes_.half_width_rad, axes_.half_width_rad, axes_.beams);
+  g.even_fan = even_angle(axes_.first_elevation_rad, axes_.last_elevation_rad, axes_.fans);
   g.sin_azimuth = axes_.sin_azimuth.data();
   g.cos_azimuth = axes_.cos_azimuth.data();
   g.sin2_elevation = axes_.sin2_elevation.data();

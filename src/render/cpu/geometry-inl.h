@@ -105,10 +105,13 @@ HWY_INLINE Place place_at(const TraceGrid& grid, const Rays& ray, V u) {
   p.x = hn::MulAdd(u, ray.dx, ray.nx);
   p.y = hn::MulAdd(u, ray.dy, ray.ny);
   p.z = hn::MulAdd(u, ray.dz, ray.nz);
-  p.rho = root(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
+  V per_rho;
+  p.rho = root(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)), per_rho);
   p.r = root(hn::MulAdd(u, u, ray.m2));
-  const V beam = index_of(grid.beam_of, diamond(p.x, p.y, grid.wide));
-  const V fan = index_of(grid.fan_of, diamond(p.rho, hn::Neg(p.z), false));
+  const V beam = grid.even_beams ? index_of(grid.even_beam, arc(hn::Mul(p.y, inverse(hn::Max(p.x, set(1e-20F))))))
+                                 : index_of(grid.beam_of, diamond(p.x, p.y, grid.wide));
+  const V fan = grid.even_fans ? index_of(grid.even_fan, arc(hn::Neg(hn::Mul(p.z, per_rho))))
+                               : index_of(grid.fan_of, diamond(p.rho, hn::Neg(p.z), false));
   const V sample = hn::Max(hn::Mul(hn::Sub(p.r, set(grid.first_m)), set(grid.per_spacing)), zero());
   p.beam0 = hn::Min(floor_to_int(beam), seti(grid.beams - 2));
   p.fan0 = hn::Min(floor_to_int(fan), seti(grid.fans - 2));

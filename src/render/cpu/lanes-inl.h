@@ -53,6 +53,21 @@ HWY_INLINE V root(V v) {
   return hn::MulAdd(hn::Mul(hn::NegMulAdd(first, first, above), set(0.5F)), guess, first);
 }
 #endif
+/// The root and what to multiply by in place of dividing by it.
+HWY_INLINE V root(V v, V& over) {
+#if HWY_TARGET == HWY_SCALAR
+  const V out = root(v);
+  over = hn::Div(set(1.0F), hn::Max(out, set(1e-15F)));
+  return out;
+#else
+  const V above = hn::Max(v, set(1e-30F));
+  const V guess = hn::ApproximateReciprocalSqrt(above);
+  const V first = hn::Mul(above, guess);
+  const V part = hn::Mul(hn::NegMulAdd(first, guess, set(1.0F)), set(0.5F));
+  over = hn::MulAdd(guess, part, guess);
+  return hn::MulAdd(first, part, first);
+#endif
+}
 HWY_INLINE W floor_to_int(V v) { return hn::ConvertTo(I(), v); }  // of values from 0
 
 /// 32 bits from any byte address a lane.
@@ -89,6 +104,19 @@ HWY_INLINE V diamond(V x, V y, bool wide) {
   const V p = hn::Mul(y, inverse(hn::Max(hn::Add(hn::Abs(x), hn::Abs(y)), set(1e-20F))));
   if (!wide) return p;
   return hn::IfThenElse(hn::Lt(x, zero()), hn::Sub(hn::CopySign(set(2.0F), y), p), p);
+}
+
+/// atan for -1..1, off by 2e-6 at most: a polynomial of least largest error.
+HWY_INLINE V arc(V t) {
+  const V u = hn::Mul(t, t);
+  V sum = hn::MulAdd(u, set(-0.011719133F), set(0.052647348F));
+  for (const float c : {-0.116426483F, 0.193540379F, -0.332622829F, 0.999977219F}) sum = hn::MulAdd(u, sum, set(c));
+  return hn::Mul(t, sum);
+}
+
+/// Index by an angle, where the angles are even.
+HWY_INLINE V index_of(const EvenAngle& axis, V angle) {
+  return hn::Clamp(hn::Mul(hn::Sub(angle, set(axis.first_rad)), set(axis.per_rad)), zero(), set(axis.last));
 }
 
 HWY_INLINE V index_of(const PackedAngle& table, V angle) {

@@ -19,6 +19,13 @@ struct PackedAngle {
   float index_per_slope = 1.0F;
 };
 
+/// Even angles within 45 degrees of the fan frame's axis: a polynomial is cheaper than the look at a table.
+struct EvenAngle {
+  float first_rad = 0.0F;
+  float per_rad = 1.0F;
+  float last = 1.0F;  ///< index
+};
+
 /// A macrocell: bits 0-7 distance to the next cell set (0 = set), then flags; bits 16-31 largest count.
 inline constexpr std::int32_t kCellDistance = 0xFF;
 inline constexpr std::int32_t kCellThin = 0x100;
@@ -33,6 +40,8 @@ struct TraceGrid {
   float sin_e0, cos_e0, sin_e1, cos_e1;
   bool wide;  ///< azimuths beyond 90 degrees from the middle
   PackedAngle beam_of, fan_of;
+  bool even_beams, even_fans;
+  EvenAngle even_beam, even_fan;
   const float *sin_azimuth, *cos_azimuth, *sin2_elevation, *beams_per_rad, *fans_per_rad;
   float least_beam_rad, least_fan_rad;
   const std::int16_t* sv;
