@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/cpu/lanes-inl.h"
+#include "render/cpu/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonar::HWY_NAMESPACE {
@@ -67,9 +67,12 @@ void CellMean(const CellColumns& cell, const TraceOptics& optics, float* mean) {
       const V value = lerp(near_sv[i & 3], far_sv[i & 3], g);
       const V entry = hn::MulAdd(value, set(optics.per_count), set(optics.first));
       const W k = hn::NearestInt(hn::Clamp(entry, zero(), set(optics.last_entry)));
-      V extinction = hn::IfThenElseZero(used, hn::GatherIndex(D(), optics.extinction, k));
+      V extinction;
+      V colour;
+      pairs_at(optics.entries, k, extinction, colour);
+      extinction = hn::IfThenElseZero(used, extinction);
       if (cell.known[0] != nullptr) extinction = hn::Mul(extinction, lerp(near_known[i & 3], far_known[i & 3], g));
-      const Rgb rgb = unpacked(hn::GatherIndex(I(), optics.rgb10, k));
+      const Rgb rgb = unpacked(hn::BitCast(I(), colour));
       sum[0] = hn::MulAdd(extinction, rgb.r, sum[0]);
       sum[1] = hn::MulAdd(extinction, rgb.g, sum[1]);
       sum[2] = hn::MulAdd(extinction, rgb.b, sum[2]);
@@ -96,8 +99,7 @@ std::vector<std::array<float, 4>> cell_means(const FilledVolume& volume, const M
                                              const TransferTable& table, const std::vector<std::uint8_t>& candidates,
                                              Work& work) {
   std::vector<std::array<float, 4>> out(cells.size());
-  const TraceOptics optics{table.per_count, table.first, static_cast<float>(table.size() - 1), table.extinction.data(),
-                           reinterpret_cast<const std::int32_t*>(table.rgb10.data())};
+  const TraceOptics optics = trace_optics(table);
   const Shape3 shape = volume.sv.shape();
   work.for_each(cells.fans, [&](std::int64_t fan) {
     const auto f = static_cast<int>(fan);

@@ -71,9 +71,7 @@ TransferTable transfer_table(const OpticalTable& table) {
     const auto [r, g, b, extinction] = optics_at(table, db);
     const auto e = static_cast<float>(extinction);
     out.extinction.push_back(e);
-    out.rgb10.push_back(ten_bits(r) | ten_bits(g) << 10 | ten_bits(b) << 20);
-    out.emission.push_back({static_cast<float>(extinction * r), static_cast<float>(extinction * g),
-                            static_cast<float>(extinction * b), e});
+    out.entries.push_back({e, ten_bits(r) | ten_bits(g) << 10 | ten_bits(b) << 20});
     out.visible_before.push_back(out.visible_before.back() + (e > 0.0F ? 1 : 0));
     if (e > 0.0F && out.visible_before.back() == 1) {
       out.lowest_visible_db = i == 0 ? -std::numeric_limits<double>::infinity() : db - db_per_entry;

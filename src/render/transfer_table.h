@@ -9,14 +9,18 @@
 
 namespace sonar {
 
+struct TableEntry {
+  float extinction = 0.0F;   ///< m^-1
+  std::uint32_t rgb10 = 0U;  ///< red | green << 10 | blue << 20, each 0..1023
+};
+
 /// An OpticalTable made ready for rays: so fine that the nearest entry will do, and able to say quickly what a range of
 /// Sv can do. Entry = clamp(count * per_count + first, 0, size - 1), rounded to the nearest.
 struct TransferTable {
   float per_count = 0.0F;
   float first = 0.0F;
   std::vector<float> extinction;               ///< [size] m^-1
-  std::vector<std::uint32_t> rgb10;            ///< [size] red | green << 10 | blue << 20, each 0..1023
-  std::vector<std::array<float, 4>> emission;  ///< [size] extinction x (r, g, b, 1)
+  std::vector<TableEntry> entries;             ///< [size] both, side by side: one look at memory
   std::vector<std::int32_t> visible_before;    ///< [size + 1] entries above 0 before this one
   std::vector<std::vector<float>> largest;     ///< [level][i] largest extinction of entries i .. i + 2^level - 1
 

@@ -85,6 +85,7 @@ class CpuRenderer final : public VolumeRenderer {
   GridAxes axes_;
   Packed beam_of_;
   Packed fan_of_;
+  std::vector<float> azimuth_sines_;  ///< [beam] sine and cosine
   Macrocells cells_;
   std::optional<TransferTable> table_;
   MaskGrid masks_;
@@ -111,6 +112,10 @@ Result<void> CpuRenderer::set_volume(std::shared_ptr<const VolumeData> volume) {
     axes_ = grid_axes(volume_->sector);
     beam_of_ = packed(axes_.beam_of);
     fan_of_ = packed(axes_.fan_of);
+    azimuth_sines_.clear();
+    for (std::size_t b = 0; b < axes_.sin_azimuth.size(); ++b) {
+      azimuth_sines_.insert(azimuth_sines_.end(), {axes_.sin_azimuth[b], axes_.cos_azimuth[b]});
+    }
   }
   cells_ = macrocells(filled_);
   masks_ = {};
@@ -195,8 +200,7 @@ TraceGrid CpuRenderer::grid() const {
   g.even_fans = axes_.even_fans;
   g.even_beam = even_angle(-axes_.half_width_rad, axes_.half_width_rad, axes_.beams);
   g.even_fan = even_angle(axes_.first_elevation_rad, axes_.last_elevation_rad, axes_.fans);
-  g.sin_azimuth = axes_.sin_azimuth.data();
-  g.cos_azimuth = axes_.cos_azimuth.data();
+  g.azimuth_sines = azimuth_sines_.data();
   g.sin2_elevation = axes_.sin2_elevation.data();
   g.beams_per_rad = axes_.beams_per_rad.data();
   g.fans_per_rad = axes_.fans_per_rad.data();
@@ -256,8 +260,7 @@ Result<RayImage> CpuRenderer::draw(const VolumeView& view, const DrawQuality& qu
             thin ? quality.homogeneous_limit : 0.0},
            work);
   const TraceJob job{grid(),
-                     {table_->per_count, table_->first, f(table_->size() - 1), table_->extinction.data(),
-                      reinterpret_cast<const std::int32_t*>(table_->rgb10.data())},
+                     trace_optics(*table_),
                      traced(view, quality),
                      words_.data(),
                      means_.empty() ? nullptr : means_.data()};

@@ -7,7 +7,7 @@
 #define SONAR_RENDER_CPU_GEOMETRY_INL_H_
 #endif
 
-#include "render/cpu/lanes-inl.h"
+#include "render/cpu/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonar::HWY_NAMESPACE {
@@ -168,9 +168,10 @@ HWY_INLINE V block_exit(const TraceGrid& grid, const Rays& ray, const Place& p, 
   const M inwards = hn::And(falling, hn::And(hn::Gt(in2, zero()), hn::Gt(r0, zero())));
   const V half = root(hn::IfThenElse(inwards, in2, hn::MulSub(r1, r1, ray.m2)));
   best = nearer_root(best, hn::IfThenElse(inwards, hn::Neg(half), half), u);
-  best = nearer_root(
-      best,
-      plane_root(ray, hn::GatherIndex(D(), grid.sin_azimuth, beam), hn::GatherIndex(D(), grid.cos_azimuth, beam)), u);
+  V sine;
+  V cosine;
+  pairs_at(grid.azimuth_sines, beam, sine, cosine);
+  best = nearer_root(best, plane_root(ray, sine, cosine), u);
   best = nearer_fan(grid, ray, fan, choose(rising, f0, f1), elevation_rate, best, u);
   const auto close = [](V face, V index) { return hn::Lt(hn::Abs(hn::Sub(face, index)), set(4e-3F)); };
   const M at_sample = close(hn::IfThenElse(falling, k0, k1), hn::Add(number(p.sample0), p.sample));

@@ -132,25 +132,25 @@ class Packet {
   }
 
   void segment(M lanes, W cell, V length) {
-    const W at = hn::ShiftLeft<2>(cell);
-    const float* mean = reinterpret_cast<const float*>(job_.means);
-    const V extinction = hn::GatherIndex(D(), mean + 3, at);
-    const V opacity = opacity_of(hn::Mul(extinction, length));
+    V mean[4];
+    rows_at(reinterpret_cast<const float*>(job_.means), cell, mean);
+    const V extinction = mean[3];
+    const V opacity = opacity_of(hn::IfThenElseZero(lanes, hn::Mul(extinction, length)));
     V share = hn::Mul(hn::Mul(opacity, left_), inverse(hn::Max(extinction, set(1e-12F))));
     share = hn::IfThenElseZero(lanes, share);
-    rgb_.r = hn::MulAdd(share, hn::GatherIndex(D(), mean, at), rgb_.r);
-    rgb_.g = hn::MulAdd(share, hn::GatherIndex(D(), mean + 1, at), rgb_.g);
-    rgb_.b = hn::MulAdd(share, hn::GatherIndex(D(), mean + 2, at), rgb_.b);
+    rgb_.r = hn::MulAdd(share, mean[0], rgb_.r);
+    rgb_.g = hn::MulAdd(share, mean[1], rgb_.g);
+    rgb_.b = hn::MulAdd(share, mean[2], rgb_.b);
     left_ = hn::IfThenElse(lanes, hn::NegMulAdd(opacity, left_, left_), left_);
   }
 
   void sample(M lanes, const Place& p, W word, V u, V length) {
     if constexpr (kPlain) {
       const V value = value_of(corners_of(grid_, voxel_of(grid_, p)), p);
-      const W entry = entry_of(value);
-      const V extinction = hn::IfThenElseZero(lanes, hn::GatherIndex(D(), optics_.extinction, entry));
+      const Seen seen = seen_at(value);
+      const V extinction = hn::IfThenElseZero(lanes, seen.extinction);
       if (!any(hn::Gt(extinction, zero()))) return;
-      lay(opacity_of(hn::Mul(extinction, length)), unpacked(hn::GatherIndex(I(), optics_.rgb10, entry)));
+      lay(opacity_of(hn::Mul(extinction, length)), unpacked(seen.rgb10));
     } else {
       sample_any(lanes, p, word, u, length);
     }
@@ -188,10 +188,10 @@ class Packet {
       before_u_ = hn::IfThenElse(lanes, u, before_u_);
       return;
     }
-    const W entry = entry_of(value);
-    const V own = hn::IfThenElseZero(lanes, hn::Mul(share, hn::GatherIndex(D(), optics_.extinction, entry)));
+    const Seen seen = seen_at(value);
+    const V own = hn::IfThenElseZero(lanes, hn::Mul(share, seen.extinction));
     if (!any(hn::Gt(own, zero()))) return;
-    Rgb rgb = unpacked(hn::GatherIndex(I(), optics_.rgb10, entry));
+    Rgb rgb = unpacked(seen.rgb10);
     if (view_.lighting.on) {
       light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
     }
@@ -214,8 +214,7 @@ class Packet {
     }
     const Place p = place_at(grid_, ray_, high);
     const Corners corners = corners_of(grid_, voxel_of(grid_, p));
-    const W entry = entry_of(value_of(corners, p));
-    Rgb rgb = unpacked(hn::GatherIndex(I(), optics_.rgb10, entry));
+    Rgb rgb = unpacked(seen_at(value_of(corners, p)).rgb10);
     if (view_.lighting.on) {
       light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
     }
@@ -293,15 +292,22 @@ class Packet {
   }
 
   void show_largest() {
-    const W entry = entry_of(largest_);
-    const V extinction = hn::GatherIndex(D(), optics_.extinction, entry);
-    const M seen = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(extinction, zero()));
-    lay(hn::IfThenElseZero(seen, set(1.0F)), unpacked(hn::GatherIndex(I(), optics_.rgb10, entry)));
+    const Seen seen = seen_at(largest_);
+    const M shown = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(seen.extinction, zero()));
+    lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10));
   }
 
-  W entry_of(V value) const {
+  struct Seen {
+    V extinction;
+    W rgb10;
+  };
+  /// What the transfer table shows at a value, in counts.
+  Seen seen_at(V value) const {
     const V at = hn::MulAdd(value, set(optics_.per_count), set(optics_.first));
-    return hn::NearestInt(hn::Clamp(at, zero(), set(optics_.last_entry)));
+    V extinction;
+    V colour;
+    pairs_at(optics_.entries, hn::NearestInt(hn::Clamp(at, zero(), set(optics_.last_entry))), extinction, colour);
+    return {extinction, hn::BitCast(I(), colour)};
   }
 
   void lay(V opacity, const Rgb& rgb) {

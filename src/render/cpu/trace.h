@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "render/transfer_table.h"
 #include "render/volume_renderer.h"
 
 namespace sonar {
@@ -42,7 +43,8 @@ struct TraceGrid {
   PackedAngle beam_of, fan_of;
   bool even_beams, even_fans;
   EvenAngle even_beam, even_fan;
-  const float *sin_azimuth, *cos_azimuth, *sin2_elevation, *beams_per_rad, *fans_per_rad;
+  const float* azimuth_sines;  ///< [beam] sine and cosine
+  const float *sin2_elevation, *beams_per_rad, *fans_per_rad;
   float least_beam_rad, least_fan_rad;
   const std::int16_t* sv;
   const std::uint8_t* known;   ///< null where all is known; 2 bytes longer than the volume
@@ -51,8 +53,7 @@ struct TraceGrid {
 
 struct TraceOptics {
   float per_count, first, last_entry;
-  const float* extinction;
-  const std::int32_t* rgb10;
+  const float* entries;  ///< [entry] extinction and, in the bits of a float, rgb10: TableEntry
 };
 
 /// A macrocell's four columns of `count` + 1 samples, with what is known of them or null.
@@ -61,6 +62,12 @@ struct CellColumns {
   const std::uint8_t* known[4];
   int count;
 };
+
+[[nodiscard]] inline TraceOptics trace_optics(const TransferTable& table) {
+  static_assert(sizeof(TableEntry) == 2 * sizeof(float));
+  return {table.per_count, table.first, static_cast<float>(table.size() - 1),
+          reinterpret_cast<const float*>(table.entries.data())};
+}
 
 struct TraceView {
   // In the fan frame; eye, right, up, forward, towards the light.
