@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/units.h"
+#include "render/cpu/columns.h"
 #include "render/cpu/trace.h"
 #include "render/grid_axes.h"
 #include "render/homogeneous_cells.h"
@@ -14,6 +15,8 @@ namespace sonar {
 namespace {
 
 constexpr int kTile = 32;
+/// Larger volumes are gathered from as they are: their columns would take more than half a gigabyte.
+constexpr std::size_t kMostInColumns = std::size_t{1} << 26U;
 
 float f(double value) { return static_cast<float>(value); }
 
@@ -82,6 +85,7 @@ class CpuRenderer final : public VolumeRenderer {
   std::shared_ptr<const VolumeData> volume_;
   FilledVolume filled_;
   std::vector<std::uint8_t> known_;  ///< filled_.known and two bytes that the last gather may touch
+  std::vector<std::int16_t> columns_;
   GridAxes axes_;
   Packed beam_of_;
   Packed fan_of_;
@@ -116,6 +120,11 @@ Result<void> CpuRenderer::set_volume(std::shared_ptr<const VolumeData> volume) {
     for (std::size_t b = 0; b < axes_.sin_azimuth.size(); ++b) {
       azimuth_sines_.insert(azimuth_sines_.end(), {axes_.sin_azimuth[b], axes_.cos_azimuth[b]});
     }
+  }
+  if (trace_reads_columns() && filled_.sv.shape().size() <= kMostInColumns) {
+    lay_columns(filled_.sv, columns_);
+  } else {
+    columns_ = {};
   }
   cells_ = macrocells(filled_);
   masks_ = {};
@@ -207,6 +216,7 @@ TraceGrid CpuRenderer::grid() const {
   g.least_beam_rad = f(axes_.least_beam_rad);
   g.least_fan_rad = f(axes_.least_fan_rad);
   g.sv = filled_.sv.all().data();
+  g.columns = columns_.empty() ? nullptr : columns_.data();
   g.known = known_.empty() ? nullptr : known_.data();
   g.masks = masks_.empty() ? nullptr : masks_.voxels.all().data();
   return g;

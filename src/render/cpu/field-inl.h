@@ -58,6 +58,19 @@ HWY_INLINE V value_of(const Corners& c, const Place& p) {
   return lerp(lerp(a, b, p.beam), lerp(e, f, p.beam), p.fan);
 }
 
+/// value_of() of what lies at p.
+HWY_INLINE V value_at(const TraceGrid& grid, const Place& p) {
+#if SONAR_PLAIN_LOADS
+  if (grid.columns != nullptr) {
+    const W row = hn::Add(hn::Mul(p.fan0, seti(grid.cell_beams)), p.beam0);
+    V c[4];
+    columns_at(grid.columns, hn::Add(hn::Mul(row, seti(grid.samples)), p.sample0), p.sample, c);
+    return hn::Mul(lerp(lerp(c[0], c[1], p.beam), lerp(c[2], c[3], p.beam), p.fan), set(1.0F / kColumnParts));
+  }
+#endif
+  return value_of(corners_of(grid, voxel_of(grid, p)), p);
+}
+
 HWY_INLINE Slope slope_of(const Corners& c, const Place& p) {
   V at[4];
   V step[4];

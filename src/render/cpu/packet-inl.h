@@ -146,7 +146,7 @@ class Packet {
 
   void sample(M lanes, const Place& p, W word, V u, V length) {
     if constexpr (kPlain) {
-      const V value = value_of(corners_of(grid_, voxel_of(grid_, p)), p);
+      const V value = value_at(grid_, p);
       const Seen seen = seen_at(value);
       const V extinction = hn::IfThenElseZero(lanes, seen.extinction);
       if (!any(hn::Gt(extinction, zero()))) return;
@@ -172,8 +172,7 @@ class Packet {
   }
 
   void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
-    const Corners corners = corners_of(grid_, voxel);
-    const V value = value_of(corners, p);
+    const V value = value_at(grid_, p);
     V share = set(1.0F);
     if (grid_.known != nullptr && any(hn::And(lanes, is_set(word, kCellGaps)))) share = share_of(grid_, voxel, p);
     const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
@@ -193,7 +192,8 @@ class Packet {
     if (!any(hn::Gt(own, zero()))) return;
     Rgb rgb = unpacked(seen.rgb10);
     if (view_.lighting.on) {
-      light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
+      const Slope slope = slope_of(corners_of(grid_, voxel), p);
+      light(view_, ray_, gradient_of(grid_, p, slope), static_cast<float>(kDbPerCount), rgb);
     }
     emission.r = hn::MulAdd(own, rgb.r, emission.r);
     emission.g = hn::MulAdd(own, rgb.g, emission.g);
@@ -208,7 +208,7 @@ class Packet {
     for (int i = 0; i < 10; ++i) {
       const V middle = hn::Mul(set(0.5F), hn::Add(low, high));
       const Place p = place_at(grid_, ray_, middle);
-      const M above = hn::Ge(value_of(corners_of(grid_, voxel_of(grid_, p)), p), set(view_.first_hit_count));
+      const M above = hn::Ge(value_at(grid_, p), set(view_.first_hit_count));
       high = hn::IfThenElse(above, middle, high);
       low = hn::IfThenElse(above, low, middle);
     }

@@ -122,6 +122,7 @@ void TraceTile(const TraceJob& job, int x0, int y0, int x1, int y1, std::array<f
   }
 }
 
+bool ReadsColumns() { return SONAR_PLAIN_LOADS != 0; }
 const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace
@@ -133,6 +134,7 @@ namespace sonar {
 namespace {
 
 HWY_EXPORT(TraceTile);
+HWY_EXPORT(ReadsColumns);
 HWY_EXPORT(TargetName);
 
 }  // namespace
@@ -140,6 +142,8 @@ HWY_EXPORT(TargetName);
 void trace_tile(const TraceJob& job, int x0, int y0, int x1, int y1, std::array<float, 4>* rgba, RayCounts& counts) {
   HWY_DYNAMIC_DISPATCH(TraceTile)(job, x0, y0, x1, y1, rgba, counts);
 }
+
+bool trace_reads_columns() { return HWY_DYNAMIC_DISPATCH(ReadsColumns)(); }
 
 const char* trace_target() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
 

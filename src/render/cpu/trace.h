@@ -47,6 +47,7 @@ struct TraceGrid {
   const float *sin2_elevation, *beams_per_rad, *fans_per_rad;
   float least_beam_rad, least_fan_rad;
   const std::int16_t* sv;
+  const std::int16_t* columns;  ///< see lay_columns(); null where they are not read
   const std::uint8_t* known;   ///< null where all is known; 2 bytes longer than the volume
   const std::uint16_t* masks;  ///< null without masks
 };
@@ -98,6 +99,8 @@ struct TraceJob {
 
 /// Traces the pixels [x0, x1) x [y0, y1) of the divided picture.
 void trace_tile(const TraceJob& job, int x0, int y0, int x1, int y1, std::array<float, 4>* rgba, RayCounts& counts);
+/// Whether TraceGrid::columns are of use to the instruction set in use.
+[[nodiscard]] bool trace_reads_columns();
 /// Name of the instruction set in use.
 [[nodiscard]] const char* trace_target();
 
