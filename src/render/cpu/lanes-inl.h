@@ -88,14 +88,18 @@ HWY_INLINE W gather_bytes(const void* base, W byte_offset) {
 
 /// 1 - exp(-x) for x >= 0 with a small relative error also where x is tiny.
 HWY_INLINE V opacity_of(V depth) {
-  // y = exp(-x / 32) - 1 by its series, then five times (1 + y)^2 - 1.
-  const V x = hn::Mul(hn::Min(depth, set(16.0F)), set(-1.0F / 32.0F));
+  // y = exp(-x) - 1 by its series, off by 1e-6 of it at most; where a depth is too large for that y = exp(-x / 32) - 1,
+  // then five times (1 + y)^2 - 1. A step through anything but the densest fish is shallow.
+  const bool shallow = hn::AllTrue(D(), hn::Lt(depth, set(0.25F)));
+  const V x = hn::Mul(hn::Min(depth, set(16.0F)), set(shallow ? -1.0F : -1.0F / 32.0F));
   V y = hn::MulAdd(x, set(1.0F / 120.0F), set(1.0F / 24.0F));
   y = hn::MulAdd(x, y, set(1.0F / 6.0F));
   y = hn::MulAdd(x, y, set(0.5F));
   y = hn::MulAdd(x, y, set(1.0F));
   y = hn::Mul(x, y);
-  for (int i = 0; i < 5; ++i) y = hn::Mul(y, hn::Add(y, set(2.0F)));
+  if (!shallow) {
+    for (int i = 0; i < 5; ++i) y = hn::Mul(y, hn::Add(y, set(2.0F)));
+  }
   return hn::Neg(y);
 }
 
