@@ -2,7 +2,6 @@
 #include "publish/renderer_choice.h"
 
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "render/gl/context_egl.h"
@@ -12,20 +11,13 @@
 namespace sonar {
 namespace {
 
-bool is_software(std::string_view driver) {
-  for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"}) {
-    if (driver.find(name) != std::string_view::npos) return true;
-  }
-  return false;
-}
-
 /// Without `software_too` a software driver is refused before it compiles anything.
 Result<OffscreenRenderer> try_gl(bool software_too) {
   auto made = ContextEgl::make();
   if (!made) return pass_on(made);
   auto context = std::make_shared<ContextEgl>(std::move(*made));
   if (auto current = context->make_current(); !current) return pass_on(current);
-  if (const std::string driver = current_driver(); !software_too && is_software(driver)) {
+  if (const std::string driver = current_driver(); !software_too && draws_by_software(driver)) {
     return fail(ErrorCode::unsupported, driver + " draws by software");
   }
   auto renderer = make_gl_renderer();

@@ -14,11 +14,7 @@ Result<GlCapabilities> capabilities() {
   }
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &out.most_3d);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &out.most_2d);
-  for (const char* software : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
-    if (out.driver.find(software) != std::string::npos) {
-      out.sv_voxels = Voxels::float32;
-    }
-  }
+  if (draws_by_software(out.driver)) out.sv_voxels = Voxels::float32;
   return out;
 }
 

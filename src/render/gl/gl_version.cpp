@@ -47,6 +47,14 @@ GlVersion current_version() {
   return {version / 10, version % 10};
 }
 
+bool draws_by_software(std::string_view driver) {
+  // Mesa's three (swrast calls itself a Software Rasterizer) and ANGLE's.
+  for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"}) {
+    if (driver.find(name) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
 std::string current_driver() {
   const auto* text = any_current() ? reinterpret_cast<const char*>(glGetString(GL_RENDERER)) : nullptr;
   return text != nullptr ? text : "unknown driver";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "base/result.h"
 
@@ -21,5 +22,7 @@ inline constexpr GlVersion kLeastGl{4, 1};
 /// Version and driver of the context that is current; {0, 0} where none is.
 [[nodiscard]] GlVersion current_version();
 [[nodiscard]] std::string current_driver();
+/// Whether a driver of this name draws on the processor.
+[[nodiscard]] bool draws_by_software(std::string_view driver);
 
 }  // namespace sonar
