@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/units.h"
 #include "render/gl/context_egl.h"
 #include "render/gl/gl_renderer.h"
 #include "render/gl/gl_test_scene.h"
@@ -206,6 +208,21 @@ TEST_F(VolumeGl, AnOpaqueThingEndsTheRay) {
   EXPECT_GT(largest_step(open, drawn(volume, gl_test::table_of(false), view)), 20.0);
 }
 
+TEST_F(VolumeGl, AnOpaqueRayHasTheWholeColour) {
+  // Rays end at 99 % opacity; the hundredth that they have not seen must not darken them (2.5 steps of 255).
+  auto volume = gl_test::volume_of(grid_named("even"));
+  for (auto& sv : volume->sv.all()) sv = static_cast<std::int16_t>(std::lround(counts_from_db(-30.0)));
+  const OpticalTable flat{-90.0, -20.0, {{0.25F, 0.5F, 0.75F, 0.3F}, {0.25F, 0.5F, 0.75F, 0.3F}}};
+  int opaque = 0;
+  for (const auto& p : drawn(volume, flat, gl_test::view_of(volume->sector)).rgba) {
+    EXPECT_TRUE(p[3] == 1.0F || p[3] < 0.99F) << p[3];
+    if (p[3] < 1.0F) continue;
+    ++opaque;
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(p[c], flat.rgb_extinction[0][c], 1e-3);
+  }
+  EXPECT_GT(opaque, 100);
+}
+
 TEST_F(VolumeGl, AHalvedPictureHasThePixelsOfTheFullOne) {
   const auto volume = gl_test::volume_of(grid_named("even"));
   const VolumeView view = gl_test::view_of(volume->sector);
@@ -347,6 +364,12 @@ TEST_F(VolumeGl, MissingOrWrongInputIsOneClearLine) {
   EXPECT_EQ(gl->draw(view, {}, work_).error().code, ErrorCode::bad_parameter);
   EXPECT_FALSE(gl->set_volume(nullptr));
   EXPECT_FALSE(gl->set_masks({}));
+  auto unknown = gl_test::volume_of(grid_named("even"));
+  for (auto& sv : unknown->sv.all()) sv = kNoData;
+  const auto no_data = gl->set_volume(unknown);
+  ASSERT_FALSE(no_data);
+  EXPECT_EQ(to_line(no_data.error()).find('\n'), std::string::npos);
+  EXPECT_NE(no_data.error().text.find("a ping without data"), std::string::npos);
   ASSERT_TRUE(gl->set_volume(volume));
   EXPECT_NE(gl->draw(view, {}, work_).error().text.find("no transfer table"), std::string::npos);
   EXPECT_EQ(gl->set_transfer({-90.0, -20.0, {{1, 1, 1, 1}}}).error().code, ErrorCode::bad_parameter);

@@ -159,5 +159,6 @@ void main() {
 #elif MODE == 2
   end_maximum();
 #endif
-  colour = vec4(rgb, 1.0 - through);
+  // A ray that ended early is opaque: what it had not yet seen is taken to look like what it had.
+  colour = through > 0.01 ? vec4(rgb, 1.0 - through) : vec4(rgb / (1.0 - through), 1.0);
 }
