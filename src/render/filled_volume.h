@@ -7,9 +7,8 @@
 
 namespace sonar {
 
-/// A volume that can be interpolated across gaps. How "no data" is drawn, by every back-end: a missing sample takes the
-/// mean of its known neighbours (of 26, in dB), so that no level between "nothing" and the data is invented at the rim;
-/// and extinction is multiplied by the interpolated share of known samples, so that it fades to nothing over one cell.
+/// A volume that can be interpolated across gaps. How "no data" is drawn, by every back-end: a missing sample is
+/// filled_sample(), the mean of its known neighbours, and extinction is multiplied by the interpolated share of known samples, so that it fades to nothing over one cell.
 /// First hit and maximum take places with a share of at least one half.
 struct FilledVolume {
   Array3<std::int16_t> sv;     ///< [fan][beam][sample]; still kNoData where no neighbour is known

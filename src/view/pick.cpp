@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/units.h"
+#include "view/filled_sample.h"
 
 namespace sonar {
 namespace {
@@ -46,16 +47,20 @@ std::optional<std::array<Corner, 8>> corners(const Shape3& shape, const SectorIn
   return out;
 }
 
-/// Interpolated Sv, dB; NaN where a corner that counts has no data.
-double sv_at(const VolumeData& volume, const std::array<Corner, 8>& around) {
-  double sum = 0.0;
+/// Interpolated as the renderers do it: missing samples take the mean of their neighbours, and count as missing.
+struct Field {
+  double sv_db = 0.0;
+  double known = 0.0;  ///< share of the corners, by weight; sv_db means nothing where it is 0
+};
+
+Field field_at(const VolumeData& volume, const std::array<Corner, 8>& around) {
+  Field out;
   for (const Corner& c : around) {
     if (c.weight <= 0.0) continue;
-    const std::int16_t count = volume.sv(c.fan, c.beam, c.sample);
-    if (count == kNoData) return std::numeric_limits<double>::quiet_NaN();
-    sum += c.weight * db_from_counts(count);
+    out.sv_db += c.weight * db_from_counts(filled_sample(volume.sv, c.fan, c.beam, c.sample));
+    out.known += volume.sv(c.fan, c.beam, c.sample) != kNoData ? c.weight : 0.0;
   }
-  return sum;
+  return out;
 }
 
 double extinction_at(const OpticalTable& table, double sv_db) {
@@ -132,20 +137,21 @@ class Walk {
       return view_.masks.data_too && view_.mode == RayMode::maximum;
     }
     if (!view_.masks.data_too) return true;
-    const double sv = sv_at(volume_, *around);
-    return std::isnan(sv) || data(p, t, step, sv, *around);
+    const Field field = field_at(volume_, *around);
+    return field.known <= 0.0 || data(p, t, step, field, *around);
   }
 
-  bool data(const Point<Sonar>& p, double t, double step, double sv, const std::array<Corner, 8>& around) {
-    const double extinction = extinction_at(table_, sv);
+  bool data(const Point<Sonar>& p, double t, double step, const Field& field, const std::array<Corner, 8>& around) {
+    const double extinction = field.known * extinction_at(table_, field.sv_db);
+    const bool counts = field.known >= 0.5;
     if (view_.mode == RayMode::first_hit) {
-      if (sv < view_.first_hit_db) return true;
+      if (!counts || field.sv_db < view_.first_hit_db) return true;
       data_ = hit(p, t, around);
       return false;
     }
     if (view_.mode == RayMode::maximum) {
-      if (extinction > 0.0 && sv > largest_) {
-        largest_ = sv;
+      if (counts && extinction > 0.0 && field.sv_db > largest_) {
+        largest_ = field.sv_db;
         data_ = hit(p, t, around);
       }
       return true;

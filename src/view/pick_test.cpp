@@ -147,5 +147,38 @@ TEST(Pick, NoDataIsNeverTheAnswerWhereDataIsNear) {
   EXPECT_NE(volume.sv(hit->fan, hit->beam, hit->sample), kNoData);
 }
 
+TEST(Pick, WhatIsDrawnBesideMissingSamplesIsFound) {
+  // A lit block round beams of which every second one is missing: no place round it has eight known corners, yet the renderers
+  // draw the voxel, since the missing ones take the mean of what is known round them.
+  VolumeData volume = volume_of(-80.0);
+  for (int fan = 3; fan <= 5; ++fan) {
+    for (int beam = 4; beam <= 6; ++beam) {
+      for (int sample = 97; sample <= 103; ++sample) light(volume, fan, beam, sample, -40.0);
+    }
+  }
+  for (int sample = 90; sample <= 110; ++sample) {
+    volume.sv(4, 4, sample) = volume.sv(4, 6, sample) = kNoData;
+    volume.sv(3, 5, sample) = volume.sv(5, 5, sample) = kNoData;
+  }
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+    const VolumeView view = view_of(volume, mode);
+    const auto hit =
+        pick(volume, table_from(-60.0, -40.0, 1.0), {}, view, pixel_of(view, volume.sector.centre(4, 5, 100)));
+    ASSERT_TRUE(hit) << static_cast<int>(mode);
+    EXPECT_NEAR(hit->sv_db, -40.0, 0.02);
+    EXPECT_NE(volume.sv(hit->fan, hit->beam, hit->sample), kNoData);
+    EXPECT_NEAR(hit->sample, 100, 4);
+  }
+}
+
+TEST(Pick, NothingIsFoundWhereNothingIsKnown) {
+  VolumeData volume = volume_of(-40.0);
+  for (auto& sv : volume.sv.all()) sv = kNoData;
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+    const VolumeView view = view_of(volume, mode);
+    EXPECT_FALSE(pick(volume, table_from(-60.0, -40.0, 1.0), {}, view, {200.5, 150.5}));
+  }
+}
+
 }  // namespace
 }  // namespace sonar
