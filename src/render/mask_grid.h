@@ -14,7 +14,8 @@ namespace sonar {
 
 inline constexpr int kMostMasks = 255;
 
-/// All masks of a ping on its grid. A voxel of two schools belongs to the one with the larger confidence there.
+/// All masks of a ping on its grid. A voxel of two schools belongs to the one with the larger confidence there,
+/// the first of equal ones.
 struct MaskGrid {
   Array3<std::uint16_t> voxels;           ///< [fan][beam][sample] layer << 8 | confidence; layer 1.., 0 = none
   std::vector<std::array<float, 3>> rgb;  ///< [layer - 1]

@@ -17,7 +17,9 @@ namespace sonar {
 // counts for the interval's length. Nearer than where half the narrowest beam spacing is below h, h is shortened to that,
 // to h / 8 at least. Where a ray runs along the beams (|dr/dt| above kAlongBeams) h is halved: it meets every range sample
 // just once, and speckle, white along range, would show as wood grain.
-// Masks. Confidence of a layer = interpolated over its own voxels. Where a layer first reaches fuzzy_above (half a
+// Masks. A voxel of several schools is that one's whose confidence there is largest, as in slices and on maps: a fish is
+// of one school. Confidence of a layer = interpolated over its own voxels; of layers met in one sample the lowest number
+// lies in front. Where a layer first reaches fuzzy_above (half a
 // quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
 // reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
 // First hit. Ends the ray with opacity 1 where the level is crossed, colour of that level. Maximum. Colour of the largest

@@ -164,19 +164,34 @@ class Walk {
 
   bool meets_mask(const std::array<Corner, 8>& around) {
     const double surface = std::max(static_cast<double>(view_.masks.fuzzy_above), 0.5 / 255.0);
+    std::array<Owner, 8> owners;
+    std::transform(around.begin(), around.end(), owners.begin(), [this](const Corner& c) { return owner(c); });
+    met_ = -1;
+    for (const Owner& one : owners) {
+      if (one.mask < 0 || (met_ >= 0 && one.mask >= met_)) continue;
+      double confidence = 0.0;
+      for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (owners[i].mask == one.mask) confidence += around[i].weight * owners[i].confidence;
+      }
+      if (confidence >= surface) met_ = one.mask;
+    }
+    return met_ >= 0;
+  }
+
+  struct Owner {
+    int mask = -1;
+    double confidence = 0.0;
+  };
+  /// A voxel of several masks is that one's whose confidence there is largest, as it is drawn.
+  [[nodiscard]] Owner owner(const Corner& c) const {
+    const int row = c.fan * volume_.sv.shape().beams + c.beam;
+    Owner out;
     for (std::size_t i = 0; i < masks_.size(); ++i) {
       if (!masks_[i].mask) continue;
-      double confidence = 0.0;
-      for (const Corner& c : around) {
-        const int row = c.fan * volume_.sv.shape().beams + c.beam;
-        confidence += c.weight * confidence_at(*masks_[i].mask, voxels_[i], row, c.sample);
-      }
-      if (confidence >= surface) {
-        met_ = static_cast<int>(i);
-        return true;
-      }
+      const double confidence = confidence_at(*masks_[i].mask, voxels_[i], row, c.sample);
+      if (confidence > out.confidence) out = {static_cast<int>(i), confidence};
     }
-    return false;
+    return out;
   }
 
   [[nodiscard]] Picked hit(const Point<Sonar>& p, double t, const std::array<Corner, 8>& around) const {

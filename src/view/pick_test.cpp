@@ -136,6 +136,29 @@ TEST(Pick, AMaskIsMetWithOrWithoutTheData) {
   }
 }
 
+TEST(Pick, WhereMasksOverlapTheSurerOneIsMet) {
+  // The second lies within the first and is surer of its voxels: there the picture shows the second's colour.
+  const VolumeData volume = volume_of(-80.0);
+  const auto box = [](int first_beam, int beams, std::uint8_t confidence) {
+    PingMask mask;
+    for (int fan = 2; fan < 7; ++fan) {
+      for (int beam = first_beam; beam < first_beam + beams; ++beam) mask.runs.push_back({fan * 10 + beam, 90, 20});
+    }
+    mask.confidence.assign(static_cast<std::size_t>(5 * beams * 20), confidence);
+    return std::make_shared<PingMask>(mask);
+  };
+  const std::array layers{MaskLayer{box(2, 6, 100), {}}, MaskLayer{box(4, 4, 200), {}}};
+  VolumeView view = view_of(volume, RayMode::accumulate);
+  // Along a beam from the transducer: nothing else is met before.
+  view.camera.eye = {0.0, 0.0, 0.0};
+  for (const auto& [beam, mask] : {std::pair{2, 0}, std::pair{6, 1}}) {
+    view.camera.target = volume.sector.centre(4, beam, 100);
+    const auto hit = pick(volume, table_from(-60.0, -40.0, 1.0), layers, view, {200.0, 150.0});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->mask, mask) << beam;
+  }
+}
+
 TEST(Pick, NoDataIsNeverTheAnswerWhereDataIsNear) {
   VolumeData volume = volume_of(-80.0);
   light(volume, 4, 5, 100, -40.0);

@@ -193,6 +193,20 @@ TEST(CpuRenderer, MasksAgainstBruteForce) {
   }
 }
 
+TEST(CpuRenderer, SchoolsThatOverlapAgainstBruteForce) {
+  const auto data = volume(fan());
+  const Shape3 shape = data->sv.shape();
+  // Each has voxels where its confidence is the larger one.
+  const std::vector<MaskLayer> masks{
+      {std::make_shared<PingMask>(block(shape, 3, 4, 50, 4, 80, 200)), {1.0F, 0.2F, 0.1F}},
+      {std::make_shared<PingMask>(block(shape, 4, 6, 62, 4, 120, 255)), {0.1F, 0.9F, 0.3F}}};
+  for (const bool data_too : {true, false}) {
+    VolumeView view = small(overview(fan()));
+    view.masks.data_too = data_too;
+    EXPECT_GT(against_reference(data, table(false), view, masks, {1, 0.25, 0.03, 0}), 40.0) << data_too;
+  }
+}
+
 TEST(CpuRenderer, MissingSamplesAgainstBruteForce) {
   auto data = volume(fan());
   std::uint32_t n = 0;

@@ -221,12 +221,12 @@ class Packet {
     lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb);
   }
 
-  /// All layers that touch the voxels round the samples, the highest number first.
+  /// All layers that touch the voxels round the samples, the lowest number first.
   void meet_masks(M lanes, const Place& p, W voxel, Rgb& emission, V& extinction) {
     W word[4];
     gather_columns(grid_, grid_.masks, voxel, word);
-    std::int32_t layer = next_layer(lanes, word, 256);
-    for (; layer > 0; layer = next_layer(lanes, word, layer)) {
+    std::int32_t layer = next_layer(lanes, word, 0);
+    for (; layer < kNoLayer; layer = next_layer(lanes, word, layer)) {
       Corners c;
       for (int i = 0; i < 4; ++i) {
         c.first[i] = confidence_of(hn::And(word[i], seti(0xFFFF)), layer);
@@ -236,15 +236,17 @@ class Packet {
     }
   }
 
-  std::int32_t next_layer(M lanes, const W word[4], std::int32_t below) const {
-    W most = seti(0);
+  static constexpr std::int32_t kNoLayer = 256;
+
+  std::int32_t next_layer(M lanes, const W word[4], std::int32_t above) const {
+    W least = seti(kNoLayer);
     for (int i = 0; i < 4; ++i) {
       const W first = hn::And(hn::ShiftRight<8>(word[i]), seti(0xFF));
       const W second = hn::And(hn::ShiftRight<24>(word[i]), seti(0xFF));
-      most = hn::Max(most, hn::IfThenElseZero(hn::Lt(first, seti(below)), first));
-      most = hn::Max(most, hn::IfThenElseZero(hn::Lt(second, seti(below)), second));
+      least = hn::Min(least, hn::IfThenElse(hn::Gt(first, seti(above)), first, seti(kNoLayer)));
+      least = hn::Min(least, hn::IfThenElse(hn::Gt(second, seti(above)), second, seti(kNoLayer)));
     }
-    return hn::GetLane(hn::MaxOfLanes(I(), hn::IfThenElseZero(hn::RebindMask(I(), lanes), most)));
+    return hn::GetLane(hn::MinOfLanes(I(), hn::IfThenElse(hn::RebindMask(I(), lanes), least, seti(kNoLayer))));
   }
 
   static V confidence_of(W half, std::int32_t layer) {

@@ -122,4 +122,37 @@ inline const std::vector<Grid>& grids() {
 /// Leaves the current context as badly as another painter could.
 void spoil_state();
 
+/// A box of the grid as a mask; confidence falls from 255 in its middle.
+inline MaskLayer box_mask(Shape3 shape, std::array<double, 3> middle, double half, std::array<float, 3> rgb) {
+  PingMask mask;
+  for (int f = 0; f < shape.fans; ++f) {
+    for (int b = 0; b < shape.beams; ++b) {
+      Run run{f * shape.beams + b, 0, 0};
+      for (int s = 0; s < shape.samples; ++s) {
+        const double q =
+            std::max({std::abs((f + 0.5) / shape.fans - middle[0]), std::abs((b + 0.5) / shape.beams - middle[1]),
+                      std::abs((s + 0.5) / shape.samples - middle[2])}) /
+            half;
+        if (q >= 1.0) continue;
+        if (run.count == 0) run.first_sample = s;
+        ++run.count;
+        mask.confidence.push_back(quantised_confidence(1.0 - q * q));
+      }
+      if (run.count > 0) mask.runs.push_back(run);
+    }
+  }
+  return {std::make_shared<const PingMask>(std::move(mask)), rgb};
+}
+
+inline std::vector<MaskLayer> two_masks(Shape3 shape) {
+  return {box_mask(shape, {0.35, 0.35, 0.35}, 0.2, {1.0F, 0.8F, 0.1F}),
+          box_mask(shape, {0.76, 0.76, 0.76}, 0.2, {0.1F, 0.9F, 0.2F})};
+}
+
+/// The second begins in the middle of the first.
+inline std::vector<MaskLayer> overlapping_masks(Shape3 shape) {
+  return {box_mask(shape, {0.4, 0.4, 0.4}, 0.3, {1.0F, 0.8F, 0.1F}),
+          box_mask(shape, {0.55, 0.55, 0.55}, 0.3, {0.1F, 0.9F, 0.2F})};
+}
+
 }  // namespace sonar::gl_test

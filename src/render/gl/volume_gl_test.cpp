@@ -16,6 +16,8 @@ namespace {
 
 using gl_test::Grid;
 using gl_test::on_black;
+using gl_test::overlapping_masks;
+using gl_test::two_masks;
 
 /// A context of its own for each test; skipped where none can be had.
 class VolumeGl : public testing::Test {
@@ -76,34 +78,6 @@ double largest_step(const RayImage& a, const RayImage& b) {
     }
   }
   return largest;
-}
-
-/// A box of the grid as a mask; confidence falls from 255 in its middle.
-MaskLayer box_mask(Shape3 shape, std::array<double, 3> middle, double half, std::array<float, 3> rgb) {
-  PingMask mask;
-  for (int f = 0; f < shape.fans; ++f) {
-    for (int b = 0; b < shape.beams; ++b) {
-      Run run{f * shape.beams + b, 0, 0};
-      for (int s = 0; s < shape.samples; ++s) {
-        const double q =
-            std::max({std::abs((f + 0.5) / shape.fans - middle[0]), std::abs((b + 0.5) / shape.beams - middle[1]),
-                      std::abs((s + 0.5) / shape.samples - middle[2])}) /
-            half;
-        if (q >= 1.0) continue;
-        if (run.count == 0) run.first_sample = s;
-        ++run.count;
-        mask.confidence.push_back(quantised_confidence(1.0 - q * q));
-      }
-      if (run.count > 0) mask.runs.push_back(run);
-    }
-  }
-  return {std::make_shared<const PingMask>(std::move(mask)), rgb};
-}
-
-/// They share no voxel: where schools do, the renderers give it to one of them, unlike the reference.
-std::vector<MaskLayer> two_masks(Shape3 shape) {
-  return {box_mask(shape, {0.35, 0.35, 0.35}, 0.2, {1.0F, 0.8F, 0.1F}),
-          box_mask(shape, {0.76, 0.76, 0.76}, 0.2, {0.1F, 0.9F, 0.2F})};
 }
 
 /// Every 7th beam's far half and a block of samples are missing.
@@ -196,6 +170,16 @@ INSTANTIATE_TEST_SUITE_P(Kinds, VolumeGlKind,
                                          Kind{"masks_first_hit", RayMode::first_hit, true, true, true, false, 32.0},
                                          Kind{"masks_maximum", RayMode::maximum, false, true, true, false, 34.0}),
                          [](const auto& kind) { return kind.param.name; });
+
+TEST_F(VolumeGl, SchoolsThatOverlapAgreeWithTheTruth) {
+  const auto volume = gl_test::volume_of(grid_named("uneven"));
+  const auto masks = overlapping_masks(volume->sv.shape());
+  VolumeView view = gl_test::view_of(volume->sector);
+  for (const bool data_too : {false, true}) {
+    view.masks.data_too = data_too;
+    EXPECT_GE(against_truth(volume, gl_test::table_of(false), view, {.step_samples = 0.25}, masks), 36.0) << data_too;
+  }
+}
 
 TEST_F(VolumeGl, AnOpaqueThingEndsTheRay) {
   const auto volume = gl_test::volume_of(grid_named("even"));

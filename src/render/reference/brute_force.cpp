@@ -187,21 +187,36 @@ Array3<float> confidence_of(const PingMask& mask, Shape3 shape) {
   return out;
 }
 
+/// [layer] A voxel of several schools is that one's whose confidence there is largest.
+std::vector<Array3<float>> confidences(std::span<const MaskLayer> masks, Shape3 shape) {
+  std::vector<Array3<float>> out;
+  for (const MaskLayer& layer : masks) out.push_back(confidence_of(*layer.mask, shape));
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    std::size_t owner = 0;
+    for (std::size_t k = 1; k < out.size(); ++k) {
+      if (out[k].all()[i] > out[owner].all()[i]) owner = k;
+    }
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      if (k != owner) out[k].all()[i] = 0.0F;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 RayImage brute_force(const VolumeData& volume, const OpticalTable& table, std::span<const MaskLayer> masks,
                      const VolumeView& view, double step_samples, Work& work) {
   const CameraBasis camera = basis(view.camera, view.size);
-  Scene scene{volume,
+  const Scene scene{volume,
               table,
               masks,
               view,
               filled_volume(volume.sv),
-              {},
+              confidences(masks, volume.sv.shape()),
               camera,
               light_direction(camera),
               step_samples * volume.sector.range().spacing_m};
-  for (const MaskLayer& layer : masks) scene.confidence.push_back(confidence_of(*layer.mask, volume.sv.shape()));
   RayImage out{view.size, std::vector<std::array<float, 4>>(view.size.count()), {}};
   work.for_each(view.size.height, [&](std::int64_t y) {
     for (int x = 0; x < view.size.width; ++x) {

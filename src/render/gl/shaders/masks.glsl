@@ -2,6 +2,7 @@
 uniform usampler3D mask_texture;
 uniform sampler2D mask_colours;  // [layer - 1]
 uint surface_met[MASK_WORDS];
+const uint NO_LAYER = 256u;
 
 uint mask_texel(ivec3 i, ivec3 corner) {
 #if FOLDED
@@ -28,11 +29,13 @@ vec4 meet_masks(vec3 g, vec3 p, inout vec3 rgb, inout float through) {
     weight[i] = w.x * w.y * w.z;
   }
   vec4 core = vec4(0.0);
+  uint mine = 0u;
   for (int i = 0; i < 8; ++i) {
-    uint mine = layer[i];
-    bool seen = mine == 0u;
-    for (int k = 0; k < i; ++k) seen = seen || layer[k] == mine;
-    if (seen) continue;
+    // The lowest number first.
+    uint next = NO_LAYER;
+    for (int k = 0; k < 8; ++k) next = layer[k] > mine ? min(next, layer[k]) : next;
+    if (next == NO_LAYER) break;
+    mine = next;
     float value[8];
     float sum = 0.0;
     for (int k = 0; k < 8; ++k) {
