@@ -103,8 +103,8 @@ void add_render(CLI::App& app, VerbRunner& run) {
   add_render_options(*verb, *arguments);
   verb->callback([arguments, verb, &run] {
     if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");
-    if (const std::string option = unsuited_option(*verb, arguments->kind); !option.empty()) {
-      throw CLI::ValidationError(option, arguments->kind + " does not know this option");
+    if (const auto unsuited = unsuited_option(*verb, arguments->kind)) {
+      throw CLI::ValidationError(unsuited->option, unsuited->why);
     }
     run = [arguments] { return render_verb(*arguments); };
   });

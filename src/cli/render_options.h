@@ -47,8 +47,12 @@ struct RenderArguments {
 /// Adds every option of the verb, in groups.
 void add_render_options(CLI::App& verb, RenderArguments& arguments);
 
-/// The first option given that this kind of picture does not know; empty where all suit.
-[[nodiscard]] std::string unsuited_option(const CLI::App& verb, const std::string& kind);
+struct UnsuitedOption {
+  std::string option;
+  std::string why;  ///< with the kinds of picture that it suits
+};
+/// The first option given that has no effect on this kind of picture; none where all suit.
+[[nodiscard]] std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const std::string& kind);
 
 /// The texts turned into values.
 /// errors  usage, naming the option and what was expected; as read_transfer_function()

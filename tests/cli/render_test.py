@@ -251,6 +251,53 @@ class BadInput(unittest.TestCase):
         self.refused("slice-top", *BOTH, code=2, says="--out")
         self.refused("teapot", *BOTH, *picture, code=2, says="teapot")
 
+    def test_an_option_without_effect_is_refused_with_the_kinds_it_suits(self):
+        # option and value -> a kind that has no use for it, one that has
+        unsuited = [
+            (["--observation", "obs-0001"], "survey-map", "timeline"),
+            (["--ping", "3"], "timeline", "observation-map"),
+            (["--filtered"], "propagation", "timeline"),
+            (["--unfiltered"], "survey-map", "volume"),
+            (["--map", "grey"], "survey-map", "timeline"),
+            (["--low-db", "-70"], "observation-map", "survey-map"),
+            (["--span-db", "40"], "propagation", "slice-side"),
+            (["--threshold-db", "-60"], "survey-map", "slice-top"),
+            (["--transfer-function", "curve.json"], "survey-map", "timeline"),
+            (["--transfer-function", "curve.json"], "propagation", "volume"),
+            (["--north-up"], "slice-side", "slice-top"),
+            (["--grid"], "volume", "slice-range"),
+            (["--core", "0.5"], "timeline", "propagation"),
+            (["--core", "0.5"], "survey-map", "slice-plane"),
+            (["--fuzzy", "0.1"], "slice-top", "volume"),
+            (["--masks-alone"], "slice-top", "volume"),
+            (["--no-context"], "slice-top", "volume"),
+            (["--ship-length-m", "40"], "observation-map", "volume"),
+            (["--depth-raster", str(DEPTHS)], "observation-map", "survey-map"),
+            (["--neighbours", "1"], "volume", "propagation"),
+            (["--along-log"], "slice-top", "timeline"),
+            (["--maximum"], "volume", "timeline"),
+            (["--whole-survey"], "survey-map", "timeline"),
+        ]
+        for option, kind, suits in unsuited:
+            with self.subTest(option=option[0], kind=kind):
+                self.refused(kind, *BOTH, *option, "--out", sonarx.WORK / "bad.png", code=2,
+                             says=[option[0], f"no option of {kind}", suits])
+        self.refused("timeline", *BOTH, "--whole-survey", "--observation", "obs-0001", "--out", sonarx.WORK / "bad.png",
+                     code=2, says=["--observation", "--whole-survey"])
+
+    def test_every_option_is_taken_by_the_kinds_it_suits(self):
+        picture = [*SIZE, "--out", sonarx.WORK / "taken.png"]
+        for kind, options in (("observation-map", ["--observation", "obs-0001", "--ping", "2", "--core", "0.5"]),
+                              ("survey-map", ["--low-db", "-70", "--span-db", "40", "--schools", "1"]),
+                              ("propagation", ["--ping", "3", "--core", "0.5", "--neighbours", "1", "--side"]),
+                              ("timeline", ["--filtered", "--map", "grey", "--low-db", "-80", "--span-db", "40",
+                                            "--threshold-db", "-78", "--along-log", "--maximum"]),
+                              ("slice-top", ["--unfiltered", "--map", "grey", "--core", "0.5", "--north-up", "--grid"]),
+                              ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
+            with self.subTest(kind):
+                code, out, error = render(kind, *BOTH, *options, *picture)
+                self.assertEqual((code, error), (0, ""), out)
+
     def test_nothing_is_written_beside_raw_files(self):
         self.refused("slice-top", sonarx.SURVEY, "--out", sonarx.SURVEY / "x.png", code=2, says="raw")
         self.assertFalse((sonarx.SURVEY / "x.png").exists())
