@@ -66,7 +66,7 @@ void CellMean(const CellColumns& cell, const TraceOptics& optics, float* mean) {
       const V g = set(i < 4 ? kGauss : 1.0F - kGauss);
       const V value = lerp(near_sv[i & 3], far_sv[i & 3], g);
       const V entry = hn::MulAdd(value, set(optics.per_count), set(optics.first));
-      const W k = hn::NearestInt(hn::Clamp(entry, zero(), set(optics.last_entry)));
+      const W k = nearest_int(hn::Clamp(entry, zero(), set(optics.last_entry)));
       V extinction;
       V colour;
       pairs_at(optics.entries, k, extinction, colour);

@@ -174,9 +174,10 @@ void CpuRenderer::classify(const CellKey& key, Work& work) {
   const auto distance = empty_distance(cells_, set);
   words_.resize(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    words_[i] = distance[i] | (thin[i] != 0 ? kCellThin : 0) | cells_.largest[i] * 65536;
-    if (!cells_.gaps.empty() && cells_.gaps[i] != 0) words_[i] |= kCellGaps;
-    if (!masks_.empty() && masks_.cells[i] != 0) words_[i] |= kCellMask;
+    const auto flag = [](bool on, int bit) { return on ? 1 << bit : 0; };
+    words_[i] = distance[i] | flag(distance[i] != 0, kEmptyBit) | flag(thin[i] != 0, kThinBit) |
+                flag(!cells_.gaps.empty() && cells_.gaps[i] != 0, kGapsBit) |
+                flag(!masks_.empty() && masks_.cells[i] != 0, kMaskBit) | cells_.largest[i] * 65536;
   }
   key_ = key;
 }

@@ -80,7 +80,7 @@ HWY_INLINE M in_sector(const TraceGrid& grid, const Rays& ray, V u) {
   return hn::And(hn::And(side, hn::Ge(r, set(grid.nearest_m))), hn::And(low, high));
 }
 
-/// The next piece [from, to] of the rays of `lanes` inside the sector; from = last where there is none.
+/// The next piece [from, to] of the rays of `lanes` inside the sector; from = to = last where there is none.
 HWY_INLINE void next_piece(const TraceGrid& grid, const Rays& ray, M lanes, V last, V& from, V& to) {
   V start = from;
   M open = lanes;
@@ -98,6 +98,7 @@ HWY_INLINE void next_piece(const TraceGrid& grid, const Rays& ray, M lanes, V la
     start = end;
   }
   from = hn::IfThenElse(open, last, from);
+  to = hn::IfThenElse(open, last, to);
 }
 
 HWY_INLINE Place place_at(const TraceGrid& grid, const Rays& ray, V u) {

@@ -30,8 +30,9 @@ HWY_INLINE W seti(std::int32_t value) { return hn::Set(I(), value); }
 HWY_INLINE V zero() { return hn::Zero(D()); }
 HWY_INLINE bool any(M m) { return !hn::AllFalse(D(), m); }
 HWY_INLINE M none() { return hn::MaskFromVec(zero()); }
-HWY_INLINE M is_set(W words, std::int32_t bits) {
-  return hn::RebindMask(D(), hn::Ne(hn::And(words, seti(bits)), hn::Zero(I())));
+template <int bit>
+HWY_INLINE M is_set(W words) {
+  return hn::RebindMask(D(), hn::MaskFromVec(hn::BroadcastSignBit(hn::ShiftLeft<31 - bit>(words))));
 }
 HWY_INLINE V lerp(V a, V b, V f) { return hn::MulAdd(f, hn::Sub(b, a), a); }
 
@@ -68,7 +69,14 @@ HWY_INLINE V root(V v, V& over) {
   return hn::MulAdd(first, part, first);
 #endif
 }
-HWY_INLINE W floor_to_int(V v) { return hn::ConvertTo(I(), v); }  // of values from 0
+// Values here are clamped to what they index: what the library does for those beyond 2^31 is left out where it costs.
+#if HWY_TARGET == HWY_AVX2
+HWY_INLINE W floor_to_int(V v) { return W{_mm256_cvttps_epi32(v.raw)}; }  // of values from 0
+HWY_INLINE W nearest_int(V v) { return W{_mm256_cvtps_epi32(v.raw)}; }
+#else
+HWY_INLINE W floor_to_int(V v) { return hn::ConvertTo(I(), v); }
+HWY_INLINE W nearest_int(V v) { return hn::NearestInt(v); }
+#endif
 
 /// 32 bits from any byte address a lane.
 HWY_INLINE W gather_bytes(const void* base, W byte_offset) {

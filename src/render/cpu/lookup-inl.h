@@ -88,7 +88,7 @@ inline constexpr float kColumnParts = 32767.0F;
 HWY_INLINE void columns_at(const std::int16_t* columns, W place, V fraction, V out[4]) {
   const Addresses a = addresses(columns, place);
   // Two weights a lane, 15 bits each: a product of pairs adds both samples.
-  const W second = hn::NearestInt(hn::Mul(fraction, set(kColumnParts)));
+  const W second = nearest_int(hn::Mul(fraction, set(kColumnParts)));
   const W weights = hn::Add(hn::Sub(hn::ShiftLeft<16>(second), second), seti(32767));
   const __m256i together = _mm256_setr_epi8(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15,  //
                                             0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);

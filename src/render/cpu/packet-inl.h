@@ -78,7 +78,7 @@ class Packet {
 
  private:
   /// One step for some: leaps and segments where any lane needs one, samples once half of the lanes are ready.
-  void advance(M alive, RayCounts& counts) {
+  HWY_INLINE void advance(M alive, RayCounts& counts) {
     const V next = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
     const V end = hn::Min(next, to_);
     const V length = hn::Sub(end, from_);
@@ -89,22 +89,26 @@ class Packet {
     if constexpr (!kPlain) {
       if (view_.mode == RayMode::maximum) word = lower_than_met(word);
     }
-    const M empty = hn::And(alive, is_set(word, kCellDistance));
-    const M thin = hn::AndNot(empty, hn::And(alive, is_set(word, kCellThin)));
-    M ready = hn::AndNot(hn::Or(empty, thin), alive);
+    const M empty = hn::And(alive, is_set<kEmptyBit>(word));
+    const M thin = hn::AndNot(empty, hn::And(alive, is_set<kThinBit>(word)));
     const M moving = hn::Or(empty, thin);
+    M ready = alive;
+    // Rays at their end stay there, since theirs is the piece's, and opaque ones may go on unseen: so where none moves the
+    // next place waits neither for this cell's word nor for this sample's opacity.
+    V stop = end;
     if (any(moving)) {
       move(empty, thin, cell, word, p, u, end, counts);
-      if (2 * hn::CountTrue(D(), ready) < hn::CountTrue(D(), alive)) return;
+      ready = hn::AndNot(moving, alive);
+      if (!any(ready) || 2 * hn::CountTrue(D(), ready) < hn::CountTrue(D(), alive)) return;
+      stop = hn::IfThenElse(ready, end, from_);
     }
-    if (!any(ready)) return;
     counts.samples += static_cast<std::int64_t>(hn::CountTrue(D(), ready));
     sample(ready, p, word, u, length);
-    from_ = hn::IfThenElse(ready, end, from_);
+    from_ = stop;
     shorten(ready, p, u);
   }
 
-  void move(M empty, M thin, W cell, W word, const Place& p, V u, V end, RayCounts& counts) {
+  HWY_NOINLINE void move(M empty, M thin, W cell, W word, const Place& p, V u, V end, RayCounts& counts) {
     counts.leaps += static_cast<std::int64_t>(hn::CountTrue(D(), empty));
     const W distance = hn::Max(hn::Sub(hn::And(word, seti(kCellDistance)), seti(1)), seti(0));
     const V exit = block_exit(grid_, ray_, p, distance, u, to_);
@@ -116,7 +120,7 @@ class Packet {
     from_ = hn::IfThenElse(empty, beyond, from_);
     if constexpr (!kPlain) {
       // The last place of a block without gaps is below every level that matters.
-      const V below = hn::IfThenElse(is_set(word, kCellGaps), set(-1.0F), set(1.0F));
+      const V below = hn::IfThenElse(is_set<kGapsBit>(word), set(-1.0F), set(1.0F));
       before_ = hn::IfThenElse(empty, below, before_);
       before_u_ = hn::IfThenElse(empty, hn::Min(exit, to_), before_u_);
     }
@@ -144,24 +148,23 @@ class Packet {
     left_ = hn::IfThenElse(lanes, hn::NegMulAdd(opacity, left_, left_), left_);
   }
 
-  void sample(M lanes, const Place& p, W word, V u, V length) {
+  HWY_INLINE void sample(M lanes, const Place& p, W word, V u, V length) {
     if constexpr (kPlain) {
       const V value = value_at(grid_, p);
       const Seen seen = seen_at(value);
-      const V extinction = hn::IfThenElseZero(lanes, seen.extinction);
-      if (!any(hn::Gt(extinction, zero()))) return;
-      lay(opacity_of(hn::Mul(extinction, length)), unpacked(seen.rgb10));
+      if (!any(hn::Gt(seen.extinction, zero()))) return;
+      lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(seen.extinction, length))), unpacked(seen.rgb10));
     } else {
       sample_any(lanes, p, word, u, length);
     }
   }
 
-  void sample_any(M lanes, const Place& p, W word, V u, V length) {
+  HWY_NOINLINE void sample_any(M lanes, const Place& p, W word, V u, V length) {
     const W voxel = voxel_of(grid_, p);
     Rgb emission{zero(), zero(), zero()};
     V extinction = zero();
-    if (view_.masked && any(hn::And(lanes, is_set(word, kCellMask)))) {
-      meet_masks(hn::And(lanes, is_set(word, kCellMask)), p, voxel, emission, extinction);
+    if (view_.masked && any(hn::And(lanes, is_set<kMaskBit>(word)))) {
+      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, emission, extinction);
     }
     if (view_.data) meet_data(lanes, p, voxel, word, u, emission, extinction);
     const M lit_up = hn::Gt(extinction, zero());
@@ -174,7 +177,7 @@ class Packet {
   void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
     const V value = value_at(grid_, p);
     V share = set(1.0F);
-    if (grid_.known != nullptr && any(hn::And(lanes, is_set(word, kCellGaps)))) share = share_of(grid_, voxel, p);
+    if (grid_.known != nullptr && any(hn::And(lanes, is_set<kGapsBit>(word)))) share = share_of(grid_, voxel, p);
     const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
     if (view_.mode == RayMode::maximum) {
       largest_ = hn::IfThenElse(counts, hn::Max(largest_, value), largest_);
@@ -289,8 +292,8 @@ class Packet {
   /// Cells that cannot raise a ray's maximum are empty to it; masks there count all the same.
   W lower_than_met(W word) const {
     const M lower = hn::Le(hn::ConvertTo(D(), hn::ShiftRight<16>(word)), largest_);
-    const M idle = hn::AndNot(is_set(word, kCellDistance | kCellMask), lower);
-    return hn::IfThenElse(hn::RebindMask(I(), idle), hn::Or(word, seti(1)), word);
+    const M idle = hn::AndNot(hn::Or(is_set<kEmptyBit>(word), is_set<kMaskBit>(word)), lower);
+    return hn::IfThenElse(hn::RebindMask(I(), idle), hn::Or(word, seti(1 | 1 << kEmptyBit)), word);
   }
 
   void show_largest() {
@@ -308,7 +311,7 @@ class Packet {
     const V at = hn::MulAdd(value, set(optics_.per_count), set(optics_.first));
     V extinction;
     V colour;
-    pairs_at(optics_.entries, hn::NearestInt(hn::Clamp(at, zero(), set(optics_.last_entry))), extinction, colour);
+    pairs_at(optics_.entries, nearest_int(hn::Clamp(at, zero(), set(optics_.last_entry))), extinction, colour);
     return {extinction, hn::BitCast(I(), colour)};
   }
 

@@ -29,9 +29,10 @@ struct EvenAngle {
 
 /// A macrocell: bits 0-7 distance to the next cell set (0 = set), then flags; bits 16-31 largest count.
 inline constexpr std::int32_t kCellDistance = 0xFF;
-inline constexpr std::int32_t kCellThin = 0x100;
-inline constexpr std::int32_t kCellGaps = 0x200;
-inline constexpr std::int32_t kCellMask = 0x400;
+inline constexpr int kThinBit = 8;
+inline constexpr int kGapsBit = 9;
+inline constexpr int kMaskBit = 10;
+inline constexpr int kEmptyBit = 11;  ///< distance above 0
 
 struct TraceGrid {
   int fans, beams, samples;
