@@ -233,6 +233,32 @@ TEST(SlicePicture, NorthUpReadsEastAndNorth) {
   }
 }
 
+// No sample is known: the sector is drawn in the colour of "no data" with all its decorations, in every slice.
+TEST(SlicePicture, APingWithoutDataIsDrawnAsNoData) {
+  const Sector sector = hand_sector();
+  LitVolume volume(sector, kLit, -30.0, -90.0);
+  for (auto& sv : volume.sv.all()) sv = kNoData;
+  const PixelSize size{800, 600};
+  const Theme theme = light_theme(size);
+  for (const SliceView& view : {kTop, SliceView{SideSlice{3}}, SliceView{RangeSlice{20}},
+                                SliceView{horizontal_plane(50.0, 0.0)}, SliceView{vertical_plane(rad_from_deg(270.0))}}) {
+    const auto picture = slice_picture(sector, volume.data(), {}, view, {}, theme, size);
+    ASSERT_TRUE(picture.has_value());
+    EXPECT_FALSE(texts_of(*picture).empty());
+    const SliceMap& map = *picture->map;
+    const auto image = slice_image(map, volume.data(), sv_colours(SvScale{}), {}, {}, theme);
+    ASSERT_TRUE(image.has_value());
+    std::ptrdiff_t drawn = 0;
+    for (const Rgba8& pixel : image->pixels) {
+      if (pixel.a == 0) continue;
+      ++drawn;
+      ASSERT_EQ(pixel, theme.no_data);
+    }
+    EXPECT_EQ(drawn, std::count_if(map.voxels().begin(), map.voxels().end(), [](int v) { return v >= 0; }));
+    EXPECT_GT(drawn, 1000);
+  }
+}
+
 TEST(SlicePicture, TheMapIsUsedAgainForTheNextPing) {
   const Sector sector = hand_sector();
   const LitVolume volume(sector, kLit, -30.0, -90.0);
