@@ -24,6 +24,7 @@
 #include "render/gl/context_egl.h"
 #include "render/gl/gl_renderer.h"
 #include "render/reference/brute_force.h"
+#include "render/refinement.h"
 #include "scene_files.h"
 #include "targets.h"
 
@@ -110,8 +111,8 @@ class Bench {
     tell();
   }
 
-  /// Software drivers are the ones that keep Sv in floats. Only there are the naive shader's processor seconds its cost.
-  [[nodiscard]] bool on_software() const { return driver_.sv_voxels != Voxels::snorm16; }
+  /// Only on a software driver are the naive shader's processor seconds its cost.
+  [[nodiscard]] bool on_software() const { return draws_by_software(driver_.driver); }
 
   void tell() {
     for (const std::string& line : targets_.news()) fmt::print("    {}\n", line);
@@ -140,6 +141,7 @@ class Bench {
     fmt::print("  worst 64 x 64 tile between step and half step {:.1f} dB\n", tile);
     expect(tile >= 48.0, "a tile below 48 dB between step and half step");
     interaction(*r, scene);
+    dragging(*r, scene, reference);
     keep(black(still), recorded, "ours");
     keep(reference, recorded, "reference");
     if (gl) beside_naive(scene, recorded, full, quality_db, reference);
@@ -191,6 +193,31 @@ class Bench {
     tell();
   }
 
+  /// What Refinement shows first while the camera turns, as the desktop asks for it: a size chosen by the time that
+  /// earlier frames took. Its PSNR is against the converged picture of the last place.
+  void dragging(VolumeRenderer& r, const SceneFiles& scene, const Image& reference) {
+    Refinement refinement(r);
+    VolumeView view = scene.view;
+    RayImage image;
+    DrawQuality quality;
+    const auto frame = [&](double turned_rad) {
+      view.camera = orbited(scene.view.camera, turned_rad, 0.0);
+      refinement.restart(view);
+      auto next = refinement.next(work_);
+      if (!next) std::exit(EXIT_FAILURE);
+      image = std::move(next->image);
+      quality = next->quality;
+    };
+    for (int i = 0; i < 4; ++i) frame(0.01 * i);  // learns the pace
+    double turned_rad = 0.05;
+    const Times t = timed(2 * frames_ + 1, [&] { frame(turned_rad -= 0.01); });
+    frame(0.0);
+    fmt::print("  while dragging: 1/{} of the resolution, {:.1f} ms wall, {:.1f} ms cpu, PSNR {:.1f} dB\n",
+               quality.divisor, 1e3 * t.wall_s, 1e3 * t.cpu_s, psnr_db(black(image), reference));
+    targets_.dragging(t.wall_s);
+    tell();
+  }
+
   struct Naive {
     Times times;
     Image picture;
@@ -210,11 +237,12 @@ class Bench {
       targets_.skip(recorded.name() + ", the paper's naive shader", "it does not run on this driver");
       return;
     }
-    report("the paper's naive shader", same_step->times, psnr_db(same_step->picture, reference));
+    const double naive_db = psnr_db(same_step->picture, reference);
+    report("the paper's naive shader", same_step->times, naive_db);
     const double ratio = same_step->times.cpu_s / ours.cpu_s;
     fmt::print("    ours is {:.1f} times as fast (cpu)\n", ratio);
     if (on_software()) {
-      targets_.cpu_beside_naive(recorded.dense(), ratio, ours_db);
+      targets_.cpu_beside_naive(recorded.dense(), ratio, ours_db, naive_db);
     } else {
       targets_.skip(recorded.name() + ", our processor time beside the naive shader's",
                     "the driver is no software one: " + driver_.driver);
@@ -226,10 +254,10 @@ class Bench {
              psnr_db(same_time->picture, reference));
       keep(same_time->picture, recorded, "naive_in_our_time");
     }
-    beside_own_gl(scene, recorded, same_step->times, reference);
+    beside_own_gl(scene, recorded, same_step->times, naive_db, reference);
   }
 
-  void beside_own_gl(const SceneFiles& scene, const Recorded& recorded, const Times& naive_times,
+  void beside_own_gl(const SceneFiles& scene, const Recorded& recorded, const Times& naive_times, double naive_db,
                      const Image& reference) {
     auto made = make_gl_renderer();
     if (!made || !(*made)->set_volume(scene.volume) || !(*made)->set_transfer(scene.table)) {
@@ -238,11 +266,12 @@ class Bench {
     }
     const Image first = black(draw(**made, scene.view, {}));
     const Times t = timed(std::min(frames_, 3), [&] { (void)draw(**made, scene.view, {}); });
-    report("our OpenGL back-end", t, psnr_db(first, reference));
+    const double db = psnr_db(first, reference);
+    report("our OpenGL back-end", t, db);
     // A graphics processor's work takes none of ours: there the clock on the wall tells.
     const double ratio = on_software() ? naive_times.cpu_s / t.cpu_s : naive_times.wall_s / t.wall_s;
     fmt::print("    it is {:.1f} times as fast as the naive shader ({})\n", ratio, on_software() ? "cpu" : "wall");
-    targets_.gl_beside_naive(recorded.dense(), ratio);
+    targets_.gl_beside_naive(recorded.dense(), ratio, db, naive_db);
     tell();
   }
 
