@@ -328,7 +328,6 @@ std::vector<std::string> named_kinds(std::string_view kinds) {
 
 }  // namespace
 
-
 std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const std::string& kind) {
   for (const Suits& one : kSuits) {
     if (verb.get_option(one.option)->count() == 0) continue;

@@ -19,10 +19,10 @@ struct TableEntry {
 struct TransferTable {
   float per_count = 0.0F;
   float first = 0.0F;
-  std::vector<float> extinction;               ///< [size] m^-1
-  std::vector<TableEntry> entries;             ///< [size] both, side by side: one look at memory
-  std::vector<std::int32_t> visible_before;    ///< [size + 1] entries above 0 before this one
-  std::vector<std::vector<float>> largest;     ///< [level][i] largest extinction of entries i .. i + 2^level - 1
+  std::vector<float> extinction;             ///< [size] m^-1
+  std::vector<TableEntry> entries;           ///< [size] both, side by side: one look at memory
+  std::vector<std::int32_t> visible_before;  ///< [size + 1] entries above 0 before this one
+  std::vector<std::vector<float>> largest;   ///< [level][i] largest extinction of entries i .. i + 2^level - 1
 
   [[nodiscard]] int size() const { return static_cast<int>(extinction.size()); }
   /// Whether any entry for counts of [least, largest] is visible; one entry more to each side.

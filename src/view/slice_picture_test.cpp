@@ -240,8 +240,9 @@ TEST(SlicePicture, APingWithoutDataIsDrawnAsNoData) {
   for (auto& sv : volume.sv.all()) sv = kNoData;
   const PixelSize size{800, 600};
   const Theme theme = light_theme(size);
-  for (const SliceView& view : {kTop, SliceView{SideSlice{3}}, SliceView{RangeSlice{20}},
-                                SliceView{horizontal_plane(50.0, 0.0)}, SliceView{vertical_plane(rad_from_deg(270.0))}}) {
+  for (const SliceView& view :
+       {kTop, SliceView{SideSlice{3}}, SliceView{RangeSlice{20}}, SliceView{horizontal_plane(50.0, 0.0)},
+        SliceView{vertical_plane(rad_from_deg(270.0))}}) {
     const auto picture = slice_picture(sector, volume.data(), {}, view, {}, theme, size);
     ASSERT_TRUE(picture.has_value());
     EXPECT_FALSE(texts_of(*picture).empty());

@@ -270,10 +270,7 @@ Result<RayImage> CpuRenderer::draw(const VolumeView& view, const DrawQuality& qu
   classify({view.mode, view.mode == RayMode::first_hit ? view.first_hit_db : 0.0, view.masks.data_too,
             thin ? quality.homogeneous_limit : 0.0},
            work);
-  const TraceJob job{grid(),
-                     trace_optics(*table_),
-                     traced(view, quality),
-                     words_.data(),
+  const TraceJob job{grid(), trace_optics(*table_), traced(view, quality), words_.data(),
                      means_.empty() ? nullptr : means_.data()};
   const PixelSize size = job.view.size;
   RayImage out{size, std::vector<std::array<float, 4>>(size.count()), {}};

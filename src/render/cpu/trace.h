@@ -49,8 +49,8 @@ struct TraceGrid {
   float least_beam_rad, least_fan_rad;
   const std::int16_t* sv;
   const std::int16_t* columns;  ///< see lay_columns(); null where they are not read
-  const std::uint8_t* known;   ///< null where all is known; 2 bytes longer than the volume
-  const std::uint16_t* masks;  ///< null without masks
+  const std::uint8_t* known;    ///< null where all is known; 2 bytes longer than the volume
+  const std::uint16_t* masks;   ///< null without masks
 };
 
 struct TraceOptics {

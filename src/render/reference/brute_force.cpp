@@ -209,14 +209,14 @@ RayImage brute_force(const VolumeData& volume, const OpticalTable& table, std::s
                      const VolumeView& view, double step_samples, Work& work) {
   const CameraBasis camera = basis(view.camera, view.size);
   const Scene scene{volume,
-              table,
-              masks,
-              view,
-              filled_volume(volume.sv),
-              confidences(masks, volume.sv.shape()),
-              camera,
-              light_direction(camera),
-              step_samples * volume.sector.range().spacing_m};
+                    table,
+                    masks,
+                    view,
+                    filled_volume(volume.sv),
+                    confidences(masks, volume.sv.shape()),
+                    camera,
+                    light_direction(camera),
+                    step_samples * volume.sector.range().spacing_m};
   RayImage out{view.size, std::vector<std::array<float, 4>>(view.size.count()), {}};
   work.for_each(view.size.height, [&](std::int64_t y) {
     for (int x = 0; x < view.size.width; ++x) {
