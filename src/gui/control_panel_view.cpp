@@ -18,7 +18,7 @@
 namespace sonar {
 namespace {
 
-constexpr int kEditorHeight_px = 200;
+constexpr int kEditorHeight_px = 215;
 
 QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 

@@ -2,8 +2,11 @@
 #include "gui/theme.h"
 
 #include <QApplication>
+#include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyleFactory>
+#include <QStyleOption>
 
 #include "view/theme.h"
 
@@ -11,6 +14,22 @@ namespace sonar {
 namespace {
 
 QColor colour(Rgba8 c) { return {c.r, c.g, c.b, c.a}; }
+
+/// Fusion draws the frame of an empty box darker than the window: nothing is seen of it where the window is dark.
+class VisibleBoxes : public QProxyStyle {
+ public:
+  VisibleBoxes() : QProxyStyle(QStyleFactory::create("Fusion")) {}
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (element != PE_IndicatorCheckBox) return;
+    painter->save();
+    painter->setPen(option->palette.color(QPalette::Disabled, QPalette::WindowText));
+    painter->setBrush(Qt::NoBrush);
+    painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+    painter->restore();
+  }
+};
 
 }  // namespace
 
@@ -33,7 +52,7 @@ void take_theme(bool dark) {
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
     palette.setColor(QPalette::Disabled, role, colour(theme.muted));
   }
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new VisibleBoxes);
   QApplication::setPalette(palette);
 }
 

@@ -7,23 +7,16 @@
 #include <cmath>
 #include <utility>
 
-#include "base/time.h"
 #include "base/units.h"
 #include "pipeline/weak_samples.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
+#include "view/time_text.h"
 
 namespace sonar {
 namespace {
 
 /// "2020-01-04 08:00:00.350 UTC"
-std::string time_text(TimeNs time) {
-  std::string text = iso_time(time);
-  text[text.find('T')] = ' ';
-  text.back() = ' ';
-  return text + "UTC";
-}
-
 /// How the picture was made and what its bearings start from, for its second line.
 std::string view_line(const VolumeFigure& figure, const PictureOptions& options, bool data_too) {
   std::string line = "masks of schools";

@@ -98,7 +98,7 @@ FrameDescription drawn(const Drawn& what, const std::vector<double>& bins, Pixel
   FrameDescription frame;
   frame.size = size;
   frame.background = theme.background;
-  frame.title = "Transfer function: opacity over Sv (dB)";
+  frame.title = "Transfer function";
   add_histogram(frame, what.plot, bins, theme);
   add_axes(frame, what.plot, theme);
   add_bar(frame, what.plot, what.bar, what.scale, theme);
@@ -142,10 +142,10 @@ std::vector<OpacityPoint> TransferEditor::points() const {
 PlotFrame TransferEditor::plot() const {
   PlotFrame plot;
   const double text_px = light_theme({640, 480}).text_px;
-  plot.place = {3.2 * text_px, 8.0, std::max(20.0, units().width - 4.4 * text_px),
-                std::max(20.0, units().height - 8.0 - 2 * kBar_px - 3.4 * text_px)};
-  plot.x = {kFirst_db, kLast_db, "", false};
-  plot.y = {1.0, 0.0, "", false};
+  plot.place = {4.6 * text_px, 8.0, std::max(20.0, units().width - 5.8 * text_px),
+                std::max(20.0, units().height - 8.0 - 2 * kBar_px - 4.6 * text_px)};
+  plot.x = {kFirst_db, kLast_db, "Sv (dB)", false};
+  plot.y = {1.0, 0.0, "opacity", false};
   return plot;
 }
 

@@ -14,6 +14,7 @@
 #include "session/place_text.h"
 #include "session/slices/slice_look.h"
 #include "view/slice_picture.h"
+#include "view/time_text.h"
 
 namespace sonar {
 namespace {
@@ -136,7 +137,7 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
   const Placement placement = navigation.placement();
   text.range = fmt::format("range {:.1f} m", norm(place));
   text.depth = fmt::format("depth {:.1f} m", place.z + placement.transducer_depth_m);
-  text.time = fmt::format("{} UTC", iso_time(navigation.time));
+  text.time = time_text(navigation.time);
   if (!std::isnan(navigation.speed_mps)) text.ship = fmt::format("ship {:.1f} kn", navigation.speed_mps / kKnot_mps);
   if (!std::isnan(navigation.distance_nmi)) text.log = fmt::format("log {:.3f} nmi", navigation.distance_nmi);
   const double bow_deg = deg_from_rad(std::atan2(place.y, place.x));

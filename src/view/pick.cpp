@@ -132,8 +132,7 @@ class Walk {
     const auto around = corners(volume_.sv.shape(), volume_.sector.index_of(p));
     if (!around) return true;
     if (!mask_ && meets_mask(*around)) {
-      mask_ = hit(p, t, *around);
-      mask_->mask = met_;
+      mask_ = hit_mask(p, t, *around);
       return view_.masks.data_too && view_.mode == RayMode::maximum;
     }
     if (!view_.masks.data_too) return true;
@@ -194,6 +193,16 @@ class Walk {
     return out;
   }
 
+  /// A mask's surface lies between members and others; what was pointed at is the member.
+  [[nodiscard]] Picked hit_mask(const Point<Sonar>& p, double t, const std::array<Corner, 8>& around) const {
+    const Corner* best = nullptr;
+    for (const Corner& c : around) {
+      if (owner(c).mask == met_ && (best == nullptr || c.weight > best->weight)) best = &c;
+    }
+    if (best == nullptr) best = &around.front();
+    return picked(*best, p, t, met_);
+  }
+
   [[nodiscard]] Picked hit(const Point<Sonar>& p, double t, const std::array<Corner, 8>& around) const {
     const Corner* best = nullptr;
     for (const Corner& c : around) {
@@ -202,9 +211,13 @@ class Walk {
     }
     if (best == nullptr)
       best = &*std::max_element(around.begin(), around.end(), [](auto& a, auto& b) { return a.weight < b.weight; });
-    const std::int16_t count = volume_.sv(best->fan, best->beam, best->sample);
+    return picked(*best, p, t, -1);
+  }
+
+  [[nodiscard]] Picked picked(const Corner& at, const Point<Sonar>& p, double t, int mask) const {
+    const std::int16_t count = volume_.sv(at.fan, at.beam, at.sample);
     const double sv = count == kNoData ? std::numeric_limits<double>::quiet_NaN() : db_from_counts(count);
-    return {best->fan, best->beam, best->sample, p, t, sv, -1};
+    return {at.fan, at.beam, at.sample, p, t, sv, mask};
   }
 
   /// A mask's surface is met where the data before it has not hidden it.

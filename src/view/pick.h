@@ -25,6 +25,7 @@ struct Picked {
 ///   accumulate  the first place by which half of the ray's opacity has gathered: what one sees there, not the thin
 ///               haze before it
 /// A mask's fuzzy surface before that place is met first (and alone where the data is not shown).
+/// A mask's surface gives a member of the mask, however the place lies between members and others.
 /// Where the voxel at the place has no data, the nearest of the interpolation's corners that has some is given.
 /// cost   one ray, two samples a range sample: below a millisecond
 /// result empty where nothing visible is met

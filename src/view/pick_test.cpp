@@ -136,6 +136,31 @@ TEST(Pick, AMaskIsMetWithOrWithoutTheData) {
   }
 }
 
+TEST(Pick, AMasksSurfaceGivesAMemberFromWhereverOneLooks) {
+  const VolumeData volume = volume_of(-80.0);
+  PingMask mask;
+  for (int beam = 3; beam < 7; ++beam) mask.runs.push_back({4 * 10 + beam, 90, 20});
+  mask.confidence.assign(80, 60);
+  const std::array layers{MaskLayer{std::make_shared<PingMask>(mask), {}}};
+  const VolumeView view = view_of(volume, RayMode::accumulate);
+  const OpticalTable table = table_from(-60.0, -40.0, 1.0);
+  int met = 0;
+  for (int dx = -40; dx <= 40; dx += 4) {
+    for (int dy = -40; dy <= 40; dy += 4) {
+      PixelPoint pixel = pixel_of(view, volume.sector.centre(4, 5, 100));
+      pixel.x += dx;
+      pixel.y += dy;
+      const auto hit = pick(volume, table, layers, view, pixel);
+      if (!hit || hit->mask < 0) continue;
+      ++met;
+      EXPECT_EQ(hit->fan, 4) << dx << ", " << dy;
+      EXPECT_TRUE(hit->beam >= 3 && hit->beam < 7 && hit->sample >= 90 && hit->sample < 110)
+          << hit->beam << " " << hit->sample;
+    }
+  }
+  EXPECT_GT(met, 5);
+}
+
 TEST(Pick, WhereMasksOverlapTheSurerOneIsMet) {
   // The second lies within the first and is surer of its voxels: there the picture shows the second's colour.
   const VolumeData volume = volume_of(-80.0);

@@ -9,19 +9,12 @@
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/slice_context.h"
+#include "view/time_text.h"
 
 namespace sonar {
 namespace {
 
 /// "2026-11-21 19:57:26.123 UTC"
-std::string time_text(TimeNs time) {
-  std::string text = iso_time(time);
-  const auto t = text.find('T');
-  if (t != std::string::npos) text[t] = ' ';
-  if (!text.empty() && text.back() == 'Z') text.replace(text.size() - 1, 1, " UTC");
-  return text;
-}
-
 /// Axes in the slice's own coordinates, x right and y down, grown to fill the plot with square metres or degrees.
 PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   PlotFrame plot{place, {extent.x0, extent.x1, "", false}, {extent.y0, extent.y1, "", false}};

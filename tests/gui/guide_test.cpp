@@ -54,6 +54,7 @@ TEST_F(Guide, Pictures) {
   raise("observation_timeline");
   desk_->actions.find("review.next")->run();
   keep("guide-review.png");
+  workspace().depth_raster.set(survey_ / "truth" / "depth.tif");
   raise("survey_map");
   raise("survey_timeline");
   keep("guide-survey.png");
