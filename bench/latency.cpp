@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "latency_clock.h"
 #include "pipeline/observe.h"
 #include "publish/painted.h"
 #include "session/desk.h"
@@ -28,18 +28,9 @@ namespace sonar::bench {
 namespace {
 
 constexpr PixelSize kSize{700, 500};
+constexpr PixelSize kVolumeSize{900, 700};
 constexpr double kTarget_ms = 16.0;
 constexpr int kPings = 40;
-
-void must(bool right, const std::string& what) {
-  if (right) return;
-  fmt::print(stderr, "wrong answer: {}\n", what);
-  std::exit(EXIT_FAILURE);
-}
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 class Bench {
  public:
@@ -98,6 +89,37 @@ class Bench {
     report("ping step, made ahead: both slices", ms);
   }
 
+  /// The same with the volume seen: the event until both slices and a first, coarse volume show the ping.
+  void step_with_volume(int repetitions) {
+    LivePicture& volume = *desk_.picture("volume");
+    VolumeParams params;
+    params.renderer = VolumeRendererName::cpu;
+    desk_.workspace.volume.assign(params);
+    volume.resize(kVolumeSize, 1.0);
+    volume.set_seen(true);
+    std::vector<double> all;
+    std::vector<double> slices;
+    for (int i = 0; i < repetitions; ++i) {
+      const std::int64_t next = (i / 4) % 2 == 0 ? document().ping() + 1 : document().ping() - 1;
+      do {
+        settle();
+        volume.wait();
+      } while (queue_.drain() > 0);
+      const std::int64_t volumes = volume.pictures();
+      const double begin = now_ms();
+      const auto stepped = [&] { return document().staged() && document().staged()->ping_index == next; };
+      slices.push_back(timed([&] { document().look_at(next); }, stepped, true, false));
+      while (volume.pictures() == volumes) {
+        queue_.wait();
+        queue_.drain();
+      }
+      all.push_back(now_ms() - begin);
+    }
+    volume.set_seen(false);
+    report("ping step, volume seen: both slices", slices);
+    report("ping step: both slices and a first volume", all);
+  }
+
  private:
   static DocumentOptions options(const std::filesystem::path& journal) {
     std::filesystem::create_directories(journal);
@@ -119,8 +141,9 @@ class Bench {
   }
 
   /// From the event until both slices show what holds now: the window's loop, which drains whenever something came.
-  double timed(const std::function<void()>& event, const std::function<bool()>& answered, bool both) {
-    settle();
+  double timed(const std::function<void()>& event, const std::function<bool()>& answered, bool both,
+               bool settled_first = true) {
+    if (settled_first) settle();
     before_ = desk_.workspace.preview().mask;
     const double begin = now_ms();
     event();
@@ -244,6 +267,9 @@ void fill_journal(const std::filesystem::path& survey, const std::filesystem::pa
 /// From the wish to open a survey, indexed before, to the first slice on show.
 void opening(const std::filesystem::path& survey, const std::filesystem::path& folder, int repetitions) {
   std::vector<double> ms;
+  std::vector<double> not_indexed;
+  std::error_code absent;
+  std::filesystem::remove_all(folder / "cache", absent);
   for (int i = 0; i <= repetitions; ++i) {  // the first one makes the index
     ChangeQueue queue;
     DocumentOptions options;
@@ -260,7 +286,7 @@ void opening(const std::filesystem::path& survey, const std::filesystem::path& f
       queue.wait();
       queue.drain();
     }
-    if (i > 0) ms.push_back(now_ms() - begin);
+    (i > 0 ? ms : not_indexed).push_back(now_ms() - begin);
     must(slice.image().size == kSize, "the first picture");
     desk.workspace.document.settle();
   }
@@ -269,8 +295,9 @@ void opening(const std::filesystem::path& survey, const std::filesystem::path& f
   for (const auto& file : std::filesystem::directory_iterator(survey)) {
     if (file.is_regular_file()) bytes += static_cast<double>(file.file_size());
   }
-  fmt::print("  opening {:.0f} MB, indexed: first slice after {:.0f} ms (median of {})\n", bytes / 1e6,
-             ms[ms.size() / 2], ms.size());
+  fmt::print(
+      "  opening {:.0f} MB, indexed: first slice after {:.0f} ms (median of {}); not indexed, from memory: {:.0f} ms\n",
+      bytes / 1e6, ms[ms.size() / 2], ms.size(), not_indexed.front());
 }
 
 int run(int repetitions, const std::string& survey) {
@@ -287,6 +314,7 @@ int run(int repetitions, const std::string& survey) {
     bench.hover(repetitions);
     bench.tolerance(repetitions);
     bench.step(repetitions);
+    bench.step_with_volume(repetitions);
     const std::filesystem::path opened = survey.empty() ? folder / "raw" : std::filesystem::path(survey);
     opening(opened, folder, 5);
     fill_journal(opened, folder, 300);

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "latency_clock.h"
 #include "session/volume/volume_model.h"
 #include "synth/beam_table.h"
 #include "synth/simulate.h"
@@ -24,16 +24,6 @@ namespace {
 
 constexpr PixelSize kSize{900, 700};
 constexpr int kPings = 16;
-
-void must(bool right, const std::string& what) {
-  if (right) return;
-  fmt::print(stderr, "wrong answer: {}\n", what);
-  std::exit(EXIT_FAILURE);
-}
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 class Bench {
  public:
