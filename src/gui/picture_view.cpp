@@ -101,7 +101,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));
   if (latencies_()) {
     QPainterPath text;
-    text.addText(QPointF(8, height() - 8.0), font(), QString("%1 ms").arg(picture_.latency_ms(), 0, 'f', 1));
+    text.addText(QPointF(8, height() - 8.0), font(), QString::fromStdString(picture_.timing()));
     draw_twice(painter, text);
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/live_picture.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -95,6 +97,8 @@ void LivePicture::put(Built built, Image image, double asked_s) {
   take(built.detail);
   changed_.tell();
 }
+
+std::string LivePicture::timing() const { return fmt::format("{:.1f} ms", latency_ms_); }
 
 void LivePicture::fail_with(std::string line) {
   problem_ = std::move(line);

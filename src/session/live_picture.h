@@ -55,6 +55,8 @@ class LivePicture {
   [[nodiscard]] const std::string& problem() const { return problem_; }
   /// Time from the wish to the last picture, ms, for the developer's overlay.
   [[nodiscard]] double latency_ms() const { return latency_ms_; }
+  /// What the developer's overlay says: "12.3 ms".
+  [[nodiscard]] virtual std::string timing() const;
   /// Rises with every picture that is put on show.
   [[nodiscard]] std::int64_t pictures() const { return pictures_; }
   /// Called when image() or overlays() have changed.

@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t kMostSpecies = 9;
 constexpr std::size_t kMostCharts = 100;
 constexpr std::size_t kMostFiles = 10000;
 
@@ -104,7 +103,7 @@ void read_lists(const json& from, Preferences& to) {
     }
   }
   if (const auto found = from.find("species"); found != from.end()) {
-    auto species = texts_of(*found, kMostSpecies);
+    auto species = texts_of(*found, Preferences::kMostSpecies);
     for (std::string& one : species) std::replace_if(one.begin(), one.end(), is_control, ' ');  // no journal takes them
     if (!species.empty()) to.species = std::move(species);
   }

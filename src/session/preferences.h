@@ -17,6 +17,7 @@ struct LoadedPreferences;
 /// What a user wants of the window: never part of a result, never in a hash.
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
+  static constexpr std::size_t kMostSpecies = 9;
 
   std::filesystem::path path;                              ///< empty = they are kept nowhere
   std::vector<std::vector<std::filesystem::path>> recent;  ///< what was opened, newest first

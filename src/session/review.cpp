@@ -88,7 +88,8 @@ void Review::set_species(int digit) {
   const auto school = selected_school(workspace());
   if (!school) return workspace().document.tell("no school is selected");
   if (digit != 0 && species(digit).empty()) {
-    return workspace().document.tell(fmt::format("there is no species on {}: see species in the preferences", digit));
+    return workspace().document.tell(
+        fmt::format("there is no species on {}: see Review > Species of the digits", digit));
   }
   Decision decision;
   decision.species = species(digit);

@@ -2,8 +2,11 @@
 // Lists of the survey, and the keys of the review.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "session/desk_parts.h"
 #include "session/lists/diagnostics_list.h"
@@ -69,6 +72,31 @@ void add_species(Desk& desk, Review& review) {
   }
 }
 
+/// "herring, sprat" -> one a digit.
+void name_all_species(Desk& desk) {
+  if (!desk.asking.text) return;
+  const auto answer = desk.asking.text("Species", "One for each digit from 1, with commas between",
+                                       fmt::format("{}", fmt::join(desk.preferences.species, ", ")));
+  if (!answer) return;
+  std::vector<std::string> species;
+  std::string line = *answer;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    const std::size_t first = std::min(line.find_first_not_of(' ', at), end);
+    const std::size_t last = end == first ? first : line.find_last_not_of(' ', end - 1) + 1;
+    if (last > first) species.push_back(line.substr(first, last - first));
+    at = end + 1;
+  }
+  if (species.empty() || species.size() > Preferences::kMostSpecies) {
+    return desk.workspace.document.tell(
+        fmt::format("species: expected 1 to {} names with commas between", Preferences::kMostSpecies));
+  }
+  desk.preferences.species = std::move(species);
+  keep_preferences(desk);
+}
+
 }  // namespace
 
 void add_lists(Desk& desk) {
@@ -86,6 +114,12 @@ void add_lists(Desk& desk) {
 
   add_decisions(desk, review);
   add_species(desk, review);
+  desk.actions.add({.id = "review.species_names",
+                    .menu = kMenu,
+                    .text = "Species of the digits...",
+                    .keys = {},
+                    .tip = "Which species the digits 1 to 9 mean",
+                    .run = [&desk] { name_all_species(desk); }});
   desk.actions.add({.id = "review.rule",
                     .menu = kMenu,
                     .text = "Decide by a rule...",

@@ -121,6 +121,23 @@ TEST_F(ReviewAtWork, WithoutAdvanceTheSchoolStays) {
   EXPECT_EQ(workspace().school(), first);
 }
 
+TEST_F(ReviewAtWork, TheDigitsMeanWhatTheUserSays) {
+  paint_schools(1);
+  press("review.next");
+  desk_->asking.text = [](const auto&, const auto&, const std::string& now) {
+    EXPECT_TRUE(now.starts_with("herring, mackerel, "));
+    return std::optional<std::string>(" lodde ,  snow crab,,torsk ");
+  };
+  press("review.species_names");
+  EXPECT_EQ(desk_->preferences.species, (std::vector<std::string>{"lodde", "snow crab", "torsk"}));
+  press("review.species.2");
+  document().settle();
+  EXPECT_EQ(survey_schools(document()).front().decided().species, "snow crab");
+  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(" , "); };
+  press("review.species_names");
+  EXPECT_EQ(desk_->preferences.species.size(), 3U);
+}
+
 TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
   paint(2, 6, 5, 5, 200);
   paint(2, 3, 12, 12, 300);

@@ -53,6 +53,7 @@ struct Preview {
   std::shared_ptr<const PingMask> mask;  ///< null = none
   std::string text;                      ///< "1 204 voxels, 3.1e4 m3, mean -48.2 dB", or why nothing grows
   std::int64_t instead_of = 0;           ///< number of the school that would be replaced by it; 0 = none
+  double grown_ms = 0.0;                 ///< from the wish until it had grown, for the developer's overlay
   friend bool operator==(const Preview&, const Preview&) = default;
 };
 

@@ -8,10 +8,12 @@
 #include <QDialogButtonBox>
 #include <QDropEvent>
 #include <QMimeData>
+#include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTimer>
 #include <QUrl>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <utility>
@@ -114,6 +116,30 @@ TEST_F(Files, ResultsAreAsARunWritesThem) {
   EXPECT_EQ(lines_of(out_ / "schools.csv").size(), 2U) << "titles and one school";
   EXPECT_EQ(lines_of(out_ / "school_pings.csv").size(), 1U + masks().size());
   EXPECT_EQ(lines_of(out_ / "survey.gpkg").at(0).substr(0, 15), "SQLite format 3");
+}
+
+TEST_F(Files, TheProgramItselfMakesTheSameMasksOfTheJournal) {
+  const char* program = std::getenv("SONARX");
+  if (program == nullptr) GTEST_SKIP() << "SONARX, the command-line program, is not given";
+  follow_a_school();
+  key(Qt::Key_E, Qt::ControlModifier);
+  const fs::path run = TestSurvey::easy().fresh() / "run";
+  QProcess process;
+  process.start(program, {"run", QString::fromStdString(survey_.string()), "--session",
+                          QString::fromStdString(document().journal_path().string()), "--out",
+                          QString::fromStdString(run.string())});
+  ASSERT_TRUE(process.waitForFinished(-1));
+  ASSERT_EQ(process.exitCode(), 0) << process.readAllStandardError().toStdString();
+  Work work(1);
+  const std::vector<fs::path> window_paths{out_};
+  const std::vector<fs::path> run_paths{run};
+  const auto window = PictureSource::open(window_paths, std::nullopt, work);
+  const auto ran = PictureSource::open(run_paths, std::nullopt, work);
+  ASSERT_TRUE(window && ran);
+  const auto& masks_of_window = (*window)->products()[0].masks;
+  const auto& masks_of_run = (*ran)->products()[0].masks;
+  ASSERT_EQ(masks_of_run.size(), masks_of_window.size());
+  for (std::size_t i = 0; i < masks_of_run.size(); ++i) EXPECT_EQ(masks_of_run[i].mask, masks_of_window[i].mask);
 }
 
 TEST_F(Files, TheMovieOfASchoolIsOnePictureAPing) {

@@ -33,6 +33,8 @@ class SliceModel : public LivePicture {
   void aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
+  /// With the growth that the picture shows the trial of.
+  [[nodiscard]] std::string timing() const override;
   /// All of the sector again.
   void show_all();
   [[nodiscard]] bool zoomed() const { return extent_.has_value(); }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pointers do to a slice, and what is laid over it at once.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -161,6 +163,12 @@ void SliceModel::show_all() {
   if (!extent_) return;
   extent_.reset();
   update();
+}
+
+std::string SliceModel::timing() const {
+  const Preview& preview = workspace_.preview();
+  const std::string picture = LivePicture::timing();
+  return preview.mask ? fmt::format("{}, growth {:.1f} ms", picture, preview.grown_ms) : picture;
 }
 
 std::vector<Overlay> SliceModel::overlays() const {

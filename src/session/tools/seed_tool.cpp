@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -90,11 +91,13 @@ void SeedTool::drop_preview() {
 }
 
 void SeedTool::show(GrowthTrial trial, std::int64_t instead_of) {
-  growing_.post_latest([this, trial = std::move(trial), instead_of, number = ++asked_,
+  const auto begun = std::chrono::steady_clock::now();
+  growing_.post_latest([this, trial = std::move(trial), instead_of, number = ++asked_, begun,
                         alive = std::weak_ptr<bool>(alive_)](const Wanted&) {
     // Shown even where a later wish has come: while wishes come faster than growths something must be seen.
     Preview preview = preview_of(trial);
     preview.instead_of = instead_of;
+    preview.grown_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     workspace_.queue.post([this, number, alive, preview = std::move(preview)] {
       if (!alive.expired() && number > stale_) workspace_.preview.set(preview);
     });
