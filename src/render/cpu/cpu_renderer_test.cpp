@@ -280,6 +280,11 @@ TEST(CpuRenderer, AnEmptyTableIsTransparent) {
   }
 }
 
+TEST(CpuRenderer, AnEyeBeyondAllNumbersOfSamplesSeesNothing) {
+  const VolumeView view = small(looking({1e12, 0, 0}, {2e12, 0, 0}));
+  for (const auto& p : draw(*renderer(volume(fan()), table(true)), view).rgba) EXPECT_EQ(p[3], 0.0F);
+}
+
 TEST(CpuRenderer, AnyNumberOfThreadsGivesTheSameBits) {
   const auto r = renderer(volume(fan()), table(true));
   Work one(1);

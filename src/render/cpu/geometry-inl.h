@@ -113,13 +113,14 @@ HWY_INLINE Place place_at(const TraceGrid& grid, const Rays& ray, V u) {
                                  : index_of(grid.beam_of, diamond(p.x, p.y, grid.wide));
   const V fan = grid.even_fans ? index_of(grid.even_fan, arc(hn::Neg(hn::Mul(p.z, per_rho))))
                                : index_of(grid.fan_of, diamond(p.rho, hn::Neg(p.z), false));
-  const V sample = hn::Max(hn::Mul(hn::Sub(p.r, set(grid.first_m)), set(grid.per_spacing)), zero());
+  const V sample = hn::Clamp(hn::Mul(hn::Sub(p.r, set(grid.first_m)), set(grid.per_spacing)), zero(),
+                             set(static_cast<float>(grid.samples - 1)));
   p.beam0 = hn::Min(floor_to_int(beam), seti(grid.beams - 2));
   p.fan0 = hn::Min(floor_to_int(fan), seti(grid.fans - 2));
   p.sample0 = hn::Min(floor_to_int(sample), seti(grid.samples - 2));
   p.beam = hn::Sub(beam, hn::ConvertTo(D(), p.beam0));
   p.fan = hn::Sub(fan, hn::ConvertTo(D(), p.fan0));
-  p.sample = hn::Min(hn::Sub(sample, hn::ConvertTo(D(), p.sample0)), set(1.0F));
+  p.sample = hn::Sub(sample, hn::ConvertTo(D(), p.sample0));
   return p;
 }
 
