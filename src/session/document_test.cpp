@@ -220,7 +220,7 @@ TEST_F(DocumentAtWork, WhatAJournalCouldNotGiveBackIsRefused) {
   document_->act(EventCommand{"picnic", document_->shown()->ground().times[2], "ashore"});
   document_->settle();
   EXPECT_TRUE(document_->state().events.empty());
-  EXPECT_THAT(document_->notices().back(), testing::HasSubstr("picnic"));
+  EXPECT_THAT(document_->notices().back(), testing::HasSubstr("kind: expected one of trawl"));
   EXPECT_FALSE(std::filesystem::exists(document_->journal_path()));
 }
 
