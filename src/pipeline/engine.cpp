@@ -47,6 +47,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       recipe_(recipe),
       sector_(observation.sector()),
       tables_(observation, recipe.calibration),
+      reckoned_(dead_reckoning(observation.navigation)),
       estimates_(observation.pings.size()),
       given_(observation.pings.size()) {
   const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
@@ -211,7 +212,7 @@ Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {
   if (!ping) return pass_on(ping);
   FilteredPing out;
   out.volume = std::move(ping->filtered);
-  out.placement = placement(ping_index);
+  out.placement = tracking_placement(ping_index);
   out.time = observation_.navigation[static_cast<std::size_t>(ping_index)].time;
   return out;
 }

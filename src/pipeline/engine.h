@@ -15,6 +15,7 @@
 #include "pipeline/recipe.h"
 #include "pipeline/survey.h"
 #include "school/background.h"
+#include "school/dead_reckoning.h"
 #include "school/filtered_ping.h"
 #include "school/seabed.h"
 #include "signal/flags.h"
@@ -47,7 +48,13 @@ class Engine {
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
   [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
+  /// What was recorded: NaN where a ping has no position.
   [[nodiscard]] Placement placement(std::int64_t ping_index) const;
+  /// The same for following schools: gaps in the navigation are reckoned over.
+  [[nodiscard]] const Placement& tracking_placement(std::int64_t ping_index) const {
+    return reckoned_.pings[static_cast<std::size_t>(ping_index)];
+  }
+  [[nodiscard]] const DeadReckoning& reckoned() const { return reckoned_; }
   [[nodiscard]] Diagnostics calibration_notes() const { return tables_.diagnostics(); }
 
   /// Estimates the background of pings first .. last (inclusive) and their neighbours; other calls need it.
@@ -78,6 +85,7 @@ class Engine {
   const Recipe recipe_;
   Sector sector_;
   CalibrationTables tables_;
+  DeadReckoning reckoned_;
   std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
   std::vector<std::vector<float>> given_;       ///< [ping] background that a reduced file brings along; else empty
   std::mutex mutex_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -64,10 +65,13 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   input.others = &others;
   input.threshold_db = all[index].in_ping->threshold_db;
   SchoolPingRow row = measure(input, all[index].in_ping->mask, engine.recipe().measure);
+  const PingNavigation& at = observation.navigation[static_cast<std::size_t>(ping.ping_index)];
+  // Whoever does not know which way the ship lay knows neither bearing nor place.
+  if (std::isnan(at.heading_deg)) row.latitude = row.longitude = row.bearing_deg = row.axis_deg = kUnknown;
   row.observation = observation.name;
   row.school_id = all[index].school->decided.school_id;
   row.ping_index = ping.ping_index;
-  row.time_utc = observation.navigation[static_cast<std::size_t>(ping.ping_index)].time;
+  row.time_utc = at.time;
   return {std::move(row), faulty_members(input, all[index].in_ping->mask)};
 }
 

@@ -50,7 +50,7 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     DetectedPing& detected = pings[static_cast<std::size_t>(i)];
     detected.ping_index = ping_index;
     detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
-    detected.placement = engine.placement(ping_index);
+    detected.placement = engine.tracking_placement(ping_index);
     auto ping = engine.staged(ping_index);
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
@@ -115,6 +115,16 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
       {DiagnosticCode::grid_too_small, "", -1, -1,
        fmt::format("fans x beams: {} x {}; schools are looked for where there are {} x {} at least", fans, beams,
                    params.min_fans, params.min_beams)});
+}
+
+/// Tables leave empty what was not recorded; tracks could not.
+void note_dead_reckoning(const DeadReckoning& reckoned, ObservationProduct& product) {
+  if (reckoned.without_position == 0 && reckoned.without_heading == 0) return;
+  product.diagnostics.push_back(
+      {DiagnosticCode::dead_reckoned, "", -1, -1,
+       fmt::format("{} pings without a position and {} without a heading: schools were followed over them by dead "
+                   "reckoning",
+                   reckoned.without_position, reckoned.without_heading)});
 }
 
 void note_schools_without_place(ObservationProduct& product) {
@@ -280,6 +290,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   if (automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;
   Engine engine(survey, observation, recipe);
+  note_dead_reckoning(engine.reckoned(), product);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   JournalState state;
   std::vector<TrackEvent> events;

@@ -31,7 +31,7 @@ constexpr std::size_t packed(std::size_t a, std::size_t b) {
 PingFrame::PingFrame(const Placement& placement, const Geographic& origin) : heading_rad_(placement.heading_rad) {
   const bool known = std::isfinite(placement.transducer.latitude_deg) && std::isfinite(origin.latitude_deg) &&
                      std::isfinite(placement.transducer.longitude_deg) && std::isfinite(origin.longitude_deg);
-  // without positions the ship counts as standing still
+  // Whoever wants gaps in the navigation bridged hands in reckoned places; else the ship counts as standing still.
   if (known) transducer_ = to_enu(placement.transducer, origin);
   transducer_.z = -placement.transducer_depth_m;
   if (!std::isfinite(heading_rad_)) heading_rad_ = 0.0;

@@ -7,11 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
@@ -120,6 +123,38 @@ TEST_F(Observe, PingsInAnyOrderAreTheSamePings) {
   for (std::int64_t i = 0; i < forwards.pings(); ++i) filtered.push_back(forwards.staged(i)->filtered->counts);
   for (std::int64_t i = backwards.pings() - 1; i >= 0; --i) {
     EXPECT_EQ(backwards.staged(i)->filtered->counts, filtered[static_cast<std::size_t>(i)]) << "ping " << i;
+  }
+}
+
+// Law: what the ship's sentences say nothing of for a while, in the middle or from the start, is no other sea: the same
+// schools in the same pings, but no place where there was none.
+TEST_F(Observe, AGapInTheNavigationBreaksNoTrack) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [first, last] : {std::pair{9, 15}, std::pair{0, 7}}) {
+    ObservationFiles silent = observation();
+    for (int i = first; i <= last; ++i) {
+      PingNavigation& at = silent.navigation[static_cast<std::size_t>(i)];
+      at.transducer = {unknown, unknown};
+      at.heading_deg = at.speed_mps = at.course_deg = unknown;
+    }
+    Work work(2);
+    const auto product = observe(*survey_, silent, {}, {{}, {}, "test"}, work);
+    ASSERT_TRUE(product);
+    EXPECT_EQ(count(*product, DiagnosticCode::dead_reckoned), 1);
+    EXPECT_EQ(count(*product_, DiagnosticCode::dead_reckoned), 0);
+    ASSERT_EQ(product->school_pings.size(), product_->school_pings.size());
+    for (std::size_t i = 0; i < product->school_pings.size(); ++i) {
+      const SchoolPingRow& row = product->school_pings[i];
+      const SchoolPingRow& whole = product_->school_pings[i];
+      EXPECT_EQ(row.school_id, whole.school_id);
+      EXPECT_EQ(row.ping_index, whole.ping_index);
+      EXPECT_EQ(row.n_voxels, whole.n_voxels);
+      EXPECT_DOUBLE_EQ(row.range_m, whole.range_m);
+      const bool lost = row.ping_index >= first && row.ping_index <= last;
+      for (const double place : {row.latitude, row.longitude, row.bearing_deg, row.axis_deg}) {
+        EXPECT_EQ(std::isnan(place), lost) << row.ping_index;
+      }
+    }
   }
 }
 

@@ -40,9 +40,9 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 1, "83bff1da2ba360f5c46043e344309578"},
     {"detect", 1, "ccc44b9443e584e22db20886484d607b"},
-    {"track", 3, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 1, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 2, "8e4ef91c3bcc43a091e27957e0c05413"},
+    {"track", 4, "91393a19123f317dd64eee83037c0240"},
+    {"propagate", 2, "796c2390f6457277936c4d7907e65301"},
+    {"measure", 3, "8e4ef91c3bcc43a091e27957e0c05413"},
     {"summarise", 1, "0b4f3a0bd1512c0bbf6b6cb5a9c8ce74"},
 }};
 
