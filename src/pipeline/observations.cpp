@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -42,12 +43,53 @@ std::string setting_change(const TransmitSet& a, const TransmitSet& b) {
     if (a[c].frequency_hz != b[c].frequency_hz) {
       return changed("frequency", a[c].frequency_hz, b[c].frequency_hz, "Hz");
     }
-    if (std::abs(a[c].sound_speed_mps - b[c].sound_speed_mps) > 1e-4 * a[c].sound_speed_mps) {
-      return changed("sound speed", a[c].sound_speed_mps, b[c].sound_speed_mps, "m/s");
-    }
   }
   return {};
 }
+
+// The index tells sound speeds to this share; ranges within an observation differ by so many samples at the far end.
+constexpr double kIndexedShare = 1e-4;
+constexpr double kMostSpread_samples = 0.75;
+
+/// Sound speeds of an observation's pings, channel by channel. All share the range axis of the middle one, and every
+/// sample of every ping lies where it says to half a sample.
+class SoundSpeeds {
+ public:
+  /// Takes a ping's settings in where its ranges fit those taken before; else says which channel does not.
+  std::string take(const TransmitSet& set) {
+    std::vector<Span> joined = spans_;
+    joined.resize(std::max(joined.size(), set.size()));
+    for (std::size_t c = 0; c < set.size(); ++c) {
+      if (!set[c].seen()) continue;
+      Span& span = joined[c];
+      span.least_mps = std::min(span.least_mps, set[c].sound_speed_mps);
+      span.most_mps = std::max(span.most_mps, set[c].sound_speed_mps);
+      span.samples = std::max(span.samples, set[c].max_samples);
+      if ((span.most_mps - span.least_mps) * span.samples > kMostSpread_samples * span.least_mps) {
+        const double from = set[c].sound_speed_mps == span.least_mps ? span.most_mps : span.least_mps;
+        return fmt::format("channel {}: sound speed {} -> {} m/s moves the farthest of {} samples by {:.2f}", c + 1,
+                           from, set[c].sound_speed_mps, span.samples,
+                           (span.most_mps / span.least_mps - 1.0) * span.samples);
+      }
+    }
+    spans_ = std::move(joined);
+    return {};
+  }
+
+  struct Span {
+    double least_mps = std::numeric_limits<double>::infinity();
+    double most_mps = 0.0;
+    std::int32_t samples = 0;
+  };
+  /// Of the first channel that was seen.
+  [[nodiscard]] Span first() const {
+    const auto seen = std::find_if(spans_.begin(), spans_.end(), [](const Span& s) { return s.most_mps > 0.0; });
+    return seen == spans_.end() ? Span{} : *seen;
+  }
+
+ private:
+  std::vector<Span> spans_;
+};
 
 /// Why a ping cannot go on the observation that began with another.
 class Cutter {
@@ -84,6 +126,10 @@ class Cutter {
     if (n.time - b.time > gap_) cut = true;
     if (cut) return true;
     fresh.continues_cut = longest_ > 0 && n.time - f.time > longest_;
+    if (const std::string& drift = drift_to(first, next); !drift.empty()) {
+      note(DiagnosticCode::settings_changed, drift);
+      fresh.continues_cut = true;  // the sea and its schools go on
+    }
     if (fresh.continues_cut) fresh.cut_after = b.time;
     return fresh.continues_cut;
   }
@@ -99,6 +145,27 @@ class Cutter {
     return change_;
   }
 
+  /// Why the ping's ranges do not fit the running observation's; empty = they do.
+  const std::string& drift_to(const SurveyPing& first, const SurveyPing& next) {
+    if (drift_of_ != std::optional(first)) {
+      drift_of_ = first;
+      speeds_ = {};
+      taken_.clear();
+      take_speeds(first);
+    }
+    return take_speeds(next);
+  }
+
+  const std::string& take_speeds(const SurveyPing& ping) {
+    const SetKey key{ping.file, survey_.entry(ping).transmit};
+    drift_.clear();
+    if (!taken_.contains(key)) {
+      drift_ = speeds_.take(survey_.transmit(ping));
+      if (drift_.empty()) taken_.insert(key);
+    }
+    return drift_;
+  }
+
   using SetKey = std::pair<std::uint32_t, std::uint16_t>;
   const SurveyFiles& survey_;
   TimeNs gap_;
@@ -106,16 +173,44 @@ class Cutter {
   std::vector<std::vector<Hash128>> configs_;  // [file][config]
   std::optional<std::pair<SetKey, SetKey>> compared_;
   std::string change_;
+  std::optional<SurveyPing> drift_of_;  // first ping of the observation that speeds_ is of
+  SoundSpeeds speeds_;
+  std::set<SetKey> taken_;
+  std::string drift_;
 };
 
-/// Longest rows of each channel over the settings that the observation's pings were made with.
-std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const ObservationFiles& observation) {
+/// Settings that the observation's pings were made with: file, index in its transmits.
+std::set<std::pair<std::uint32_t, std::uint16_t>> settings_of(const SurveyFiles& survey,
+                                                              const ObservationFiles& observation) {
   std::set<std::pair<std::uint32_t, std::uint16_t>> sets;
   for (const SurveyPing& ping : observation.pings) {
     for (const SurveyPing& part : survey.parts(ping)) sets.insert({part.file, survey.entry(part).transmit});
   }
+  return sets;
+}
+
+/// Half way between the slowest and the fastest of the observation's pings.
+double middle_sound_speed_mps(const SurveyFiles& survey, ObservationFiles& observation) {
+  SoundSpeeds speeds;
+  for (const auto& [file, transmit] : settings_of(survey, observation)) {
+    speeds.take(survey.files[file].index.transmits[transmit]);
+  }
+  const SoundSpeeds::Span span = speeds.first();
+  if (span.least_mps != span.most_mps) {
+    observation.diagnostics.push_back(
+        {DiagnosticCode::sound_speed_drift, "", -1, -1,
+         fmt::format(
+             "{} to {} m/s; ranges are those of the middle, right to {:.2f} samples at the far end", span.least_mps,
+             span.most_mps,
+             ((span.most_mps - span.least_mps) / (span.most_mps + span.least_mps) + kIndexedShare) * span.samples)});
+  }
+  return (span.least_mps + span.most_mps) / 2.0;
+}
+
+/// Longest rows of each channel.
+std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const ObservationFiles& observation) {
   std::vector<std::int32_t> longest;
-  for (const auto& [file, transmit] : sets) {
+  for (const auto& [file, transmit] : settings_of(survey, observation)) {
     const TransmitSet& set = survey.files[file].index.transmits[transmit];
     longest.resize(std::max(longest.size(), set.size()), 0);
     for (std::size_t c = 0; c < set.size(); ++c) longest[c] = std::max(longest[c], set[c].max_samples);
@@ -154,12 +249,12 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
                                       [](const ChannelTransmit& t) { return t.seen(); });
   // Every ping has a channel, and its setting is in the set.
   SONAR_CHECK(reference != observation.transmit.end());
-  observation.sound_speed_mps = reference->sound_speed_mps;
+  observation.sound_speed_mps = middle_sound_speed_mps(survey, observation);
   observation.sample_interval_s = reference->sample_interval_s;
   observation.pulse_length_s = reference->pulse_length_s;
   const std::vector<std::int32_t> longest = channel_samples(survey, observation);
-  const double spacing = reference->sound_speed_mps * reference->sample_interval_s / 2.0;
-  const double zero = params.range_zero_pulses * reference->sound_speed_mps * reference->pulse_length_s;
+  const double spacing = observation.sound_speed_mps * reference->sample_interval_s / 2.0;
+  const double zero = params.range_zero_pulses * observation.sound_speed_mps * reference->pulse_length_s;
   observation.range = {-zero, spacing, *std::max_element(longest.begin(), longest.end())};
   if (!observation.grid) return;
   const BeamGrid& grid = *observation.grid;

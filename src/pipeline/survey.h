@@ -76,15 +76,15 @@ struct ObservationFiles {
   RangeAxis range;                         ///< of every row; count = the longest channel, first_m = -range_zero
   std::vector<std::int32_t> sample_count;  ///< [fan], longest channel of the fan, offset included; empty without grid
   TransmitSet transmit;                    ///< [channel] of the first ping; frequency NaN where not seen
-  double sound_speed_mps = 0.0;            ///< of the first ping's first channel, and so are the next two
+  double sound_speed_mps = 0.0;            ///< middle of all pings', of the first channel, as are the next two
   double sample_interval_s = 0.0;
   double pulse_length_s = 0.0;
   std::vector<PingNavigation> navigation;  ///< [ping_index]
   Talkers talkers;
   double gps_minus_clock_s = 0.0;  ///< median; NaN = unknown
-  bool continues_cut = false;      ///< begun only because the one before reached observation_max_s
-  TimeNs cut_after = 0;            ///< datagram time of the ping before such a cut; 0 = no cut
-  Diagnostics diagnostics;         ///< of the observation; those of its files are in their indexes
+  bool continues_cut = false;  ///< begun only because the one before reached observation_max_s or sound speed drifted
+  TimeNs cut_after = 0;        ///< datagram time of the ping before such a cut; 0 = no cut
+  Diagnostics diagnostics;     ///< of the observation; those of its files are in their indexes
 
   [[nodiscard]] Sector sector() const { return grid->sector(range); }  ///< only with a grid
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/simrad/test_bytes.h"
 #include "pipeline/load_volume.h"
@@ -249,9 +250,60 @@ TEST(Survey, ChangedSettingsBeginAnObservation) {
   };
   EXPECT_EQ(observations({.interval_s = 0.001F}), 2U);
   EXPECT_EQ(observations({.pulse_s = 0.001F}), 2U);
-  EXPECT_EQ(observations({.sound_speed_mps = 1480.0F}), 2U);
+  // By hand: of 600 samples the last moves by 600 (1500 / 1480 - 1) = 8.1; of 4 it stays where it is.
+  EXPECT_EQ(observations({.sound_speed_mps = 1480.0F, .offset = 596}), 2U);
+  EXPECT_EQ(observations({.sound_speed_mps = 1480.0F}), 1U);
   EXPECT_EQ(observations({.power_w = 5.0F}), 1U);
   EXPECT_EQ(observations({.sound_speed_mps = 1500.1F}), 1U);
+}
+
+/// Pings of 1320 samples a row, each with the sound speed that it is given.
+template <class SoundSpeed>
+SurveyFiles drifting(int pings, SoundSpeed sound_speed_mps) {
+  const test::TemporaryFolder folder;
+  Bytes bytes = test::con0(test::small_ms70(), kStart);
+  for (int i = 0; i < pings; ++i) {
+    bytes.add(test::small_ping(kStart + i * kSecondNs,
+                               {.sound_speed_mps = static_cast<float>(sound_speed_mps(i)), .offset = 1316}));
+  }
+  folder.write("a.raw", bytes);
+  return opened(folder);
+}
+
+/// Law: whichever axis the observation has, it tells where the farthest sample of each ping lies to half a sample.
+template <class SoundSpeed>
+void expect_right_ranges(const SurveyFiles& survey, SoundSpeed sound_speed_mps) {
+  int ping = 0;
+  for (const ObservationFiles& o : survey.observations) {
+    for (std::size_t i = 0; i < o.pings.size(); ++i, ++ping) {
+      const double spacing_m = sound_speed_mps(ping) * 0.0005 / 2.0;
+      const double range_m = 1319.0 * spacing_m - sound_speed_mps(ping) * 0.002 / 4.0;
+      EXPECT_NEAR(o.range.range_m(1319), range_m, 0.51 * spacing_m) << ping;
+    }
+  }
+}
+
+TEST(Survey, AWaveringSoundSpeedCutsNothing) {
+  const auto wavering = [](int ping) { return 1475.0 + 0.3 * std::sin(ping / 3.0); };
+  const SurveyFiles survey = drifting(60, wavering);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::sound_speed_drift), 1);
+  EXPECT_EQ(count(survey.observations[0].diagnostics, DiagnosticCode::settings_changed), 0);
+  expect_right_ranges(survey, wavering);
+  EXPECT_LE(survey.files[0].index.transmits.size(), 8U);
+}
+
+// By hand: 0.75 samples of 1320 are 0.84 m/s of 1475, so that 4 m/s need five observations or six.
+TEST(Survey, ADriftOfSoundSpeedCutsWhereRangesWouldBeWrong) {
+  const auto drift = [](int ping) { return 1475.0 + 0.1 * ping; };
+  const SurveyFiles survey = drifting(40, drift);
+  EXPECT_GE(survey.observations.size(), 5U);
+  EXPECT_LE(survey.observations.size(), 6U);
+  expect_right_ranges(survey, drift);
+  for (std::size_t i = 1; i < survey.observations.size(); ++i) {
+    EXPECT_TRUE(survey.observations[i].continues_cut);
+    EXPECT_EQ(count(survey.observations[i].diagnostics, DiagnosticCode::settings_changed), 1);
+  }
 }
 
 TEST(Survey, TimeRunningBackBeginsAnObservation) {

@@ -19,7 +19,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 2;
+inline constexpr int kIndexVersion = 3;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {

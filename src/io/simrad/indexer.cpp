@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kMaxTypes = 64;
 constexpr std::size_t kMaxConfigs = 1000;
 constexpr int kMaxUndescribedChannels = 4096;
+// A sound speed that wavers by half a per mille and comes back makes so many sets.
+constexpr std::size_t kMostAlternating = 16;
 // Settings that change at every ping would otherwise cost more than the samples.
 constexpr std::size_t kMaxTransmitEntries = std::size_t{1} << 18;
 
@@ -283,10 +285,11 @@ std::uint16_t Indexer::transmit_of_open_ping() {
       return channel >= set.size() || !set[channel].seen() || same_setting(set[channel], entry.second);
     });
   };
-  // Two settings may alternate from ping to ping.
+  // Settings may alternate from ping to ping, and a sound speed that wavers comes back.
   auto& sets = index_.transmits;
   std::size_t chosen = sets.size();
-  for (std::size_t back = 1; back <= std::min<std::size_t>(4, sets.size()) && chosen == sets.size(); ++back) {
+  for (std::size_t back = 1; back <= std::min<std::size_t>(kMostAlternating, sets.size()) && chosen == sets.size();
+       ++back) {
     if (fits(sets[sets.size() - back])) chosen = sets.size() - back;
   }
   if (chosen == sets.size()) {
