@@ -18,16 +18,17 @@ constexpr std::size_t kMaxTables = 8;
 struct GainPair {
   double gain_db;
   double sa_correction_db;
+  bool matched;  ///< the sounder's table has the pulse
 };
 
 GainPair gain_of(const BeamConfig& beam, double pulse_length_s, double tolerance) {
   for (std::size_t i = 0; i < beam.pulse_length_s.size(); ++i) {
     const double tabled = beam.pulse_length_s[i];
     if (tabled > 0.0 && std::abs(tabled - pulse_length_s) <= tolerance * tabled) {
-      return {beam.gain_table_db[i], beam.sa_correction_table_db[i]};
+      return {beam.gain_table_db[i], beam.sa_correction_table_db[i], true};
     }
   }
-  return {beam.gain_db, 0.0};
+  return {beam.gain_db, 0.0, false};
 }
 
 double absorption_of(const ChannelPing& head, const CalibrationParams& params) {
@@ -121,6 +122,43 @@ CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> he
   return table;
 }
 
+ChannelPing CalibrationTables::first_head(std::size_t channel) const {
+  const ChannelTransmit& sent = observation_.transmit[channel];
+  ChannelPing head;
+  head.channel = static_cast<int>(channel);
+  head.frequency_hz = sent.frequency_hz;
+  head.transmit_power_w = sent.transmit_power_w;
+  head.pulse_length_s = sent.pulse_length_s;
+  head.sound_speed_mps = sent.sound_speed_mps;
+  head.absorption_db_per_m = sent.absorption_db_per_m;
+  return head;
+}
+
+void CalibrationTables::note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const {
+  const auto unmatched = [&](std::size_t channel) {
+    const BeamCalibration* user = user_values(static_cast<int>(channel));
+    const bool given = user != nullptr && std::isfinite(user->gain_db) && std::isfinite(user->sa_correction_db);
+    return !given && !gain_of(observation_.config.beams[channel], observation_.transmit[channel].pulse_length_s,
+                              params_.pulse_tolerance)
+                          .matched;
+  };
+  const auto first = std::find_if(channels.begin(), channels.end(), unmatched);
+  if (first == channels.end()) return;
+  const BeamConfig& beam = observation_.config.beams[*first];
+  std::string tabled;
+  for (const double pulse_s : beam.pulse_length_s) {
+    if (pulse_s > 0.0) tabled += fmt::format("{}{:.6g}", tabled.empty() ? "" : ", ", pulse_s * 1e3);
+  }
+  notes.push_back(
+      {DiagnosticCode::gain_not_matched, "", -1, -1,
+       fmt::format(
+           "{} of {} channels, the first {}: a pulse of {:.6g} ms, the gain table has {}; the beam's own gain of "
+           "{:.6g} dB is taken and no sa correction: Sv may be wrong by some dB, a calibration file mends it",
+           std::count_if(channels.begin(), channels.end(), unmatched), channels.size(), *first,
+           observation_.transmit[*first].pulse_length_s * 1e3, tabled.empty() ? "none" : tabled + " ms",
+           beam.gain_db)});
+}
+
 Diagnostics CalibrationTables::diagnostics() const {
   Diagnostics notes;
   for (const BeamCalibration& beam : params_.beams) {
@@ -130,23 +168,19 @@ Diagnostics CalibrationTables::diagnostics() const {
                      fmt::format("the calibration names channel {}, the grid has 0 to {}; the line changes nothing",
                                  beam.channel, row_of_channel_.size() - 1)});
   }
+  std::vector<std::size_t> sound;
   for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
-    const ChannelTransmit& sent = observation_.transmit[channel];
-    if (!sent.seen() || channel >= observation_.config.beams.size()) continue;
-    ChannelPing head;
-    head.channel = static_cast<int>(channel);
-    head.frequency_hz = sent.frequency_hz;
-    head.transmit_power_w = sent.transmit_power_w;
-    head.pulse_length_s = sent.pulse_length_s;
-    head.sound_speed_mps = sent.sound_speed_mps;
-    head.absorption_db_per_m = sent.absorption_db_per_m;
+    if (!observation_.transmit[channel].seen() || channel >= observation_.config.beams.size()) continue;
+    const ChannelPing head = first_head(channel);
     if (is_sound(channel_calibration(observation_.config.beams[channel], head, params_, user_values(head.channel)))) {
+      sound.push_back(channel);
       continue;
     }
     notes.push_back(
         {DiagnosticCode::not_calibrated, "", -1, -1,
          fmt::format("channel {}: gain, power, pulse, frequency or beam angle is missing; not used", channel)});
   }
+  note_unmatched_gains(sound, notes);
   return notes;
 }
 

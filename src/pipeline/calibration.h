@@ -35,12 +35,15 @@ class CalibrationTables {
 
   /// heads  RAW0 heads of a ping; a channel without one, or whose calibration is not sound, has kNoData in its row
   [[nodiscard]] Table of(std::span<const ChannelPing> heads);
-  /// Channels that cannot be calibrated, from the observation's first settings; each named once.
+  /// From the observation's first settings: channels that cannot be calibrated, each named once, and whether pulses are
+  /// in the gain tables.
   [[nodiscard]] Diagnostics diagnostics() const;
 
  private:
   [[nodiscard]] Table make(std::span<const ChannelPing> heads) const;
   [[nodiscard]] const BeamCalibration* user_values(int channel) const;
+  [[nodiscard]] ChannelPing first_head(std::size_t channel) const;
+  void note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const;
 
   const ObservationFiles& observation_;
   CalibrationParams params_;

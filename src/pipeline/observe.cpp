@@ -159,7 +159,8 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
 /// Under a calibration that a human chose: the product says what it was measured with.
 Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
-    return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused;
+    return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused ||
+           note.code == DiagnosticCode::gain_not_matched;
   });
   product.recipe_json = recipe_text(engine.recipe());
   product.recipe_hash = recipe_hash(engine.recipe());
