@@ -104,6 +104,10 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
   command.grow.tolerance_db = in_db ? arguments.tolerance_db : arguments.tolerance_opacity * slope;
   command.grow.tolerance_opacity = in_db ? arguments.tolerance_db / slope : arguments.tolerance_opacity;
   command.tracked.tolerance_db = command.grow.tolerance_db;
+  // What is selected with all 26 neighbours is followed with them.
+  if (command.grow.connectivity == Connectivity::all) {
+    command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
+  }
   for (auto valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
     if (!valid) return pass_on(valid);
   }

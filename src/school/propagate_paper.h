@@ -14,6 +14,7 @@
 #include "model/mask.h"
 #include "model/transfer_function.h"
 #include "school/filtered_ping.h"
+#include "school/grow.h"
 #include "school/runs.h"
 
 namespace sonar {
@@ -33,6 +34,7 @@ void describe(Visitor& v, PaperPropagationParams& p) {
           {.unit = "beams", .min = 0, .max = 1000, .text = "growth of the bounding volume per ping, each side"});
   v.field("enlarge_samples", p.enlarge_samples,
           {.unit = "samples", .min = 0, .max = 100000, .text = "growth of the bounding volume per ping, each side"});
+  v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
 }
 
 /// A school in one ping.

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One click on a school of the truth, in both modes."""
+import json
+
 import sonarx
 from sonarx import SURVEY, TRUTH, Case
 
@@ -57,6 +59,17 @@ class Propagate(Case):
                 self.assertEqual(len(rows), int(schools[0]["n_pings"]))
                 if mode == "tracked":
                     self.assertGreaterEqual(len(rows), pings // 2)
+
+    def test_what_is_grown_with_26_neighbours_is_followed_with_them(self):
+        place, _ = seed()
+        recipe = self.fresh("propagate-26-recipe") / "r.json"
+        recipe.write_text('{"recipe_version": 1, "grow": {"connectivity": "26"}}')
+        out = self.fresh("propagate-26")
+        self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, "--tolerance-db", "10", "--recipe",
+                    recipe, "--reach", "1", "--out", out)
+        said = json.loads((out / "session.jsonl").read_text().splitlines()[1])["args"]
+        for part in ("grow", "propagate_paper", "propagate_tracked"):
+            self.assertEqual(said[part]["connectivity"], "26")
 
     def test_a_seed_in_the_sea_is_refused_in_one_line(self):
         out = self.fresh("propagate-sea")

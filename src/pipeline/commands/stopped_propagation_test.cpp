@@ -31,6 +31,47 @@ CommandGround with_a_gap(const SmallSea& sea) {
   return ground;
 }
 
+/// The sea with one more voxel of A, which touches it at a corner alone: 73 voxels by 26 neighbours, 72 by 6.
+CommandGround with_a_corner(const SmallSea& sea) {
+  CommandGround ground = sea.ground();
+  auto corner = std::make_shared<Volume>(*sea.volume);
+  corner->counts(kA.last_fan + 1, kA.last_beam + 1, kA.last_sample + 1) =
+      static_cast<std::int16_t>(counts_from_db(-40.0));
+  ground.ping = [whole = ground.ping, corner = std::shared_ptr<const Volume>(corner)](std::int64_t ping_index) {
+    auto ping = whole(ping_index);
+    ping->volume = corner;
+    return ping;
+  };
+  return ground;
+}
+
+// Saved, loaded and replayed a click with 26 neighbours gives what it gave; a line of a journal that was written before
+// the paper's propagation named its neighbours replays as it did, with 6.
+TEST(Replay, KeepsTheNeighboursOfBothModes) {
+  const SmallSea sea;
+  for (const GrowMode mode : {GrowMode::tracked, GrowMode::paper}) {
+    PropagateCommand command = propagate_from(seed_a());
+    command.mode = command.grow.mode = mode;
+    command.grow.connectivity = command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
+    command.paper.enlarge_fans = command.paper.enlarge_beams = 1;
+    command.paper.enlarge_samples = 10;
+    const auto voxels = [&](const JournalLine& said, std::size_t ping) {
+      const auto masks = measured_masks_of(fold({&said, 1}, {}, with_a_corner(sea)), with_a_corner(sea).times);
+      return masks.size() == 1 && masks[0].pings.size() == kPings ? masks[0].pings[ping].mask.voxels() : 0;
+    };
+    const auto act = act_of(line(1, 4, command));
+    ASSERT_TRUE(act);
+    for (const std::size_t ping : {std::size_t{0}, std::size_t{4}, std::size_t{8}}) {
+      EXPECT_EQ(voxels(line_of(*act), ping), 73U) << ping;
+    }
+    if (mode == GrowMode::tracked) continue;
+    JournalLine old = line(1, 4, command);
+    old.args["propagate_paper"].erase("connectivity");
+    EXPECT_EQ(voxels(old, 4), 73U);
+    EXPECT_EQ(voxels(old, 5), 72U);
+  }
+}
+
 /// Propagations from ping 4 both ways: in both modes, new and carried on, whole and with a reach.
 std::vector<PropagateCommand> propagations() {
   PropagateCommand tracked = propagate_from(seed_a());
