@@ -21,6 +21,7 @@ int run_merge(const std::string& out) {
   const auto merged = merge_folder(out, {}, work);
   clear_progress();
   if (!merged) return report(merged.error());
+  for (const std::string& line : note_lines(*merged)) fmt::print(stderr, "{}\n", line);
   fmt::print("{}", merge_text(*merged, out));
   for (const MergeFailure& failure : merged->failures) {
     fmt::print(stderr, "sonarx: {}: {}\n", failure.observation, failure.text);

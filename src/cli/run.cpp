@@ -175,7 +175,8 @@ int finish(const Opened& opened, const RunOptions& options, RunReport report, Wo
   clear_progress();
   print_failures(opened.survey, report);
   if (!merged) return sonar::report(merged.error());
-  fmt::print("{}", *merged);
+  for (const std::string& line : note_lines(*merged)) fmt::print(stderr, "{}\n", line);
+  fmt::print("{}", merge_text(*merged, options.out));
   if (report.failures.empty()) return kExitDone;
   return report.done.empty() && report.skipped.empty() ? kExitFailed : kExitPartly;
 }

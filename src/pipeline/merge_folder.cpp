@@ -245,13 +245,31 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   return text;
 }
 
-Result<std::string> merge_after(const fs::path& out, const RunReport& run, Work& work,
+std::vector<std::string> note_lines(const MergeReport& report) {
+  std::vector<std::string> lines;
+  for (const ObservationProduct& product : report.survey.observations) {
+    std::map<DiagnosticCode, std::pair<const Diagnostic*, std::size_t>> by_code;
+    for (const Diagnostic& note : product.diagnostics) {
+      if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::propagation_ended) continue;
+      auto& [first, count] = by_code[note.code];
+      if (count++ == 0) first = &note;
+    }
+    for (const auto& [code, said] : by_code) {
+      const auto& [first, count] = said;
+      const std::string what =
+          to_line({ErrorCode::format, first->text, {first->file, first->offset, first->ping_index}});
+      const std::string more = count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string{};
+      lines.push_back(fmt::format("note {}: {}: {}{}", name(code), product.observation, what, more));
+    }
+  }
+  return lines;
+}
+
+Result<MergeReport> merge_after(const fs::path& out, const RunReport& run, Work& work,
                                 const std::optional<std::string>& only) {
   std::vector<MergeFailure> failures;
   for (const RunFailure& failure : run.failures) failures.push_back({failure.observation, to_line(failure.error)});
-  const auto report = merge_folder(out, std::move(failures), work, only);
-  if (!report) return pass_on(report);
-  return merge_text(*report, out);
+  return merge_folder(out, std::move(failures), work, only);
 }
 
 }  // namespace sonar

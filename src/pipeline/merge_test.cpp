@@ -50,6 +50,20 @@ ObservationProduct after_cut() {
   return p;
 }
 
+TEST(Merge, tells_each_code_once_an_observation) {
+  MergeReport report;
+  report.survey.observations = {before_cut(), after_cut()};
+  report.survey.observations[0].diagnostics = {{DiagnosticCode::track_event, "", -1, 3, "school 1 appeared"},
+                                               {DiagnosticCode::file_truncated, "a.raw", 700, -1, "cut"},
+                                               {DiagnosticCode::no_grid, "", -1, -1, "one fan"},
+                                               {DiagnosticCode::file_truncated, "b.raw", 9, -1, "cut"}};
+  report.survey.observations[1].diagnostics = {{DiagnosticCode::no_position, "", -1, 4, "6 of 10 pings"}};
+  EXPECT_THAT(
+      note_lines(report),
+      testing::ElementsAre("note file-truncated: obs-0001: a.raw: byte 700: cut (and 1 more)",
+                           "note no-grid: obs-0001: one fan", "note no-position: obs-0002: ping 4: 6 of 10 pings"));
+}
+
 TEST(Merge, follows_a_school_over_a_cut) {
   const auto survey = merge({before_cut(), after_cut()});
   ASSERT_TRUE(survey) << to_line(survey.error());

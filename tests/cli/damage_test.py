@@ -39,6 +39,18 @@ class Damage(Case):
         self.assertGreaterEqual(file["pings"], self.info(self.raw)["files"][0]["pings"] - 1)
         self.sonarx("run", folder, "--out", self.fresh("flipped-out"))
 
+    def test_a_run_says_what_is_wrong_with_its_data_and_a_merge_again(self):
+        folder, out = self.fresh("cut-short"), self.fresh("cut-short-out")
+        data = self.raw.read_bytes()
+        (folder / self.raw.name).write_bytes(data[:len(data) - 7])
+        for arguments in (("run", folder, "--out", out, "--pings", "0:1"), ("merge", out)):
+            code, text, err = run(*arguments)
+            self.assertEqual(code, 0, err)
+            self.assertEqual([line for line in err.splitlines() if line.startswith("note file-truncated: obs-0001: ")],
+                             err.splitlines())
+            self.assertEqual(len(err.splitlines()), 1)
+            self.assertNotIn("note", text)
+
     def test_a_file_that_is_no_raw_file_is_listed_and_costs_exit_code_three(self):
         folder = self.fresh("junk")
         shutil.copy(self.raw, folder)
