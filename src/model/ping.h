@@ -37,10 +37,16 @@ struct ChannelPing {
   double temperature_c = 0.0;
   double heading_deg = 0.0;  ///< 0 = absent
   int mode = 0;
+  int transmit_mode = 0;                      ///< 0 active, 1 passive, 2 test, -1 unknown
   int offset = 0;                             ///< index of the first stored sample
   std::span<const std::int16_t> power_count;  ///< [stored sample], 10 log10(2)/256 dB re 1 W; little-endian as stored
   std::optional<ReducedRow> reduced;          ///< only in reduced files
 };
+
+/// Whether the channel listened only, or to a test signal: what it holds is no echo.
+[[nodiscard]] inline bool is_silent(const ChannelPing& channel) {
+  return channel.transmit_mode == 1 || channel.transmit_mode == 2;
+}
 
 /// A whole ping, with the bytes that its channels' spans point into. Values never change once published.
 struct Ping {

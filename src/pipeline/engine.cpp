@@ -103,7 +103,7 @@ Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, 
   work.for_each(to - from + 1, [&](std::int64_t i) {
     auto& estimated = estimates_[static_cast<std::size_t>(from + i)];
     auto& given = given_[static_cast<std::size_t>(from + i)];
-    if (estimated.empty() && given.empty()) {
+    if (estimated.empty() && given.empty() && !is_bad(from + i)) {
       const auto loaded = power(from + i);
       if (loaded && is_reduced((*loaded)->heads)) {
         given = reduced_background_db((*loaded)->heads, grid().row_of_channel());
@@ -144,10 +144,10 @@ void Engine::flag(std::int64_t ping_index, const PowerVolume& power, Volume& vol
   NeighbourPings neighbours;
   Power before;
   Power after;
-  if (recipe_.flags.impulse.enabled && ping_index > 0) {
+  if (recipe_.flags.impulse.enabled && ping_index > 0 && !is_bad(ping_index - 1)) {
     if (auto loaded = this->power(ping_index - 1)) before = *loaded;
   }
-  if (recipe_.flags.impulse.enabled && ping_index + 1 < pings()) {
+  if (recipe_.flags.impulse.enabled && ping_index + 1 < pings() && !is_bad(ping_index + 1)) {
     if (auto loaded = this->power(ping_index + 1)) after = *loaded;
   }
   if (before) neighbours.before = before->volume.counts.view();
@@ -214,6 +214,7 @@ Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {
   out.volume = std::move(ping->filtered);
   out.placement = tracking_placement(ping_index);
   out.time = observation_.navigation[static_cast<std::size_t>(ping_index)].time;
+  out.bad = is_bad(ping_index);
   return out;
 }
 

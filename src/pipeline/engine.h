@@ -55,6 +55,10 @@ class Engine {
     return reckoned_.pings[static_cast<std::size_t>(ping_index)];
   }
   [[nodiscard]] const DeadReckoning& reckoned() const { return reckoned_; }
+  /// Whether a ping shows nothing of the sea: no stage looks at it or compares others with it.
+  [[nodiscard]] bool is_bad(std::int64_t ping_index) const {
+    return observation_.navigation[static_cast<std::size_t>(ping_index)].bad;
+  }
   [[nodiscard]] Diagnostics calibration_notes() const { return tables_.diagnostics(); }
 
   /// Estimates the background of pings first .. last (inclusive) and their neighbours; other calls need it.

@@ -130,6 +130,7 @@ CommandGround ground_of(Engine& engine, PingReach limits) {
 
 Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping, std::span<const SeedKey> seeds,
                             const TransferFunction& growth_curve, const GrowParams& params) {
+  if (ping.bad) return fail(ErrorCode::bad_parameter, "the ping was made without transmitting; it shows no school");
   const std::vector<int> rows = ground.grid->row_of_channel();
   PingMask selection;
   for (const SeedKey& seed : seeds) {

@@ -276,6 +276,26 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
   }
 }
 
+/// Marks pings none of whose channels transmitted.
+void mark_silent_pings(const SurveyFiles& survey, ObservationFiles& observation) {
+  std::int64_t silent = 0;
+  std::int64_t first = -1;
+  for (std::size_t i = 0; i < observation.pings.size(); ++i) {
+    const std::vector<SurveyPing> parts = survey.parts(observation.pings[i]);
+    const bool is_silent = std::all_of(parts.begin(), parts.end(), [&](const SurveyPing& part) {
+      return survey.entry(part).silent_channels >= survey.entry(part).channels;
+    });
+    if (!is_silent) continue;
+    observation.navigation[i].bad = true;
+    if (silent++ == 0) first = static_cast<std::int64_t>(i);
+  }
+  if (silent == 0) return;
+  observation.diagnostics.push_back(
+      {DiagnosticCode::passive_pings, "", -1, first,
+       fmt::format("{} of {} pings were made without transmitting, or as a test; they are bad, the first here", silent,
+                   observation.pings.size())});
+}
+
 }  // namespace
 
 Hash128 identity(const SounderConfig& config) {
@@ -341,6 +361,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   }
   Navigation placed = navigate(series, motions, observation.config, navigation);
   observation.navigation = std::move(placed.pings);
+  if (!params.use_passive_pings) mark_silent_pings(survey, observation);
   observation.talkers = std::move(placed.talkers);
   observation.gps_minus_clock_s = placed.gps_minus_clock_s;
   for (Diagnostic& note : placed.diagnostics) observation.diagnostics.push_back(std::move(note));

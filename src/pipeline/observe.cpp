@@ -51,6 +51,7 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     detected.ping_index = ping_index;
     detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
     detected.placement = engine.tracking_placement(ping_index);
+    if (engine.is_bad(ping_index)) return;
     auto ping = engine.staged(ping_index);
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
@@ -67,6 +68,8 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     product.pings[static_cast<std::size_t>(pings[i].ping_index)].bad = true;
     product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, pings[i].ping_index, problems[i]});
   }
+  // To the tracker such a ping never was: that no school shows there says nothing.
+  std::erase_if(pings, [&](const DetectedPing& ping) { return engine.is_bad(ping.ping_index); });
   return pings;
 }
 

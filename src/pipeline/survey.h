@@ -34,6 +34,7 @@ struct SurveyParams {
   double observation_max_s = 3600.0;
   double range_zero_pulses = 0.25;
   double grid_tolerance_deg = 0.05;
+  bool use_passive_pings = false;
   friend bool operator==(const SurveyParams&, const SurveyParams&) = default;
 };
 
@@ -50,6 +51,8 @@ void describe(Visitor& v, SurveyParams& p) {
            .text = "How much of the pulse's length in water is taken off every range; 0.25 = c tau / 4."});
   v.field("grid_tolerance_deg", p.grid_tolerance_deg,
           {.unit = "deg", .min = 0, .max = 5, .text = "Beam directions closer than this are one fan or one azimuth."});
+  v.field("use_passive_pings", p.use_passive_pings,
+          {.text = "Take pings made without transmitting, or as a test, like all others; else they are bad."});
 }
 
 /// One file of the survey. The name may be that of a file that could not be opened; then error says why.

@@ -257,6 +257,25 @@ TEST(Survey, ChangedSettingsBeginAnObservation) {
   EXPECT_EQ(observations({.sound_speed_mps = 1500.1F}), 1U);
 }
 
+TEST(Survey, PingsMadeWithoutTransmittingAreBad) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(2)
+                            .add(test::small_ping(kStart + 2 * kSecondNs, {.transmit_mode = 1}))
+                            .add(test::small_ping(kStart + 3 * kSecondNs, {.transmit_mode = 2}))
+                            .add(test::small_ping(kStart + 4 * kSecondNs, {.transmit_mode = -1}))
+                            // One channel that listens makes no ping of it.
+                            .add(test::raw0(kStart + 5 * kSecondNs, {.channel = 1, .transmit_mode = 1}, {1, 2, 3, 4}))
+                            .add(test::raw0(kStart + 5 * kSecondNs, {.channel = 2}, {1, 2, 3, 4})));
+  for (const bool use : {false, true}) {
+    const SurveyFiles survey = opened(folder, {.use_passive_pings = use});
+    ASSERT_EQ(survey.observations.size(), 1U);
+    const ObservationFiles& o = survey.observations[0];
+    ASSERT_EQ(o.navigation.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(o.navigation[i].bad, !use && (i == 2 || i == 3)) << i;
+    EXPECT_EQ(count(o.diagnostics, DiagnosticCode::passive_pings), use ? 0 : 1);
+  }
+}
+
 /// Pings of 1320 samples a row, each with the sound speed that it is given.
 template <class SoundSpeed>
 SurveyFiles drifting(int pings, SoundSpeed sound_speed_mps) {

@@ -18,7 +18,8 @@ struct FilteredPing {
   std::shared_ptr<const Volume> volume;  ///< median-filtered Sv counts, and the flags (seabed included)
   Placement placement;
   TimeNs time = 0;
-  PingMask taken;  ///< voxels that already belong to other schools; may be empty
+  PingMask taken;    ///< voxels that already belong to other schools; may be empty
+  bool bad = false;  ///< shows nothing of the sea: passed over
 };
 
 /// Ping index -> its filtered volume, made when asked for.

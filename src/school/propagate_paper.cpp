@@ -84,6 +84,13 @@ std::string follow(const PingProvider& pings, std::int64_t clicked, int step, co
     const auto stop = [&](std::string_view why) { return fmt::format("stopped at ping {}: {}", i, why); };
     const Result<FilteredPing> ping = pings(i);
     if (!ping) return stop(ping.error().text);
+    if (ping->bad) {
+      if (on_step && !on_step(i, PingMask{})) {
+        result.stopped_at = i;
+        break;
+      }
+      continue;
+    }
     const View3<const std::int16_t> sv = ping->volume->counts.view();
     const View3<const SampleFlags> flags = ping->volume->flags.view();
     const IndexBox box = box_of(previous, beams).enlarged(p.enlarge_fans, p.enlarge_beams, p.enlarge_samples);

@@ -68,6 +68,13 @@ class Follower {
       const Result<FilteredPing> ping = pings(i);
       if (!ping) return fmt::format("stopped at ping {}: {}", i, ping.error().text);
       if (!fits(*ping)) return fmt::format("stopped at ping {}: another grid", i);
+      if (ping->bad) {
+        if (on_step_ && !on_step_(i, PingMask{})) {
+          result.stopped_at = i;
+          break;
+        }
+        continue;
+      }
       motion.predict(elapsed(predicted_at, ping->time), params_.acceleration_mps2);
       predicted_at = ping->time;
       const PingFrame here(ping->placement, origin_);

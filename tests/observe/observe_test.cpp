@@ -158,6 +158,48 @@ TEST_F(Observe, AGapInTheNavigationBreaksNoTrack) {
   }
 }
 
+// Pings that were made without transmitting are passed over: no rows there, and no track that ends at them.
+TEST_F(Observe, SilentPingsAreNeitherMeasuredNorInTheWay) {
+  ObservationFiles listening = observation();
+  const auto silent = [](std::int64_t ping_index) { return ping_index % 4 == 3; };
+  for (std::size_t i = 0; i < listening.navigation.size(); ++i) {
+    listening.navigation[i].bad = silent(static_cast<std::int64_t>(i));
+  }
+  Work work(2);
+  const auto product = observe(*survey_, listening, {}, {{}, {}, "test"}, work);
+  ASSERT_TRUE(product);
+  EXPECT_EQ(product->schools.size(), product_->schools.size());
+  std::map<std::int64_t, std::size_t> rows;
+  for (const SchoolPingRow& row : product->school_pings) {
+    EXPECT_FALSE(silent(row.ping_index));
+    ++rows[row.ping_index];
+  }
+  std::map<std::int64_t, std::size_t> heard;
+  for (const SchoolPingRow& row : product_->school_pings) {
+    if (!silent(row.ping_index)) ++heard[row.ping_index];
+  }
+  EXPECT_EQ(rows, heard);
+  Recipe by_hand;
+  by_hand.automatic = false;
+  for (const GrowMode mode : {GrowMode::tracked, GrowMode::paper}) {
+    JournalLine line = click(mode);
+    const auto clicked = ping_at(*survey_, listening, line.ping_time);
+    ASSERT_TRUE(clicked);
+    for (std::size_t i = 0; i < listening.navigation.size(); ++i) {
+      listening.navigation[i].bad = static_cast<std::int64_t>(i) == *clicked + 1;
+    }
+    const auto carried = observe(*survey_, listening, by_hand, {{}, {&line, 1}, "test"}, work);
+    ASSERT_TRUE(carried);
+    const auto has = [&](std::int64_t ping_index) {
+      return std::any_of(carried->masks.begin(), carried->masks.end(),
+                         [&](const SchoolMask& mask) { return mask.ping_index == ping_index; });
+    };
+    EXPECT_TRUE(has(*clicked));
+    EXPECT_FALSE(has(*clicked + 1));
+    EXPECT_TRUE(has(*clicked + 2));
+  }
+}
+
 TEST_F(Observe, RemeasuringUnderTheSameRecipeChangesNothing) {
   Work work(2);
   const auto again = remeasure(*survey_, observation(), *product_, {}, {{}, {}, "test"}, work);

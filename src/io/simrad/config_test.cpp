@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -143,6 +145,24 @@ TEST(Raw0, FieldsAreWhereTheTableSays) {
   EXPECT_EQ(raw.head.temperature_c, 8.0);
   EXPECT_EQ(raw.count(), 3);
   EXPECT_EQ(raw.end(), 10);
+}
+
+// In old files two 16-bit flags stand where newer ones have the heading, and a float where the transmit mode is.
+TEST(Raw0, TrawlDataOfOldFilesAreNoHeadingAndNoMode) {
+  const auto head = [](float heading_deg, int transmit_mode) {
+    const auto bytes = test::raw0(test::kStart, {.heading_deg = heading_deg, .transmit_mode = transmit_mode}, {1});
+    return parse_raw0(body_of(bytes)).head;
+  };
+  for (const std::uint32_t flags : {0x00000001U, 0x00010000U, 0x00010001U}) {
+    EXPECT_EQ(head(std::bit_cast<float>(flags), 1).heading_deg, 0.0);
+    EXPECT_EQ(head(std::bit_cast<float>(flags), 1).transmit_mode, -1);
+  }
+  EXPECT_EQ(head(90.0F, 7).heading_deg, 0.0);
+  EXPECT_EQ(head(90.0F, 7).transmit_mode, -1);
+  EXPECT_EQ(head(90.0F, 1).heading_deg, 90.0);
+  EXPECT_TRUE(is_silent(head(90.0F, 1)));
+  EXPECT_TRUE(is_silent(head(0.0F, 2)));
+  EXPECT_FALSE(is_silent(head(0.0F, 0)));
 }
 
 TEST(Raw0, TrawlDataOfOldFilesAreNoHeading) {

@@ -19,7 +19,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 3;
+inline constexpr int kIndexVersion = 4;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {
@@ -63,9 +63,10 @@ struct PingEntry {
   float transducer_depth_m = 0.0F;
   std::int32_t min_samples = 0;  ///< over its channels, stored samples
   std::int32_t max_samples = 0;
-  std::uint16_t channels = 0;  ///< how many channels it has
-  std::uint16_t config = 0;    ///< index in RawIndex::configs
-  std::uint16_t transmit = 0;  ///< index in RawIndex::transmits
+  std::uint16_t channels = 0;         ///< how many channels it has
+  std::uint16_t silent_channels = 0;  ///< how many of them did not transmit, or a test signal
+  std::uint16_t config = 0;           ///< index in RawIndex::configs
+  std::uint16_t transmit = 0;         ///< index in RawIndex::transmits
 };
 static_assert(sizeof(PingEntry) < 100);
 

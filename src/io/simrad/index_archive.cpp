@@ -160,6 +160,7 @@ void fields(auto& io, Is<PingEntry> auto& p) {
   io(p.min_samples);
   io(p.max_samples);
   io(p.channels);
+  io(p.silent_channels);
   io(p.config);
   io(p.transmit);
 }

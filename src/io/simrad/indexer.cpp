@@ -268,6 +268,7 @@ void Indexer::take_raw0(const Datagram& datagram) {
   ping_.min_samples = std::min(ping_.min_samples, raw.count());
   ping_.max_samples = std::max(ping_.max_samples, raw.count());
   ++ping_.channels;
+  if (is_silent(raw.head)) ++ping_.silent_channels;
   ping_transmit_.emplace_back(raw.head.channel, transmit_of(raw));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 
 #include "io/simrad/fields.h"
 
@@ -71,9 +72,13 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
   const auto transmit_mode = number_at<std::int16_t>(body, 56);
   head.offset = number_at<std::int32_t>(body, 64);
   const auto count = number_at<std::int32_t>(body, 68);
-  // Old files have trawl data in these bytes.
-  if (!(head.heading_deg >= 0.0 && head.heading_deg < 360.0) || transmit_mode < -1 || transmit_mode > 2) {
+  head.transmit_mode = transmit_mode;
+  // Old files have trawl data in these bytes; two flags of 0 or 1 make a heading that is 0 or next to it.
+  const bool trawl =
+      head.heading_deg != 0.0 && head.heading_deg < static_cast<double>(std::numeric_limits<float>::min());
+  if (trawl || !(head.heading_deg >= 0.0 && head.heading_deg < 360.0) || transmit_mode < -1 || transmit_mode > 2) {
     head.heading_deg = 0.0;
+    head.transmit_mode = -1;
   }
   for (double* value : {&head.heave_m, &head.roll_deg, &head.pitch_deg, &head.transducer_depth_m}) {
     if (std::isnan(*value) || std::abs(*value) > 1000.0) {

@@ -131,7 +131,7 @@ Result<void> append_raw0(RawBytes& out, TimeNs time, const ChannelPing& p) {
   put_f32s(out, std::array{p.transducer_depth_m, p.frequency_hz, p.transmit_power_w, p.pulse_length_s, p.bandwidth_hz,
                            p.sample_interval_s, p.sound_speed_mps, p.absorption_db_per_m, p.heave_m, p.roll_deg,
                            p.pitch_deg, p.temperature_c, p.heading_deg});
-  put(out, std::int16_t{0});  // transmit mode: active
+  put(out, static_cast<std::int16_t>(p.transmit_mode));
   put(out, std::int16_t{0});
   put_f32(out, 0.0);
   put(out, static_cast<std::int32_t>(p.offset));
