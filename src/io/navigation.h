@@ -19,6 +19,7 @@ namespace sonar {
 
 enum class HeaveSign { off, down, up };
 enum class LeverArmSource { none, con0, settings };
+enum class BeamAzimuthSense { clockwise, anticlockwise };
 
 /// How the ship's sentences become the transducer's place.
 struct NavigationParams {
@@ -30,6 +31,7 @@ struct NavigationParams {
   double lever_arm_y_m = 0.0;
   double lever_arm_z_m = 0.0;
   double mounting_azimuth_deg = 270.0;
+  BeamAzimuthSense beam_azimuth_sense = BeamAzimuthSense::clockwise;
   double fix_limit_s = 30.0;
   double log_limit_s = 900.0;
   std::string position_talker;
@@ -42,6 +44,8 @@ struct NavigationParams {
 
 inline constexpr std::array<std::string_view, 3> kHeaveSignNames{"off", "down", "up"};
 inline constexpr std::array<std::string_view, 3> kLeverArmSourceNames{"none", "con0", "settings"};
+
+inline constexpr std::array<std::string_view, 2> kBeamAzimuthSenseNames{"clockwise", "anticlockwise"};
 
 template <class Visitor>
 void describe(Visitor& v, NavigationParams& p) {
@@ -61,6 +65,9 @@ void describe(Visitor& v, NavigationParams& p) {
           {.unit = "m", .min = -500, .max = 500, .text = "Antenna to transducer, downwards."});
   v.field("mounting_azimuth_deg", p.mounting_azimuth_deg,
           {.unit = "deg", .min = 0, .max = 360, .text = "Where the sonar looks, clockwise from the bow; 270 = port."});
+  v.choice("beam_azimuth_sense", p.beam_azimuth_sense, kBeamAzimuthSenseNames,
+           "Which way the file's beam azimuths count from there, seen from above; on a sonar that looks to starboard "
+           "azimuths that count positive to the bow are anticlockwise.");
   v.field(
       "fix_limit_s", p.fix_limit_s,
       {.unit = "s", .min = 0, .max = 3600, .text = "A ping farther than this from any sentence has no such value."});

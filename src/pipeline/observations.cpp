@@ -296,6 +296,13 @@ void mark_silent_pings(const SurveyFiles& survey, ObservationFiles& observation)
                    observation.pings.size())});
 }
 
+/// Beam directions with azimuths that count clockwise, whichever way the file counts them.
+SounderConfig with_sense(SounderConfig config, BeamAzimuthSense sense) {
+  if (sense == BeamAzimuthSense::clockwise) return config;
+  for (BeamConfig& beam : config.beams) beam.direction_deg[1] = -beam.direction_deg[1];
+  return config;
+}
+
 }  // namespace
 
 Hash128 identity(const SounderConfig& config) {
@@ -339,7 +346,8 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   const RawIndex& first_index = survey.files[first.file].index;
   observation.config = first_index.configs[survey.entry(first).config];
   observation.transmit = transmit_of(survey, first);
-  auto grid = derive_beam_grid(observation.config, navigation.mounting_azimuth_deg, params.grid_tolerance_deg);
+  auto grid = derive_beam_grid(with_sense(observation.config, navigation.beam_azimuth_sense),
+                               navigation.mounting_azimuth_deg, params.grid_tolerance_deg);
   if (grid) {
     observation.grid = std::move(*grid);
   } else {

@@ -257,6 +257,33 @@ TEST(Survey, ChangedSettingsBeginAnObservation) {
   EXPECT_EQ(observations({.sound_speed_mps = 1500.1F}), 1U);
 }
 
+// formats.md leaves open which way the azimuths of a sonar count that looks to starboard.
+TEST(Survey, BeamAzimuthsCountAsTheSettingSays) {
+  const test::TemporaryFolder folder;
+  test::Con0Spec beams = test::small_ms70();
+  beams.beams.clear();
+  for (const float elevation : {-10.0F, 0.0F}) {
+    for (const float azimuth : {-2.5F, 0.0F, 5.0F}) beams.beams.push_back({100'000.0F, elevation, azimuth, 20.0F});
+  }
+  folder.write("a.raw", test::con0(beams).add(test::small_ping(kStart)));
+  const auto azimuths = [&](double mounting_deg, BeamAzimuthSense sense) {
+    NavigationParams navigation;
+    navigation.mounting_azimuth_deg = mounting_deg;
+    navigation.beam_azimuth_sense = sense;
+    Work work(1);
+    const std::vector<fs::path> paths{folder.path()};
+    const auto survey = open_survey(paths, {}, navigation, IndexCache{}, work);
+    return survey->observations.at(0).grid.value();
+  };
+  const BeamGrid clockwise = azimuths(90.0, BeamAzimuthSense::clockwise);
+  EXPECT_EQ(clockwise.azimuth_deg, (std::vector<double>{87.5, 90.0, 95.0}));
+  EXPECT_EQ(clockwise.channel, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  // +5 degrees to the bow of a sonar that looks to starboard are 85 degrees from the bow.
+  const BeamGrid to_the_bow = azimuths(90.0, BeamAzimuthSense::anticlockwise);
+  EXPECT_EQ(to_the_bow.azimuth_deg, (std::vector<double>{85.0, 90.0, 92.5}));
+  EXPECT_EQ(to_the_bow.channel, (std::vector<int>{2, 1, 0, 5, 4, 3}));
+}
+
 TEST(Survey, PingsMadeWithoutTransmittingAreBad) {
   const test::TemporaryFolder folder;
   folder.write("a.raw", test::small_file(2)
