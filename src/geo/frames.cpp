@@ -25,6 +25,21 @@ Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad) {
   return {p.x * cp + z * sp, y, -p.x * sp + z * cp};
 }
 
+Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement) {
+  if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
+  return level(Point<Vessel>{p.x, p.y, p.z}, placement.roll_rad, placement.pitch_rad);
+}
+
+Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement) {
+  if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
+  const double cr = std::cos(placement.roll_rad);
+  const double sr = std::sin(placement.roll_rad);
+  const double cp = std::cos(placement.pitch_rad);
+  const double sp = std::sin(placement.pitch_rad);
+  const double z = p.x * sp + p.z * cp;
+  return {p.x * cp - p.z * sp, p.y * cr + z * sr, -p.y * sr + z * cr};
+}
+
 double wrap_360(double deg) {
   const double wrapped = deg - 360.0 * std::floor(deg / 360.0);
   return wrapped >= 360.0 ? 0.0 : wrapped;

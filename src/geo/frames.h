@@ -39,6 +39,8 @@ struct Placement {
   Geographic transducer;
   double heading_rad = 0.0;         ///< clockwise from true north
   double transducer_depth_m = 0.0;  ///< below the mean water line, heave included where it applies
+  double roll_rad = 0.0;            ///< of beams that are fixed to the hull, positive port up; 0 = stabilised beams
+  double pitch_rad = 0.0;           ///< the same, positive bow up
 };
 
 /// Turns by heading only (roll and pitch are already out of the sonar frame).
@@ -47,6 +49,11 @@ struct Placement {
 
 /// Full attitude: roll positive port up (starboard down), pitch positive bow up; radians.
 [[nodiscard]] Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad);
+
+/// Where a place in the sector lies once the beams are turned by the placement's roll and pitch; stabilised beams stay.
+[[nodiscard]] Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement);
+/// The other way.
+[[nodiscard]] Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement);
 
 /// Wraps to [0, 360).
 [[nodiscard]] double wrap_360(double deg);

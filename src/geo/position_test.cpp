@@ -78,5 +78,31 @@ TEST(Position, LongitudeOnlyShifts) {
   }
 }
 
+// Beams fixed to the hull, by hand: rolled port up by 30 degrees a level beam to port rises, and 100 m along it lie 50 m
+// higher and 86.60 m to port; pitched bow up by 30 degrees a level beam to the bow does the same ahead.
+TEST(Position, BeamsOfTheHullTurnWithRollAndPitch) {
+  Placement ship{{60.0, 5.0}, 0.0, 7.0};
+  EXPECT_EQ(levelled({10.0, -20.0, 30.0}, ship), (Point<Sonar>{10.0, -20.0, 30.0}));
+  ship.roll_rad = 30.0 * kDegree;
+  const Point<Sonar> port = levelled({0.0, -100.0, 0.0}, ship);
+  EXPECT_NEAR(port.x, 0.0, 1e-9);
+  EXPECT_NEAR(port.y, -86.60254, 1e-5);
+  EXPECT_NEAR(port.z, -50.0, 1e-9);
+  // Straight down in the hull is to port below: 100 sin 30 to port.
+  EXPECT_NEAR(levelled({0.0, 0.0, 100.0}, ship).y, -50.0, 1e-9);
+  ship.roll_rad = 0.0;
+  ship.pitch_rad = 30.0 * kDegree;
+  const Point<Sonar> ahead = levelled({100.0, 0.0, 0.0}, ship);
+  EXPECT_NEAR(ahead.x, 86.60254, 1e-5);
+  EXPECT_NEAR(ahead.z, -50.0, 1e-9);
+}
+
+TEST(Position, LevellingGoesThereAndBack) {
+  Placement ship{{60.0, 5.0}, 1.0, 7.0, 0.2, -0.1};
+  const Point<Sonar> p{30.0, -80.0, 45.0};
+  EXPECT_NEAR(norm(unlevelled(levelled(p, ship), ship) - p), 0.0, 1e-9);
+  EXPECT_NEAR(norm(levelled(p, ship)), norm(p), 1e-9);
+}
+
 }  // namespace
 }  // namespace sonar

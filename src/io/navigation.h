@@ -32,6 +32,7 @@ struct NavigationParams {
   double lever_arm_z_m = 0.0;
   double mounting_azimuth_deg = 270.0;
   BeamAzimuthSense beam_azimuth_sense = BeamAzimuthSense::clockwise;
+  bool beams_stabilised = true;
   double fix_limit_s = 30.0;
   double log_limit_s = 900.0;
   std::string position_talker;
@@ -68,6 +69,8 @@ void describe(Visitor& v, NavigationParams& p) {
   v.choice("beam_azimuth_sense", p.beam_azimuth_sense, kBeamAzimuthSenseNames,
            "Which way the file's beam azimuths count from there, seen from above; on a sonar that looks to starboard "
            "azimuths that count positive to the bow are anticlockwise.");
+  v.field("beams_stabilised", p.beams_stabilised,
+          {.text = "The sounder takes roll and pitch out of its beams (MS70, ME70); else they are turned by them."});
   v.field(
       "fix_limit_s", p.fix_limit_s,
       {.unit = "s", .min = 0, .max = 3600, .text = "A ping farther than this from any sentence has no such value."});

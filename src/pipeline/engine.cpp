@@ -50,6 +50,11 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       reckoned_(dead_reckoning(observation.navigation)),
       estimates_(observation.pings.size()),
       given_(observation.pings.size()) {
+  for (std::size_t i = 0; i < reckoned_.pings.size(); ++i) {
+    const Placement recorded = placement(static_cast<std::int64_t>(i));
+    reckoned_.pings[i].roll_rad = recorded.roll_rad;
+    reckoned_.pings[i].pitch_rad = recorded.pitch_rad;
+  }
   const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
                       static_cast<std::size_t>(std::max(1, observation.range.count));
   power_limit_ = std::clamp(kPowerBytes / (voxels * 3), kLeastPower, std::size_t{64});
@@ -57,7 +62,12 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
 }
 
 Placement Engine::placement(std::int64_t ping_index) const {
-  return observation_.navigation[static_cast<std::size_t>(ping_index)].placement();
+  const PingNavigation& at = observation_.navigation[static_cast<std::size_t>(ping_index)];
+  Placement placement = at.placement();
+  if (recipe_.navigation.beams_stabilised) return placement;
+  placement.roll_rad = rad_from_deg(at.roll_deg);
+  placement.pitch_rad = rad_from_deg(at.pitch_deg);
+  return placement;
 }
 
 Result<Engine::Power> Engine::power(std::int64_t ping_index) {

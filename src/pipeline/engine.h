@@ -48,7 +48,7 @@ class Engine {
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
   [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
-  /// What was recorded: NaN where a ping has no position.
+  /// What was recorded: NaN where a ping has no position. Roll and pitch are in it where beams are not stabilised.
   [[nodiscard]] Placement placement(std::int64_t ping_index) const;
   /// The same for following schools: gaps in the navigation are reckoned over.
   [[nodiscard]] const Placement& tracking_placement(std::int64_t ping_index) const {

@@ -20,6 +20,9 @@ namespace {
 // One ping on its grid may take this many samples; a hostile channel must not ask for more.
 constexpr std::int64_t kMaxVolumeSamples = std::int64_t{1} << 27;
 
+// At 300 m a beam that is 2 degrees off lies 10 m off.
+constexpr double kLargeAttitude_deg = 2.0;
+
 TimeNs ns_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
 
 template <class T>
@@ -303,6 +306,25 @@ SounderConfig with_sense(SounderConfig config, BeamAzimuthSense sense) {
   return config;
 }
 
+/// Beams of a sounder that nobody knows, on a ship that rolls: whether they are stabilised is a guess.
+void note_unused_attitude(ObservationFiles& observation) {
+  if (observation.config.kind != SounderKind::unknown || !observation.grid) return;
+  const auto largest = [&](double PingNavigation::*angle_deg) {
+    double most = 0.0;
+    for (const PingNavigation& ping : observation.navigation) most = std::max(most, std::abs(ping.*angle_deg));
+    return most;
+  };
+  const double roll_deg = largest(&PingNavigation::roll_deg);
+  const double pitch_deg = largest(&PingNavigation::pitch_deg);
+  if (std::max(roll_deg, pitch_deg) < kLargeAttitude_deg) return;
+  observation.diagnostics.push_back(
+      {DiagnosticCode::attitude_unused, "", -1, -1,
+       fmt::format(
+           "sounder '{}' is not known; its beams were taken as stabilised although the ship rolls by up to {:.1f} "
+           "and pitches by up to {:.1f} degrees: navigation.beams_stabilised says otherwise",
+           observation.config.sounder_name, roll_deg, pitch_deg)});
+}
+
 }  // namespace
 
 Hash128 identity(const SounderConfig& config) {
@@ -370,6 +392,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   Navigation placed = navigate(series, motions, observation.config, navigation);
   observation.navigation = std::move(placed.pings);
   if (!params.use_passive_pings) mark_silent_pings(survey, observation);
+  if (navigation.beams_stabilised) note_unused_attitude(observation);
   observation.talkers = std::move(placed.talkers);
   observation.gps_minus_clock_s = placed.gps_minus_clock_s;
   for (Diagnostic& note : placed.diagnostics) observation.diagnostics.push_back(std::move(note));

@@ -257,6 +257,25 @@ TEST(Survey, ChangedSettingsBeginAnObservation) {
   EXPECT_EQ(observations({.sound_speed_mps = 1500.1F}), 1U);
 }
 
+TEST(Survey, ARollingShipUnderAnUnknownSounderIsNoted) {
+  const auto noted = [](const std::string& sounder, float roll_deg, bool stabilised) {
+    const test::TemporaryFolder folder;
+    test::Con0Spec beams = test::small_ms70();
+    beams.sounder = sounder;
+    folder.write("a.raw", test::con0(beams).add(test::small_ping(kStart, {.roll_deg = roll_deg})));
+    NavigationParams navigation;
+    navigation.beams_stabilised = stabilised;
+    Work work(1);
+    const std::vector<fs::path> paths{folder.path()};
+    const auto survey = open_survey(paths, {}, navigation, IndexCache{}, work);
+    return survey && count(survey->observations.at(0).diagnostics, DiagnosticCode::attitude_unused) == 1;
+  };
+  EXPECT_TRUE(noted("XYZ", 4.0F, true));
+  EXPECT_FALSE(noted("XYZ", 1.0F, true));
+  EXPECT_FALSE(noted("XYZ", 4.0F, false));
+  EXPECT_FALSE(noted("MBS", 4.0F, true));
+}
+
 // formats.md leaves open which way the azimuths of a sonar count that looks to starboard.
 TEST(Survey, BeamAzimuthsCountAsTheSettingSays) {
   const test::TemporaryFolder folder;

@@ -50,11 +50,12 @@ void for_each_corner(const PingMask& mask, const Sector& sector, Visit visit) {
 }
 
 void measure_place(const MeasureInput& ping, const MaskShape& shape, SchoolPingRow& row) {
-  const Point<Enu> place = to_enu(shape.centre, ping.placement.heading_rad);
+  const Point<Sonar> centre = levelled(shape.centre, ping.placement);
+  const Point<Enu> place = to_enu(centre, ping.placement.heading_rad);
   const Geographic where = to_geographic(place, ping.placement.transducer);
   row.latitude = where.latitude_deg;
   row.longitude = where.longitude_deg;
-  row.depth_m = ping.placement.transducer_depth_m + shape.centre.z;
+  row.depth_m = ping.placement.transducer_depth_m + centre.z;
   row.range_m = norm(shape.centre);
   row.bearing_deg = wrap_360(deg_from_rad(std::atan2(place.x, place.y)));
 }
@@ -66,7 +67,8 @@ void measure_extents(const MeasureInput& ping, const PingMask& mask, const MaskS
   Span along;
   Span across;
   Span depth;
-  for_each_corner(mask, *ping.sector, [&](const Point<Sonar>& corner) {
+  for_each_corner(mask, *ping.sector, [&](const Point<Sonar>& in_sector) {
+    const Point<Sonar> corner = levelled(in_sector, ping.placement);
     const Point<Enu> p = to_enu(corner, ping.placement.heading_rad);
     along.add(p.x * s + p.y * c);
     across.add(p.x * c - p.y * s);
@@ -168,9 +170,13 @@ SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const Meas
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
-  if (ping.seabed != nullptr)
-    row.bottom_depth_m =
+  if (ping.seabed != nullptr) {
+    // The seabed is a plane in the sector; its depth under the school is that of the levelled place.
+    const double depth =
         bottom_depth_m(*ping.seabed, shape.centre, ping.placement, params.bottom_beyond_share, params.bottom_beyond_m);
+    const Point<Sonar> bottom{shape.centre.x, shape.centre.y, depth - ping.placement.transducer_depth_m};
+    row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
+  }
   const BodySize body = body_size(ping, mask, params);
   if (!body.known) return row;
   row.length_corrected_m = body.length_m;

@@ -28,18 +28,22 @@ constexpr std::size_t packed(std::size_t a, std::size_t b) {
 
 }  // namespace
 
-PingFrame::PingFrame(const Placement& placement, const Geographic& origin) : heading_rad_(placement.heading_rad) {
+PingFrame::PingFrame(const Placement& placement, const Geographic& origin) : placement_(placement) {
   const bool known = std::isfinite(placement.transducer.latitude_deg) && std::isfinite(origin.latitude_deg) &&
                      std::isfinite(placement.transducer.longitude_deg) && std::isfinite(origin.longitude_deg);
   // Whoever wants gaps in the navigation bridged hands in reckoned places; else the ship counts as standing still.
   if (known) transducer_ = to_enu(placement.transducer, origin);
   transducer_.z = -placement.transducer_depth_m;
-  if (!std::isfinite(heading_rad_)) heading_rad_ = 0.0;
+  if (!std::isfinite(placement_.heading_rad)) placement_.heading_rad = 0.0;
 }
 
-Point<Enu> PingFrame::to_world(const Point<Sonar>& p) const { return transducer_ + to_enu(p, heading_rad_); }
+Point<Enu> PingFrame::to_world(const Point<Sonar>& p) const {
+  return transducer_ + to_enu(levelled(p, placement_), placement_.heading_rad);
+}
 
-Point<Sonar> PingFrame::from_world(const Point<Enu>& p) const { return to_sonar(p - transducer_, heading_rad_); }
+Point<Sonar> PingFrame::from_world(const Point<Enu>& p) const {
+  return unlevelled(to_sonar(p - transducer_, placement_.heading_rad), placement_);
+}
 
 Covariance3 turned(const Covariance3& c, double heading_rad) {
   // columns of the turn: images of the sonar axes

@@ -15,11 +15,11 @@ class PingFrame {
   PingFrame(const Placement& placement, const Geographic& origin);
   [[nodiscard]] Point<Enu> to_world(const Point<Sonar>& p) const;
   [[nodiscard]] Point<Sonar> from_world(const Point<Enu>& p) const;
-  [[nodiscard]] double heading_rad() const { return heading_rad_; }
+  [[nodiscard]] double heading_rad() const { return placement_.heading_rad; }
 
  private:
+  Placement placement_;
   Point<Enu> transducer_;
-  double heading_rad_;
 };
 
 /// A covariance turned from the sonar frame to east, north, up.

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -197,6 +198,38 @@ TEST_F(Observe, SilentPingsAreNeitherMeasuredNorInTheWay) {
     EXPECT_TRUE(has(*clicked));
     EXPECT_FALSE(has(*clicked + 1));
     EXPECT_TRUE(has(*clicked + 2));
+  }
+}
+
+// By hand from each row of the stabilised sonar: its place relative to the ship, turned by a roll of 5 degrees port up and
+// a pitch of 0, has the depth and the bearing that a hull-fixed sonar with the same samples must tell.
+TEST_F(Observe, BeamsThatAreNotStabilisedTurnWithTheShip) {
+  constexpr double roll = 5.0 * std::numbers::pi / 180.0;
+  ObservationFiles rolled = observation();
+  for (PingNavigation& at : rolled.navigation) {
+    at.roll_deg = 5.0;
+    at.pitch_deg = 0.0;
+  }
+  Recipe hull;
+  hull.navigation.beams_stabilised = false;
+  Work work(2);
+  const auto stabilised = observe(*survey_, rolled, {}, {{}, {}, "test"}, work);
+  const auto fixed = observe(*survey_, rolled, hull, {{}, {}, "test"}, work);
+  ASSERT_TRUE(stabilised && fixed);
+  ASSERT_EQ(fixed->school_pings.size(), stabilised->school_pings.size());
+  for (std::size_t i = 0; i < fixed->school_pings.size(); ++i) {
+    const SchoolPingRow& was = stabilised->school_pings[i];
+    const SchoolPingRow& is = fixed->school_pings[i];
+    const PingNavigation& at = rolled.navigation[static_cast<std::size_t>(was.ping_index)];
+    const double down = was.depth_m - at.transducer_depth_m;
+    const double level = std::sqrt(was.range_m * was.range_m - down * down);
+    const double bow = level * std::cos(rad_from_deg(was.bearing_deg - at.heading_deg));
+    const double starboard = level * std::sin(rad_from_deg(was.bearing_deg - at.heading_deg));
+    const double rolled_starboard = starboard * std::cos(roll) - down * std::sin(roll);
+    EXPECT_DOUBLE_EQ(is.range_m, was.range_m);
+    EXPECT_NEAR(is.depth_m, at.transducer_depth_m + starboard * std::sin(roll) + down * std::cos(roll), 1e-6);
+    EXPECT_NEAR(wrap_180(is.bearing_deg - at.heading_deg - deg_from_rad(std::atan2(rolled_starboard, bow))), 0.0, 1e-6);
+    EXPECT_EQ(is.n_voxels, was.n_voxels);
   }
 }
 
