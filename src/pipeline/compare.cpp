@@ -75,18 +75,21 @@ class Differ {
   std::string text_;
 };
 
-void compare_attributes(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
+void compare_names(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
   differ.value("/observation", a.observation, b.observation);
   differ.value("/title", a.title, b.title);
   differ.value("/source", a.source, b.source);
-  differ.value("/recipe_hash", a.recipe_hash, b.recipe_hash);
+  differ.value("/cut_after", a.cut_after, b.cut_after);
+  differ.value("/next_school_id", next_school_id(a), next_school_id(b));
+}
+
+/// How a product was made, not what it says.
+void compare_provenance(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
   differ.value("/recipe", a.recipe_json, b.recipe_json);
+  differ.value("/recipe_hash", a.recipe_hash, b.recipe_hash);
   differ.value("/stage_versions", a.stage_versions, b.stage_versions);
   differ.value("/sonar_explorer_version", a.program_version, b.program_version);
   differ.value("/history", a.history, b.history);
-  differ.value("/input_hash", a.input_hash, b.input_hash);
-  differ.value("/cut_after", a.cut_after, b.cut_after);
-  differ.value("/next_school_id", next_school_id(a), next_school_id(b));
   differ.value("/input_files (length)", a.input_files.size(), b.input_files.size());
   for (std::size_t i = 0; i < a.input_files.size() && !differ.found(); ++i) {
     const std::string place = fmt::format("/input_files[{}]", i);
@@ -94,6 +97,7 @@ void compare_attributes(Differ& differ, const ObservationProduct& a, const Obser
     differ.value(place + " size", a.input_files[i].size, b.input_files[i].size);
     differ.value(place + " hash", a.input_files[i].hash, b.input_files[i].hash);
   }
+  differ.value("/input_hash", a.input_hash, b.input_hash);
 }
 
 void compare_pings(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
@@ -176,12 +180,12 @@ void compare_notes(Differ& differ, const Diagnostics& a, const Diagnostics& b) {
   }
 }
 
-Result<std::string> compare_products(const fs::path& a, const fs::path& b) {
+Result<std::string> compare_products(const fs::path& a, const fs::path& b, Compared what) {
   const auto in_a = read_product(a);
   if (!in_a) return pass_on(in_a);
   const auto in_b = read_product(b);
   if (!in_b) return pass_on(in_b);
-  std::string difference = first_difference(*in_a, *in_b);
+  std::string difference = first_difference(*in_a, *in_b, what);
   return difference.empty() ? difference : a.filename().string() + ": " + difference;
 }
 
@@ -213,7 +217,7 @@ Result<std::string> compare_tables(const fs::path& a, const fs::path& b) {
   return differ.take();
 }
 
-Result<std::string> compare_folders(const fs::path& a, const fs::path& b) {
+Result<std::string> compare_folders(const fs::path& a, const fs::path& b, Compared what) {
   const auto in_a = product_files(a);
   if (!in_a) return pass_on(in_a);
   const auto in_b = product_files(b);
@@ -226,10 +230,16 @@ Result<std::string> compare_folders(const fs::path& a, const fs::path& b) {
   Differ differ;
   differ.values("products", names(*in_a), names(*in_b));
   if (differ.found()) return differ.take();
-  for (std::size_t i = 0; i < in_a->size(); ++i) {
-    auto difference = compare_products((*in_a)[i], (*in_b)[i]);
-    if (!difference || !difference->empty()) return difference;
-  }
+  const auto all_products = [&](Compared part) -> Result<std::string> {
+    for (std::size_t i = 0; i < in_a->size(); ++i) {
+      auto difference = compare_products((*in_a)[i], (*in_b)[i], part);
+      if (!difference || !difference->empty()) return difference;
+    }
+    return std::string{};
+  };
+  // What any product says comes before how the first was made.
+  auto content = all_products(Compared::content);
+  if (!content || !content->empty()) return content;
   bool any_table = false;
   for (const char* table : {"schools.csv", "school_pings.csv"}) {
     std::error_code error;
@@ -245,33 +255,34 @@ Result<std::string> compare_folders(const fs::path& a, const fs::path& b) {
   if (in_a->empty() && !any_table) {
     return fail(ErrorCode::not_found, "neither products nor tables in this folder", {.file = a.string()});
   }
-  return std::string{};
+  return what == Compared::content ? std::string{} : all_products(what);
 }
 
 }  // namespace
 
-std::string first_difference(const ObservationProduct& a, const ObservationProduct& b) {
+std::string first_difference(const ObservationProduct& a, const ObservationProduct& b, Compared what) {
   Differ differ;
-  compare_attributes(differ, a, b);
-  if (!differ.found()) compare_pings(differ, a, b);
-  if (!differ.found()) compare_grid(differ, a, b);
-  differ.rows("/schools", a.schools, b.schools);
+  compare_masks(differ, a, b);
   differ.rows("/school_pings", a.school_pings, b.school_pings);
-  if (!differ.found()) compare_masks(differ, a, b);
+  differ.rows("/schools", a.schools, b.schools);
+  if (!differ.found()) compare_grid(differ, a, b);
+  if (!differ.found()) compare_pings(differ, a, b);
+  if (!differ.found()) compare_names(differ, a, b);
   if (!differ.found()) compare_notes(differ, a.diagnostics, b.diagnostics);
+  if (!differ.found() && what == Compared::everything) compare_provenance(differ, a, b);
   return differ.take();
 }
 
-Result<std::string> compare_paths(const fs::path& a, const fs::path& b) {
+Result<std::string> compare_paths(const fs::path& a, const fs::path& b, Compared what) {
   std::error_code error;
   for (const fs::path& path : {a, b}) {
     if (!fs::exists(path, error)) return fail(ErrorCode::not_found, "no such file or folder", {.file = path.string()});
   }
   const bool folders = fs::is_directory(a, error);
   if (folders != fs::is_directory(b, error)) return fail(ErrorCode::usage, "a file and a folder cannot be compared");
-  if (folders) return compare_folders(a, b);
+  if (folders) return compare_folders(a, b, what);
   if (a.extension() == ".csv" && b.extension() == ".csv") return compare_tables(a, b);
-  return compare_products(a, b);
+  return compare_products(a, b, what);
 }
 
 }  // namespace sonar

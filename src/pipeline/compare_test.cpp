@@ -55,6 +55,37 @@ TEST(Compare, names_the_first_difference) {
   EXPECT_THAT(first_difference(a, b), StartsWith("/pings (length)"));
 }
 
+TEST(Compare, content_comes_before_how_it_was_made) {
+  ObservationProduct b = sample();
+  b.input_hash = "another";
+  b.recipe_hash = "another";
+  EXPECT_THAT(first_difference(sample(), b), StartsWith("/recipe_hash: "));
+  EXPECT_EQ(first_difference(sample(), b, Compared::content), "");
+  b.schools[0].volume_m3 *= 2.0;
+  EXPECT_EQ(first_difference(sample(), b), "/schools/volume_m3[0]: 1000, 2000");
+  b.masks[1].mask.confidence[3] = 7;
+  EXPECT_EQ(first_difference(sample(), b), "/mask/confidence (school 1, ping 1)[3]: 255, 7");
+}
+
+// The first product differs in its key alone, the second in what it says.
+TEST(Compare, content_of_any_product_comes_first) {
+  const fs::path folder = fs::temp_directory_path() / ("sonar_compare_order_" + std::to_string(::getpid()));
+  ObservationProduct second = sample();
+  second.observation = "obs-0002";
+  ASSERT_TRUE(write_product(sample(), folder / "a" / "obs-0001.nc"));
+  ASSERT_TRUE(write_product(second, folder / "a" / "obs-0002.nc"));
+  ObservationProduct other = sample();
+  other.input_hash = "another";
+  ASSERT_TRUE(write_product(other, folder / "b" / "obs-0001.nc"));
+  ASSERT_TRUE(write_product(second, folder / "b" / "obs-0002.nc"));
+  EXPECT_THAT(*compare_paths(folder / "a", folder / "b"), StartsWith("obs-0001.nc: /input_hash"));
+  EXPECT_EQ(*compare_paths(folder / "a", folder / "b", Compared::content), "");
+  second.school_pings[2].depth_m = 21.0;
+  ASSERT_TRUE(write_product(second, folder / "b" / "obs-0002.nc"));
+  EXPECT_EQ(*compare_paths(folder / "a", folder / "b"), "obs-0002.nc: /school_pings/depth_m[2]: 20, 21");
+  fs::remove_all(folder);
+}
+
 TEST(Compare, doubles_count_as_equal_to_one_part_in_a_billion) {
   ObservationProduct b = sample();
   b.schools[0].volume_m3 *= 1.0 + 0.9e-9;
