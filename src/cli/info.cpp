@@ -27,6 +27,7 @@ int run_info(const InfoOptions& options) {
   const NavigationParams navigation;
   const auto survey = open_survey(paths, SurveyParams{}, navigation, IndexCache::of_user(), work);
   if (!survey) return report(survey.error());
+  if (auto some = require_files(*survey, paths); !some) return report(some.error());
   const auto info = survey_info(*survey, navigation, options.checksum, work);
   if (!info) return report(info.error());
   const std::string text = options.json ? info_json(*info) : info_text(*info);

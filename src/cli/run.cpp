@@ -109,7 +109,7 @@ Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
   const Recipe& recipe = opened.plan.recipe;
   auto survey = open_survey(paths, recipe.survey, recipe.navigation, IndexCache::of_user(), work);
   if (!survey) return pass_on(survey);
-  if (survey->files.empty()) return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
+  if (auto some = require_files(*survey, paths); !some) return pass_on(some);
   opened.survey = std::move(*survey);
   opened.survey.diagnostics.insert(opened.survey.diagnostics.end(), journal->diagnostics.begin(),
                                    journal->diagnostics.end());

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "io/simrad/indexer.h"
 #include "pipeline/observations.h"
 
 namespace sonar {
@@ -17,11 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_raw_extension(const fs::path& path) {
+bool has_extension(const fs::path& path, std::string_view wanted) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".raw";
+  return extension == wanted;
+}
+
+/// Sonar data that this version names but does not read; products and rasters lie in such folders as well.
+bool is_sonar_netcdf4(const fs::path& path) {
+  if (!has_extension(path, ".nc")) return false;
+  const auto source = open_file(path);
+  return source && simrad::is_sonar_netcdf4(**source).value_or(false);
 }
 
 Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {
@@ -29,7 +37,8 @@ Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {
   std::vector<fs::path> found;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
-    if (has_raw_extension(it->path()) && !it->is_directory(ignored)) found.push_back(it->path());
+    if (it->is_directory(ignored)) continue;
+    if (has_extension(it->path(), ".raw") || is_sonar_netcdf4(it->path())) found.push_back(it->path());
   }
   if (error) return fail(ErrorCode::io, error.message(), {.file = folder.string()});
   std::sort(found.begin(), found.end());
@@ -84,6 +93,11 @@ Result<std::vector<fs::path>> list_survey(std::span<const fs::path> paths) {
   std::set<fs::path> seen;
   std::erase_if(files, [&](const fs::path& path) { return !seen.insert(path.lexically_normal()).second; });
   return files;
+}
+
+Result<void> require_files(const SurveyFiles& survey, std::span<const fs::path> paths) {
+  if (!survey.files.empty() || paths.empty()) return {};
+  return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
 }
 
 Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyParams& survey,

@@ -123,8 +123,8 @@ struct SurveyFiles {
 /// What a product remembers of the files that an observation came from.
 [[nodiscard]] std::vector<InputFile> input_files(const SurveyFiles& survey, const ObservationFiles& observation);
 
-/// Files that a list of paths stands for: of a folder every *.raw in it (any case, not deeper), sorted by name; a file
-/// as it is.
+/// Files that a list of paths stands for: of a folder every *.raw in it (any case, not deeper) and every *.nc of
+/// SONAR-netCDF4, which is named though not read, sorted by name; a file as it is.
 /// errors  not_found, io
 [[nodiscard]] Result<std::vector<std::filesystem::path>> list_survey(std::span<const std::filesystem::path> paths);
 
@@ -134,6 +134,10 @@ struct SurveyFiles {
 /// threads  files are indexed in parallel; the result does not depend on it
 [[nodiscard]] Result<SurveyFiles> open_survey(std::span<const std::filesystem::path> paths, const SurveyParams& survey,
                                               const NavigationParams& navigation, const IndexCache& cache, Work& work);
+
+/// Refuses paths that stand for no file at all.
+/// errors  not_found, naming the first path
+[[nodiscard]] Result<void> require_files(const SurveyFiles& survey, std::span<const std::filesystem::path> paths);
 
 /// Nothing is ever written where raw files lie: refuses a folder that is, or lies in, the folder of one of them (links
 /// followed).

@@ -60,6 +60,27 @@ TEST(Survey, FolderHoldsRawFilesOfAnyCase) {
   EXPECT_EQ(list_survey(missing).error().code, ErrorCode::not_found);
 }
 
+// By the standard's attributes in the head of an HDF5 file; a raster of depths beside raw files is none of the survey's.
+TEST(Survey, FilesOfSonarNetcdf4AreNamedAndOtherNetcdfIsNot) {
+  const test::TemporaryFolder folder;
+  const auto hdf5 = [](const std::string& text) {
+    return Bytes().text("\x89HDF\r\n\x1a\n", 8).zeros(600).text(text, 64);
+  };
+  folder.write("sonar.nc", hdf5("sonar_convention_name"));
+  folder.write("depth.nc", hdf5("elevation"));
+  folder.write("words.nc", Bytes().text("SONAR-netCDF4 is a convention", 40));
+  const std::vector<fs::path> paths{folder.path()};
+  EXPECT_EQ(list_survey(paths).value(), (std::vector<fs::path>{folder.path() / "sonar.nc"}));
+  const SurveyFiles survey = opened(folder);
+  EXPECT_TRUE(require_files(survey, paths));
+  EXPECT_EQ(count(survey.files.at(0).index.diagnostics, DiagnosticCode::format_not_read), 1);
+  const test::TemporaryFolder empty;
+  const std::vector<fs::path> nothing{empty.path()};
+  const auto refused = require_files(opened(empty), nothing);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(to_line(refused.error()), empty.path().string() + ": holds no raw files (*.raw)");
+}
+
 TEST(Survey, OneObservationOverFilesInOrderOfTime) {
   const test::TemporaryFolder folder;
   folder.write("z-first.raw", test::small_file(3));

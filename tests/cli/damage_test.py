@@ -66,6 +66,9 @@ class Damage(Case):
         code, _, err = run("run", folder, "--out", self.fresh("empty-out"))
         self.assertEqual(code, 1)
         self.assertEqual(len(err.strip().splitlines()), 1)
+        (folder / "notes.txt").write_text("nothing to read")
+        self.one_line_error("info", folder, code=1, names=f"{folder}: holds no raw files")
+        self.one_line_error("info", folder, "--json", code=1, names=f"{folder}: holds no raw files")
         (folder / "empty.raw").write_bytes(b"")
         self.assertIn(run("info", folder, "--json")[0], (0, 3))
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "base/hash.h"
@@ -67,6 +69,18 @@ Result<RawFormat> detect_format(const ByteSource& source) {
   if (is_netcdf(bytes)) return RawFormat::sonar_netcdf4;
   if (inspect_head(bytes) != Frame::sound) return RawFormat::unknown;
   return std::memcmp(head.data() + 4, "XML0", 4) == 0 ? RawFormat::ek80 : RawFormat::simrad;
+}
+
+Result<bool> is_sonar_netcdf4(const ByteSource& source) {
+  constexpr std::size_t kLooked = std::size_t{1} << 20U;
+  const auto format = detect_format(source);
+  if (!format) return pass_on(format);
+  if (*format != RawFormat::sonar_netcdf4) return false;
+  std::string bytes(kLooked, '\0');
+  const auto got = source.read(0, std::as_writable_bytes(std::span(bytes)));
+  if (!got) return pass_on(got);
+  bytes.resize(*got);
+  return bytes.find("SONAR-netCDF4") != std::string::npos || bytes.find("sonar_convention") != std::string::npos;
 }
 
 Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
