@@ -57,7 +57,8 @@ class RangeCheck {
  private:
   void check(std::string_view name, double value, const FieldInfo& info) {
     if (std::isnan(value) || value < info.min || value > info.max) {
-      note(fmt::format("{}{} = {} is outside {} .. {} {}", prefix_, name, value, info.min, info.max, info.unit));
+      note(fmt::format("{}{} = {} is outside {} .. {}{}{}", prefix_, name, value, info.min, info.max,
+                       info.unit.empty() ? "" : " ", info.unit));
     }
   }
   void note(std::string text) {

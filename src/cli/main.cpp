@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 
 #include "cli/exit_codes.h"
@@ -24,6 +25,18 @@ extern "C" void on_interrupt(int) {
   for (auto& slot : watched) {
     if (Work* work = slot.load()) work->cancel();
   }
+}
+
+/// What was wrong with a call. The parser misses a verb before it looks at what stands in its place.
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::span<char*> words) {
+  const std::string first = words.size() > 1 ? words[1] : "";
+  if (!first.empty() && first[0] != '-' &&
+      app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; }).empty()) {
+    return "there is no verb '" + first + "'";
+  }
+  return dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()
+             ? "a verb is needed"
+             : error.what();
 }
 
 int run_program(int argc, char** argv) {
@@ -50,7 +63,9 @@ int run_program(int argc, char** argv) {
       app.exit(error);
       return kExitDone;
     }
-    std::fprintf(stderr, "sonarx: %s; see sonarx --help\n", error.what());
+    const std::string verb = app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
+    std::fprintf(stderr, "sonarx: %s; see sonarx%s --help\n",
+                 usage_text(app, error, {argv, static_cast<std::size_t>(argc)}).c_str(), verb.c_str());
     return kExitUsage;
   }
   std::signal(SIGINT, on_interrupt);

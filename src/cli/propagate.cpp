@@ -219,7 +219,11 @@ int propagate_verb(const PropagateArguments& arguments) {
   clear_progress();
   if (!product) return report(product.error());
   if (const Diagnostic* why = refusal(*product)) {
-    return report({ErrorCode::bad_parameter, why->text, {arguments.survey, -1, why->ping_index}});
+    // The user clicked; that a click is a line of a journal is no matter of theirs.
+    const std::string line_name = fmt::format("journal line {} ({}): ", line.n, line.command);
+    const std::string text = why->text.starts_with(line_name) ? why->text.substr(line_name.size()) : why->text;
+    const std::string seeds = fmt::format("--seed {}: {}", fmt::join(arguments.seeds, " "), text);
+    return report({ErrorCode::bad_parameter, seeds, {arguments.survey, -1, why->ping_index}});
   }
   if (auto written = write_outcome(*clicked, line, *product, *recipe, options); !written)
     return report(written.error());

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
@@ -53,6 +55,22 @@ synth::SurveyParams parameters(const SimulateOptions& o) {
   return p;
 }
 
+/// The option that a parameter outside its range was given by stands in the message.
+Error naming_option(Error error) {
+  constexpr std::array<std::array<std::string_view, 2>, 7> kOptions{{{"seed", "--seed"},
+                                                                     {"observations", "--observations"},
+                                                                     {"pings", "--pings"},
+                                                                     {"schools", "--schools"},
+                                                                     {"speed_knots", "--speed-knots"},
+                                                                     {"noise.scale", "--noise"},
+                                                                     {"file_mb", "--file-mb"}}};
+  for (const auto& [field, option] : kOptions) {
+    const std::string begins = fmt::format("{} = ", field);
+    if (error.text.starts_with(begins)) error.text.replace(0, begins.size(), fmt::format("{}: ", option));
+  }
+  return error;
+}
+
 int simulate(const SimulateOptions& o) {
   std::vector<synth::Beam> beams = synth::ms70_beams();
   if (!o.beams.empty()) {
@@ -65,7 +83,7 @@ int simulate(const SimulateOptions& o) {
   show_progress(work);
   const auto made = synth::simulate_survey(o.out, parameters(o), beams, o.force, SONAR_VERSION, work);
   clear_progress();
-  if (!made) return report(made.error());
+  if (!made) return report(naming_option(made.error()));
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
              static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
   return kExitDone;
@@ -92,7 +110,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
   verb->add_flag("--force", o->force, "Write into a folder that already holds raw files");
-  verb->add_option("--jobs", o->jobs, "Threads; 0 = all");
+  verb->add_option("--jobs", o->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([o, &run] { run = [o] { return simulate(*o); }; });
 }
 

@@ -77,6 +77,8 @@ class Propagate(Case):
                                   "--tolerance-db", "10", "--out", out)
         self.assertIn(code, (1, 2))
         self.assertEqual(len(err.strip().splitlines()), 1)
+        self.assertIn("--seed 0,10,12,3: ", err)
+        self.assertNotIn("journal", err)
 
     def test_seeds_that_are_no_voxels(self):
         fans, beams = shape()

@@ -33,6 +33,20 @@ class Usage(Case):
                 self.assertEqual(out, "")
                 self.assertNotEqual(err.strip(), "")
 
+    def test_wrong_usage_names_what_was_wrong(self):
+        for arguments, said in [(("foo",), "there is no verb 'foo'; see sonarx --help"),
+                                ((), "a verb is needed; see sonarx --help"),
+                                (("simulate", "x", "--pings", "-3"), "--pings: -3 is outside 1 .. 100000"),
+                                (("simulate", "x", "--speed-knots", "-1"), "--speed-knots: -1 is outside "),
+                                (("simulate", "x", "--noise", "-1"), "--noise: -1 is outside "),
+                                (("simulate", "x", "--jobs", "-3"), "--jobs: "),
+                                (("info", "--no-such-flag"), "see sonarx info --help")]:
+            with self.subTest(arguments):
+                code, _, err = run(*arguments)
+                self.assertEqual(code, 2)
+                self.assertIn(said, err)
+                self.assertEqual(err, "\n".join(line.rstrip() for line in err.splitlines()) + "\n")
+
     def test_what_is_not_there_fails_in_one_line(self):
         gone = sonarx.WORK / "not-there"
         for arguments in [("run", gone, "--out", sonarx.WORK / "nowhere"), ("merge", gone), ("compare", gone, gone),
