@@ -19,10 +19,11 @@ struct ExportArguments {
   std::string dest;
   std::string survey;
   ReduceParams reduce;
+  int jobs = 0;
 };
 
 int run_export(const ExportArguments& arguments) {
-  Work work(1);
+  Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
   const ExportOptions options{arguments.out, arguments.format, arguments.dest, arguments.survey, arguments.reduce};
@@ -52,6 +53,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
                    "raw-reduced: pings without samples before and after a school");
   verb->add_option("--coarsen", arguments->reduce.coarsen_samples,
                    "raw-reduced: keep the rest as means of so many samples; 0 = drop it");
+  verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return run_export(*arguments); }; });
 }
 

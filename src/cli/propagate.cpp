@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -33,6 +34,7 @@ struct PropagateArguments {
   std::int64_t reach = -1;
   std::string curve;
   std::string recipe;
+  std::string calibration;
   std::string operator_name;
   std::string out;
   int jobs = 0;
@@ -197,7 +199,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  auto recipe = named_recipe(arguments.recipe);
+  auto recipe = chosen_recipe(arguments.recipe, arguments.calibration);
   if (!recipe) return report(recipe.error());
   recipe->automatic = false;
   const auto clicked = click(arguments, *recipe, work);
@@ -251,6 +253,7 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(CLI::Range(0, 1000000));
   verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--operator", arguments->operator_name, "Who selects");
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));

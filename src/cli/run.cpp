@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -47,13 +48,6 @@ Result<std::optional<PingSelection>> parse_pings(const std::string& text) {
   return std::optional<PingSelection>{PingSelection{(*numbers)[0], (*numbers)[1]}};
 }
 
-Result<Recipe> chosen_recipe(const RunArguments& arguments) {
-  auto recipe = named_recipe(arguments.recipe);
-  if (!recipe || arguments.calibration.empty()) return recipe;
-  if (auto taken = take_calibration_file(*recipe, arguments.calibration); !taken) return pass_on(taken);
-  return recipe;
-}
-
 /// The plan of a run that names its survey; written to OUT/plan.json.
 struct Opened {
   Plan plan;
@@ -86,7 +80,7 @@ Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal)
   if (arguments.recipe.empty() && arguments.calibration.empty() && !journal.recipe.empty()) {
     return recipe_from_text(journal.recipe);
   }
-  return chosen_recipe(arguments);
+  return chosen_recipe(arguments.recipe, arguments.calibration);
 }
 
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
@@ -221,8 +215,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
   auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables");
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration,
-                   "CSV channel,gain_db,sa_correction_db,extra_factor_db; taken into the recipe");
+  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
@@ -250,7 +243,7 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, "CSV as for run");
+  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] {

@@ -71,6 +71,25 @@ class Propagate(Case):
         for part in ("grow", "propagate_paper", "propagate_tracked"):
             self.assertEqual(said[part]["connectivity"], "26")
 
+    def test_a_calibration_reaches_the_click_and_stands_in_the_recipe(self):
+        place, _ = seed()
+        fans, beams = shape()
+        table = self.fresh("propagate-calibration") / "c.csv"
+        table.write_text("channel,gain_db,sa_correction_db,extra_factor_db\n" +
+                         "".join(f"{channel},,,1\n" for channel in range(fans * beams)))
+        recipe = json.loads(self.sonarx("recipe", "--calibration", table))
+        self.assertEqual(len(recipe["beam_calibration"]), fans * beams)
+        rows = {}
+        for name, calibration in (("plain", ()), ("calibrated", ("--calibration", table))):
+            out = self.fresh(f"propagate-{name}")
+            self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, "--tolerance-db", "10", "--reach",
+                        "0", *calibration, "--out", out)
+            rows[name] = sonarx.read_csv(out / "school_pings.csv")[0]
+        self.assertEqual(rows["plain"]["n_voxels"], rows["calibrated"]["n_voxels"])
+        # A factor of 1 dB on every beam; backscatter is linear, so the background goes along.
+        shift = float(rows["calibrated"]["sv_mean_db"]) - float(rows["plain"]["sv_mean_db"])
+        self.assertAlmostEqual(abs(shift), 1.0, delta=0.02)
+
     def test_a_seed_in_the_sea_is_refused_in_one_line(self):
         out = self.fresh("propagate-sea")
         code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", "--seed", "0,10,12,3",
