@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "base/check.h"
 #include "base/hash.h"
+#include "pipeline/sound_speeds.h"
 
 namespace sonar {
 namespace {
@@ -49,50 +49,6 @@ std::string setting_change(const TransmitSet& a, const TransmitSet& b) {
   }
   return {};
 }
-
-// The index tells sound speeds to this share; ranges within an observation differ by so many samples at the far end.
-constexpr double kIndexedShare = 1e-4;
-constexpr double kMostSpread_samples = 0.75;
-
-/// Sound speeds of an observation's pings, channel by channel. All share the range axis of the middle one, and every
-/// sample of every ping lies where it says to half a sample.
-class SoundSpeeds {
- public:
-  /// Takes a ping's settings in where its ranges fit those taken before; else says which channel does not.
-  std::string take(const TransmitSet& set) {
-    std::vector<Span> joined = spans_;
-    joined.resize(std::max(joined.size(), set.size()));
-    for (std::size_t c = 0; c < set.size(); ++c) {
-      if (!set[c].seen()) continue;
-      Span& span = joined[c];
-      span.least_mps = std::min(span.least_mps, set[c].sound_speed_mps);
-      span.most_mps = std::max(span.most_mps, set[c].sound_speed_mps);
-      span.samples = std::max(span.samples, set[c].max_samples);
-      if ((span.most_mps - span.least_mps) * span.samples > kMostSpread_samples * span.least_mps) {
-        const double from = set[c].sound_speed_mps == span.least_mps ? span.most_mps : span.least_mps;
-        return fmt::format("channel {}: sound speed {} -> {} m/s moves the farthest of {} samples by {:.2f}", c + 1,
-                           from, set[c].sound_speed_mps, span.samples,
-                           (span.most_mps / span.least_mps - 1.0) * span.samples);
-      }
-    }
-    spans_ = std::move(joined);
-    return {};
-  }
-
-  struct Span {
-    double least_mps = std::numeric_limits<double>::infinity();
-    double most_mps = 0.0;
-    std::int32_t samples = 0;
-  };
-  /// Of the first channel that was seen.
-  [[nodiscard]] Span first() const {
-    const auto seen = std::find_if(spans_.begin(), spans_.end(), [](const Span& s) { return s.most_mps > 0.0; });
-    return seen == spans_.end() ? Span{} : *seen;
-  }
-
- private:
-  std::vector<Span> spans_;
-};
 
 /// Why a ping cannot go on the observation that began with another.
 class Cutter {
@@ -198,16 +154,10 @@ double middle_sound_speed_mps(const SurveyFiles& survey, ObservationFiles& obser
   for (const auto& [file, transmit] : settings_of(survey, observation)) {
     speeds.take(survey.files[file].index.transmits[transmit]);
   }
-  const SoundSpeeds::Span span = speeds.first();
-  if (span.least_mps != span.most_mps) {
-    observation.diagnostics.push_back(
-        {DiagnosticCode::sound_speed_drift, "", -1, -1,
-         fmt::format(
-             "{} to {} m/s; ranges are those of the middle, right to {:.2f} samples at the far end", span.least_mps,
-             span.most_mps,
-             ((span.most_mps - span.least_mps) / (span.most_mps + span.least_mps) + kIndexedShare) * span.samples)});
+  if (std::string drift = speeds.drift(); !drift.empty()) {
+    observation.diagnostics.push_back({DiagnosticCode::sound_speed_drift, "", -1, -1, std::move(drift)});
   }
-  return (span.least_mps + span.most_mps) / 2.0;
+  return speeds.middle_mps();
 }
 
 /// Longest rows of each channel.

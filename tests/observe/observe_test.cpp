@@ -4,97 +4,27 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/units.h"
 #include "io/simrad/test_bytes.h"
+#include "observed_survey.h"
 #include "pipeline/compare.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
 #include "pipeline/survey.h"
-#include "synth/beam_table.h"
-#include "synth/presets.h"
-#include "synth/simulate.h"
 
 namespace sonar {
 namespace {
 
-/// One small survey for all tests: 24 pings, two schools, easy water.
-class Observe : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = std::filesystem::temp_directory_path() / ("sonar-observe-" + std::to_string(::getpid()));
-    synth::SurveyParams params = synth::survey_params(synth::Preset::easy);
-    params.observations = 1;
-    params.pings = 24;
-    params.schools = 2;
-    Work work;
-    ASSERT_TRUE(synth::simulate_survey(folder_, params, synth::ms70_beams(), false, "test", work));
-    const std::vector<std::filesystem::path> paths{folder_};
-    auto survey = open_survey(paths, {}, {}, {}, work);
-    ASSERT_TRUE(survey);
-    survey_ = std::make_unique<SurveyFiles>(std::move(*survey));
-    auto product = observe(*survey_, observation(), {}, {{}, {}, "test"}, work);
-    ASSERT_TRUE(product);
-    product_ = std::make_unique<ObservationProduct>(std::move(*product));
-  }
-  static void TearDownTestSuite() {
-    survey_.reset();
-    product_.reset();
-    std::filesystem::remove_all(folder_);
-  }
-
-  static const ObservationFiles& observation() { return survey_->observations.front(); }
-
-  /// A click on the middle of a school that was found.
-  static JournalLine click(GrowMode mode) {
-    const SchoolMask& found = product_->masks[product_->masks.size() / 2];
-    const auto longest = std::max_element(found.mask.runs.begin(), found.mask.runs.end(),
-                                          [](const auto& a, const auto& b) { return a.count < b.count; });
-    PropagateCommand command;
-    command.mode = mode;
-    command.grow.mode = mode;
-    command.grow.tolerance_opacity = 0.25;
-    const int channel = observation().grid->channel[static_cast<std::size_t>(longest->row)];
-    command.seeds = {{channel, longest->first_sample + longest->count / 2}};
-    JournalLine line;
-    line.n = 1;
-    line.decided = 1'600'000'000 * kSecondNs;
-    line.operator_name = "someone";
-    line.command = "propagate";
-    line.ping_time = survey_->ping_time(observation(), static_cast<std::size_t>(found.ping_index));
-    line.args = to_json(command);
-    return line;
-  }
-
-  static ObservationProduct observed(const Recipe& recipe, std::vector<JournalLine> journal) {
-    Work work(2);
-    auto product = observe(*survey_, observation(), recipe, {{}, journal, "test"}, work);
-    EXPECT_TRUE(product);
-    return product ? *product : ObservationProduct{};
-  }
-
-  static int count(const ObservationProduct& product, DiagnosticCode code) {
-    return static_cast<int>(std::count_if(product.diagnostics.begin(), product.diagnostics.end(),
-                                          [&](const Diagnostic& note) { return note.code == code; }));
-  }
-
-  static inline std::filesystem::path folder_;
-  static inline std::unique_ptr<SurveyFiles> survey_;
-  static inline std::unique_ptr<ObservationProduct> product_;
-};
+using Observe = test::ObservedSurvey;
 
 TEST_F(Observe, FindsTheSchoolsAndNotesTheirBirths) {
   EXPECT_EQ(product_->schools.size(), 2U);
@@ -124,112 +54,6 @@ TEST_F(Observe, PingsInAnyOrderAreTheSamePings) {
   for (std::int64_t i = 0; i < forwards.pings(); ++i) filtered.push_back(forwards.staged(i)->filtered->counts);
   for (std::int64_t i = backwards.pings() - 1; i >= 0; --i) {
     EXPECT_EQ(backwards.staged(i)->filtered->counts, filtered[static_cast<std::size_t>(i)]) << "ping " << i;
-  }
-}
-
-// Law: what the ship's sentences say nothing of for a while, in the middle or from the start, is no other sea: the same
-// schools in the same pings, but no place where there was none.
-TEST_F(Observe, AGapInTheNavigationBreaksNoTrack) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [first, last] : {std::pair{9, 15}, std::pair{0, 7}}) {
-    ObservationFiles silent = observation();
-    for (int i = first; i <= last; ++i) {
-      PingNavigation& at = silent.navigation[static_cast<std::size_t>(i)];
-      at.transducer = {unknown, unknown};
-      at.heading_deg = at.speed_mps = at.course_deg = unknown;
-    }
-    Work work(2);
-    const auto product = observe(*survey_, silent, {}, {{}, {}, "test"}, work);
-    ASSERT_TRUE(product);
-    EXPECT_EQ(count(*product, DiagnosticCode::dead_reckoned), 1);
-    EXPECT_EQ(count(*product_, DiagnosticCode::dead_reckoned), 0);
-    ASSERT_EQ(product->school_pings.size(), product_->school_pings.size());
-    for (std::size_t i = 0; i < product->school_pings.size(); ++i) {
-      const SchoolPingRow& row = product->school_pings[i];
-      const SchoolPingRow& whole = product_->school_pings[i];
-      EXPECT_EQ(row.school_id, whole.school_id);
-      EXPECT_EQ(row.ping_index, whole.ping_index);
-      EXPECT_EQ(row.n_voxels, whole.n_voxels);
-      EXPECT_DOUBLE_EQ(row.range_m, whole.range_m);
-      const bool lost = row.ping_index >= first && row.ping_index <= last;
-      for (const double place : {row.latitude, row.longitude, row.bearing_deg, row.axis_deg}) {
-        EXPECT_EQ(std::isnan(place), lost) << row.ping_index;
-      }
-    }
-  }
-}
-
-// Pings that were made without transmitting are passed over: no rows there, and no track that ends at them.
-TEST_F(Observe, SilentPingsAreNeitherMeasuredNorInTheWay) {
-  ObservationFiles listening = observation();
-  const auto silent = [](std::int64_t ping_index) { return ping_index % 4 == 3; };
-  for (std::size_t i = 0; i < listening.navigation.size(); ++i) {
-    listening.navigation[i].bad = silent(static_cast<std::int64_t>(i));
-  }
-  Work work(2);
-  const auto product = observe(*survey_, listening, {}, {{}, {}, "test"}, work);
-  ASSERT_TRUE(product);
-  EXPECT_EQ(product->schools.size(), product_->schools.size());
-  std::map<std::int64_t, std::size_t> rows;
-  for (const SchoolPingRow& row : product->school_pings) {
-    EXPECT_FALSE(silent(row.ping_index));
-    ++rows[row.ping_index];
-  }
-  std::map<std::int64_t, std::size_t> heard;
-  for (const SchoolPingRow& row : product_->school_pings) {
-    if (!silent(row.ping_index)) ++heard[row.ping_index];
-  }
-  EXPECT_EQ(rows, heard);
-  Recipe by_hand;
-  by_hand.automatic = false;
-  for (const GrowMode mode : {GrowMode::tracked, GrowMode::paper}) {
-    JournalLine line = click(mode);
-    const auto clicked = ping_at(*survey_, listening, line.ping_time);
-    ASSERT_TRUE(clicked);
-    for (std::size_t i = 0; i < listening.navigation.size(); ++i) {
-      listening.navigation[i].bad = static_cast<std::int64_t>(i) == *clicked + 1;
-    }
-    const auto carried = observe(*survey_, listening, by_hand, {{}, {&line, 1}, "test"}, work);
-    ASSERT_TRUE(carried);
-    const auto has = [&](std::int64_t ping_index) {
-      return std::any_of(carried->masks.begin(), carried->masks.end(),
-                         [&](const SchoolMask& mask) { return mask.ping_index == ping_index; });
-    };
-    EXPECT_TRUE(has(*clicked));
-    EXPECT_FALSE(has(*clicked + 1));
-    EXPECT_TRUE(has(*clicked + 2));
-  }
-}
-
-// By hand from each row of the stabilised sonar: its place relative to the ship, turned by a roll of 5 degrees port up and
-// a pitch of 0, has the depth and the bearing that a hull-fixed sonar with the same samples must tell.
-TEST_F(Observe, BeamsThatAreNotStabilisedTurnWithTheShip) {
-  constexpr double roll = 5.0 * std::numbers::pi / 180.0;
-  ObservationFiles rolled = observation();
-  for (PingNavigation& at : rolled.navigation) {
-    at.roll_deg = 5.0;
-    at.pitch_deg = 0.0;
-  }
-  Recipe hull;
-  hull.navigation.beams_stabilised = false;
-  Work work(2);
-  const auto stabilised = observe(*survey_, rolled, {}, {{}, {}, "test"}, work);
-  const auto fixed = observe(*survey_, rolled, hull, {{}, {}, "test"}, work);
-  ASSERT_TRUE(stabilised && fixed);
-  ASSERT_EQ(fixed->school_pings.size(), stabilised->school_pings.size());
-  for (std::size_t i = 0; i < fixed->school_pings.size(); ++i) {
-    const SchoolPingRow& was = stabilised->school_pings[i];
-    const SchoolPingRow& is = fixed->school_pings[i];
-    const PingNavigation& at = rolled.navigation[static_cast<std::size_t>(was.ping_index)];
-    const double down = was.depth_m - at.transducer_depth_m;
-    const double level = std::sqrt(was.range_m * was.range_m - down * down);
-    const double bow = level * std::cos(rad_from_deg(was.bearing_deg - at.heading_deg));
-    const double starboard = level * std::sin(rad_from_deg(was.bearing_deg - at.heading_deg));
-    const double rolled_starboard = starboard * std::cos(roll) - down * std::sin(roll);
-    EXPECT_DOUBLE_EQ(is.range_m, was.range_m);
-    EXPECT_NEAR(is.depth_m, at.transducer_depth_m + starboard * std::sin(roll) + down * std::cos(roll), 1e-6);
-    EXPECT_NEAR(wrap_180(is.bearing_deg - at.heading_deg - deg_from_rad(std::atan2(rolled_starboard, bow))), 0.0, 1e-6);
-    EXPECT_EQ(is.n_voxels, was.n_voxels);
   }
 }
 
