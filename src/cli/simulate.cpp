@@ -28,6 +28,7 @@ struct SimulateOptions {
   std::optional<double> speed_knots;
   std::optional<double> noise;
   std::optional<double> file_mb;
+  std::string beam_pattern;
   bool no_fish = false;
   bool force = false;
   int jobs = 0;
@@ -52,6 +53,9 @@ synth::SurveyParams parameters(const SimulateOptions& o) {
   take(o.noise, p.noise.scale);
   take(o.file_mb, p.file_mb);
   if (o.no_fish) p.schools = 0;
+  for (std::size_t i = 0; i < synth::kBeamPatternNames.size(); ++i) {
+    if (synth::kBeamPatternNames[i] == o.beam_pattern) p.beam_pattern = static_cast<synth::BeamPattern>(i);
+  }
   return p;
 }
 
@@ -106,6 +110,8 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--schools", o->schools, "Schools in each observation");
   verb->add_option("--speed-knots", o->speed_knots, "The ship's speed over ground");
   verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams");
+  verb->add_option("--beam-pattern", o->beam_pattern, "Shape of the beams: gaussian or uniform_line (with side lobes)")
+      ->check(CLI::IsMember({"gaussian", "uniform_line"}));
   verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");
   verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");

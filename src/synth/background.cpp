@@ -12,15 +12,14 @@ namespace sonar::synth {
 namespace {
 
 constexpr double kNothing_db = -200.0;
-constexpr double kPatternCut = 10.0;
 
 double strength(double db) { return db > kNothing_db ? linear_from_db(db) : 0.0; }
 
 /// Vertical two-way pattern as a density over elevation, rad^-1.
-double vertical_density(const RowBeam& row, double elevation_rad) {
+double vertical_density(BeamPattern pattern, const RowBeam& row, double elevation_rad) {
   const double x = (elevation_rad - row.elevation_rad) / row.sigma_v_rad;
-  if (x * x > 2.0 * kPatternCut) return 0.0;
-  return std::exp(-x * x / 2.0) / (std::sqrt(2.0 * std::numbers::pi) * row.sigma_v_rad);
+  if (std::abs(x) > pattern_reach(pattern)) return 0.0;
+  return pattern_value(pattern, x) / (pattern_integral(pattern) * row.sigma_v_rad);
 }
 
 /// The sonar equation the other way: received power in dB re 1 W for Sv = 0 dB at range r.
@@ -34,10 +33,10 @@ double power_db_at_zero_sv(const Beam& beam, double range_m) {
 }
 
 /// sv of the sea surface at range r: a patch r dphi dr of it, over the volume r^2 dOmega dr that the beam looks into.
-double surface_sv(const RowBeam& row, double range_m, double depth_m, double strength_per_m2) {
+double surface_sv(BeamPattern pattern, const RowBeam& row, double range_m, double depth_m, double strength_per_m2) {
   if (strength_per_m2 <= 0.0 || range_m <= depth_m) return 0.0;
   const double elevation = std::asin(depth_m / range_m);
-  return strength_per_m2 * vertical_density(row, elevation) / (range_m * std::cos(elevation));
+  return strength_per_m2 * vertical_density(pattern, row, elevation) / (range_m * std::cos(elevation));
 }
 
 RowLimits limits(const Layout& layout, const RowBeam& row, double depth_m) {
@@ -73,7 +72,8 @@ Background make_background(const Layout& layout, const Scene& scene) {
     for (int s = 0; s < layout.shape.samples; ++s) {
       const double range_m = std::max(layout.range.spacing_m, layout.range.range_m(s));
       const double factor = linear_from_db(power_db_at_zero_sv(layout.beam(r), range_m));
-      const double sv = reverberation + surface_sv(row, range_m, scene.ship.transducer_depth_m, surface);
+      const double sv =
+          reverberation + surface_sv(layout.pattern, row, range_m, scene.ship.transducer_depth_m, surface);
       const auto i = static_cast<std::size_t>(s);
       per_sv[i] = static_cast<float>(factor);
       power[i] =
@@ -106,7 +106,7 @@ Seabed::Seabed(const Layout& layout, const Scene& scene, const Point<Enu>& ship,
       const double grazing = std::min(down - out.slope_rad, std::numbers::pi / 2.0);
       return grazing > 0.0 ? sample_of(out.distance_m / std::sin(grazing), row.count) : row.count;
     };
-    const double reach = std::sqrt(2.0 * kPatternCut) * row.sigma_v_rad;
+    const double reach = pattern_reach(layout.pattern) * row.sigma_v_rad;
     out.first = meets(-row.elevation_rad + reach);
     out.last = std::max(out.first, meets(-row.elevation_rad - reach));
     const double edge =
@@ -124,7 +124,8 @@ double Seabed::sv(int row, int sample) const {
   if (range_m <= plane.distance_m) return 0.0;
   const double sine = plane.distance_m / range_m;  // of the grazing angle; Lambert's law squares it
   const double down = std::asin(sine) + plane.slope_rad;
-  return strength_ * sine * sine * vertical_density(layout_.rows[static_cast<std::size_t>(row)], -down) /
+  return strength_ * sine * sine *
+         vertical_density(layout_.pattern, layout_.rows[static_cast<std::size_t>(row)], -down) /
          (range_m * std::max(0.1, std::cos(down)));
 }
 

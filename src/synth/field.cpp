@@ -11,7 +11,7 @@
 namespace sonar::synth {
 namespace {
 
-/// Patterns are cut where they fall below exp(-10), -43 dB.
+/// Gaussians are cut where they fall below exp(-10), -43 dB.
 constexpr double kCutExponent = 10.0;
 constexpr double kSideLobeCutExponent = 4.5;
 constexpr double kSideLobeWidth = 4.0;
@@ -41,21 +41,46 @@ const ExpTable& exp_table() {
   return table;
 }
 
+/// A uniform line's two-way pattern by its distance from the axis.
+class LineTable {
+ public:
+  LineTable() : reach_(pattern_reach(BeamPattern::uniform_line)) {
+    for (int i = 0; i < static_cast<int>(reach_ * kStepsPerUnit) + 1; ++i) {
+      values_.push_back(static_cast<float>(pattern_value(BeamPattern::uniform_line, (i + 0.5) / kStepsPerUnit)));
+    }
+  }
+  [[nodiscard]] float operator()(double off_axis) const {
+    const double z = std::abs(off_axis);
+    return z < reach_ ? values_[static_cast<std::size_t>(z * kStepsPerUnit)] : 0.0F;
+  }
+
+ private:
+  double reach_;
+  std::vector<float> values_;
+};
+
+const LineTable& line_table() {
+  static const LineTable table;
+  return table;
+}
+
 struct Lobe {
-  double inverse_v;  ///< 1 / (2 sigma_v^2)
+  double inverse_v;  ///< Gaussian: 1 / (2 sigma_v^2); line: 1 / sigma_v
   double inverse_h;
-  double norm;  ///< energy / (2 pi sigma_v sigma_h)
+  double norm;  ///< energy over the integral of the pattern
 };
 
 struct Pattern {
   std::vector<Lobe> lobes;  ///< [row]
-  double cut;
+  BeamPattern shape;
+  double cut;  ///< Gaussian only
   double reach_v_rad;
   double reach_h_rad;
 };
 
 Pattern pattern(const Layout& layout, double width, double energy, double cut) {
   Pattern p{{},
+            BeamPattern::gaussian,
             cut,
             width * layout.max_sigma_v_rad * std::sqrt(2.0 * cut),
             width * layout.max_sigma_h_rad * std::sqrt(2.0 * cut)};
@@ -65,6 +90,21 @@ Pattern pattern(const Layout& layout, double width, double energy, double cut) {
     p.lobes.push_back({1.0 / (2.0 * v * v), 1.0 / (2.0 * h * h), energy / (2.0 * std::numbers::pi * v * h)});
   }
   return p;
+}
+
+Pattern line_pattern(const Layout& layout) {
+  const double reach = pattern_reach(BeamPattern::uniform_line);
+  const double integral = pattern_integral(BeamPattern::uniform_line);
+  Pattern p{{}, BeamPattern::uniform_line, 0.0, layout.max_sigma_v_rad * reach, layout.max_sigma_h_rad * reach};
+  for (const RowBeam& row : layout.rows) {
+    p.lobes.push_back({1.0 / row.sigma_v_rad, 1.0 / row.sigma_h_rad,
+                       1.0 / (integral * integral * row.sigma_v_rad * row.sigma_h_rad)});
+  }
+  return p;
+}
+
+Pattern main_pattern(const Layout& layout) {
+  return layout.pattern == BeamPattern::gaussian ? pattern(layout, 1.0, 1.0, kCutExponent) : line_pattern(layout);
 }
 
 /// Neighbouring indices [first, last).
@@ -110,9 +150,9 @@ class Splatter {
         const Lobe& lobe = p.lobes[r];
         const double de = s.elevation_rad - layout_.rows[r].elevation_rad;
         const double da = (s.azimuth_rad - layout_.rows[r].azimuth_rad) * cos_e;
-        const double q = de * de * lobe.inverse_v + da * da * lobe.inverse_h;
-        if (q >= p.cut) continue;
-        const float value = static_cast<float>(s.weight * lobe.norm) * exp_(q);
+        const float directivity = towards(p, lobe, de, da);
+        if (directivity <= 0.0F) continue;
+        const float value = static_cast<float>(s.weight * lobe.norm) * directivity;
         float* out = &box.sv(fan - box.first_fan, beam - box.first_beam, at);
         out[0] += value * (1.0F - later);
         out[1] += value * later;
@@ -121,6 +161,11 @@ class Splatter {
   }
 
  private:
+  [[nodiscard]] float towards(const Pattern& p, const Lobe& lobe, double de, double da) const {
+    if (p.shape == BeamPattern::uniform_line) return line_(de * lobe.inverse_v) * line_(da * lobe.inverse_h);
+    const double q = de * de * lobe.inverse_v + da * da * lobe.inverse_h;
+    return q < p.cut ? exp_(q) : 0.0F;
+  }
   [[nodiscard]] const RowBeam& row(int fan, int beam) const {
     return layout_.rows[static_cast<std::size_t>(fan * layout_.shape.beams + beam)];
   }
@@ -132,6 +177,7 @@ class Splatter {
 
   const Layout& layout_;
   const ExpTable& exp_ = exp_table();
+  const LineTable& line_ = line_table();
   std::vector<double> elevations_;
   std::vector<double> azimuths_;
 };
@@ -193,7 +239,7 @@ bool out_of_reach(const Layout& layout, const Scatterers& body, const Point<Enu>
 
 SchoolField school_field(const Layout& layout, const std::vector<SeenScatterer>& seen, int school_id,
                          double side_lobe_db) {
-  std::vector<Pattern> patterns{pattern(layout, 1.0, 1.0, kCutExponent)};
+  std::vector<Pattern> patterns{main_pattern(layout)};
   if (side_lobe_db > kNoSideLobe_db) {
     patterns.push_back(pattern(layout, kSideLobeWidth, linear_from_db(side_lobe_db), kSideLobeCutExponent));
   }

@@ -49,8 +49,9 @@ void record_grid(Layout& layout, BeamGrid grid) {
 
 }  // namespace
 
-Layout make_layout(std::vector<Beam> beams) {
+Layout make_layout(std::vector<Beam> beams, BeamPattern pattern) {
   Layout layout;
+  layout.pattern = pattern;
   layout.beams = std::move(beams);
   int samples = 0;
   for (const Beam& beam : layout.beams) samples = std::max(samples, beam.count);

@@ -6,17 +6,18 @@
 
 #include "base/array.h"
 #include "model/product.h"
+#include "synth/beam_pattern.h"
 #include "synth/beam_table.h"
 
 namespace sonar::synth {
 
-/// One beam's two-way pattern as a Gaussian, normalised so that homogeneous water keeps its sv.
+/// One beam's two-way pattern, normalised so that homogeneous water keeps its sv.
 struct RowBeam {
   int channel = 0;
   int count = 0;                    ///< samples recorded
   double elevation_rad = 0.0;       ///< positive up
   double azimuth_rad = 0.0;         ///< clockwise from the bow, not wrapped
-  double sigma_v_rad = 0.0;         ///< two-way standard deviation = one-way width / (4 sqrt(ln 2))
+  double sigma_v_rad = 0.0;         ///< of the two-way Gaussian = one-way width / (4 sqrt(ln 2))
   double sigma_h_rad = 0.0;         ///< along the arc
   double vertical_width_rad = 0.0;  ///< one-way, -3 dB
 };
@@ -29,6 +30,7 @@ struct Layout {
   std::optional<GridRecord> grid;
   Shape3 shape;
   RangeAxis range;
+  BeamPattern pattern = BeamPattern::gaussian;
   double mounting_azimuth_deg = 270.0;
   double max_sigma_v_rad = 0.0;
   double max_sigma_h_rad = 0.0;
@@ -38,6 +40,6 @@ struct Layout {
   }
 };
 
-[[nodiscard]] Layout make_layout(std::vector<Beam> beams);
+[[nodiscard]] Layout make_layout(std::vector<Beam> beams, BeamPattern pattern = BeamPattern::gaussian);
 
 }  // namespace sonar::synth

@@ -29,7 +29,7 @@ constexpr double kPartSpeed_mps = 0.8;
 class BackgroundLevel {
  public:
   explicit BackgroundLevel(const Scene& scene)
-      : layout_(make_layout(scene.beams)), background_(make_background(layout_, scene)) {}
+      : layout_(make_layout(scene.beams, scene.beam_pattern)), background_(make_background(layout_, scene)) {}
 
   [[nodiscard]] int nearest_row(double elevation_rad) const {
     int nearest = 0;

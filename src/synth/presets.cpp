@@ -111,6 +111,7 @@ SurveyParams survey_params(Preset preset) {
 Scene scene_base(const SurveyParams& params, const std::vector<Beam>& beams, int observation) {
   Scene scene;
   scene.beams = beams;
+  scene.beam_pattern = params.beam_pattern;
   scene.water = params.water;
   scene.noise = params.noise;
   scene.seed = static_cast<std::uint64_t>(params.seed);

@@ -41,7 +41,8 @@ struct SurveyParams {
   int crossings = 0;        ///< pairs of schools in an observation that cross in view
   int splits = 0;           ///< schools in an observation that split in view
   double motion_deg = 1.0;  ///< amplitude of yaw; roll 3 and pitch 1 times this
-  double file_mb = 100.0;   ///< a new file begins after this many megabytes
+  BeamPattern beam_pattern = BeamPattern::gaussian;
+  double file_mb = 100.0;  ///< a new file begins after this many megabytes
   bool new_file_per_observation = true;
   Water water;
   Noise noise;
@@ -78,6 +79,8 @@ void describe(Visitor& v, SurveyParams& p) {
   v.field("splits", p.splits, {.min = 0, .max = 20, .text = "schools that split in each observation"});
   v.field("motion_deg", p.motion_deg,
           {.unit = "deg", .min = 0, .max = 10, .text = "amplitude of yaw; roll is three times this"});
+  v.choice("beam_pattern", p.beam_pattern, kBeamPatternNames,
+           "the beams' two-way directivity: a Gaussian, or a uniform line array's with its side lobes");
   v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "a new file begins after this much"});
   v.field("new_file_per_observation", p.new_file_per_observation, {.text = "no file holds two observations"});
   v.group("water", p.water, "what is in the water besides fish");

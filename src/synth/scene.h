@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "geo/frames.h"
 #include "model/navigation.h"
+#include "synth/beam_pattern.h"
 #include "synth/beam_table.h"
 #include "synth/body.h"
 
@@ -119,6 +120,7 @@ struct VoxelTarget {
 /// Everything that one synthetic observation is made of. Plain values; SyntheticSonar (synth/sonar.h) renders it.
 struct Scene {
   std::vector<Beam> beams = ms70_beams();
+  BeamPattern beam_pattern = BeamPattern::gaussian;
   Water water;
   Noise noise;
   Ship ship;

@@ -88,7 +88,7 @@ void add_field(const SchoolField& field, View3<float> out, const Array3<float>* 
 SyntheticSonar::SyntheticSonar(Scene scene) {
   SONAR_CHECK(!scene.beams.empty() && scene.pings > 0);
   auto state = std::make_unique<State>();
-  state->layout = make_layout(scene.beams);
+  state->layout = make_layout(scene.beams, scene.beam_pattern);
   state->background = make_background(state->layout, scene);
   for (const Body& body : scene.bodies) state->bodies.push_back(scatterers(body.shape));
   if (state->layout.grid) state->sector = state->layout.grid->grid.sector(state->layout.range);
