@@ -154,6 +154,20 @@ void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, cons
   out.body_backscatter_error_db = body_backscatter.error_db();
 }
 
+/// Mean Sv of the bodies over the unclipped pings, as a school's row takes it; over all where there are none.
+double body_sv_db(const std::vector<PingPair>& pairs, const std::map<std::int64_t, BodyInPing>& bodies) {
+  const bool any_whole = std::any_of(pairs.begin(), pairs.end(), [](const PingPair& pair) { return pair.unclipped; });
+  double sum = 0.0;
+  int known = 0;
+  for (const PingPair& pair : pairs) {
+    const auto body = bodies.find(pair.ping_index);
+    if (body == bodies.end() || (any_whole && !pair.unclipped) || !(body->second.volume_m3 > 0.0)) continue;
+    sum += body->second.backscatter_m2 / body->second.volume_m3;
+    ++known;
+  }
+  return sum > 0.0 ? db_from_linear(sum / known) : kUnknown;
+}
+
 double mean_dice(const std::vector<PingPair>& pairs, const Indexed& found, const std::optional<SchoolKey>& partner) {
   double sum = 0.0;
   int pings = 0;
@@ -235,6 +249,7 @@ SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pair
   const auto truth_school = truth.schools.find(key);
   const auto found_school = found.schools.find(*partner);
   if (truth_school != truth.schools.end() && found_school != found.schools.end()) {
+    out.body_sv_error_db = found_school->second->sv_corrected_db - body_sv_db(pairs, bodies);
     out.speed_error_mps = found_school->second->speed_mps - truth_school->second->speed_mps;
   }
   return out;

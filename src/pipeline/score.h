@@ -70,6 +70,8 @@ struct SchoolScore {
   std::int64_t fragments = 0;  ///< further tracks that lie in it
   double body_volume_corrected_ratio = kUnknown;
   double body_backscatter_error_db = kUnknown;
+  double body_sv_error_db =
+      kUnknown;  ///< sv_corrected_db of the school's row against its bodies in the unclipped pings
 };
 
 /// A found track that is no true school's and no fragment of one.

@@ -22,7 +22,7 @@ struct ErrorFigure {
 };
 
 /// Ratios count as their distance from 1.
-constexpr std::array<ErrorFigure, 8> kErrors = {{
+constexpr std::array<ErrorFigure, 9> kErrors = {{
     {"cog_error_m", [](const SchoolScore& s) { return s.cog_error_m; }},
     {"volume_ratio_error", [](const SchoolScore& s) { return s.volume_ratio - 1.0; }},
     {"volume_corrected_ratio_error", [](const SchoolScore& s) { return s.volume_corrected_ratio - 1.0; }},
@@ -32,6 +32,7 @@ constexpr std::array<ErrorFigure, 8> kErrors = {{
      [](const SchoolScore& s) { return s.n_unclipped >= kSpeedPings ? s.speed_error_mps : kUnknown; }},
     {"body_volume_corrected_ratio_error", [](const SchoolScore& s) { return s.body_volume_corrected_ratio - 1.0; }},
     {"body_backscatter_error_db", [](const SchoolScore& s) { return s.body_backscatter_error_db; }},
+    {"body_sv_error_db", [](const SchoolScore& s) { return s.body_sv_error_db; }},
 }};
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
@@ -156,7 +157,8 @@ json school_json(const SchoolScore& s) {
           {"merged", s.merged},
           {"fragments", s.fragments},
           {"body_volume_corrected_ratio", number(s.body_volume_corrected_ratio)},
-          {"body_backscatter_error_db", number(s.body_backscatter_error_db)}};
+          {"body_backscatter_error_db", number(s.body_backscatter_error_db)},
+          {"body_sv_error_db", number(s.body_sv_error_db)}};
 }
 
 std::string cell(double value, int decimals) {
@@ -190,16 +192,16 @@ std::string score_json(const Score& score) {
 }
 
 std::string score_text(const Score& score) {
-  std::string out = fmt::format("{:<14}{:<14}{:>6}{:>6}{:>8}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}\n", "truth",
-                                "found", "pings", "whole", "range", "dice", "cog", "volume", "bsc dB", "sv dB", "speed",
-                                "purity", "body vol", "body dB");
+  std::string out = fmt::format("{:<14}{:<14}{:>6}{:>6}{:>8}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}\n",
+                                "truth", "found", "pings", "whole", "range", "dice", "cog", "volume", "bsc dB", "sv dB",
+                                "speed", "purity", "body vol", "body dB", "body Sv");
   for (const SchoolScore& s : score.schools) {
-    out += fmt::format("{:<14}{:<14}{:>6}{:>6}{:>8}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{}\n", s.truth_id,
+    out += fmt::format("{:<14}{:<14}{:>6}{:>6}{:>8}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{}\n", s.truth_id,
                        s.found_id.empty() ? "-" : s.found_id, s.n_pings, s.n_unclipped, cell(s.range_m, 0),
                        cell(s.dice, 3), cell(s.cog_error_m, 2), cell(s.volume_ratio, 3),
                        cell(s.backscatter_error_db, 2), cell(s.sv_error_db, 2), cell(s.speed_error_mps, 2),
                        cell(s.purity, 2), cell(s.body_volume_corrected_ratio, 3), cell(s.body_backscatter_error_db, 2),
-                       s.counted ? "" : "  (does not count)");
+                       cell(s.body_sv_error_db, 2), s.counted ? "" : "  (does not count)");
   }
   for (const FalseSchool& s : score.false_schools) {
     out += fmt::format("{:<14}{:<14}{:>6}  is no true school\n", "-", s.found_id, s.n_pings);

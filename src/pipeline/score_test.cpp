@@ -90,6 +90,7 @@ TEST(Score, errors_worked_by_hand) {
   ObservationProduct& p = found.observations[0];
   p.observation = "obs-0007";  // another name, the same time
   p.schools[0].speed_mps = 0.7;
+  p.schools[0].sv_corrected_db = -43.0;
   for (SchoolPingRow& row : p.school_pings) {
     if (row.school_id != 1) continue;
     row.volume_m3 = 1100.0;
@@ -116,6 +117,8 @@ TEST(Score, errors_worked_by_hand) {
   EXPECT_NEAR(s.speed_error_mps, 0.2, 1e-12);
   EXPECT_NEAR(s.body_volume_corrected_ratio, 0.5, 1e-12);
   EXPECT_NEAR(s.body_backscatter_error_db, 3.0103, 1e-4);
+  // 0.0316 m2 in 800 m3 are -44.034 dB
+  EXPECT_NEAR(s.body_sv_error_db, 1.034, 1e-3);
   EXPECT_EQ(s.inside, 0.75);
 }
 
