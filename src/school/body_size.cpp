@@ -255,21 +255,23 @@ BodySize body_size(const MeasureInput& ping, const PingMask& mask, const Measure
       blur[k] = m.blur[k] / m.weight;
     }
   }
-  if (const auto fit = fit_vertical(profile(sums, *ping.sector, params.min_fan_share), params.beam_pedestal)) {
+  const auto fit = fit_vertical(profile(sums, *ping.sector, params.min_fan_share),
+                                {params.beam_gaussian_share, params.beam_pedestal});
+  if (fit) {
     correct_selection(total, blur, {centre[0], centre[1], centre[2]}, fit->body_variance_rad2 * m.range2 / m.weight);
   }
   Covariance3 body{};
   for (std::size_t k = 0; k < body.size(); ++k) body[k] = total[k] - blur[k];
   const HorizontalAxes axes = horizontal_axes(body, 0.0);
-  const auto extent = [&](double variance) {
-    return std::max(params.floor_extent_m, 2.0 * std::sqrt(params.shape_variance * std::max(variance, 0.0)));
+  const double level_blur = (blur[0] + blur[3]) / 2.0;
+  const auto extent = [&](double variance, double least_variance) {
+    const double size_m = 2.0 * std::sqrt(params.shape_variance * std::max(variance, 0.0));
+    return variance > least_variance && size_m >= params.floor_extent_m ? size_m : kUnknown;
   };
   BodySize size;
-  size.known = true;
-  size.length_m = extent(axes.major_variance);
-  size.width_m = extent(axes.minor_variance);
-  size.height_m = extent(body[5]);
-  size.volume_m3 = std::numbers::pi / 6.0 * size.length_m * size.width_m * size.height_m;
+  size.length_m = extent(axes.major_variance, params.min_level_share * level_blur);
+  size.width_m = extent(axes.minor_variance, params.min_level_share * level_blur);
+  if (fit && fit->evidence >= params.min_height_evidence) size.height_m = extent(body[5], 0.0);
   return size;
 }
 

@@ -6,13 +6,11 @@
 
 namespace sonar {
 
-/// A school's body with the sonar's blur taken out.
+/// A school's body with the sonar's blur taken out; NaN = the blur is all that is seen.
 struct BodySize {
-  bool known = false;
-  double length_m = 0.0;
-  double width_m = 0.0;
-  double height_m = 0.0;
-  double volume_m3 = 0.0;
+  double length_m = kUnknown;
+  double width_m = kUnknown;
+  double height_m = kUnknown;
 };
 
 /// Second moments of the echo in and round the mask, less those of beam and pulse, as a uniform ellipsoid's extents.

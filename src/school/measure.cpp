@@ -138,6 +138,22 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
   row.sv_max_db = db_or_unknown(*std::max_element(values.begin() + rank, values.end()));
 }
 
+/// What the sector's border, a crop or the seabed cuts off is missing from the extent across it, however it is fitted.
+constexpr std::int32_t kCutsLevel = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
+constexpr std::int32_t kCutsHeight = kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
+
+/// Corrected columns; unknown where an extent is cut or not told apart from the beam, and what needs all three with it.
+void measure_body(const BodySize& body, SchoolPingRow& row) {
+  if ((row.edge_flags & kCutsLevel) == 0) {
+    row.length_corrected_m = body.length_m;
+    row.width_corrected_m = body.width_m;
+  }
+  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
+  row.volume_corrected_m3 =
+      std::numbers::pi / 6.0 * row.length_corrected_m * row.width_corrected_m * row.height_corrected_m;
+  if (row.backscatter_m2 > 0.0) row.sv_corrected_db = db_or_unknown(row.backscatter_m2 / row.volume_corrected_m3);
+}
+
 }  // namespace
 
 std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask) {
@@ -177,13 +193,7 @@ SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const Meas
     const Point<Sonar> bottom{shape.centre.x, shape.centre.y, depth - ping.placement.transducer_depth_m};
     row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
   }
-  const BodySize body = body_size(ping, mask, params);
-  if (!body.known) return row;
-  row.length_corrected_m = body.length_m;
-  row.width_corrected_m = body.width_m;
-  row.height_corrected_m = body.height_m;
-  row.volume_corrected_m3 = body.volume_m3;
-  if (row.backscatter_m2 > 0.0) row.sv_corrected_db = db_from_linear(row.backscatter_m2 / body.volume_m3);
+  measure_body(body_size(ping, mask, params), row);
   return row;
 }
 

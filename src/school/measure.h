@@ -29,7 +29,10 @@ struct MeasureParams {
   int min_ring_samples = 60;
   double max_ring_factor = 4.0;
   double min_fan_share = 0.5;
-  double beam_pedestal = 0.02;
+  double beam_gaussian_share = 0.5;
+  double beam_pedestal = 0.1;
+  double min_height_evidence = 0.7;
+  double min_level_share = 0.05;
   double bottom_beyond_share = 0.3;
   double bottom_beyond_m = 20.0;
 };
@@ -48,7 +51,7 @@ void describe(Visitor& v, MeasureParams& p) {
   v.field("reach_samples", p.reach_samples,
           {.unit = "samples", .min = 0, .max = 1000, .text = "corrected sizes use echo so far beyond the mask"});
   v.field("floor_extent_m", p.floor_extent_m,
-          {.unit = "m", .min = 0.01, .max = 100, .text = "least corrected extent: what the beam cannot resolve"});
+          {.unit = "m", .min = 0.01, .max = 100, .text = "a smaller corrected extent is not told"});
   v.field("ring_gap_samples", p.ring_gap_samples,
           {.unit = "samples",
            .min = 0,
@@ -62,11 +65,26 @@ void describe(Visitor& v, MeasureParams& p) {
           {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of local and estimated background, either way"});
   v.field("min_fan_share", p.min_fan_share,
           {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is sound"});
+  v.field("beam_gaussian_share", p.beam_gaussian_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "the beam's flanks: 1 = Gaussian (a shaded array), 0 = a uniform line array's, between = a mean"});
   v.field("beam_pedestal", p.beam_pedestal,
           {.unit = "1",
            .min = 0.0001,
-           .max = 1,
-           .text = "share of the strongest fan below which a beam is no Gaussian any more and decides nothing"});
+           .max = 10,
+           .text = "share of the strongest fan below which the flanks of the beam decide nothing about the height"});
+  v.field("min_height_evidence", p.min_height_evidence,
+          {.unit = "1",
+           .min = 0,
+           .max = 1000,
+           .text = "no height where its log-likelihood exceeds that of a flat body by less"});
+  v.field("min_level_share", p.min_level_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 10,
+           .text = "no length or width where the body's variance is a smaller share of the beam's and the pulse's"});
   v.field("bottom_beyond_share", p.bottom_beyond_share,
           {.unit = "1", .min = 0, .max = 10, .text = "the seabed's plane holds so far beyond where it was seen ..."});
   v.field("bottom_beyond_m", p.bottom_beyond_m,

@@ -14,7 +14,7 @@
 #include "model/mask.h"
 #include "signal/median.h"
 
-// Water with analytic schools for tests: ellipsoids cut into points, each spread by Gaussian beams; exponential
+// Water with analytic schools for tests: ellipsoids cut into points, each spread by the beams; exponential
 // speckle from an integer hash. Nothing here is shared with the code under test.
 namespace sonar::test {
 
@@ -46,18 +46,35 @@ inline BeamGrid grid(double mounting_deg = 270.0) {
 }
 inline RangeAxis range_axis(int samples = 900) { return {-0.75, 0.3776, samples}; }
 
+/// Two-way pattern in elevation and in azimuth, of one -3 dB width: exp(-z^2 / 2), or a uniform line's (sin x / x)^4.
+enum class Beams { gaussian, uniform_line };
+
+/// sigmas  angle off the axis in standard deviations of the Gaussian
+inline double two_way(Beams beams, double sigmas) {
+  if (beams == Beams::gaussian) return std::exp(-0.5 * sigmas * sigmas);
+  const double x = 1.3915573782515105 * sigmas / (2.0 * std::sqrt(std::numbers::ln2));
+  return std::abs(x) < 1e-9 ? 1.0 : std::pow(std::sin(x) / x, 4);
+}
+/// Its integral: sqrt(2 pi) for the Gaussian, 2 pi / 3 in x for the line.
+inline double two_way_integral(Beams beams) {
+  if (beams == Beams::gaussian) return std::sqrt(2.0 * std::numbers::pi);
+  return 2.0 * std::numbers::pi / 3.0 * 2.0 * std::sqrt(std::numbers::ln2) / 1.3915573782515105;
+}
+
 struct Ellipsoid {
   Point<Sonar> centre;
   double half_x = 10.0;  ///< m, along the sonar frame's axes
   double half_y = 8.0;
   double half_z = 5.0;
   double sv = 1e-4;
+  Beams beams = Beams::gaussian;
 };
 
 /// Expected sv of one ellipsoid: beams and nothing else.
 inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellipsoid& e, int points = 4000) {
   const double sigma_v = rad_from_deg(kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
   const double sigma_h = rad_from_deg(kHorizontalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  const double integral = two_way_integral(e.beams);
   const double volume = 4.0 / 3.0 * std::numbers::pi * e.half_x * e.half_y * e.half_z;
   const double dr = sector.range().spacing_m;
   std::uint64_t n = 1;
@@ -72,16 +89,16 @@ inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellips
     const double elevation = std::asin(-p.z / r);
     const auto sample = static_cast<int>(std::lround(sector.range().sample_at(r)));
     if (sample < 0 || sample >= sector.range().count) continue;
-    const double weight = e.sv * volume / points / (r * r * dr) / (2.0 * std::numbers::pi * sigma_v * sigma_h);
+    const double weight = e.sv * volume / points / (r * r * dr) / (integral * integral * sigma_v * sigma_h);
     for (int f = 0; f < sector.fans(); ++f) {
       const double de = (elevation - sector.elevation_rad(f)) / sigma_v;
-      if (std::abs(de) > 5.0) continue;
+      if (std::abs(de) > 7.0) continue;
       for (int b = 0; b < sector.beams(); ++b) {
         double azimuth = std::atan2(p.y, p.x) - sector.azimuth_rad(b);
         azimuth -= 2.0 * std::numbers::pi * std::round(azimuth / (2.0 * std::numbers::pi));
         const double da = azimuth * std::cos(elevation) / sigma_h;
-        if (std::abs(da) > 5.0) continue;
-        sv(f, b, sample) += weight * std::exp(-0.5 * (de * de + da * da));
+        if (std::abs(da) > 7.0) continue;
+        sv(f, b, sample) += weight * two_way(e.beams, de) * two_way(e.beams, da);
       }
     }
   }

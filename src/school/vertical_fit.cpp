@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace sonar {
 namespace {
@@ -36,9 +37,41 @@ struct Marginal {
   }
 };
 
+/// A two-way pattern and its derivative by the angle, in units of the Gaussian's standard deviation.
+struct PatternAt {
+  double value = 0.0;
+  double slope = 0.0;
+};
+
+/// sin(x)/x falls to a half in power at this x.
+constexpr double kHalfPowerOfSinc = 1.3915573782515105;
+
+PatternAt gaussian(double z) {
+  const double value = std::exp(-0.5 * z * z);
+  return {value, -z * value};
+}
+
+/// (sin x / x)^4, of one -3 dB width with the Gaussian.
+PatternAt uniform_line(double z) {
+  const double scale = kHalfPowerOfSinc / (2.0 * std::sqrt(std::numbers::ln2));
+  const double x = z * scale;
+  constexpr double kSmall = 1e-4;  // below it the quotient loses its digits, and the parabola is exact to 1e-16
+  if (std::abs(x) < kSmall) return {1.0 - 2.0 * x * x / 3.0, -4.0 * x / 3.0 * scale};
+  const double s = std::sin(x) / x;
+  return {s * s * s * s, 4.0 * s * s * s * (std::cos(x) - s) / x * scale};
+}
+
+PatternAt pattern_at(double gaussian_share, double z) {
+  const PatternAt g = gaussian_share > 0.0 ? gaussian(z) : PatternAt{};
+  const PatternAt u = gaussian_share < 1.0 ? uniform_line(z) : PatternAt{};
+  const double rest = 1.0 - gaussian_share;
+  return {gaussian_share * g.value + rest * u.value, gaussian_share * g.slope + rest * u.slope};
+}
+
 class Likelihood {
  public:
-  Likelihood(const std::vector<FanEcho>& fans, double pedestal) : fans_(fans), pedestal_(pedestal) {
+  Likelihood(const std::vector<FanEcho>& fans, const BeamModel& beam)
+      : fans_(fans), gaussian_share_(beam.gaussian_share), pedestal_(beam.pedestal) {
     double sum = 0.0;
     double moment = 0.0;
     for (const FanEcho& fan : fans) {
@@ -67,9 +100,9 @@ class Likelihood {
     const double inverse = 1.0 / fan.sigma_rad;
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double z = (fan.elevation_rad - centre_ - half_height * marginal_.u[k]) * inverse;
-      const double g = marginal_.weight[k] * std::exp(-0.5 * z * z) * inverse;
-      m += g;
-      dm += g * z * inverse;
+      const PatternAt p = pattern_at(gaussian_share_, z);
+      m += marginal_.weight[k] * p.value * inverse;
+      dm -= marginal_.weight[k] * p.slope * inverse * inverse;
     }
   }
 
@@ -116,6 +149,7 @@ class Likelihood {
   }
 
   const std::vector<FanEcho>& fans_;
+  double gaussian_share_;
   double pedestal_;
   Marginal marginal_;
   double centre_ = 0.0;
@@ -125,9 +159,13 @@ class Likelihood {
 
 }  // namespace
 
-std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, double pedestal) {
+double two_way_pattern(const BeamModel& beam, double off_axis) {
+  return pattern_at(beam.gaussian_share, off_axis).value;
+}
+
+std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, const BeamModel& beam) {
   if (fans.size() < 3) return std::nullopt;
-  Likelihood likelihood(fans, pedestal);
+  Likelihood likelihood(fans, beam);
   if (!likelihood.sound()) return std::nullopt;
   constexpr double kGolden = 0.6180339887498949;
   double low = 0.0;
@@ -152,9 +190,10 @@ std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, double
     }
   }
   const double half_height = (low + high) / 2.0;
-  static_cast<void>(likelihood.best(half_height));
+  const double flat = Likelihood(likelihood).best(0.0);
+  const double most = likelihood.best(half_height);
   if (!likelihood.sound()) return std::nullopt;
-  return VerticalFit{likelihood.centre(), half_height * half_height * kMarginalVariance};
+  return VerticalFit{likelihood.centre(), half_height * half_height * kMarginalVariance, std::max(most - flat, 0.0)};
 }
 
 }  // namespace sonar
