@@ -138,7 +138,8 @@ std::vector<float> Engine::background_db(std::int64_t ping_index) const {
     if (!estimated.empty()) window.push_back(estimated);
   }
   if (window.empty()) return {};
-  const std::vector<double> combined = combine_background(window);
+  const std::vector<double> combined =
+      combine_background(window, static_cast<std::size_t>(grid().fans() * grid().beams()), recipe_.background);
   std::vector<float> rounded(combined.size());
   std::transform(combined.begin(), combined.end(), rounded.begin(), [](double v) { return static_cast<float>(v); });
   return rounded;

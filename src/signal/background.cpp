@@ -33,11 +33,10 @@ double low_quantile_db(Row row, const BackgroundParams& params) {
   return db_from_counts(value) - 10.0 * std::log10(-std::log1p(-p));
 }
 
-double weakest_block_db(Row row, const BackgroundParams& params) {
-  if (count_data(row) < static_cast<std::size_t>(params.minimum_samples)) return kUnknown;
-  const auto block = static_cast<std::size_t>(params.block_samples);
-  double weakest = std::numeric_limits<double>::infinity();
-  for (std::size_t first = 0; first < row.size(); first += block) {
+/// Mean power of each block of a row, of which half at least is sound.
+void block_means_db(Row row, std::size_t block, std::span<double> level_db) {
+  std::size_t index = 0;
+  for (std::size_t first = 0; first < row.size(); first += block, ++index) {
     double sum = 0.0;
     std::size_t data = 0;
     for (const std::int16_t count : row.subspan(first, std::min(block, row.size() - first))) {
@@ -45,10 +44,22 @@ double weakest_block_db(Row row, const BackgroundParams& params) {
       sum += linear_from_count(count);
       ++data;
     }
-    if (2 * data > block) weakest = std::min(weakest, sum / static_cast<double>(data));
+    level_db[index] = 2 * data > block && sum > 0.0 ? db_from_linear(sum / static_cast<double>(data)) : kUnknown;
   }
-  if (!std::isfinite(weakest) || weakest <= 0.0) return kUnknown;
-  return std::min(db_from_linear(weakest), params.maximum_db);
+}
+
+double median_level_db(std::vector<double>& known) {
+  if (known.empty()) return kUnknown;
+  std::sort(known.begin(), known.end());
+  const double low = linear_from_db(known[(known.size() - 1) / 2]);
+  const double high = linear_from_db(known[known.size() / 2]);
+  return known.size() % 2 == 1 ? known[known.size() / 2] : db_from_linear(0.5 * (low + high));
+}
+
+double linear_mean_db(std::span<const double> known_db) {
+  double sum = 0.0;
+  for (const double db : known_db) sum += linear_from_db(db);
+  return db_from_linear(sum / static_cast<double>(known_db.size()));
 }
 
 /// The count at or just above a level; outside the range of counts its end.
@@ -61,33 +72,45 @@ std::int16_t count_from_db(double db) {
 std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
                                         const BackgroundParams& params) {
   SONAR_CHECK(power.shape() == flags.shape());
-  const auto rows = static_cast<int>(power.shape().rows());
-  std::vector<double> level_db(static_cast<std::size_t>(rows));
-  std::vector<std::int16_t> sound(static_cast<std::size_t>(power.shape().samples));
-  for (int row = 0; row < rows; ++row) {
-    copy_unflagged(power.row(row), flags.row(row), kNotFiltered, 0, sound);
-    level_db[static_cast<std::size_t>(row)] = params.method == BackgroundMethod::low_quantile
-                                                  ? low_quantile_db(sound, params)
-                                                  : weakest_block_db(sound, params);
+  const std::size_t rows = power.shape().rows();
+  const auto samples = static_cast<std::size_t>(power.shape().samples);
+  const bool by_blocks = params.method == BackgroundMethod::de_robertis;
+  const auto block = static_cast<std::size_t>(params.block_samples);
+  const std::size_t figures = by_blocks ? (samples + block - 1) / block : 1;
+  std::vector<double> level_db(rows * figures, kUnknown);
+  std::vector<std::int16_t> sound(samples);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const int index = static_cast<int>(row);
+    copy_unflagged(power.row(index), flags.row(index), kNotFiltered, 0, sound);
+    const std::span<double> out = std::span(level_db).subspan(row * figures, figures);
+    if (!by_blocks) {
+      out.front() = low_quantile_db(sound, params);
+    } else if (count_data(sound) >= static_cast<std::size_t>(params.minimum_samples)) {
+      block_means_db(sound, block, out);
+    }
   }
   return level_db;
 }
 
-std::vector<double> combine_background(std::span<const std::vector<double>> pings) {
-  if (pings.empty()) return {};
-  std::vector<double> combined(pings.front().size(), kUnknown);
+std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
+                                       const BackgroundParams& params) {
+  if (pings.empty() || rows == 0) return {};
+  const std::size_t figures = pings.front().size() / rows;
+  std::vector<double> combined(rows, kUnknown);
   std::vector<double> known;
-  for (std::size_t row = 0; row < combined.size(); ++row) {
+  for (std::size_t i = 0; i < rows * figures; ++i) {
     known.clear();
     for (const auto& ping : pings) {
-      SONAR_CHECK(ping.size() == combined.size());
-      if (!std::isnan(ping[row])) known.push_back(ping[row]);
+      SONAR_CHECK(ping.size() == rows * figures);
+      if (!std::isnan(ping[i])) known.push_back(ping[i]);
     }
     if (known.empty()) continue;
-    std::sort(known.begin(), known.end());
-    const double low = linear_from_db(known[(known.size() - 1) / 2]);
-    const double high = linear_from_db(known[known.size() / 2]);
-    combined[row] = known.size() % 2 == 1 ? known[known.size() / 2] : db_from_linear(0.5 * (low + high));
+    double& level_db = combined[i / figures];
+    if (params.method == BackgroundMethod::low_quantile) {
+      level_db = median_level_db(known);
+    } else {
+      level_db = std::fmin(level_db, std::min(linear_mean_db(known), params.maximum_db));
+    }
   }
   return combined;
 }

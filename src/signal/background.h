@@ -27,7 +27,8 @@ struct BackgroundParams {
 template <class Visitor>
 void describe(Visitor& v, BackgroundParams& p) {
   v.choice("method", p.method, kBackgroundMethodNames,
-           "low_quantile: from the weak samples of the far part of a beam; de_robertis: weakest block of range");
+           "low_quantile: from the weak samples of the far part of a beam; de_robertis: weakest block of range, "
+           "averaged over the window's pings first");
   v.field("quantile", p.quantile, {.unit = "", .min = 0.01, .max = 0.9, .text = "low_quantile: which quantile"});
   v.field("far_fraction", p.far_fraction,
           {.unit = "", .min = 0.05, .max = 1, .text = "share of the beam, counted from its far end, that is used"});
@@ -39,16 +40,23 @@ void describe(Visitor& v, BackgroundParams& p) {
           {.unit = "dB re 1 W", .min = -300, .max = 100, .text = "de_robertis: no background above this"});
 }
 
-/// Mean background noise power of each beam from one ping, without the flagged samples.
-/// low_quantile: noise power is exponentially distributed, so its mean is q_p / ln(1 / (1 - p)); robust against
-/// schools. in      power [fan][beam][sample], counts re 1 W; flags, same shape out     [fan * beams + beam], dB re 1
-/// W; NaN where too few samples are sound source  Holmin et al. 2016 (low quantile); De Robertis & Higginbottom 2007
+/// What one ping tells of each beam's background, without the flagged samples: with low_quantile its level, with
+/// de_robertis the mean power of each block of range, block by block. Only combine_background() makes levels of both:
+/// the weakest block of a single ping is weak by chance (4 dB below the mean, of blocks of 10 m).
+/// in      power [fan][beam][sample], counts re 1 W; flags, same shape
+/// out     [fan * beams + beam][block], dB re 1 W; NaN where too few samples are sound
+/// source  noise power is exponentially distributed, so its mean is q_p / ln(1 / (1 - p)): Holmin et al. 2016 (low
+///         quantile); De Robertis & Higginbottom 2007
 [[nodiscard]] std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
                                                       const BackgroundParams& params);
 
-/// Median over pings of each row's background; NaN are left out, a row without any stays NaN.
-/// in      one estimate per ping, all of one length
-[[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings);
+/// Level of each row over pings. low_quantile: the median; de_robertis: blocks averaged over pings, and of these the
+/// weakest, not above maximum_db. NaN are left out, a row without any stays NaN.
+/// in      one estimate per ping, all of one length, as background_power_db() gives them with the same params
+/// rows    of the grid
+/// out     [row]
+[[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
+                                                     const BackgroundParams& params);
 
 /// Sv of the background at each sample: its power plus what the sonar equation adds there.
 /// in      level_db of the row, table = sv_table() of the row
