@@ -289,6 +289,10 @@ def usable(o, ping):
         edge = np.radians(np.minimum(elevation[:, None] + o.widths_deg / 2, 90))
         with np.errstate(divide="ignore", invalid="ignore"):
             end = at(np.where(edge > 0, clear / np.sin(edge), np.inf))
+    with np.errstate(divide="ignore"):  # above the water line under any recipe
+        line = np.where(elevation > 0, float(o.pings["transducer_depth"][ping]) / np.sin(o.elevation), np.inf)
+    air = np.clip(np.floor((line - o.first) / o.dr) + 1, 0, o.samples)
+    end = np.minimum(end, air[:, None])
     return first.astype(int), end.astype(int)
 
 

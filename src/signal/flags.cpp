@@ -60,11 +60,32 @@ void flag_near_field(const PingGeometry& geometry, const NearFieldParams& params
   }
 }
 
+namespace {
+
+/// No recipe makes air into water: what has its centre above the water line is flagged whatever the parameters say.
+void flag_air(const PingGeometry& geometry, View3<SampleFlags> flags) {
+  if (!has_range_axis(geometry) || !std::isfinite(geometry.transducer_depth_m)) return;
+  const Shape3 shape = flags.shape();
+  for (int fan = 0; fan < shape.fans; ++fan) {
+    const double up = std::sin(rad_from_deg(geometry.elevation_deg[static_cast<std::size_t>(fan)]));
+    if (!(up > 0.0)) continue;
+    const double line = (geometry.transducer_depth_m / up - geometry.first_range_m) / geometry.spacing_m;
+    const int first = static_cast<int>(std::clamp(std::floor(line) + 1.0, 0.0, static_cast<double>(shape.samples)));
+    for (int beam = 0; beam < shape.beams; ++beam) {
+      flag_samples(flags.row(fan, beam), first, shape.samples, SampleFlags::surface);
+    }
+  }
+}
+
+}  // namespace
+
 void flag_surface(const PingGeometry& geometry, const SurfaceParams& params, View3<SampleFlags> flags) {
   const Shape3 shape = flags.shape();
   const auto& elevation_deg = geometry.elevation_deg;
-  if (!params.enabled || elevation_deg.size() != static_cast<std::size_t>(shape.fans)) return;
+  if (elevation_deg.size() != static_cast<std::size_t>(shape.fans)) return;
   if (std::any_of(elevation_deg.begin(), elevation_deg.end(), [](double e) { return !std::isfinite(e); })) return;
+  flag_air(geometry, flags);
+  if (!params.enabled) return;
   if (params.mode == SurfaceMode::fan) {
     for (const int fan : top_fans(geometry, shape.fans, params.fans)) {
       for (int beam = 0; beam < shape.beams; ++beam) {

@@ -134,6 +134,23 @@ TEST(flags, surface_mode_edge_keeps_upper_fans_near_the_ship) {
   EXPECT_EQ(count_flag(flags, SampleFlags::surface), 25U * (1320U - 219U) + 25U * (1320U - 673U));
 }
 
+// A sonar 7 m deep that looks 30 degrees up meets the water line at 14 m. What lies above is air under any parameters.
+TEST(flags, no_parameters_make_air_into_water) {
+  PingGeometry geometry;
+  geometry.first_range_m = 0.0;
+  geometry.spacing_m = 1.0;
+  geometry.transducer_depth_m = 7.0;
+  geometry.elevation_deg = {-30.0, 0.0, 30.0};
+  for (const SurfaceParams& params :
+       {SurfaceParams{.enabled = false}, SurfaceParams{.mode = SurfaceMode::fan, .fans = 0}}) {
+    Array3<SampleFlags> flags({3, 2, 40});
+    flag_surface(geometry, params, flags.view());
+    EXPECT_EQ(count_flag(flags, SampleFlags::surface), 2U * 25U);
+    EXPECT_FALSE(any(flags(2, 1, 14)));  // on the line
+    EXPECT_TRUE(any(flags(2, 1, 15)));
+  }
+}
+
 TEST(flags, unknown_geometry_leaves_the_surface_alone) {
   Array3<SampleFlags> flags({1, 1, 10});
   flag_surface({}, {}, flags.view());
