@@ -176,15 +176,14 @@ class PingDetector {
   }
 
   [[nodiscard]] PingMask members(const Runs& part, double reference_db, double threshold_db) const {
-    const MemberTable table = MemberTable::one_sided(reference_db, params_.tolerance_db);
-    const double lowest = counts_from_db(threshold_db) - 1e-9;
+    const MemberTable table = MemberTable::one_sided(reference_db, reference_db - threshold_db);
     PingMask mask;
     for (const Run& run : part) {
       const auto counts = sv_.row(run.row);
       bool open = false;
       for (int s = run.first_sample; s < run.end(); ++s) {
         const std::int16_t count = counts[static_cast<std::size_t>(s)];
-        const bool inside = count >= lowest && table(count) != 0;
+        const bool inside = table(count) != 0;
         if (inside) {
           if (!open) mask.runs.push_back({run.row, s, 0});
           ++mask.runs.back().count;

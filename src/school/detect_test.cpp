@@ -131,6 +131,30 @@ TEST(Detect, LeavesOthersVoxelsAlone) {
   for (const Detection& d : found) EXPECT_EQ(overlap(d.mask, scene.truths[0]), 0U);
 }
 
+// INTERFACES: f falls as 1 - (d/t)^2 to 0 at the threshold, d and t in dB below the reference.
+TEST(Detect, ConfidenceFallsToNothingAtTheThresholdThatIsPublished) {
+  Scene scene;
+  scene.add(150.0, -15.0, 255.0, -35.0);
+  scene.add(170.0, -15.0, 262.0, -44.0);  // stands in the stronger one's skirt: its threshold is raised
+  bool raised = false;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const Detection& d : scene.look(seed)) {
+      const Array3<std::int16_t> sv = test::filtered(scene.counts, scene.flags);
+      const double t = d.reference_db - d.threshold_db;
+      raised = raised || t < DetectParams{}.tolerance_db - 0.5;
+      std::size_t i = 0;
+      for (const sonar::Run& run : d.mask.runs) {
+        for (int s = run.first_sample; s < run.end(); ++s, ++i) {
+          const double below = d.reference_db - db_from_counts(sv.view().row(run.row)[static_cast<std::size_t>(s)]);
+          const double f = below > 0.0 ? 1.0 - below * below / (t * t) : 1.0;
+          ASSERT_NEAR(d.mask.confidence[i], std::max(1.0, 255.0 * f), 0.51) << below << " of " << t;
+        }
+      }
+    }
+  }
+  EXPECT_TRUE(raised);
+}
+
 TEST(Detect, SeabedIsNoMember) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0);
