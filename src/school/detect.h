@@ -32,6 +32,8 @@ struct DetectParams {
   int min_fans = 2;
   double max_flagged_members = 0.5;
   double max_boundary_faces = 0.3;
+  double max_seabed_faces = 0.8;
+  double seabed_rise_db = 0.0;
   double max_shell_thickness_m = 8.0;
   double shell_share = 0.9;
   double shell_bend = 2.0;
@@ -77,7 +79,14 @@ void describe(Visitor& v, DetectParams& p) {
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "no school where more of the outer faces lie at the surface, the seabed or the near field"});
+           .text = "no school where more of the outer faces lie at the surface or the near field"});
+  v.field("max_seabed_faces", p.max_seabed_faces,
+          {.unit = "1", .min = 0, .max = 1, .text = "largest share of outer faces at the seabed's margin"});
+  v.field("seabed_rise_db", p.seabed_rise_db,
+          {.unit = "dB",
+           .min = -60,
+           .max = 60,
+           .text = "the seabed's own flank, not a school: members beside its margin are this much above the others"});
   v.field("max_shell_thickness_m", p.max_shell_thickness_m,
           {.unit = "m", .min = 0, .max = 100, .text = "what is thinner and spans the shell_share is a wall"});
   v.field("shell_share", p.shell_share,

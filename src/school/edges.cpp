@@ -35,7 +35,7 @@ class FaceCount {
     const auto share = [&](std::int64_t part) {
       return faces_ > 0 ? static_cast<double>(part) / static_cast<double>(faces_) : 0.0;
     };
-    return {found_, share(at_edge_), share(at_boundary_)};
+    return {found_, share(at_edge_), share(at_boundary_), share(at_seabed_)};
   }
 
  private:
@@ -93,7 +93,11 @@ class FaceCount {
     if (any(beyond & SampleFlags::seabed)) edges |= kEdgeSeabed;
     if (any(beyond & kFault)) edges |= kEdgeFlagged;
     add(edges, 1);
-    if (any(beyond & kNeverMember)) ++at_boundary_;
+    if (any(beyond & SampleFlags::seabed)) {
+      ++at_seabed_;
+    } else if (any(beyond & kNeverMember)) {
+      ++at_boundary_;
+    }
   }
 
   void add(std::int32_t edges, int faces) {
@@ -112,6 +116,7 @@ class FaceCount {
   std::int64_t faces_ = 0;
   std::int64_t at_edge_ = 0;
   std::int64_t at_boundary_ = 0;
+  std::int64_t at_seabed_ = 0;
 };
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace sonar {
 struct MaskEdges {
   std::int32_t flags = 0;          ///< EdgeFlags of model/school.h
   double edge_fraction = 0.0;      ///< share of outer faces at kTouchesEdge edges
-  double boundary_fraction = 0.0;  ///< share of outer faces at surface, seabed or near field
+  double boundary_fraction = 0.0;  ///< share of outer faces at surface or near field
+  double seabed_fraction = 0.0;    ///< share of outer faces at the seabed's margin
 };
 
 /// Looks at the six faces of each member: the sector's borders (rows that are cropped whole count as absent), and the
