@@ -95,9 +95,10 @@ class Keeper {
     }
   }
 
-  /// The corrected sizes look at a mask's beams through all its fans and some more.
+  /// The corrected sizes look at a mask's beams through all its fans and some more, and at the background round them.
   void keep_surroundings(const PingMask& mask, const MeasureParams& params) {
     const IndexBox box = box_of(mask, shape_.beams);
+    const int reach = params.reach_samples + params.ring_gap_samples + params.ring_samples;
     const int first_fan = std::max(0, box.first_fan - params.reach_fans);
     const int last_fan = std::min(shape_.fans - 1, box.last_fan + params.reach_fans);
     for (const Run& run : mask.runs) {
@@ -105,7 +106,7 @@ class Keeper {
       for (int b = std::max(0, beam - params.reach_beams); b <= std::min(shape_.beams - 1, beam + params.reach_beams);
            ++b) {
         for (int f = first_fan; f <= last_fan; ++f) {
-          keep(f, b, run.first_sample - params.reach_samples, run.end() + params.reach_samples);
+          keep(f, b, run.first_sample - reach, run.end() + reach);
         }
       }
     }
