@@ -52,7 +52,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("--margin-pings", arguments->reduce.margin_pings,
                    "raw-reduced: pings without samples before and after a school");
   verb->add_option("--coarsen", arguments->reduce.coarsen_samples,
-                   "raw-reduced: keep the rest as means of so many samples; 0 = drop it");
+                   "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return run_export(*arguments); }; });
 }

@@ -41,7 +41,7 @@ void describe(Visitor& v, ReduceParams& p) {
           {.unit = "samples",
            .min = 0,
            .max = 10000,
-           .text = "of the rest keep the mean of each so many samples as one; 0 = nothing of the rest"});
+           .text = "of the rest keep the mean of so many neighbouring beams of a fan as one; 0 = nothing of the rest"});
 }
 
 struct ReduceReport {

@@ -150,26 +150,30 @@ void keep_last_samples(const Array3<std::int16_t>& counts, Array3<std::int16_t>&
   }
 }
 
-/// The mean of each block of which nothing is kept stands for it, at its first sample.
-void keep_coarse(const Array3<std::int16_t>& counts, int block, Array3<std::int16_t>& out) {
-  const auto step = static_cast<std::size_t>(block);
-  for (int row = 0; row < static_cast<int>(counts.shape().rows()); ++row) {
-    const auto from = counts.view().row(row);
-    const auto to = out.view().row(row);
-    for (std::size_t first = 0; first < from.size(); first += step) {
-      const std::size_t end = std::min(from.size(), first + step);
-      double sum = 0.0;
-      int data = 0;
-      bool untouched = true;
-      for (std::size_t i = first; i < end; ++i) {
-        untouched = untouched && to[i] == kNoData;
-        if (from[i] == kNoData) continue;
-        sum += linear_from_count(from[i]);
-        ++data;
+/// Sample by sample the mean of neighbouring beams of a fan stands for them, in the middle one, where nothing of them
+/// is kept: raw files have one sample interval for all channels and no gaps in a channel, so that it is whole channels
+/// that save room.
+void keep_coarse(const Array3<std::int16_t>& counts, int group, Array3<std::int16_t>& out) {
+  const Shape3 shape = counts.shape();
+  for (int fan = 0; fan < shape.fans; ++fan) {
+    for (int first = 0; first < shape.beams; first += group) {
+      const int end = std::min(shape.beams, first + group);
+      const int middle = (first + end - 1) / 2;
+      for (int s = 0; s < shape.samples; ++s) {
+        double sum = 0.0;
+        int data = 0;
+        bool untouched = true;
+        for (int beam = first; beam < end; ++beam) {
+          untouched = untouched && out(fan, beam, s) == kNoData;
+          const std::int16_t count = counts(fan, beam, s);
+          if (count == kNoData) continue;
+          sum += linear_from_count(count);
+          ++data;
+        }
+        if (!untouched || data == 0) continue;
+        const double mean = std::clamp<double>(counts_from_db(db_from_linear(sum / data)), kMinCount + 1, kMaxCount);
+        out(fan, middle, s) = static_cast<std::int16_t>(std::lround(mean));
       }
-      if (!untouched || data == 0) continue;
-      const double mean = std::clamp<double>(counts_from_db(db_from_linear(sum / data)), kMinCount + 1, kMaxCount);
-      to[first] = static_cast<std::int16_t>(std::lround(mean));
     }
   }
 }

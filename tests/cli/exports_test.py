@@ -63,10 +63,21 @@ class Exports(Case):
         self.assertTrue(info["observations"])
         again = self.fresh("export-raw-reduced-out")
         self.sonarx("run", dest, "--out", again)
-        # Observations without schools may be gone, so that display names may shift; time and size may not.
-        wanted = [[r[k] for k in KEYS[2:]] for r in sonarx.read_csv(OUT / "school_pings.csv")]
-        found = [[r[k] for k in KEYS[2:]] for r in sonarx.read_csv(again / "school_pings.csv")]
-        self.assertEqual(sorted(found), sorted(wanted))
+        # Observations without schools may be gone, so that display names may shift; nothing else may. The seabed's plane
+        # stays behind with its samples.
+        names = {"observation", "school_id", "ping_index", "bottom_depth_m"}
+        rows = lambda folder: sorted([[r[k] for k in r if k not in names]
+                                      for r in sonarx.read_csv(folder / "school_pings.csv")])
+        self.assertEqual(rows(again), rows(OUT))
+
+    def test_reduced_raw_with_the_rest_coarsened(self):
+        """One beam in five stays of the rest, and the schools' own samples: far less than all of it, and the same masks."""
+        dest = self.export("raw-reduced", "--survey", SURVEY, "--coarsen", "5")
+        self.assertLess(total(dest, "*.raw"), total(SURVEY, "*.raw") / 2)
+        again = self.fresh("export-raw-coarse-out")
+        self.sonarx("run", dest, "--out", again)
+        masks = lambda folder: sorted([[r[k] for k in KEYS[2:]] for r in sonarx.read_csv(folder / "school_pings.csv")])
+        self.assertEqual(masks(again), masks(OUT))
 
     def test_reduced_raw_needs_the_survey(self):
         code, _, err = sonarx.run("export", OUT, "--to", "raw-reduced", "--dest", self.fresh("export-none"))
