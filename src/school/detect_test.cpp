@@ -133,21 +133,26 @@ TEST(Detect, LeavesOthersVoxelsAlone) {
 
 // INTERFACES: f falls as 1 - (d/t)^2 to 0 at the threshold, d and t in dB below the reference.
 TEST(Detect, ConfidenceFallsToNothingAtTheThresholdThatIsPublished) {
-  Scene scene;
-  scene.add(150.0, -15.0, 255.0, -35.0);
-  scene.add(170.0, -15.0, 262.0, -44.0);  // stands in the stronger one's skirt: its threshold is raised
   bool raised = false;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    for (const Detection& d : scene.look(seed)) {
-      const Array3<std::int16_t> sv = test::filtered(scene.counts, scene.flags);
-      const double t = d.reference_db - d.threshold_db;
-      raised = raised || t < DetectParams{}.tolerance_db - 0.5;
-      std::size_t i = 0;
-      for (const sonar::Run& run : d.mask.runs) {
-        for (int s = run.first_sample; s < run.end(); ++s, ++i) {
-          const double below = d.reference_db - db_from_counts(sv.view().row(run.row)[static_cast<std::size_t>(s)]);
-          const double f = below > 0.0 ? 1.0 - below * below / (t * t) : 1.0;
-          ASSERT_NEAR(d.mask.confidence[i], std::max(1.0, 255.0 * f), 0.51) << below << " of " << t;
+  // fine steps, and neighbours whose echoes part between their thresholds
+  const DetectParams params{.tolerance_db = 20.0, .link_db = 0.0, .step_db = 1.0};
+  for (const double weak_db : {-45.0}) {
+    for (const double apart_deg : {14.0, 15.0, 16.0, 17.0}) {
+      Scene scene;
+      scene.add(150.0, -15.0, 262.0, -35.0);
+      scene.add(150.0, -15.0, 262.0 + apart_deg,
+                weak_db);  // stands in the stronger one's skirt, which may raise its threshold
+      for (const Detection& d : scene.look(static_cast<std::uint64_t>(10.0 * apart_deg), params)) {
+        const Array3<std::int16_t> sv = test::filtered(scene.counts, scene.flags);
+        const double t = d.reference_db - d.threshold_db;
+        raised = raised || t < params.tolerance_db - 0.5;
+        std::size_t i = 0;
+        for (const sonar::Run& run : d.mask.runs) {
+          for (int s = run.first_sample; s < run.end(); ++s, ++i) {
+            const double below = d.reference_db - db_from_counts(sv.view().row(run.row)[static_cast<std::size_t>(s)]);
+            const double f = below > 0.0 ? 1.0 - below * below / (t * t) : 1.0;
+            ASSERT_NEAR(d.mask.confidence[i], std::max(1.0, 255.0 * f), 0.51) << below << " of " << t;
+          }
         }
       }
     }

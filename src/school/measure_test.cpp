@@ -108,13 +108,16 @@ TEST(Measure, CorrectedSizesAreTheBodysForEitherBeamShape) {
         Ping ping;
         test::Ellipsoid e = ellipsoid(range_m, elevation_deg, 268.0);
         e.beams = beams;
+        // 12 m at 300 m are a third of the beam: what is left of them hangs on the shape
+        if (range_m > 250.0) e.half_z = 10.0;
+        const double body_m3 = kBody_m3 * e.half_z / 6.0;
         ping.add(e);
         const SchoolPingRow row = ping.measured(1, false);
         EXPECT_NEAR(row.length_corrected_m / 40.0, 1.0, 0.06) << range_m;
         EXPECT_NEAR(row.width_corrected_m / 24.0, 1.0, 0.08) << range_m;
-        EXPECT_NEAR(row.volume_corrected_m3 / kBody_m3, 1.0, 0.25) << range_m << " " << elevation_deg;
+        EXPECT_NEAR(row.volume_corrected_m3 / body_m3, 1.0, 0.25) << range_m << " " << elevation_deg;
         // backscatter within 1 dB of sv V of the body: the mask leaves out what is 10 dB down
-        EXPECT_NEAR(db_from_linear(row.backscatter_m2 / (1e-4 * kBody_m3)), -0.4, 0.6) << range_m;
+        EXPECT_NEAR(db_from_linear(row.backscatter_m2 / (1e-4 * body_m3)), -0.4, 0.6) << range_m;
       }
     }
   }

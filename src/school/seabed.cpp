@@ -12,7 +12,6 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "model/school.h"
-#include "school/vertical_fit.h"
 
 namespace sonar {
 namespace {
@@ -20,17 +19,12 @@ namespace {
 constexpr int kBlock = 16;  ///< samples looked at together: for speed alone
 /// Stands in where a grid tells no beam width.
 constexpr double kUnknownWidth_rad = 0.1;
-constexpr double kPlaneWidths = 0.1;
-constexpr std::size_t kLeastBeams = 3;
-/// Of the two-way Gaussian: width / (4 sqrt(ln 2)).
-constexpr double kSigmasPerWidth = 3.3302184446307908;
 constexpr SampleFlags kUnusable = SampleFlags::near_field | SampleFlags::surface;
 
 /// A long strong echo along one beam.
 struct Echo {
   int row = 0;
   double range_m = 0.0;  ///< of its strongest part
-  double level_db = 0.0;
   Point<Sonar> place;
 };
 
@@ -68,7 +62,6 @@ class SeabedFinder {
     seabed.slope_y = plane->slope_y;
     seabed.confidence = seen;
     bounds(*plane, seabed);
-    measure_levels(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
       seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, row);
     }
@@ -134,7 +127,7 @@ class SeabedFinder {
     // an echo still at its height where the beam ends says nothing about where its middle would be
     if (last >= first_cut_off()) return;
     const double range_m = sum / weight;
-    echoes_.push_back({row, range_m, db_from_counts(peak), axis(row) * range_m});
+    echoes_.push_back({row, range_m, axis(row) * range_m});
   }
 
   [[nodiscard]] int first_cut_off() const {
@@ -268,50 +261,6 @@ class SeabedFinder {
     }
   }
 
-  /// How strongly beams see the plane on their axis, by range: the median of each fan.
-  void measure_levels(const Plane& plane) {
-    std::vector<std::vector<const Echo*>> fans(static_cast<std::size_t>(sector_.fans()));
-    for (const Echo& echo : echoes_) {
-      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) > inlier_m(echo.range_m)) continue;
-      fans[static_cast<std::size_t>(echo.row / sector_.beams())].push_back(&echo);
-    }
-    for (std::vector<const Echo*>& fan : fans) {
-      if (fan.size() < kLeastBeams) continue;
-      const auto middle = fan.begin() + static_cast<std::ptrdiff_t>(fan.size() / 2);
-      std::nth_element(fan.begin(), middle, fan.end(), [](auto a, auto b) { return a->level_db < b->level_db; });
-      const double level_db = (*middle)->level_db;
-      std::nth_element(fan.begin(), middle, fan.end(), [](auto a, auto b) { return a->range_m < b->range_m; });
-      levels_.emplace_back((*middle)->range_m, level_db);
-    }
-    std::sort(levels_.begin(), levels_.end());
-  }
-
-  /// On the axis of a beam that meets the plane at this range; infinite nearer than any beam does: there the seabed lies
-  /// steeper below than beams look, and nothing tells how strong it is.
-  [[nodiscard]] double level_on_axis_db(double range_m) const {
-    if (levels_.empty() || range_m < levels_.front().first) return std::numeric_limits<double>::infinity();
-    if (range_m >= levels_.back().first) return levels_.back().second;
-    const auto above = std::upper_bound(levels_.begin(), levels_.end(), std::pair(range_m, -1e9));
-    const auto& [r1, db1] = *above;
-    const auto& [r0, db0] = *std::prev(above);
-    return db0 + (db1 - db0) * (range_m - r0) / (r1 - r0);
-  }
-
-  /// The seabed at a range as a beam sees it through its lower flank, at most: of both beam shapes the wider, and the
-  /// plane a tenth of a beam width nearer to the axis than it was fitted.
-  [[nodiscard]] double flank_db(const Plane& plane, int row, double width_rad, double range_m) const {
-    const Point<Sonar> u = axis(row);
-    const double level = std::hypot(u.x, u.y);
-    const double slope = level > 0.0 ? std::atan((plane.slope_x * u.x + plane.slope_y * u.y) / level) : 0.0;
-    const double sine = plane.offset * std::cos(slope) / range_m;
-    if (sine >= 1.0) return -std::numeric_limits<double>::infinity();
-    const double below_rad = std::asin(sine) + slope - std::asin(std::clamp(u.z, -1.0, 1.0));
-    const double sigmas = std::max(0.0, below_rad / width_rad - kPlaneWidths) * kSigmasPerWidth;
-    const double seen =
-        std::max(two_way_pattern({.gaussian_share = 1.0}, sigmas), two_way_pattern({.gaussian_share = 0.0}, sigmas));
-    return level_on_axis_db(range_m) + db_from_linear(std::max(seen, 1e-12));
-  }
-
   /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
   /// beam's lower flank could see it, and the margin before that.
   [[nodiscard]] int onset(const Plane& plane, int row) const {
@@ -328,25 +277,11 @@ class SeabedFinder {
     const auto counts = sv_.row(row);
     const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
     const int gap = std::max(1, static_cast<int>(params_.onset_gap_m / axis_m.spacing_m));
-    const int least_foreign = std::max(1, static_cast<int>(params_.foreign_m / axis_m.spacing_m));
     int first = on_axis_m <= last_m ? from : samples;
-    int foreign = 0;
-    std::int16_t peak = kNoData;
-    std::int16_t valley = kNoData;
-    const double rise = counts_from_db(params_.foreign_db);
     for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
-      const std::int16_t count = counts[static_cast<std::size_t>(s)];
-      const bool loud = count >= level;
-      // The seabed's echo falls towards the sonar, whatever the fit: something else rises out of its flank again.
-      if (count > peak) peak = valley = count;
-      valley = std::min(valley, count);
-      const bool seabed = count - valley < rise ||
-                          db_from_counts(count) < flank_db(plane, row, width, axis_m.range_m(s)) + params_.foreign_db;
-      if (loud && seabed) first = s;
+      const bool loud = counts[static_cast<std::size_t>(s)] >= level;
+      if (loud) first = s;
       quiet = loud ? 0 : quiet + 1;
-      foreign = loud && !seabed ? foreign + 1 : 0;
-      // A school, and its own echo is all the margin there is.
-      if (foreign >= least_foreign) return first;
     }
     if (first >= samples) return samples;
     return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
@@ -358,7 +293,6 @@ class SeabedFinder {
   const std::vector<double>& width_deg_;
   const SeabedParams& params_;
   std::vector<Echo> echoes_;
-  std::vector<std::pair<double, double>> levels_;  ///< range in m and Sv in dB, rising range
 };
 
 }  // namespace

@@ -33,8 +33,6 @@ struct SeabedParams {
   double reach_share = 0.9;
   double min_dip = 0.3;
   double onset_gap_m = 2.0;
-  double foreign_db = 6.0;
-  double foreign_m = 2.0;
   int trials = 300;
   int refinements = 5;
   double min_triangle_m2 = 25.0;
@@ -86,14 +84,6 @@ void describe(Visitor& v, SeabedParams& p) {
            .text = "sine of the depression of the flattest beams that should: others see a faint ramp"});
   v.field("onset_gap_m", p.onset_gap_m,
           {.unit = "m", .min = 0, .max = 100, .text = "a quiet stretch of this length ends the echo"});
-  v.field("foreign_db", p.foreign_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "what stands so far above the seabed as the beam's flank would see it is something else: the echo "
-                   "ends there"});
-  v.field("foreign_m", p.foreign_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "... where it does so over this length"});
   v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
   v.field("refinements", p.refinements,
           {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});

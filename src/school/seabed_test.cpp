@@ -123,35 +123,5 @@ TEST(Seabed, ASchoolAboveTheBottomStays) {
   }
 }
 
-// Without a quiet stretch between them the seabed's echo would be followed through the school up to the beam's edge.
-TEST(Seabed, ASchoolConnectedToTheBottomIsNotTakenForIt) {
-  BottomScene scene;
-  scene.add_bottom(100.0);
-  const Array3<double> bottom = scene.expected;
-  test::Ellipsoid e;
-  e.centre = Sector::direction(rad_from_deg(-18.0), rad_from_deg(270.0)) * 240.0;  // 74 m down, 26 m above the bottom
-  e.half_x = 30.0;
-  e.half_y = 15.0;
-  e.half_z = 10.0;
-  e.sv = linear_from_db(-40.0);
-  Array3<double> alone(scene.expected.shape());
-  test::add_ellipsoid(alone, scene.sector, e);
-  for (std::size_t i = 0; i < alone.shape().size(); ++i) scene.expected.all()[i] += alone.all()[i];
-  const Seabed seabed = scene.look(7);
-  ASSERT_TRUE(seabed.found);
-  int clear = 0;
-  int kept = 0;
-  for (const sonar::Run& run : test::truth_of(alone).runs) {
-    for (int s = run.first_sample; s < run.end(); ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      if (alone.view().row(run.row)[i] < 10.0 * bottom.view().row(run.row)[i]) continue;
-      ++clear;
-      if (s < seabed.first_sample[static_cast<std::size_t>(run.row)]) ++kept;
-    }
-  }
-  ASSERT_GT(clear, 300);
-  EXPECT_GT(kept, 0.9 * clear);
-}
-
 }  // namespace
 }  // namespace sonar

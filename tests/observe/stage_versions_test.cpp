@@ -34,16 +34,16 @@ struct Recorded {
 // In the order of the stages: where one changes, those after it change with it and keep their numbers.
 constexpr std::array<Recorded, 11> kRecorded{{
     {"decode", 2, "67a30992438549e29295a79665f21403"},
-    {"flags", 1, "51ed733ca50c62dd8fb52f71b6b77001"},
+    {"flags", 2, "51ed733ca50c62dd8fb52f71b6b77001"},
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
-    {"background", 1, "8c60b37cfa4e58e0acef53480cabfa66"},
+    {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 1, "83bff1da2ba360f5c46043e344309578"},
-    {"detect", 1, "ccc44b9443e584e22db20886484d607b"},
+    {"detect", 2, "ccc44b9443e584e22db20886484d607b"},
     {"track", 4, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 2, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 3, "8e4ef91c3bcc43a091e27957e0c05413"},
-    {"summarise", 1, "0b4f3a0bd1512c0bbf6b6cb5a9c8ce74"},
+    {"measure", 4, "ecf4751c220fff60b430354a8c4fa3ef"},
+    {"summarise", 1, "98e2f839d24ac8e06a54a9584da060c4"},
 }};
 
 constexpr int kFans = 8;
