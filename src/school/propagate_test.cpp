@@ -206,6 +206,47 @@ TEST(Paper, StopsWhereTheCentreIsOutOfRange) {
   EXPECT_NE(result->note_forward.find("stopped at ping 7: the centre's voxel"), std::string::npos);
 }
 
+// Law: a bad ping is as if it had never been made. Without the mark the school, which is not in it, ends there (above).
+TEST(Paper, PassesOverABadPing) {
+  Passage passage(0.5);
+  passage.school_north = 0.0;
+  passage.hidden = 7;
+  GrowParams params;
+  params.mode = GrowMode::paper;
+  params.tolerance_opacity = 0.25;
+  PaperPropagationParams narrow;
+  narrow.enlarge_fans = 1;
+  narrow.enlarge_beams = 1;
+  const PingProvider marked = [&](std::int64_t i) {
+    auto ping = passage.ping(i);
+    if (ping) ping->bad = i == 7;
+    return ping;
+  };
+  const PingProvider without = [&](std::int64_t i) { return passage.ping(i < 7 ? i : i + 1); };
+  const PingMask selection = passage.click(5, params);
+  const auto over = propagate_paper(marked, 5, selection, {5, 9}, TransferFunction(), narrow);
+  const auto never = propagate_paper(without, 5, selection, {5, 8}, TransferFunction(), narrow);
+  ASSERT_TRUE(over && never);
+  EXPECT_EQ(over->note_forward.find("stopped at ping 7"), std::string::npos);
+  ASSERT_EQ(over->pings.size(), never->pings.size());
+  for (std::size_t i = 0; i < over->pings.size(); ++i) EXPECT_EQ(over->pings[i].mask, never->pings[i].mask) << i;
+}
+
+// More bad pings in a row than a school may be lost for.
+TEST(Tracked, BadPingsDoNotCountAsLost) {
+  const Passage passage(0.5);
+  const PingProvider pings = [&](std::int64_t i) {
+    auto ping = passage.ping(i);
+    if (ping) ping->bad = i >= 6 && i <= 10;
+    return ping;
+  };
+  const auto result = propagate_tracked(pings, passage.sector, 5, passage.click(5, {}), {5, 12}, {});
+  ASSERT_TRUE(result);
+  std::vector<std::int64_t> reached;
+  for (const PropagatedPing& ping : result->pings) reached.push_back(ping.ping_index);
+  EXPECT_EQ(reached, (std::vector<std::int64_t>{5, 11, 12}));
+}
+
 TEST(Propagate, RefusesAnEmptySelection) {
   const Passage passage;
   EXPECT_FALSE(propagate_paper(passage.provider(), 5, {}, {0, 15}, TransferFunction(), {}));
