@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "view/colour_bar.h"
@@ -64,6 +66,20 @@ void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, c
   add_colour_bar(out.frame, layout.colour_bar, style.colours, theme);
 }
 
+/// A ping that was recorded, and not one sample of what is shown.
+bool nothing_recorded(const SliceMap& map, const SliceData& data) {
+  if (data.flags.shape() != data.sv.shape()) return false;  // masks alone: nothing was asked for
+  const auto sv = data.sv.all();
+  return std::none_of(map.voxels().begin(), map.voxels().end(),
+                      [&](int voxel) { return voxel >= 0 && sv[static_cast<std::size_t>(voxel)] != kNoData; });
+}
+
+void say_nothing_recorded(FrameDescription& frame, const PixelRect& plot, const Theme& theme) {
+  const PixelPoint middle{plot.x + 0.5 * plot.width, plot.y + 0.5 * plot.height};
+  frame.items.emplace_back(TextItem{
+      middle, "no data in this ping", theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
+}
+
 }  // namespace
 
 std::optional<Voxel> SlicePicture::voxel_at(PixelPoint pixel) const {
@@ -115,6 +131,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   out.frame.items.emplace_back(ClipItem{layout.plot});
   add_slice_context(out.frame, *out.map, {layout.plot.x, layout.plot.y}, ping, style, theme);
   out.frame.items.emplace_back(ClipItem{});
+  if (style.decorations && nothing_recorded(*out.map, data)) say_nothing_recorded(out.frame, layout.plot, theme);
   if (style.decorations) add_words(out, layout, ping, style, theme);
   return out;
 }
