@@ -6,6 +6,9 @@
 #include <QMenuBar>
 #include <array>
 #include <map>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "session/context_menu.h"
 
@@ -67,6 +70,7 @@ void ask_when_opened(QMenu& menu, QAction& shown, const Action& action) {
 
 void add_menus(QMainWindow& window, const Actions& actions) {
   std::map<std::string, QMenu*> menus;
+  std::vector<std::pair<QAction*, const Action*>> switches;
   for (const char* title : kMenuBar) menu_of(window, menus, title);
   for (const Action& action : actions.list()) {
     QMenu* menu = menu_of(window, menus, action.menu);
@@ -74,6 +78,14 @@ void add_menus(QMainWindow& window, const Actions& actions) {
     menu->addAction(shown);
     window.addAction(shown);
     ask_when_opened(*menu, *shown, action);
+    if (action.checked) switches.emplace_back(shown, &action);
+  }
+  // One switch may turn others off: the brush the seed.
+  const auto all = std::make_shared<decltype(switches)>(std::move(switches));
+  for (const auto& [shown, action] : *all) {
+    QObject::connect(shown, &QAction::triggered, &window, [all] {
+      for (const auto& [each, of] : *all) refresh(*each, *of);
+    });
   }
 }
 

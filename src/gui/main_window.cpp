@@ -7,6 +7,7 @@
 #include <QDragEnterEvent>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScreen>
 #include <QUrl>
 
 #include "gui/action_menus.h"
@@ -82,7 +83,8 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   desk.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
   });
-  resize(kFirstSize);
+  const QScreen* on = screen();
+  resize(on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize()));
   lay_out_docks(*this);
   // Keys belong to the picture at first, not to a line of text.
   if (auto* first = findChild<QWidget*>("top_slice.view")) first->setFocus();

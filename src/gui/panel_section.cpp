@@ -21,6 +21,7 @@ QLabel* note_label(const PanelSection::Note& note, const PanelSection& section, 
     if (!label.isNull()) label->setText(text(tell()));
   };
   section.source->on_change(refresh);
+  if (note.also) note.also->on_change(refresh);
   return label;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/status_line.h"
 
+#include <QApplication>
 #include <QElapsedTimer>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStatusBar>
+#include <QTimer>
 #include <algorithm>
 #include <memory>
 
@@ -17,6 +19,7 @@ namespace {
 constexpr int kNoticeTime_ms = 15000;
 constexpr int kNoticeAtLeast_ms = 4000;  // then a pointer that moves has its read-out back
 constexpr int kMargin_px = 4;
+constexpr int kProgressWidth_px = 260;
 
 QString text_at_cursor(const Workspace& workspace) {
   const auto& cursor = workspace.cursor();
@@ -24,6 +27,14 @@ QString text_at_cursor(const Workspace& workspace) {
   const std::string& preview = workspace.preview().text;
   if (!preview.empty()) line += (line.empty() ? "" : "  |  ") + preview;
   return QString::fromStdString(line);
+}
+
+/// The status bar's own ground: a style sheet would keep the colours of the theme it was set under.
+void clear_ground(QLineEdit& line) {
+  QPalette palette;
+  palette.setColor(QPalette::Base, QApplication::palette().color(QPalette::Window));
+  palette.setColor(QPalette::Text, QApplication::palette().color(QPalette::WindowText));
+  line.setPalette(palette);
 }
 
 void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& document) {
@@ -47,9 +58,9 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   cursor->setReadOnly(true);
   cursor->setFrame(false);
   cursor->setFocusPolicy(Qt::ClickFocus);
-  cursor->setStyleSheet("background: transparent");
+  clear_ground(*cursor);
   auto* bar = new QProgressBar(status);
-  bar->setMaximumWidth(240);
+  bar->setFixedWidth(kProgressWidth_px);
   auto* cancel = new QPushButton("Cancel", status);
   cancel->setFlat(true);
   keep_own_keys(*cancel);
@@ -74,6 +85,8 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
     cursor->setCursorPosition(0);
   };
   workspace.cursor.changed().add(read);
+  // After the window has taken the theme.
+  workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_ground(*cursor); }); });
   workspace.preview.changed().add(read);
   workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();

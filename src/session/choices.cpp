@@ -136,10 +136,27 @@ std::string Choices::name_of(const JournalAct& act, const Turn& turn) const {
   return act_name(act, {}, nullptr, nullptr);
 }
 
+/// Nobody else may have written since the journal was read.
+Result<void> Choices::hold_journal() {
+  if (lock_.held()) return {};
+  if (auto taken = lock_.take(place_.path); !taken) return taken;
+  std::error_code unknown;
+  const bool begun = std::filesystem::file_size(place_.path, unknown) > 0 && !unknown;
+  const auto now = begun ? read_journal(place_.path.string()) : Result<Journal>(Journal{});
+  const auto last = [](const std::vector<JournalLine>& lines) { return lines.empty() ? 0 : lines.back().n; };
+  if (now && now->lines.size() == place_.journal.lines.size() && last(now->lines) == last(place_.journal.lines)) {
+    return {};
+  }
+  lock_.let_go();
+  return fail(ErrorCode::io, "another window has written to the journal since: open the survey again",
+              {place_.path.string()});
+}
+
 Result<void> Choices::write(const JournalLine& line) {
   if (place_.path.empty()) return fail(ErrorCode::io, "the journal can be kept nowhere: choices would be lost");
   std::error_code there;  // append_journal() tells what is wrong with the folder
   std::filesystem::create_directories(place_.path.parent_path(), there);
+  if (auto held = hold_journal(); !held) return held;
   if (auto written = append_journal(place_.path.string(), place_.journal, line); !written) return written;
   place_.journal.lines.push_back(line);
   history_.add(line);

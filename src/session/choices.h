@@ -15,6 +15,7 @@
 #include "pipeline/commands/state.h"
 #include "session/change_queue.h"
 #include "session/history.h"
+#include "session/journal_lock.h"
 #include "session/journal_place.h"
 #include "session/open_observation.h"
 
@@ -92,7 +93,8 @@ class Choices {
   [[nodiscard]] std::string name_of(const JournalAct& act, const Turn& turn) const;
   [[nodiscard]] Result<std::int64_t> carry_out(std::size_t observation, std::int64_t ping_index, Command command);
   [[nodiscard]] Result<std::int64_t> turn(bool undo);
-  [[nodiscard]] Result<void> write(const JournalLine& line);
+  [[nodiscard]] Result<void> hold_journal();
+  Result<void> write(const JournalLine& line);
   [[nodiscard]] CommandGround watched(std::size_t observation);
   [[nodiscard]] TimeNs now() const;
   void turn_back(bool undo);
@@ -111,6 +113,7 @@ class Choices {
   std::vector<Turn> done_;
   std::vector<Turn> undone_;
   std::map<std::int64_t, std::string> names_;
+  JournalLock lock_;   ///< taken with the first line that is written
   TaskThread thread_;  // the last member: it ends first
 };
 

@@ -33,7 +33,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
       {"Schools",
        display,
        {"masks", "core_at", "fuzzy_above", "rejected"},
-       {{"core_at", core}, {"fuzzy_above", fuzzy}}},
+       {{"core_at", core, select}, {"fuzzy_above", fuzzy, select}}},
       {"Colours",
        display,
        {"scale.map", "scale.low_db", "scale.span_db", "scale.threshold_db"},

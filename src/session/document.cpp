@@ -9,6 +9,7 @@
 
 #include "base/within_memory.h"
 #include "pipeline/observe.h"
+#include "session/detected_cache.h"
 
 namespace sonar {
 
@@ -20,7 +21,7 @@ Document::Document(ChangeQueue& queue, DocumentOptions options) : queue_(queue),
 
 Document::~Document() {
   cancel();
-  for (const auto& [index, wanted] : measuring_) wanted.give_up();
+  for (const auto& [index, job] : measuring_) job.give_up();
 }
 
 void Document::tell(std::string notice) {
@@ -214,6 +215,10 @@ void Document::act(std::size_t observation, std::int64_t ping_index, Command com
     const std::int64_t before = std::min(propagate->reach_backward.value_or(reach), ping_index);
     const std::int64_t after = std::min(propagate->reach_forward.value_or(reach), later);
     following_ = {"propagating", 0, std::max<std::int64_t>(1, before + after)};
+    const OpenObservationPtr on = open_observation(observation);
+    const auto known = propagate->school && on ? school_at(state(observation), on->ground(), *propagate->school)
+                                               : std::optional<std::size_t>{};
+    followed_ = known ? std::optional(state(observation).schools[*known]->number) : std::nullopt;
   }
   choices_thread_->act(observation, ping_index, std::move(command));
   if (!following_.stage.empty()) changes_.tell(DocumentChange::progress);
@@ -254,11 +259,15 @@ const JournalState& Document::state() const { return state(shown_ ? shown_->inde
 void Document::take_choices(ChoicesShown shown) {
   const ChoicesShown before = std::exchange(choices_, std::move(shown));
   propagating_.clear();
-  if (!busy() && !std::exchange(following_, {}).stage.empty()) changes_.tell(DocumentChange::progress);
+  if (!busy() && !std::exchange(following_, {}).stage.empty()) {
+    followed_.reset();
+    changes_.tell(DocumentChange::progress);
+  }
   follow_calibration();
   changes_.tell(DocumentChange::state);
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
+  tell_unseen(before);
   if (!choices_.failure.empty()) tell(choices_.failure);
 }
 
@@ -309,15 +318,23 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   }
   Recipe recipe = options_.recipe;
   recipe.automatic = true;
-  auto product = observe(*survey, observation, recipe, {{}, {}, options_.program_version}, work);
+  const ObserveOptions observe_options{{}, {}, options_.program_version};
+  const auto file = detected_file(options_.cache, *survey, observation);
+  const std::string key = observation_key(*survey, observation, recipe, observe_options);
+  if (auto kept = kept_detected(file, key)) {
+    return post(wanted, [this, survey, index, schools = std::move(*kept)] {
+      if (survey == survey_) take_detected(index, schools);
+    });
+  }
+  auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;
     return post(wanted, [this, line = to_line(product.error())] { tell(line); });
   }
   post(wanted, [this, survey, index, schools = detected_schools(*product)] {
-    if (survey != survey_) return;
-    take_detected(index, schools);
+    if (survey == survey_) take_detected(index, schools);
   });
+  keep_detected(file, *product);
 }
 
 void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools) {

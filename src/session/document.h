@@ -125,6 +125,8 @@ class Document {
   /// Of the observation on show; an empty one before it is known.
   [[nodiscard]] const JournalState& state() const;
   [[nodiscard]] const JournalState& state(std::size_t observation) const;
+  /// Number of the school that a running propagation carries on; empty where it makes a new one.
+  [[nodiscard]] std::optional<std::int64_t> followed() const { return followed_; }
   /// Masks of a propagation that runs on the observation on show, by ping; they are part of the state when it ends.
   [[nodiscard]] const std::map<std::int64_t, PingMask>& propagating() const { return propagating_; }
   [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
@@ -149,11 +151,12 @@ class Document {
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
                   const Wanted& wanted);
   void take_detected(std::size_t index, std::vector<SchoolMasks> schools);
+  void tell_unseen(const ChoicesShown& before);
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
   void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted);
+                      const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted, Work& work);
   void take_measured();
   void follow_calibration();
   void replay_journal();
@@ -182,8 +185,17 @@ class Document {
   std::map<std::size_t, std::shared_ptr<MeasuredPings>> measured_;
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
-  std::map<std::size_t, Wanted> measuring_;
+  struct Measuring {
+    Wanted wanted;
+    std::shared_ptr<Work> work;
+    void give_up() const {
+      wanted.give_up();
+      work->cancel();
+    }
+  };
+  std::map<std::size_t, Measuring> measuring_;
   Progress following_;  ///< a propagation's pings
+  std::optional<std::int64_t> followed_;
   std::int64_t measures_begun_ = 0;
   std::int64_t measures_done_ = 0;
   std::unique_ptr<Choices> choices_thread_;

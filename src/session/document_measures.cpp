@@ -26,23 +26,29 @@ void Document::measure(std::size_t index) {
   if (const auto running = measuring_.find(index); running != measuring_.end()) running->second.give_up();
   if (++measures_begun_ > 1) changes_.tell(DocumentChange::progress);
   const auto lines = choices_.lines;
-  measuring_[index] = measures_.post([this, observation, state, lines, kept = measured_[index]](const Wanted& wanted) {
-    if (wanted()) measure_behind(observation, *state, *lines, *kept, wanted);
-    queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
-      if (!alive.expired()) take_measured();
-    });
-  });
+  const auto work = std::make_shared<Work>(1);
+  const Wanted posted =
+      measures_.post([this, observation, state, lines, work, kept = measured_[index]](const Wanted& wanted) {
+        if (wanted()) measure_behind(observation, *state, *lines, *kept, wanted, *work);
+        queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
+          if (!alive.expired()) take_measured();
+        });
+      });
+  measuring_[index] = {posted, work};
 }
 
 void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                              const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted) {
+                              const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted,
+                              Work& work) {
   for (const auto& school : state.schools) {
-    for (const auto& there : school->masks.pings) observation->estimate_background(there.ping_index);
+    for (const auto& there : school->masks.pings) {
+      if (!wanted()) return;
+      observation->estimate_background(there.ping_index);
+    }
   }
-  Work one(1);
   const std::vector<JournalLine> effective = effective_lines(lines);
   auto product = within_memory([&] {
-    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept}, one);
+    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept}, work);
   });
   if (!product) {
     if (product.error().code != ErrorCode::no_space) return;

@@ -224,6 +224,41 @@ TEST_F(DocumentAtWork, WhatAJournalCouldNotGiveBackIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(document_->journal_path()));
 }
 
+TEST_F(DocumentAtWork, TwoWindowsOnOneSurveyDoNotMixTheirLines) {
+  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
+  document_->settle();
+  ChangeQueue queue;
+  Document other(queue, TestSurvey::options(journal_));
+  other.open({TestSurvey::easy().folder()});
+  other.settle();
+  ASSERT_EQ(other.state().events.size(), 1U) << "it may look";
+  other.act(EventCommand{"station", other.shown()->ground().times[4], ""});
+  other.settle();
+  EXPECT_EQ(other.state().events.size(), 1U);
+  EXPECT_THAT(other.notices().back(), testing::HasSubstr("another window is at work on this survey"));
+  document_->act(EventCommand{"noise", document_->shown()->ground().times[5], ""});
+  document_->settle();
+  EXPECT_EQ(document_->state().events.size(), 2U);
+  const std::string journal = document_->journal_path().string();
+  document_.reset();
+  other.act(EventCommand{"station", other.shown()->ground().times[4], ""});
+  other.settle();
+  EXPECT_THAT(other.notices().back(), testing::HasSubstr("open the survey again"));
+  EXPECT_EQ(read_journal(journal)->lines.size(), 2U);
+}
+
+TEST_F(DocumentAtWork, AnUndoThatNobodySeesIsTold) {
+  const auto at = bright();
+  grow(at);
+  document_->settle();
+  ASSERT_EQ(document_->state().schools.size(), 1U);
+  ASSERT_TRUE(document_->show(1));
+  document_->settle();
+  document_->undo();
+  document_->settle();
+  EXPECT_THAT(document_->notices().back(), testing::HasSubstr("taken back in obs-0001: grow school 1"));
+}
+
 TEST_F(DocumentAtWork, LookingLeavesNothingBehindAndTheFirstChoiceMakesTheFolder) {
   journal_ /= "not/yet/there";
   reopen();

@@ -52,6 +52,17 @@ Masks masks_in(const fs::path& folder) {
   return all;
 }
 
+Masks masks_of(const Document& document) {
+  Masks all;
+  for (std::size_t i = 0; i < document.survey()->observations.size(); ++i) {
+    for (const auto& school : document.state(i).schools) {
+      all.emplace_back(document.survey()->observations[i].name, std::vector<std::pair<std::int64_t, PingMask>>{});
+      for (const auto& there : school->masks.pings) all.back().second.emplace_back(there.ping_index, there.mask);
+    }
+  }
+  return all;
+}
+
 class Exports : public testing::Test, protected TestDesk {
  protected:
   void SetUp() override { begin(); }
@@ -133,6 +144,36 @@ TEST_F(Exports, WithTheSearchAtOpeningCancelledTheSchoolsAreStillThere) {
   document().settle();
   EXPECT_FALSE(document().lacks_detected(0));
   EXPECT_EQ(document().state(0).schools.size() + document().state(1).schools.size(), all);
+}
+
+// What was found is kept: the next opening does not look for it again.
+TEST_F(Exports, WhatWasFoundIsThereAtTheNextOpeningWithoutASearch) {
+  DocumentOptions options = TestSurvey::options(journal_);
+  options.cache.folder = out_ / "cache";
+  const auto open = [&] {
+    desk_ = std::make_unique<Desk>(queue_, options);
+    document().open({TestSurvey::easy().folder()});
+    document().settle();
+  };
+  open();
+  press("schools.detect_all");
+  document().settle();
+  const Masks found = masks_of(document());
+  ASSERT_FALSE(found.empty());
+  std::size_t kept = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out_ / "cache")) {
+    if (entry.path().string().ends_with(".detected.nc")) ++kept;
+  }
+  EXPECT_EQ(kept, 2U);
+  open();
+  EXPECT_TRUE(document().detected(0) && document().detected(1));
+  EXPECT_TRUE(masks_of(document()) == found);
+  // A damaged one is looked for again.
+  for (const auto& entry : fs::recursive_directory_iterator(out_ / "cache")) {
+    if (entry.path().string().ends_with(".detected.nc")) std::ofstream(entry.path()) << "nonsense";
+  }
+  open();
+  EXPECT_TRUE(masks_of(document()) == found);
 }
 
 TEST_F(Exports, UnderAChosenCalibrationARunOfTheJournalGivesTheSame) {

@@ -47,6 +47,7 @@ struct PanelSection {
   struct Note {
     std::string name;
     std::function<std::string()> text;
+    std::shared_ptr<ParameterSource> also = nullptr;  ///< that it depends on beside the section's own
   };
   std::vector<Note> notes = {};
   bool open = true;  ///< folded out at first

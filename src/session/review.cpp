@@ -61,6 +61,11 @@ void Review::next() {
     return select(row);
   }
   const bool here = at && waits(schools()[*at]);
+  if (!document.progress().stage.empty() && unreviewed() == 0) {
+    return document.tell(fmt::format("wait: {}", document.progress().stage));
+  }
+  if (schools().empty()) return document.tell("there are no schools yet: Ctrl+D looks for them, a click selects one");
+  if (!here && unreviewed() > 0) return document.tell("the filter leaves no school that is not reviewed");
   document.tell(here ? "this is the last school that is not reviewed" : "every school is reviewed");
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/units.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/slice_context.h"

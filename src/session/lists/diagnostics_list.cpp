@@ -28,7 +28,12 @@ DiagnosticsList::DiagnosticsList(Workspace& workspace)
               {"Meaning", "", "", false}} {}
 
 void DiagnosticsList::add(const Diagnostics& notes, std::ptrdiff_t observation) {
-  for (const Diagnostic& note : notes) remarks_.push_back({&note, 0, observation});
+  const Document& document = workspace().document;
+  // Decisions on schools that are still being found again are not lost.
+  const bool waits = observation >= 0 && document.lacks_detected(static_cast<std::size_t>(observation));
+  for (const Diagnostic& note : notes) {
+    if (!waits || note.code != DiagnosticCode::decision_lost) remarks_.push_back({&note, 0, observation});
+  }
 }
 
 void DiagnosticsList::add_observation(std::size_t index) {

@@ -25,7 +25,8 @@ void keep_running(RunningMasks& kept, const std::map<std::int64_t, PingMask>& ru
   }
 }
 
-MaskedPings masked_pings(JournalStatePtr state, RunningMasks running, bool rejected) {
+MaskedPings masked_pings(JournalStatePtr state, RunningMasks running, bool rejected,
+                         std::optional<std::int64_t> carried) {
   MaskedPings out;
   out.state = std::move(state);
   out.running = std::move(running);
@@ -34,11 +35,12 @@ MaskedPings masked_pings(JournalStatePtr state, RunningMasks running, bool rejec
       if (!rejected && school->masks.decided.status == "rejected") continue;
       for (const auto& there : school->masks.pings) {
         if (there.mask.empty()) continue;
+        if (carried == school->number && out.running.contains(there.ping_index)) continue;  // it is being replaced
         out.pings[there.ping_index].push_back({static_cast<int>(school->number), &there.mask});
       }
     }
   }
-  const int next = out.state ? static_cast<int>(out.state->next_number) : 1;
+  const int next = static_cast<int>(carried.value_or(out.state ? out.state->next_number : 1));
   for (const auto& [ping, mask] : out.running) {
     if (!mask->empty()) out.pings[ping].push_back({next, mask.get()});
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "session/choices.h"
@@ -23,7 +24,9 @@ struct MaskedPings {
   RunningMasks running;                                   ///< and these
 };
 /// rejected  whether rejected schools are shown
-[[nodiscard]] MaskedPings masked_pings(JournalStatePtr state, RunningMasks running, bool rejected);
+/// carried   number of the school that runs; empty = a new one
+[[nodiscard]] MaskedPings masked_pings(JournalStatePtr state, RunningMasks running, bool rejected,
+                                       std::optional<std::int64_t> carried = std::nullopt);
 
 /// [school number modulo MaskMosaic::kSchools]: whether it was rejected, for MaskPalette.
 [[nodiscard]] std::vector<bool> rejected_schools(const JournalState& state);

@@ -99,6 +99,7 @@ LivePicture::Build ObservationMapModel::build() {
     wish.state = found->second;
   }
   wish.running = running_;
+  wish.carried = workspace_.document.followed();
   wish.ping = document.ping();
   if (workspace_.school() && workspace_.school()->observation == index) wish.selected = workspace_.school()->number;
   const DisplayParams& display = workspace_.display.values();

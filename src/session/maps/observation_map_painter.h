@@ -15,6 +15,7 @@ struct ObservationMapWish {
   ProductPtr product;  ///< null before the first measuring
   JournalStatePtr state;
   RunningMasks running;
+  std::optional<std::int64_t> carried;  ///< number of the school that runs
   std::int64_t ping = 0;
   std::int64_t selected = 0;  ///< school number; 0 = none
   bool rejected = true;

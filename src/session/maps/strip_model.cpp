@@ -111,14 +111,15 @@ LivePicture::Build StripModel::build() {
                         .fuzzy_above = display.fuzzy_above,
                         .rejected = wish.state ? rejected_schools(*wish.state) : std::vector<bool>{}};
   if (!running_.empty()) {
-    wish.style.focus = wish.state ? static_cast<int>(wish.state->next_number) : 1;
+    wish.carried = document.followed();
+    wish.style.focus = static_cast<int>(wish.carried.value_or(wish.state ? wish.state->next_number : 1));
   } else if (wish.selected > 0) {
     wish.style.focus = static_cast<int>(wish.selected);
   }
   wish.dark = workspace_.dark();
   wish.scale = scale();
   return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
-    const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected);
+    const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
     const auto panels = strip_panels(wish, masks);
     const Theme theme = dock_theme(size, wish.scale, wish.dark);
     const Sector& sector = wish.observation->sector();

@@ -14,6 +14,7 @@ struct StripWish {
   OpenObservationPtr observation;
   JournalStatePtr state;
   RunningMasks running;
+  std::optional<std::int64_t> carried;  ///< number of the school that runs
   std::int64_t first = 0;
   int panes = 1;
   std::int64_t ping = 0;

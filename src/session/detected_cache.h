@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "model/product.h"
+#include "pipeline/commands/state.h"
+#include "pipeline/survey.h"
+
+namespace sonar {
+
+// What was found in an observation is kept in the user's cache: a journal that asks for it is opened again and again.
+
+/// Where an observation's find is kept: one file each, written over when it is stale. Empty without a cache.
+[[nodiscard]] std::filesystem::path detected_file(const IndexCache& cache, const SurveyFiles& survey,
+                                                  const ObservationFiles& observation);
+/// Schools of a find made from the same pings in the same way; empty where there is none, or a damaged one.
+/// key  observation_key() of them
+[[nodiscard]] std::optional<std::vector<SchoolMasks>> kept_detected(const std::filesystem::path& file,
+                                                                    const std::string& key);
+/// What cannot be kept is looked for again.
+void keep_detected(const std::filesystem::path& file, const ObservationProduct& product);
+
+}  // namespace sonar

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an act did where nobody looks is told.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "session/document.h"
+
+namespace sonar {
+namespace {
+
+const JournalLine* done_line(const ChoicesShown& shown) {
+  if (shown.done_line <= 0 || !shown.lines || shown.lines->empty()) return nullptr;
+  const JournalLine& last = shown.lines->back();
+  return last.n == shown.done_line ? &last : nullptr;
+}
+
+/// Numbers of schools that are gone.
+std::vector<std::int64_t> gone(const JournalState& before, const JournalState& after) {
+  std::vector<std::int64_t> numbers;
+  for (const auto& school : before.schools) {
+    const bool stays = std::any_of(after.schools.begin(), after.schools.end(),
+                                   [&](const auto& one) { return one->number == school->number; });
+    if (!stays) numbers.push_back(school->number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void Document::tell_unseen(const ChoicesShown& before) {
+  const JournalLine* line = done_line(choices_);
+  if (line == nullptr) return;
+  const bool turned = line->command == "undo" || line->command == "redo";
+  const bool takes_over = line->command == "propagate" || line->command == "grow" || line->command == "brush";
+  if (!turned && !takes_over) return;
+  for (const auto& [index, now] : choices_.states) {
+    const auto old = before.states.find(index);
+    if (old == before.states.end() || !old->second || !now || old->second == now) continue;
+    const std::string& name = survey_->observations[index].name;
+    if (takes_over) {
+      const auto numbers = gone(*old->second, *now);
+      if (!numbers.empty()) {
+        tell(fmt::format("school{} {} of {} became part of what was selected (undo takes it back)",
+                         numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "), name));
+      }
+    } else if (!shown_ || shown_->index() != index) {
+      const std::int64_t target = line->args.value("target", std::int64_t{0});
+      const auto what = choices_.names.find(target);
+      tell(fmt::format("{} in {}: {}", line->command == "undo" ? "taken back" : "done again", name,
+                       what == choices_.names.end() ? fmt::format("line {}", target) : what->second));
+    }
+  }
+}
+
+}  // namespace sonar

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/journal_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace sonar {
+
+JournalLock::~JournalLock() { let_go(); }
+
+void JournalLock::let_go() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
+}
+
+Result<void> JournalLock::take(const std::filesystem::path& journal) {
+  const int file = ::open(journal.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) {
+    return fail(ErrorCode::io, "could not be written: " + std::generic_category().message(errno), {journal.string()});
+  }
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(file);
+    return fail(ErrorCode::io, "another window is at work on this survey: nothing is changed here until it is closed",
+                {journal.string()});
+  }
+  file_ = file;  // file systems without locks have one writer, as long as humans see to it
+  return {};
+}
+
+}  // namespace sonar
