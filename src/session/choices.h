@@ -13,9 +13,9 @@
 #include "base/result.h"
 #include "base/task_thread.h"
 #include "pipeline/commands/state.h"
+#include "pipeline/journal_lock.h"
 #include "session/change_queue.h"
 #include "session/history.h"
-#include "session/journal_lock.h"
 #include "session/journal_place.h"
 #include "session/open_observation.h"
 

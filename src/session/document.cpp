@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/within_memory.h"
+#include "pipeline/detected_cache.h"
 #include "pipeline/observe.h"
-#include "session/detected_cache.h"
 
 namespace sonar {
 

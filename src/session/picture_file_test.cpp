@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <optional>
 
-#include "render/draw_frame.h"
 #include "session/exports.h"
 #include "session/test_desk.h"
 
@@ -17,6 +19,17 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
+
+/// Size of a PNG, by its header; empty where there is none.
+std::optional<PixelSize> size_of_png(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::array<unsigned char, 24> head{};
+  if (!in.read(reinterpret_cast<char*>(head.data()), head.size())) return std::nullopt;
+  const auto at = [&](std::size_t i) {
+    return (head[i] << 24) | (head[i + 1] << 16) | (head[i + 2] << 8) | head[i + 3];
+  };
+  return PixelSize{at(16), at(20)};
+}
 
 class PictureFile : public testing::Test, protected TestDesk {
  protected:
@@ -32,10 +45,10 @@ class PictureFile : public testing::Test, protected TestDesk {
     };
   }
   void answer(std::function<void(ParameterSource&)> answer) { answer_ = std::move(answer); }
-  Result<Image> made(const std::string& kind) {
+  std::optional<PixelSize> made(const std::string& kind) {
     press("picture." + kind);
     document().settle();
-    return read_png(out_ / (kind + ".png"));
+    return size_of_png(out_ / (kind + ".png"));
   }
   [[nodiscard]] const std::string& told() { return document().notices().back(); }
 
@@ -53,7 +66,7 @@ TEST_F(PictureFile, HasTheSizeThatWasAskedFor) {
   });
   const auto image = made("slice-top");
   ASSERT_TRUE(image) << told();
-  EXPECT_EQ(image->size, (PixelSize{960, 720}));
+  EXPECT_EQ(*image, (PixelSize{960, 720}));
   EXPECT_THAT(asked_, Not(Contains("range_m")));
 }
 
@@ -148,7 +161,7 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
     document().settle();
     EXPECT_THAT(told(), HasSubstr("3 pictures and movie.png"));
     EXPECT_THAT(asked_, Contains("frame_s"));
-    EXPECT_EQ(read_png(out_ / "ping-0004.png")->size, (PixelSize{400, 300}));
+    EXPECT_EQ(size_of_png(out_ / "ping-0004.png"), (PixelSize{400, 300}));
   }
 }
 

@@ -77,8 +77,8 @@ bool nothing_recorded(const SliceMap& map, const SliceData& data) {
 
 void say_nothing_recorded(FrameDescription& frame, const PixelRect& plot, const Theme& theme) {
   const PixelPoint middle{plot.x + 0.5 * plot.width, plot.y + 0.5 * plot.height};
-  frame.items.emplace_back(TextItem{
-      middle, "no data in this ping", theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
+  frame.items.emplace_back(
+      TextItem{middle, "no data in this ping", theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
 }
 
 }  // namespace

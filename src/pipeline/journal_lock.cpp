@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/journal_lock.h"
+#include "pipeline/journal_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/detected_cache.h"
+#include "pipeline/detected_cache.h"
 
 #include <fmt/format.h>
 
