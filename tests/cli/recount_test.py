@@ -272,7 +272,10 @@ class RecountNotices(Case):
     def test_extents_do_not_change_alone(self):
         for row, name in enumerate(("length_corrected_m", "width_corrected_m", "height_corrected_m")):
             def change(data, row=row, name=name):
-                data["school_pings"][name][row] *= 1.0001
+                # Where a body cannot be told there is nothing to change.
+                volumes = data["school_pings"]["volume_corrected_m3"]
+                known = [i for i, volume in enumerate(volumes) if math.isfinite(volume)]
+                data["school_pings"][name][known[row]] *= 1.0001
             with self.subTest(column=name):
                 self.assertIn(("school_pings", "volume_corrected_m3"), self.changed(change))
 
