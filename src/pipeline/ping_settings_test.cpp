@@ -8,28 +8,16 @@
 #include <cmath>
 
 #include "io/simrad/test_bytes.h"
+#include "pipeline/test_opened.h"
 
 namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
 using test::Bytes;
+using test::count;
 using test::kStart;
-
-SurveyFiles opened(const std::vector<fs::path>& paths, const SurveyParams& params = {}, int threads = 2) {
-  Work work(threads);
-  auto survey = open_survey(paths, params, {}, IndexCache{}, work);
-  EXPECT_TRUE(survey);
-  return survey ? std::move(*survey) : SurveyFiles{};
-}
-
-SurveyFiles opened(const test::TemporaryFolder& folder, const SurveyParams& params = {}) {
-  return opened({folder.path()}, params);
-}
-
-std::int64_t count(const Diagnostics& notes, DiagnosticCode code) {
-  return std::count_if(notes.begin(), notes.end(), [&](const Diagnostic& note) { return note.code == code; });
-}
+using test::opened;
 
 TEST(PingSettings, ARollingShipUnderAnUnknownSounderIsNoted) {
   const auto noted = [](const std::string& sounder, float roll_deg, bool stabilised) {
