@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "school/correct_sizes.h"
 #include "school/measure.h"
 #include "school/summarise.h"
 
@@ -44,7 +45,7 @@ PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
 
 /// A row, and which members of its mask are faulty.
 struct Measured {
-  SchoolPingRow row;
+  MeasuredSchool school;
   std::vector<bool> fault;
 };
 
@@ -64,7 +65,8 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
   input.others = &others;
   input.threshold_db = all[index].in_ping->threshold_db;
-  SchoolPingRow row = measure(input, all[index].in_ping->mask, engine.recipe().measure);
+  MeasuredSchool school = measure(input, all[index].in_ping->mask, engine.recipe().measure);
+  SchoolPingRow& row = school.row;
   const PingNavigation& at = observation.navigation[static_cast<std::size_t>(ping.ping_index)];
   // Whoever does not know which way the ship lay knows neither bearing nor place.
   if (std::isnan(at.heading_deg)) row.latitude = row.longitude = row.bearing_deg = row.axis_deg = kUnknown;
@@ -72,7 +74,7 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   row.school_id = all[index].school->decided.school_id;
   row.ping_index = ping.ping_index;
   row.time_utc = at.time;
-  return {std::move(row), faulty_members(input, all[index].in_ping->mask)};
+  return {std::move(school), faulty_members(input, all[index].in_ping->mask)};
 }
 
 /// Everything that a ping's rows depend on beside the engine.
@@ -186,6 +188,18 @@ void keep_rows(MeasuredPings& before, const std::vector<MeasuredPing>& pings,
   }
 }
 
+/// All rows, by school and ping, their corrected columns filled.
+std::vector<SchoolPingRow> corrected_rows(const std::vector<std::vector<Measured>>& pings,
+                                          const MeasureParams& params) {
+  std::map<std::int64_t, SchoolThroughPings> by_number;
+  for (const std::vector<Measured>& ping : pings) {
+    for (const Measured& one : ping) by_number[one.school.row.school_id].push_back(&one.school);
+  }
+  std::vector<SchoolThroughPings> schools;
+  for (auto& [number, school] : by_number) schools.push_back(std::move(school));
+  return correct_sizes(schools, params);
+}
+
 }  // namespace
 
 Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work,
@@ -213,13 +227,10 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);
     for (Measured& one : rows[i]) {
-      faults[{one.row.school_id, one.row.ping_index}] = std::move(one.fault);
-      product.school_pings.push_back(std::move(one.row));
+      faults[{one.school.row.school_id, one.school.row.ping_index}] = std::move(one.fault);
     }
   }
-  std::sort(product.school_pings.begin(), product.school_pings.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.school_id, a.ping_index) < std::pair(b.school_id, b.ping_index);
-  });
+  product.school_pings = corrected_rows(rows, engine.recipe().measure);
   summarise_schools(schools, engine.recipe(), product);
   take_masks(schools, faults, product);
   return {};

@@ -15,7 +15,7 @@
 #include "pipeline/survey.h"
 #include "school/detect.h"
 #include "school/grow.h"
-#include "school/measure.h"
+#include "school/measure_params.h"
 #include "school/propagate_paper.h"
 #include "school/propagate_tracked.h"
 #include "school/seabed.h"

@@ -4,215 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <utility>
-#include <vector>
 
-#include "base/units.h"
 #include "school/mask_shape.h"
-#include "school/runs.h"
 #include "school/vertical_fit.h"
 
 namespace sonar {
 namespace {
-
-using Vector3 = std::array<double, 3>;
-
-/// Standard deviation of a two-way Gaussian beam from its one-way -3 dB width.
-double two_way_sigma_rad(double width_deg) { return rad_from_deg(width_deg) / (4.0 * std::sqrt(std::numbers::ln2)); }
-
-void add_square(Covariance3& sum, const Vector3& v, double weight) {
-  for (std::size_t a = 0, k = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b, ++k) sum[k] += weight * v[a] * v[b];
-  }
-}
-
-/// The water that holds the school's echo, without what belongs to others: the mask widened in beams and samples, and
-/// that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the beam is not.
-std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
-  const Shape3 shape = ping.sv.shape();
-  const IndexBox box = box_of(mask, shape.beams);
-  std::vector<Run> columns;  // row = beam
-  for (const Run& run : mask.runs) {
-    const int beam = run.row % shape.beams;
-    const int first = std::max(0, run.first_sample - params.reach_samples);
-    const int end = std::min(shape.samples, run.end() + params.reach_samples);
-    for (int b = std::max(0, beam - params.reach_beams); b <= std::min(shape.beams - 1, beam + params.reach_beams);
-         ++b) {
-      columns.push_back({b, first, end - first});
-    }
-  }
-  std::sort(columns.begin(), columns.end());
-  std::vector<Run> wide;
-  for (const Run& run : columns) {
-    Run* last = wide.empty() ? nullptr : &wide.back();
-    if (last != nullptr && last->row == run.row && run.first_sample <= last->end()) {
-      last->count = std::max(last->end(), run.end()) - last->first_sample;
-    } else {
-      wide.push_back(run);
-    }
-  }
-  PingMask united;
-  const int first_fan = std::max(0, box.first_fan - params.reach_fans);
-  const int last_fan = std::min(shape.fans - 1, box.last_fan + params.reach_fans);
-  for (int fan = first_fan; fan <= last_fan; ++fan) {
-    for (const Run& run : wide) united.runs.push_back({fan * shape.beams + run.row, run.first_sample, run.count});
-  }
-  if (ping.others == nullptr || ping.others->empty()) return std::move(united.runs);
-  for (const Run& run : united.runs) {
-    united.confidence.resize(united.confidence.size() + static_cast<std::size_t>(run.count), 1);
-  }
-  return subtract(united, *ping.others).runs;
-}
-
-/// What the background near the school is, as a multiple of the expected: its reverberation changes with range as no
-/// beam's average does, and in the far flanks of the beam a tenth too much looks like a lower school.
-/// out  [fan], from the median over the samples just before and behind the stretch
-std::vector<double> background_factors(const MeasureInput& ping, const std::vector<Run>& runs,
-                                       const MeasureParams& params) {
-  const Shape3 shape = ping.sv.shape();
-  std::vector<std::vector<double>> offsets(static_cast<std::size_t>(shape.fans));
-  const auto collect = [&](int row, int first, int end) {
-    if (!ping.background.known(row)) return;
-    const auto counts = ping.sv.row(row);
-    const auto flags = ping.flags.row(row);
-    const auto calibration = ping.background.calibration.row(row);
-    const double power = ping.background.power_counts(row);
-    for (int s = std::max(first, 0); s < std::min(end, shape.samples); ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      if (any(flags[i] & kNotFiltered) || counts[i] == kNoData || calibration[i] == kNoData) continue;
-      offsets[static_cast<std::size_t>(row / shape.beams)].push_back(counts[i] - calibration[i] - power);
-    }
-  };
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
-    const int row = run.row;
-    if (i == 0 || runs[i - 1].row != row) {
-      const int end = run.first_sample - params.ring_gap_samples;
-      collect(row, end - params.ring_samples, end);
-    }
-    if (i + 1 == runs.size() || runs[i + 1].row != row) {
-      const int first = run.end() + params.ring_gap_samples;
-      collect(row, first, first + params.ring_samples);
-    }
-  }
-  std::vector<double> factors(offsets.size(), 1.0);
-  for (std::size_t fan = 0; fan < offsets.size(); ++fan) {
-    std::vector<double>& values = offsets[fan];
-    if (values.size() < static_cast<std::size_t>(params.min_ring_samples)) continue;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    const double factor = linear_from_db(db_from_counts(*middle)) / std::numbers::ln2;
-    factors[fan] = std::clamp(factor, 1.0 / params.max_ring_factor, params.max_ring_factor);
-  }
-  return factors;
-}
-
-/// Echo at one sample; faulty samples are filled from the filtered volume.
-class EchoRow {
- public:
-  EchoRow(const MeasureInput& ping, int row, double background_factor)
-      : sv_(ping.sv.row(row)),
-        flags_(ping.flags.row(row)),
-        background_(ping.background, row),
-        background_factor_(background_factor) {
-    if (ping.filtered.data() != nullptr) filtered_ = ping.filtered.row(row);
-  }
-  /// Echo and the background in it; false where nothing is known.
-  [[nodiscard]] bool at(int sample, double& echo, double& background) const {
-    const auto i = static_cast<std::size_t>(sample);
-    if (any(flags_[i] & kNeverMember)) return false;
-    background = background_factor_ * background_(sample);
-    if (!any(flags_[i] & kFault) && sv_[i] != kNoData) {
-      echo = linear_from_count(sv_[i]);
-      return true;
-    }
-    if (filtered_.empty() || filtered_[i] == kNoData) return false;
-    echo = linear_from_count(filtered_[i]) / std::numbers::ln2;  // median of Rayleigh fading
-    return true;
-  }
-
- private:
-  std::span<const std::int16_t> sv_;
-  std::span<const SampleFlags> flags_;
-  std::span<const std::int16_t> filtered_;
-  RowBackground background_;
-  double background_factor_;
-};
-
-struct Moments {
-  double weight = 0.0;
-  Vector3 first{};
-  Covariance3 second{};
-  Covariance3 blur{};
-  double range2 = 0.0;  ///< sum of weight x range^2
-};
-
-/// One fan's echo, summed with the volume of a steradian's shells.
-struct FanSum {
-  double echo = 0.0;
-  double background = 0.0;
-  double shells = 0.0;
-  double whole = 0.0;  ///< as shells, invalid samples included
-  double sigma = 0.0;
-  int samples = 0;
-};
-
-void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, double background_factor) {
-  const Sector& sector = *ping.sector;
-  const int fan = run.row / sector.beams();
-  const int beam = run.row % sector.beams();
-  const EchoRow echo(ping, run.row, background_factor);
-  double w0 = 0.0;
-  double w1 = 0.0;
-  double w2 = 0.0;
-  for (int s = run.first_sample; s < run.end(); ++s) {
-    double sv = 0.0;
-    double background = 0.0;
-    const double shell = sector.shell_m3_per_sr(s);
-    sum.whole += shell;
-    if (!echo.at(s, sv, background)) continue;
-    sum.echo += shell * sv;
-    sum.background += shell * background;
-    sum.shells += shell;
-    ++sum.samples;
-    const double range = sector.range().range_m(s);
-    const double w = (sv - background) * shell;
-    w0 += w;
-    w1 += w * range;
-    w2 += w * range * range;
-  }
-  const double solid_angle = sector.solid_angle_sr(fan, beam);
-  const double e = sector.elevation_rad(fan);
-  const double a = sector.azimuth_rad(beam);
-  const Vector3 along{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), -std::sin(e)};
-  const Vector3 up{-std::sin(e) * std::cos(a), -std::sin(e) * std::sin(a), -std::cos(e)};
-  const Vector3 sideways{-std::sin(a), std::cos(a), 0.0};
-  m.weight += w0 * solid_angle;
-  for (std::size_t k = 0; k < 3; ++k) m.first[k] += w1 * solid_angle * along[k];
-  add_square(m.second, along, w2 * solid_angle);
-  const auto r = static_cast<std::size_t>(run.row);
-  const double sigma_v = two_way_sigma_rad(ping.grid->vertical_width_deg[r]);
-  const double sigma_h = two_way_sigma_rad(ping.grid->horizontal_width_deg[r]);
-  m.range2 += w2 * solid_angle;
-  sum.sigma = sigma_v;
-  add_square(m.blur, up, w2 * solid_angle * sigma_v * sigma_v);
-  add_square(m.blur, sideways, w2 * solid_angle * sigma_h * sigma_h);
-  add_square(m.blur, along, w0 * solid_angle * ping.pulse_m * ping.pulse_m / 12.0);
-}
-
-/// Fans of which enough of the stretch is there.
-std::vector<FanEcho> profile(const std::vector<FanSum>& sums, const Sector& sector, double least_share) {
-  std::vector<FanEcho> fans;
-  for (std::size_t fan = 0; fan < sums.size(); ++fan) {
-    const FanSum& sum = sums[fan];
-    if (!(sum.echo > 0.0) || sum.shells < least_share * sum.whole) continue;
-    fans.push_back({sector.elevation_rad(static_cast<int>(fan)), sum.sigma, sum.echo / sum.shells,
-                    sum.background / sum.shells, static_cast<double>(sum.samples)});
-  }
-  return fans;
-}
 
 /// Puts a body variance across the beam, in elevation, in the place of the measured one, and what hangs on it: the
 /// moments were taken from echo selected in elevation alone, so the regressions on elevation hold (Pearson, Lawley).
@@ -236,42 +33,23 @@ void correct_selection(Covariance3& total, const Covariance3& blur, const Point<
 
 }  // namespace
 
-BodySize body_size(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
-  Moments m;
-  std::vector<FanSum> sums(static_cast<std::size_t>(ping.sector->fans()));
-  const std::vector<Run> stretch = surroundings(ping, mask, params);
-  const std::vector<double> factors = background_factors(ping, stretch, params);
-  for (const Run& run : stretch) {
-    const auto fan = static_cast<std::size_t>(run.row / ping.sector->beams());
-    add_row(m, sums[fan], ping, run, factors[fan]);
-  }
-  if (!(m.weight > 0.0)) return {};
-  const Vector3 centre{m.first[0] / m.weight, m.first[1] / m.weight, m.first[2] / m.weight};
-  Covariance3 total{};
-  Covariance3 blur{};
-  for (std::size_t a = 0, k = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b, ++k) {
-      total[k] = m.second[k] / m.weight - centre[a] * centre[b];
-      blur[k] = m.blur[k] / m.weight;
-    }
-  }
-  const auto fit = fit_vertical(profile(sums, *ping.sector, params.min_fan_share),
-                                {params.beam_gaussian_share, params.beam_pedestal});
-  if (fit) {
-    correct_selection(total, blur, {centre[0], centre[1], centre[2]}, fit->body_variance_rad2 * m.range2 / m.weight);
-  }
+BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const MeasureParams& params) {
+  BodySize size;
+  if (!echo.known) return size;
+  const auto height = most_likely_height(heights);
+  Covariance3 total = echo.total;
+  if (height) correct_selection(total, echo.blur, echo.centre, height->variance_m2);
   Covariance3 body{};
-  for (std::size_t k = 0; k < body.size(); ++k) body[k] = total[k] - blur[k];
+  for (std::size_t k = 0; k < body.size(); ++k) body[k] = total[k] - echo.blur[k];
   const HorizontalAxes axes = horizontal_axes(body, 0.0);
-  const double level_blur = (blur[0] + blur[3]) / 2.0;
+  const double level_blur = (echo.blur[0] + echo.blur[3]) / 2.0;
   const auto extent = [&](double variance, double least_variance) {
     const double size_m = 2.0 * std::sqrt(params.shape_variance * std::max(variance, 0.0));
     return variance > least_variance && size_m >= params.floor_extent_m ? size_m : kUnknown;
   };
-  BodySize size;
   size.length_m = extent(axes.major_variance, params.min_level_share * level_blur);
   size.width_m = extent(axes.minor_variance, params.min_level_share * level_blur);
-  if (fit && fit->evidence >= params.min_height_evidence) size.height_m = extent(body[5], 0.0);
+  if (height && height->evidence >= params.min_height_evidence) size.height_m = extent(body[5], 0.0);
   return size;
 }
 

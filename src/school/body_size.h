@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "model/mask.h"
-#include "school/measure.h"
+#include "model/school.h"
+#include "school/body_echo.h"
+#include "school/measure_params.h"
 
 namespace sonar {
 
@@ -13,9 +14,8 @@ struct BodySize {
   double height_m = kUnknown;
 };
 
-/// Second moments of the echo in and round the mask, less those of beam and pulse, as a uniform ellipsoid's extents.
-/// The mask ends where the echo falls below its threshold, and moments cut there would be too small; so the echo is
-/// taken from a wider stretch of water, where it dies away by itself.
-[[nodiscard]] BodySize body_size(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params);
+/// The extents of a uniform ellipsoid of the echo's second moments less those of beam and pulse.
+/// heights  how likely which height is, by this ping alone or with its neighbours
+[[nodiscard]] BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const MeasureParams& params);
 
 }  // namespace sonar

@@ -7,9 +7,15 @@
 
 namespace sonar {
 
+void add_square(Covariance3& sum, const Vector3& v, double weight) {
+  for (std::size_t a = 0, k = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b, ++k) sum[k] += weight * v[a] * v[b];
+  }
+}
+
 MaskShape shape_of(const PingMask& mask, const Sector& sector) {
   MaskShape shape;
-  std::array<double, 3> sum{};
+  Vector3 sum{};
   Covariance3 square{};
   std::size_t i = 0;
   for (const Run& run : mask.runs) {
@@ -32,14 +38,12 @@ MaskShape shape_of(const PingMask& mask, const Sector& sector) {
     }
     shape.volume_m3 += shells * solid_angle;
     shape.weight += w0 * solid_angle;
-    const std::array<double, 3> e{u.x, u.y, u.z};
-    for (std::size_t a = 0, k = 0; a < 3; ++a) {
-      sum[a] += w1 * solid_angle * e[a];
-      for (std::size_t b = a; b < 3; ++b, ++k) square[k] += w2 * solid_angle * e[a] * e[b];
-    }
+    const Vector3 e{u.x, u.y, u.z};
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += w1 * solid_angle * e[a];
+    add_square(square, e, w2 * solid_angle);
   }
   if (!(shape.weight > 0.0)) return shape;
-  const std::array<double, 3> c{sum[0] / shape.weight, sum[1] / shape.weight, sum[2] / shape.weight};
+  const Vector3 c{sum[0] / shape.weight, sum[1] / shape.weight, sum[2] / shape.weight};
   shape.centre = {c[0], c[1], c[2]};
   for (std::size_t a = 0, k = 0; a < 3; ++a) {
     for (std::size_t b = a; b < 3; ++b, ++k) shape.covariance[k] = square[k] / shape.weight - c[a] * c[b];

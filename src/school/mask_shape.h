@@ -11,6 +11,10 @@ namespace sonar {
 
 /// Symmetric 3 x 3: xx, xy, xz, yy, yz, zz.
 using Covariance3 = std::array<double, 6>;
+using Vector3 = std::array<double, 3>;
+
+/// sum += weight x v v^T
+void add_square(Covariance3& sum, const Vector3& v, double weight);
 
 /// A mask as a body, weighted by confidence x volume.
 struct MaskShape {

@@ -10,7 +10,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
-#include "school/body_size.h"
+#include "school/body_echo.h"
 #include "school/edges.h"
 #include "school/mask_shape.h"
 #include "school/runs.h"
@@ -138,22 +138,6 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
   row.sv_max_db = db_or_unknown(*std::max_element(values.begin() + rank, values.end()));
 }
 
-/// What the sector's border, a crop or the seabed cuts off is missing from the extent across it, however it is fitted.
-constexpr std::int32_t kCutsLevel = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
-constexpr std::int32_t kCutsHeight = kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
-
-/// Corrected columns; unknown where an extent is cut or not told apart from the beam, and what needs all three with it.
-void measure_body(const BodySize& body, SchoolPingRow& row) {
-  if ((row.edge_flags & kCutsLevel) == 0) {
-    row.length_corrected_m = body.length_m;
-    row.width_corrected_m = body.width_m;
-  }
-  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
-  row.volume_corrected_m3 =
-      std::numbers::pi / 6.0 * row.length_corrected_m * row.width_corrected_m * row.height_corrected_m;
-  if (row.backscatter_m2 > 0.0) row.sv_corrected_db = db_or_unknown(row.backscatter_m2 / row.volume_corrected_m3);
-}
-
 }  // namespace
 
 std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask) {
@@ -170,10 +154,11 @@ std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask)
   return faulty;
 }
 
-SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
+MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   SONAR_CHECK(ping.sector != nullptr && ping.grid != nullptr && !mask.empty());
   SONAR_CHECK(ping.sv.shape() == ping.flags.shape());
-  SchoolPingRow row;
+  MeasuredSchool out;
+  SchoolPingRow& row = out.row;
   count_voxels(mask, ping.sector->beams(), row);
   row.threshold_db = ping.threshold_db;
   const MaskShape shape = shape_of(mask, *ping.sector);
@@ -182,7 +167,7 @@ SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const Meas
   row.edge_flags = edges.flags;
   row.edge_fraction = edges.edge_fraction;
   row.touches_edge = (edges.flags & kTouchesEdge) != 0 ? 1 : 0;
-  if (!(shape.weight > 0.0)) return row;
+  if (!(shape.weight > 0.0)) return out;
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
@@ -193,8 +178,8 @@ SchoolPingRow measure(const MeasureInput& ping, const PingMask& mask, const Meas
     const Point<Sonar> bottom{shape.centre.x, shape.centre.y, depth - ping.placement.transducer_depth_m};
     row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
   }
-  measure_body(body_size(ping, mask, params), row);
-  return row;
+  out.body = body_echo(ping, mask, params);
+  return out;
 }
 
 }  // namespace sonar

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "school/correct_sizes.h"
 #include "school/test_water.h"
 
 namespace sonar {
@@ -31,7 +32,7 @@ struct Ping {
     mask = test::truth_of(expected);
   }
 
-  SchoolPingRow measured(std::uint64_t seed, bool speckle = true) {
+  MeasuredSchool seen(std::uint64_t seed, bool speckle = true) {
     counts = test::counts_of(expected, seed, speckle);
     filtered = test::filtered(counts, flags);
     MeasureInput in;
@@ -43,6 +44,11 @@ struct Ping {
     in.background = {flat.power_db, flat.calibration.view()};
     in.placement = placement;
     return measure(in, mask, params);
+  }
+
+  SchoolPingRow measured(std::uint64_t seed, bool speckle = true) {
+    const MeasuredSchool one = seen(seed, speckle);
+    return correct_sizes({{&one}}, params).front();
   }
 
   MeasureParams params;
@@ -128,15 +134,84 @@ TEST(Measure, AKnownBeamShapeGivesTheHeight) {
   for (const double range_m : {100.0, 200.0, 300.0}) {
     Ping ping;
     test::Ellipsoid e = ellipsoid(range_m, -18.0, 268.0);
+    ping.params.find_beam_shape = false;
     ping.params.beam_gaussian_share = 1.0;
     ping.add(e);
     EXPECT_NEAR(ping.measured(1, false).height_corrected_m / 12.0, 1.0, 0.10) << range_m;
     Ping line;
     e.beams = test::Beams::uniform_line;
+    line.params.find_beam_shape = false;
     line.params.beam_gaussian_share = 0.0;
     line.add(e);
     EXPECT_NEAR(line.measured(1, false).height_corrected_m / 12.0, 1.0, 0.10) << range_m;
   }
+}
+
+/// One school of 8 m height at 230 .. 250 m, where the beam is 15 m, through speckled pings.
+std::vector<MeasuredSchool> low_school(test::Beams beams, const MeasureParams& params, int pings) {
+  std::vector<MeasuredSchool> seen;
+  for (int i = 0; i < pings; ++i) {
+    Ping ping;
+    ping.params = params;
+    test::Ellipsoid e = ellipsoid(230.0 + 2.0 * i, -15.0, 268.0);
+    e.half_z = 4.0;
+    e.beams = beams;
+    ping.add(e);
+    seen.push_back(ping.seen(static_cast<std::uint64_t>(i) + 1));
+    seen.back().row.ping_index = i;
+  }
+  return seen;
+}
+
+std::vector<SchoolPingRow> corrected(const std::vector<MeasuredSchool>& seen, const MeasureParams& params) {
+  SchoolThroughPings school;
+  for (const MeasuredSchool& one : seen) school.push_back(&one);
+  return correct_sizes({school}, params);
+}
+
+double worst_height_error(const std::vector<SchoolPingRow>& rows, double height_m) {
+  double worst = 0.0;
+  for (const SchoolPingRow& row : rows) {
+    const double height = std::isnan(row.height_corrected_m) ? 0.0 : row.height_corrected_m;
+    worst = std::max(worst, std::abs(height / height_m - 1.0));
+  }
+  return worst;
+}
+
+// One ping of speckle cannot tell a low body's height, nor the shape of the beam's flanks; ten can, either shape.
+TEST(Measure, PingsTogetherTellALowBodysHeight) {
+  for (const test::Beams beams : {test::Beams::gaussian, test::Beams::uniform_line}) {
+    MeasureParams params;
+    const std::vector<MeasuredSchool> seen = low_school(beams, params, 10);
+    const double together = worst_height_error(corrected(seen, params), 8.0);
+    EXPECT_LT(together, 0.25);
+    params.height_pool_pings = 0;
+    EXPECT_GT(worst_height_error(corrected(seen, params), 8.0), together);
+  }
+}
+
+TEST(Measure, PingsOutOfReachHaveNoSayInTheHeight) {
+  MeasureParams params;
+  params.find_beam_shape = false;  // that is the sonar's, and all pings have a say in it
+  params.height_pool_pings = 2;
+  std::vector<MeasuredSchool> seen = low_school(test::Beams::gaussian, params, 6);
+  const double before = corrected(seen, params)[0].height_corrected_m;
+  for (double& likelihood : seen[3].body.heights[0].at) likelihood = 0.0;
+  EXPECT_EQ(corrected(seen, params)[0].height_corrected_m, before);
+  EXPECT_NE(corrected(seen, params)[1].height_corrected_m, before);
+}
+
+// A ping whose fans make no sense together, as beside lost packets, must not decide for all others.
+TEST(Measure, OnePingThatFitsNoBodyDoesNotDecide) {
+  MeasureParams params;
+  std::vector<MeasuredSchool> seen = low_school(test::Beams::gaussian, params, 8);
+  for (HeightLikelihood& heights : seen[4].body.heights) {
+    // far below what fits, and best for a body of more than 100 m
+    for (std::size_t k = 0; k < heights.at.size(); ++k) {
+      heights.at[k] = -10000.0 - 100.0 * static_cast<double>(heights.at.size() - k);
+    }
+  }
+  EXPECT_LT(worst_height_error(corrected(seen, params), 8.0), 0.35);
 }
 
 TEST(Measure, CutByTheSurfaceTheHeightIsNotTold) {

@@ -14,7 +14,9 @@ namespace {
 constexpr int kNodes = 9;
 constexpr double kMarginalVariance = 0.2;  ///< of an ellipsoid's marginal 1 - u^2 on -1..1
 constexpr int kScoringSteps = 6;
-constexpr int kGoldenSteps = 22;
+constexpr double kFirstHalfHeight_m = 0.25;
+constexpr double kGrowth = 1.1;
+constexpr std::size_t kMostHeights = 64;  // more than 1 km
 
 /// Quadrature of the marginal 3/4 (1 - u^2): u and weight, scaled so that the variance is exact.
 struct Marginal {
@@ -143,7 +145,8 @@ class Likelihood {
       double dm = 0.0;
       model(fan, half_height, m, dm);
       const double expected = amplitude_ * m + fan.background + pedestal_ * strongest_;
-      sum -= fan.looks * ((fan.echo + pedestal_ * strongest_) / expected + std::log(expected));
+      const double ratio = (fan.echo + pedestal_ * strongest_) / expected;
+      sum -= fan.looks * (ratio - 1.0 - std::log(ratio));
     }
     return sum;
   }
@@ -163,37 +166,54 @@ double two_way_pattern(const BeamModel& beam, double off_axis) {
   return pattern_at(beam.gaussian_share, off_axis).value;
 }
 
-std::optional<VerticalFit> fit_vertical(const std::vector<FanEcho>& fans, const BeamModel& beam) {
-  if (fans.size() < 3) return std::nullopt;
+double half_height_m(std::size_t k) {
+  return kFirstHalfHeight_m * (std::pow(kGrowth, static_cast<double>(k)) - 1.0) / (kGrowth - 1.0);
+}
+
+double HeightLikelihood::overdispersion() const {
+  if (at.empty() || freedom < 2) return 1.0;
+  return std::max(1.0, -2.0 * *std::max_element(at.begin(), at.end()) / (freedom - 1));
+}
+
+HeightLikelihood height_likelihood(const std::vector<FanEcho>& fans, const BeamModel& beam, double range_m) {
+  if (fans.size() < 3 || !(range_m > 0.0)) return {};
+  HeightLikelihood heights;
+  heights.freedom = static_cast<int>(fans.size()) - 2;
   Likelihood likelihood(fans, beam);
-  if (!likelihood.sound()) return std::nullopt;
-  constexpr double kGolden = 0.6180339887498949;
-  double low = 0.0;
-  double high = fans.back().elevation_rad - fans.front().elevation_rad;
-  double a = high - kGolden * (high - low);
-  double b = low + kGolden * (high - low);
-  double at_a = likelihood.best(a);
-  double at_b = likelihood.best(b);
-  for (int step = 0; step < kGoldenSteps; ++step) {
-    if (at_a >= at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = likelihood.best(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = likelihood.best(b);
+  const double span = std::abs(fans.back().elevation_rad - fans.front().elevation_rad);
+  for (std::size_t k = 0; k < kMostHeights && half_height_m(k) <= range_m * span; ++k) {
+    if (!likelihood.sound()) return {};
+    heights.at.push_back(likelihood.best(half_height_m(k) / range_m));
+  }
+  if (!likelihood.sound()) return {};
+  return heights;
+}
+
+void add_sight(HeightLikelihood& sum, const HeightLikelihood& more, double dispersion) {
+  if (more.at.empty()) return;
+  if (sum.at.empty()) sum.at.assign(more.at.size(), 0.0);
+  sum.at.resize(std::min(sum.at.size(), more.at.size()));
+  for (std::size_t k = 0; k < sum.at.size(); ++k) sum.at[k] += more.at[k] / dispersion;
+  sum.freedom += more.freedom;
+}
+
+std::optional<LikelyHeight> most_likely_height(const HeightLikelihood& heights) {
+  const std::vector<double>& at = heights.at;
+  if (at.empty()) return std::nullopt;
+  const auto peak = static_cast<std::size_t>(std::max_element(at.begin(), at.end()) - at.begin());
+  double place = static_cast<double>(peak);
+  double most = at[peak];
+  if (peak > 0 && peak + 1 < at.size()) {
+    const double rise = at[peak + 1] - at[peak - 1];
+    const double bend = 2.0 * at[peak] - at[peak - 1] - at[peak + 1];
+    if (bend > 0.0) {
+      place += 0.5 * rise / bend;
+      most += rise * rise / (8.0 * bend);
     }
   }
-  const double half_height = (low + high) / 2.0;
-  const double flat = Likelihood(likelihood).best(0.0);
-  const double most = likelihood.best(half_height);
-  if (!likelihood.sound()) return std::nullopt;
-  return VerticalFit{likelihood.centre(), half_height * half_height * kMarginalVariance, std::max(most - flat, 0.0)};
+  const double half = kFirstHalfHeight_m * (std::pow(kGrowth, place) - 1.0) / (kGrowth - 1.0);
+  const double evidence = (most - at.front()) / heights.overdispersion();
+  return LikelyHeight{half * half * kMarginalVariance, std::max(evidence, 0.0)};
 }
 
 }  // namespace sonar

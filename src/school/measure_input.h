@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "model/beam_grid.h"
+#include "model/mask.h"
+#include "model/school.h"
+#include "school/background.h"
+#include "school/seabed.h"
+
+namespace sonar {
+
+/// What one ping offers for measuring; borrowed.
+struct MeasureInput {
+  View3<const std::int16_t> sv;        ///< unfiltered Sv counts
+  View3<const std::int16_t> filtered;  ///< median-filtered Sv counts: stands in at faulty samples for sizes only
+  View3<const SampleFlags> flags;      ///< seabed included
+  const Sector* sector = nullptr;
+  const BeamGrid* grid = nullptr;
+  Background background;
+  Placement placement;
+  double pulse_m = 0.0;              ///< extent of the pulse along range, c tau / 2
+  const Seabed* seabed = nullptr;    ///< null = none seen
+  const PingMask* others = nullptr;  ///< voxels of all other schools of the ping; null = none
+  double threshold_db = kUnknown;    ///< the mask's, for the record
+};
+
+}  // namespace sonar
