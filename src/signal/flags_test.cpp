@@ -11,98 +11,10 @@
 #include "base/describe.h"
 #include "base/units.h"
 #include "signal/test_data.h"
+#include "signal/test_schools.h"
 
 namespace sonar {
 namespace {
-
-constexpr Shape3 kMs70{20, 25, 1320};
-constexpr double kSpacing_m = 0.3776;
-
-/// Elevation -45..0 in 20 fans and azimuth -30..30 in 25 beams, as on an MS70.
-PingGeometry ms70_geometry() {
-  PingGeometry geometry{.first_range_m = -0.755,
-                        .spacing_m = kSpacing_m,
-                        .transducer_depth_m = 7.0,
-                        .elevation_deg = {},
-                        .vertical_width_deg = {}};
-  for (int fan = 0; fan < 20; ++fan) geometry.elevation_deg.push_back(-45.0 + fan * 45.0 / 19.0);
-  geometry.vertical_width_deg.assign(500, 7.0);
-  return geometry;
-}
-
-struct Ellipsoid {
-  double range_m, azimuth_deg, elevation_deg;
-  double across_m, along_m, half_height_m;  ///< semi-axes
-};
-
-/// The body's echo in each voxel, 0..1: a beam of 7 degrees in height (12 dB (a / width)^2, two-way), and its overlap by
-/// -13 dB into the beams beside.
-Array3<double> echo_of(const Ellipsoid& e, Shape3 shape) {
-  const auto place = [](double r, double az, double el) {
-    return std::array{r * std::cos(el) * std::sin(az), r * std::cos(el) * std::cos(az), r * std::sin(el)};
-  };
-  const auto centre = place(e.range_m, rad_from_deg(e.azimuth_deg), rad_from_deg(e.elevation_deg));
-  const double reach_m = std::max({e.across_m, e.along_m, e.half_height_m});
-  Array3<double> echo(shape);
-  constexpr int kFine = 4;
-  for (int b = 0; b < shape.beams; ++b) {
-    for (int s = std::max(static_cast<int>((e.range_m - reach_m) / kSpacing_m), 0); s < shape.samples; ++s) {
-      if (s * kSpacing_m > e.range_m + reach_m) break;
-      for (int fine = -3 * kFine; fine < (shape.fans + 3) * kFine; ++fine) {
-        const double fan = static_cast<double>(fine) / kFine;
-        const auto p =
-            place(s * kSpacing_m, rad_from_deg(-30.0 + b * 60.0 / 24.0), rad_from_deg(-45.0 + fan * 45.0 / 19.0));
-        const double d = std::pow((p[0] - centre[0]) / e.across_m, 2) + std::pow((p[1] - centre[1]) / e.along_m, 2) +
-                         std::pow((p[2] - centre[2]) / e.half_height_m, 2);
-        if (d >= 1.0) continue;
-        for (int f = std::max(fine / kFine - 3, 0); f <= std::min(fine / kFine + 3, shape.fans - 1); ++f) {
-          const double off = (f - fan) * 45.0 / 19.0 / 7.0;
-          const double here = std::pow(10.0, -2.4 * off * off);
-          echo(f, b, s) = std::max(echo(f, b, s), here);
-          if (b > 0) echo(f, b - 1, s) = std::max(echo(f, b - 1, s), 0.05 * here);
-          if (b + 1 < shape.beams) echo(f, b + 1, s) = std::max(echo(f, b + 1, s), 0.05 * here);
-        }
-      }
-    }
-  }
-  return echo;
-}
-
-void add_echo(Array3<std::int16_t>& ping, const Array3<double>& echo, double power_db, std::uint64_t seed) {
-  TestRandom random(seed);
-  for (std::size_t i = 0; i < echo.all().size(); ++i) {
-    if (echo.all()[i] == 0.0) continue;
-    auto& count = ping.all()[i];
-    count = counts_of_power(linear_from_db(db_from_counts(count)) +
-                            linear_from_db(power_db) * echo.all()[i] * random.exponential());
-  }
-}
-
-/// Adds a speckled body of a mean power (dB re 1 W) at its heart.
-void add_school(Array3<std::int16_t>& ping, const Ellipsoid& e, double power_db, std::uint64_t seed) {
-  add_echo(ping, echo_of(e, ping.shape()), power_db, seed);
-}
-
-void add_power(std::int16_t& count, double power_db, TestRandom& random) {
-  count = counts_of_power(linear_from_db(db_from_counts(count)) + linear_from_db(power_db) * random.exponential());
-}
-
-/// Beams differ by up to 10 dB.
-void tilt_beams(Array3<std::int16_t>& ping) {
-  const Shape3 shape = ping.shape();
-  for (int f = 0; f < shape.fans; ++f) {
-    for (int b = 0; b < shape.beams; ++b) {
-      const auto shift = static_cast<std::int16_t>(counts_from_db(10.0 * ((f * 7 + b * 13) % 17) / 16.0));
-      for (auto& v : ping.row(f, b)) v = static_cast<std::int16_t>(v + shift);
-    }
-  }
-}
-
-std::size_t faults(const Array3<std::int16_t>& ping, SampleFlags which) {
-  Array3<SampleFlags> flags(ping.shape());
-  flag_ping(ping.view(), {}, {}, {}, flags.view());
-  return count_flag(flags, which);
-}
 
 // By hand: sample i lies at -0.755 + 0.3776 i; 15 m is reached at i = 41.72.
 TEST(flags, near_field_ends_at_its_range) {
@@ -321,55 +233,6 @@ TEST(flags, the_seabed_is_no_wall) {
     EXPECT_EQ(faults(ping, SampleFlags::wall), 0U) << depth_m;
     EXPECT_EQ(faults(ping, SampleFlags::hot_beam), 0U) << depth_m;
   }
-}
-
-TEST(flags, impulses_are_found_and_school_fronts_are_not) {
-  auto ping = noise_ping(kMs70, -125, 50);
-  add_school(ping, {200, 0, -20, 40, 25, 15}, -95, 51);
-  TestRandom random(52);
-  Array3<std::uint8_t> hit(kMs70);
-  const auto clean = ping;
-  std::size_t hits = 0;
-  for (int n = 0; n < 600; ++n) {
-    const int f = random.below(20);
-    const int b = random.below(25);
-    const int s = 10 + random.below(1300);
-    const int width = 1 + random.below(3);
-    for (int i = 0; i < width; ++i) {
-      if (hit(f, b, s + i) == 0) ++hits;
-      ping(f, b, s + i) = counts_of_power(1e-5);
-      hit(f, b, s + i) = 1;
-    }
-  }
-  for (const bool with_neighbours : {false, true}) {
-    Array3<SampleFlags> flags(kMs70);
-    const auto before = noise_ping(kMs70, -125, 53);
-    NeighbourPings neighbours;
-    if (with_neighbours) neighbours = {before.view(), before.view()};
-    flag_impulses(ping.view(), neighbours, {}, flags.view());
-    std::size_t found = 0;
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < flags.all().size(); ++i) {
-      const bool flagged = any(flags.all()[i]);
-      found += flagged && hit.all()[i] != 0 ? 1U : 0U;
-      wrong += flagged && hit.all()[i] == 0 ? 1U : 0U;
-    }
-    EXPECT_GT(static_cast<double>(found), 0.9 * static_cast<double>(hits));
-    EXPECT_LE(wrong, 8U);
-  }
-}
-
-TEST(flags, a_peak_that_the_next_ping_shows_too_is_no_impulse) {
-  auto ping = noise_ping({5, 5, 200}, -125, 60);
-  ping(2, 2, 100) = counts_of_power(1e-8);
-  auto next = noise_ping({5, 5, 200}, -125, 61);
-  Array3<SampleFlags> alone(ping.shape());
-  flag_impulses(ping.view(), {}, {}, alone.view());
-  EXPECT_TRUE(any(alone(2, 2, 100)));
-  next(2, 2, 102) = counts_of_power(1e-8);
-  Array3<SampleFlags> flags(ping.shape());
-  flag_impulses(ping.view(), {.before = {}, .after = next.view()}, {}, flags.view());
-  EXPECT_FALSE(any(flags(2, 2, 100)));
 }
 
 TEST(flags, any_size_is_taken) {
