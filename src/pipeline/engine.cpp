@@ -87,6 +87,23 @@ Result<Engine::Power> Engine::power(std::int64_t ping_index) {
   return made;
 }
 
+namespace {
+
+/// [fan][beam] above the horizon of beams that the hull turns; empty where it does not.
+std::vector<double> level_elevation_deg(const Sector& sector, const Placement& placement) {
+  std::vector<double> level;
+  if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return level;
+  for (int fan = 0; fan < sector.fans(); ++fan) {
+    for (int beam = 0; beam < sector.beams(); ++beam) {
+      const Point<Sonar> at = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
+      level.push_back(-deg_from_rad(std::asin(std::clamp(levelled(at, placement).z, -1.0, 1.0))));
+    }
+  }
+  return level;
+}
+
+}  // namespace
+
 PingGeometry Engine::ping_geometry(std::int64_t ping_index) const {
   PingGeometry geometry;
   geometry.first_range_m = observation_.range.first_m;
@@ -94,6 +111,7 @@ PingGeometry Engine::ping_geometry(std::int64_t ping_index) const {
   geometry.transducer_depth_m = placement(ping_index).transducer_depth_m;
   geometry.elevation_deg = grid().elevation_deg;
   geometry.vertical_width_deg = grid().vertical_width_deg;
+  geometry.level_elevation_deg = level_elevation_deg(sector(), placement(ping_index));
   return geometry;
 }
 

@@ -36,6 +36,8 @@ class OpenObservation {
   [[nodiscard]] std::size_t index() const { return index_; }
   [[nodiscard]] const SurveyFiles& survey() const { return *survey_; }
   [[nodiscard]] const ObservationFiles& files() const { return survey_->observations[index_]; }
+  /// Where a ping was made, with the attitude that its beams follow.
+  [[nodiscard]] Placement placement(std::int64_t ping_index) const { return engine_.placement(ping_index); }
   [[nodiscard]] const std::string& name() const { return files().name; }
   /// "obs-0001", with SYNTHETIC behind it where the data is.
   [[nodiscard]] std::string title() const;

@@ -132,9 +132,9 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
   text.fan = fmt::format("fan {}", voxel.fan);
   text.beam = fmt::format("beam {}", voxel.beam);
   text.sample = fmt::format("sample {}", voxel.sample);
-  const Point<Sonar> place = sector.centre(voxel.fan, voxel.beam, voxel.sample);
   const PingNavigation& navigation = shown->files().navigation[static_cast<std::size_t>(ping)];
-  const Placement placement = navigation.placement();
+  const Placement placement = shown->placement(ping);
+  const Point<Sonar> place = levelled(sector.centre(voxel.fan, voxel.beam, voxel.sample), placement);
   text.range = fmt::format("range {:.1f} m", norm(place));
   text.depth = fmt::format("depth {:.1f} m", place.z + placement.transducer_depth_m);
   text.time = time_text(navigation.time);

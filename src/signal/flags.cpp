@@ -66,14 +66,12 @@ namespace {
 void flag_air(const PingGeometry& geometry, View3<SampleFlags> flags) {
   if (!has_range_axis(geometry) || !std::isfinite(geometry.transducer_depth_m)) return;
   const Shape3 shape = flags.shape();
-  for (int fan = 0; fan < shape.fans; ++fan) {
-    const double up = std::sin(rad_from_deg(geometry.elevation_deg[static_cast<std::size_t>(fan)]));
+  for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
+    const double up = std::sin(rad_from_deg(geometry.elevation_deg_of(row / shape.beams, row)));
     if (!(up > 0.0)) continue;
     const double line = (geometry.transducer_depth_m / up - geometry.first_range_m) / geometry.spacing_m;
     const int first = static_cast<int>(std::clamp(std::floor(line) + 1.0, 0.0, static_cast<double>(shape.samples)));
-    for (int beam = 0; beam < shape.beams; ++beam) {
-      flag_samples(flags.row(fan, beam), first, shape.samples, SampleFlags::surface);
-    }
+    flag_samples(flags.row(row), first, shape.samples, SampleFlags::surface);
   }
 }
 
@@ -83,7 +81,11 @@ void flag_surface(const PingGeometry& geometry, const SurfaceParams& params, Vie
   const Shape3 shape = flags.shape();
   const auto& elevation_deg = geometry.elevation_deg;
   if (elevation_deg.size() != static_cast<std::size_t>(shape.fans)) return;
-  if (std::any_of(elevation_deg.begin(), elevation_deg.end(), [](double e) { return !std::isfinite(e); })) return;
+  const auto unknown = [](double e) { return !std::isfinite(e); };
+  if (std::any_of(elevation_deg.begin(), elevation_deg.end(), unknown)) return;
+  const auto& level_deg = geometry.level_elevation_deg;
+  if (!level_deg.empty() && level_deg.size() != shape.rows()) return;
+  if (std::any_of(level_deg.begin(), level_deg.end(), unknown)) return;
   flag_air(geometry, flags);
   if (!params.enabled) return;
   if (params.mode == SurfaceMode::fan) {
@@ -100,8 +102,7 @@ void flag_surface(const PingGeometry& geometry, const SurfaceParams& params, Vie
     const auto index = static_cast<std::size_t>(row);
     double width_deg = index < geometry.vertical_width_deg.size() ? geometry.vertical_width_deg[index] : 0.0;
     if (!std::isfinite(width_deg)) width_deg = 0.0;
-    const double range_m =
-        surface_range_m(elevation_deg[static_cast<std::size_t>(row / shape.beams)], width_deg, clear_m);
+    const double range_m = surface_range_m(geometry.elevation_deg_of(row / shape.beams, row), width_deg, clear_m);
     flag_samples(flags.row(row), first_sample_at(geometry, range_m, shape.samples), shape.samples,
                  SampleFlags::surface);
   }

@@ -18,6 +18,13 @@ struct PingGeometry {
   double transducer_depth_m = 0.0;         ///< below the water line, positive down
   std::vector<double> elevation_deg;       ///< [fan], positive up
   std::vector<double> vertical_width_deg;  ///< [fan][beam], one-way -3 dB; empty = 0
+  /// [fan][beam], positive up, of beams that roll and pitch with the hull; empty = each fan's elevation
+  std::vector<double> level_elevation_deg;
+
+  [[nodiscard]] double elevation_deg_of(int fan, int row) const {
+    return level_elevation_deg.empty() ? elevation_deg[static_cast<std::size_t>(fan)]
+                                       : level_elevation_deg[static_cast<std::size_t>(row)];
+  }
 };
 
 /// Power of the pings before and after, of one shape with the ping; an empty view where there is none.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -46,6 +47,35 @@ TEST(flags, surface_mode_edge_keeps_upper_fans_near_the_ship) {
   EXPECT_EQ(count_flag(flags, SampleFlags::surface), 25U * (1320U - 219U) + 25U * (1320U - 673U));
 }
 
+// A hull that rolls turns one beam 5 degrees further up than the other: by hand, r = (7 - 2) / sin(e + w / 2).
+TEST(flags, surface_follows_beams_that_roll_with_the_hull) {
+  PingGeometry geometry = ms70_geometry();
+  const Shape3 shape{20, 2, 1320};
+  geometry.vertical_width_deg.assign(40, 7.0);
+  for (int row = 0; row < 40; ++row) {
+    geometry.level_elevation_deg.push_back(geometry.elevation_deg[static_cast<std::size_t>(row / 2)] +
+                                           (row % 2 == 0 ? 5.0 : 0.0));
+  }
+  Array3<SampleFlags> flags(shape);
+  flag_surface(geometry, {}, flags.view());
+  const auto first_of = [&](int fan, int beam) {
+    const auto row = flags.view().row(fan, beam);
+    return std::find(row.begin(), row.end(), SampleFlags::surface) - row.begin();
+  };
+  const auto by_hand = [&](double elevation_deg) {
+    const double range_m = 5.0 / std::sin(rad_from_deg(elevation_deg + 3.5));
+    return std::min(1320.0, std::ceil((range_m - geometry.first_range_m) / kSpacing_m));
+  };
+  EXPECT_NEAR(static_cast<double>(first_of(19, 0)), by_hand(5.0), 1.0);
+  EXPECT_NEAR(static_cast<double>(first_of(19, 1)), by_hand(0.0), 1.0);
+  EXPECT_NEAR(static_cast<double>(first_of(17, 0)), by_hand(5.0 - 2.0 * 45.0 / 19.0), 1.0);
+  EXPECT_EQ(first_of(17, 1), 1320);
+  geometry.level_elevation_deg.pop_back();  // of no such ping
+  Array3<SampleFlags> none(shape);
+  flag_surface(geometry, {}, none.view());
+  EXPECT_EQ(std::count(none.all().begin(), none.all().end(), SampleFlags::surface), 0);
+}
+
 // A sonar 7 m deep that looks 30 degrees up meets the water line at 14 m. What lies above is air under any parameters.
 TEST(flags, no_parameters_make_air_into_water) {
   PingGeometry geometry;
@@ -70,7 +100,8 @@ TEST(flags, unknown_geometry_leaves_the_surface_alone) {
                 .spacing_m = 1,
                 .transducer_depth_m = 5,
                 .elevation_deg = {std::numeric_limits<double>::quiet_NaN()},
-                .vertical_width_deg = {}},
+                .vertical_width_deg = {},
+                .level_elevation_deg = {}},
                {}, flags.view());
   flag_near_field({}, {}, flags.view());
   EXPECT_EQ(count_flag(flags, kNotFiltered), 0U);
@@ -247,8 +278,12 @@ TEST(flags, any_size_is_taken) {
                              {60, 40, 20}}) {
     const auto ping = noise_ping(shape, -125, 70);
     Array3<SampleFlags> flags(shape);
-    PingGeometry geometry{
-        .first_range_m = 0, .spacing_m = 0.4, .transducer_depth_m = 7, .elevation_deg = {}, .vertical_width_deg = {}};
+    PingGeometry geometry{.first_range_m = 0,
+                          .spacing_m = 0.4,
+                          .transducer_depth_m = 7,
+                          .elevation_deg = {},
+                          .vertical_width_deg = {},
+                          .level_elevation_deg = {}};
     geometry.elevation_deg.assign(static_cast<std::size_t>(shape.fans), -10.0);
     flag_ping(ping.view(), geometry, {}, {ping.view(), ping.view()}, flags.view());
     EXPECT_EQ(count_flag(flags, kFault), 0U);

@@ -24,7 +24,8 @@ inline PingGeometry ms70_geometry() {
                         .spacing_m = kSpacing_m,
                         .transducer_depth_m = 7.0,
                         .elevation_deg = {},
-                        .vertical_width_deg = {}};
+                        .vertical_width_deg = {},
+                        .level_elevation_deg = {}};
   for (int fan = 0; fan < 20; ++fan) geometry.elevation_deg.push_back(-45.0 + fan * 45.0 / 19.0);
   geometry.vertical_width_deg.assign(500, 7.0);
   return geometry;

@@ -34,7 +34,7 @@ struct Recorded {
 // In the order of the stages: where one changes, those after it change with it and keep their numbers.
 constexpr std::array<Recorded, 11> kRecorded{{
     {"decode", 2, "67a30992438549e29295a79665f21403"},
-    {"flags", 2, "51ed733ca50c62dd8fb52f71b6b77001"},
+    {"flags", 3, "51ed733ca50c62dd8fb52f71b6b77001"},
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},

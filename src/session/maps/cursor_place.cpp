@@ -18,8 +18,8 @@ std::optional<Geographic> cursor_place(const Workspace& workspace) {
   }
   const PingNavigation& navigation = shown->files().navigation[static_cast<std::size_t>(workspace.document.ping())];
   if (!navigation.has_position() || !std::isfinite(navigation.heading_deg)) return std::nullopt;
-  const Placement placement = navigation.placement();
-  const Point<Sonar> place = sector.centre(voxel->fan, voxel->beam, voxel->sample);
+  const Placement placement = shown->placement(workspace.document.ping());
+  const Point<Sonar> place = levelled(sector.centre(voxel->fan, voxel->beam, voxel->sample), placement);
   return to_geographic(to_enu(place, placement.heading_rad), placement.transducer);
 }
 
