@@ -13,6 +13,8 @@
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
+#include "pipeline/json_file.h"
+#include "pipeline/json_parameters.h"
 
 namespace sonar {
 namespace {
@@ -29,6 +31,8 @@ struct SimulateOptions {
   std::optional<double> noise;
   std::optional<double> file_mb;
   std::string beam_pattern;
+  std::string params;
+  bool print_params = false;
   bool no_fish = false;
   bool force = false;
   int jobs = 0;
@@ -39,12 +43,26 @@ void take(const std::optional<T>& option, T& field) {
   if (option) field = *option;
 }
 
-synth::SurveyParams parameters(const SimulateOptions& o) {
+/// Fills what a file names. errors: io, format; bad_parameter naming the member
+Result<void> take_file(const std::string& path, synth::SurveyParams& params) {
+  const auto json = read_json_file(path);
+  if (!json) return pass_on(json);
+  JsonReader reader(*json);
+  describe(reader, params);
+  reader.finish();
+  if (!reader.problem().empty()) return fail(ErrorCode::bad_parameter, reader.problem(), {path});
+  return {};
+}
+
+Result<synth::SurveyParams> parameters(const SimulateOptions& o) {
   auto preset = synth::Preset::standard;
   for (std::size_t i = 0; i < synth::kPresetNames.size(); ++i) {
     if (synth::kPresetNames[i] == o.preset) preset = static_cast<synth::Preset>(i);
   }
   synth::SurveyParams p = synth::survey_params(preset);
+  if (!o.params.empty()) {
+    if (auto taken = take_file(o.params, p); !taken) return pass_on(taken);
+  }
   take(o.seed, p.seed);
   take(o.observations, p.observations);
   take(o.pings, p.pings);
@@ -82,10 +100,20 @@ int simulate(const SimulateOptions& o) {
     if (!table) return report(table.error());
     beams = std::move(*table);
   }
+  auto params = parameters(o);
+  if (!params) return report(params.error());
+  if (o.print_params) {
+    JsonWriter writer;
+    describe(writer, *params);
+    fmt::print("{}\n", writer.json().dump(2));
+    return kExitDone;
+  }
+  if (o.out.empty())
+    return report({ErrorCode::usage, "OUT is required: the folder to write into; see sonarx simulate --help", {}});
   Work work(o.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  const auto made = synth::simulate_survey(o.out, parameters(o), beams, o.force, SONAR_VERSION, work);
+  const auto made = synth::simulate_survey(o.out, *params, beams, o.force, SONAR_VERSION, work);
   clear_progress();
   if (!made) return report(naming_option(made.error()));
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
@@ -100,7 +128,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   CLI::App* verb = app.add_subcommand(
       "simulate",
       "Write a synthetic MS70 survey as .raw files, and its truth (schools, masks, the seabed as depth.tif)");
-  verb->add_option("OUT", o->out, "Folder to write into")->required();
+  verb->add_option("OUT", o->out, "Folder to write into");
   verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo")
       ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}))
       ->capture_default_str();
@@ -112,6 +140,8 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams");
   verb->add_option("--beam-pattern", o->beam_pattern, "Shape of the beams: gaussian or uniform_line (with side lobes)")
       ->check(CLI::IsMember({"gaussian", "uniform_line"}));
+  verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
+  verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
   verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");
   verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
