@@ -21,12 +21,15 @@ constexpr std::int32_t kCutsLevel = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
 constexpr std::int32_t kCutsHeight = kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
 
 /// Corrected columns; unknown where an extent is cut or not told apart from the beam, and what needs all three with it.
+/// No body is larger than what is seen of it through the beam: a hollow or forked one has more spread than an ellipsoid
+/// of its extents, from which the sizes are told.
 void measure_body(const BodySize& body, SchoolPingRow& row) {
+  const auto at_most = [](double corrected, double apparent) { return corrected > apparent ? apparent : corrected; };
   if ((row.edge_flags & kCutsLevel) == 0) {
-    row.length_corrected_m = body.length_m;
-    row.width_corrected_m = body.width_m;
+    row.length_corrected_m = at_most(body.length_m, row.length_m);
+    row.width_corrected_m = at_most(body.width_m, row.width_m);
   }
-  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
+  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = at_most(body.height_m, row.height_m);
   row.volume_corrected_m3 =
       std::numbers::pi / 6.0 * row.length_corrected_m * row.width_corrected_m * row.height_corrected_m;
   const double sv = row.backscatter_m2 / row.volume_corrected_m3;
