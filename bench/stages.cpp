@@ -109,8 +109,8 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
                [&] { median_into(staged.sv.counts.view(), staged.sv.flags.view(), recipe.median, filtered.view()); });
     Seabed seabed;
     watch.time("4   of which the seabed", [&] {
-      seabed = find_seabed(filtered.view(), staged.sv.flags.view(), engine.sector(), engine.grid().vertical_width_deg,
-                           recipe.seabed);
+      seabed = find_seabed(filtered.view(), staged.sv.flags.view(), staged.background(), engine.sector(),
+                           engine.grid().vertical_width_deg, recipe.seabed);
     });
     std::vector<Detection> detections;
     watch.time("5 detect", [&] {

@@ -208,15 +208,15 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
   const MedianParams box = fitted(recipe_.median, grid().elevation_deg, grid().azimuth_deg, grid().vertical_width_deg,
                                   grid().horizontal_width_deg);
   median_into(ping.sv.counts.view(), ping.sv.flags.view(), box, ping.filtered->counts.view());
+  for (const float level_db : background_db(ping_index)) {
+    ping.background_db.push_back(static_cast<double>(level_db));
+  }
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
     flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->flags.view());
   } else if (recipe_.seabed.enabled) {
-    ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), sector_,
+    ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), ping.background(), sector_,
                               grid().vertical_width_deg, recipe_.seabed);
     if (ping.seabed.found) flag_seabed(ping.seabed, ping.filtered->flags.view());
-  }
-  for (const float level_db : background_db(ping_index)) {
-    ping.background_db.push_back(static_cast<double>(level_db));
   }
   return ping;
 }

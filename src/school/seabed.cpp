@@ -8,25 +8,19 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/check.h"
 #include "base/units.h"
 #include "model/school.h"
+#include "school/seabed_echoes.h"
 
 namespace sonar {
 namespace {
 
-constexpr int kBlock = 16;  ///< samples looked at together: for speed alone
 /// Stands in where a grid tells no beam width.
 constexpr double kUnknownWidth_rad = 0.1;
-constexpr SampleFlags kUnusable = SampleFlags::near_field | SampleFlags::surface;
-
-/// A long strong echo along one beam.
-struct Echo {
-  int row = 0;
-  double range_m = 0.0;  ///< of its strongest part
-  Point<Sonar> place;
-};
+constexpr double kTwoWayHalfPower_db = 6.02;  ///< half a one-way -3 dB width off the axis
 
 struct Plane {
   double offset = 0.0;
@@ -43,15 +37,17 @@ struct Plane {
 
 class SeabedFinder {
  public:
-  SeabedFinder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
-               const std::vector<double>& vertical_width_deg, const SeabedParams& params)
-      : sv_(sv), flags_(flags), sector_(sector), width_deg_(vertical_width_deg), params_(params) {}
+  SeabedFinder(const SeabedWater& water, const std::vector<double>& vertical_width_deg)
+      : water_(water),
+        sv_(water.sv),
+        sector_(water.sector),
+        width_deg_(vertical_width_deg),
+        params_(water.params),
+        echoes_(seabed_echoes(water)) {}
 
   Seabed find() {
     Seabed seabed;
     seabed.first_sample.assign(sv_.shape().rows(), sv_.shape().samples);
-    if (!params_.enabled) return seabed;
-    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) echoes_of(row);
     const std::optional<Plane> plane = robust_plane();
     if (!plane) return seabed;
     const double seen = coverage(*plane);
@@ -70,77 +66,18 @@ class SeabedFinder {
 
  private:
   [[nodiscard]] Point<Sonar> axis(int row, double lower_by_rad = 0.0) const {
-    const double elevation = sector_.elevation_rad(row / sector_.beams()) - lower_by_rad;
-    return Sector::direction(std::max(elevation, -1.57), sector_.azimuth_rad(row % sector_.beams()));
+    return beam_axis(sector_, row, lower_by_rad);
   }
   [[nodiscard]] double inlier_m(double range_m) const {
     return std::max(params_.inlier_m, params_.inlier_share * range_m);
   }
 
-  void echoes_of(int row) {
-    const auto counts = sv_.row(row);
-    const auto flags = flags_.row(row);
-    const int level = static_cast<int>(std::lround(counts_from_db(params_.level_db)));
-    const int least = std::max(1, static_cast<int>(params_.min_echo_m / sector_.range().spacing_m));
-    const int samples = sv_.shape().samples;
-    int start = -1;
-    for (int s = 0; s <= samples; ++s) {
-      if (start < 0 && s + kBlock <= samples && quiet(&counts[static_cast<std::size_t>(s)], level)) {
-        s += kBlock - 1;
-        continue;
-      }
-      const auto i = static_cast<std::size_t>(s);
-      const bool strong = s < samples && counts[i] >= level && !any(flags[i] & kUnusable);
-      if (strong && start < 0) start = s;
-      if (strong || start < 0) continue;
-      if (s - start >= least) add_echo(row, start, s);
-      start = -1;
-    }
-  }
-
-  /// Most of a ping is: a fixed number of samples at a time is quickly looked through.
-  static bool quiet(const std::int16_t* counts, int level) {
-    int loud = 0;
-    for (int j = 0; j < kBlock; ++j) loud |= counts[j] >= level ? 1 : 0;
-    return loud == 0;
-  }
-
-  void add_echo(int row, int first, int end) {
-    const auto counts = sv_.row(row);
-    int at = first;
-    for (int s = first; s < end; ++s) {
-      if (counts[static_cast<std::size_t>(s)] > counts[static_cast<std::size_t>(at)]) at = s;
-    }
-    const int before = first - std::max(params_.before_samples, static_cast<int>(params_.before_share * (end - first)));
-    if (before < 0) return;
-    const std::int16_t peak = counts[static_cast<std::size_t>(at)];
-    if (peak - counts[static_cast<std::size_t>(before)] < counts_from_db(params_.rise_db)) return;
-    double weight = 0.0;
-    double sum = 0.0;
-    int last = at;
-    for (int s = first; s < end; ++s) {
-      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(params_.near_peak_db)) continue;
-      weight += 1.0;
-      sum += sector_.range().range_m(s);
-      last = s;
-    }
-    // an echo still at its height where the beam ends says nothing about where its middle would be
-    if (last >= first_cut_off()) return;
-    const double range_m = sum / weight;
-    echoes_.push_back({row, range_m, axis(row) * range_m});
-  }
-
-  [[nodiscard]] int first_cut_off() const {
-    const int samples = sv_.shape().samples;
-    return samples - std::max(2, static_cast<int>(params_.record_end_share * samples));
-  }
-
   [[nodiscard]] int support(const Plane& plane) const {
     int beams = 0;
     int last_row = -1;
-    for (const Echo& echo : echoes_) {
+    for (const SeabedEcho& echo : echoes_) {
       if (echo.row == last_row) continue;
-      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) > inlier_m(echo.range_m)) continue;
+      if (!is_of(echo, plane)) continue;
       ++beams;
       last_row = echo.row;
     }
@@ -198,7 +135,7 @@ class SeabedFinder {
   /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth.
   [[nodiscard]] std::optional<Plane> least_squares(const Plane& start) const {
     std::array<std::array<double, 4>, 3> m{};
-    for (const Echo& echo : echoes_) {
+    for (const SeabedEcho& echo : echoes_) {
       const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / inlier_m(echo.range_m);
       if (std::abs(off) >= 1.0) continue;
       const double w = (1.0 - off * off) * (1.0 - off * off) / inlier_m(echo.range_m);
@@ -221,15 +158,49 @@ class SeabedFinder {
     return plane;
   }
 
-  /// Share of the beams whose axis meets the plane well inside their range that have an echo there. Where the record
-  /// ends soon behind the seabed few do: then a fan beyond counts as well, if (almost) all its beams see the plane.
+  [[nodiscard]] bool is_of(const SeabedEcho& echo, const Plane& plane) const {
+    return std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) <= inlier_m(echo.range_m);
+  }
+
+  /// How the echo's peak changes over a plane, dB: Lambert's law, and the patch that a beam lights up against the
+  /// volume that it fills (flat beams light up longer patches in larger volumes).
+  /// source  Sv of a surface: S_b x patch / volume
+  [[nodiscard]] static double lambert_db(const Plane& plane, const Point<Sonar>& u, double range_m) {
+    const double sine = (u.z - plane.slope_x * u.x - plane.slope_y * u.y) / std::hypot(1.0, plane.slope());
+    if (!(sine > 0.0)) return -std::numeric_limits<double>::infinity();
+    const double cosine = std::sqrt(std::max(1.0 - sine * sine, 0.01));
+    return db_from_linear(sine * sine / (range_m * cosine));
+  }
+
+  /// What to add to lambert_db(): the median over the echoes that lie on the plane.
+  [[nodiscard]] double strength_db(const Plane& plane) const {
+    std::vector<double> strengths;
+    for (const SeabedEcho& echo : echoes_) {
+      if (is_of(echo, plane)) strengths.push_back(echo.peak_db - lambert_db(plane, axis(echo.row), echo.range_m));
+    }
+    const auto middle = strengths.begin() + std::ssize(strengths) / 2;
+    std::nth_element(strengths.begin(), middle, strengths.end());
+    return *middle;
+  }
+
+  /// Whether a beam should see the plane: its peak comes clearly above what is loud at that range.
+  [[nodiscard]] bool visible(const Plane& plane, int row, double strength_db) const {
+    const Point<Sonar> u = axis(row);
+    const double range_m = plane.range(u);
+    const int sample = std::clamp(static_cast<int>(sector_.range().sample_at(range_m)), 0, sv_.shape().samples - 1);
+    const int limit = loud_limit(water_, row)(sample);
+    return strength_db + lambert_db(plane, u, range_m) >= db_from_counts(limit) + params_.visible_db;
+  }
+
+  /// Share of the beams whose axis meets the plane well inside their range, and that a seabed so strong should show in,
+  /// that have an echo there. Where the record ends soon behind the seabed few do: then a fan beyond counts as well, if
+  /// (almost) all its beams see the plane.
   [[nodiscard]] double coverage(const Plane& plane) const {
     std::vector<bool> sees(sv_.shape().rows(), false);
-    for (const Echo& echo : echoes_) {
-      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) <= inlier_m(echo.range_m)) {
-        sees[static_cast<std::size_t>(echo.row)] = true;
-      }
+    for (const SeabedEcho& echo : echoes_) {
+      if (is_of(echo, plane)) sees[static_cast<std::size_t>(echo.row)] = true;
     }
+    const double strength = strength_db(plane);
     const double reach = params_.reach_share * sector_.range().range_m(sv_.shape().samples - 1);
     const auto beams = static_cast<std::size_t>(sector_.beams());
     int expected = 0;
@@ -239,9 +210,9 @@ class SeabedFinder {
       const auto seeing = std::count(fan, fan + sector_.beams(), true);
       const bool whole = static_cast<double>(seeing) >= params_.whole_fan_share * sector_.beams();
       for (std::size_t row = first; row < first + beams; ++row) {
-        // grazing beams see the bottom as a faint ramp: they need not agree
         const Point<Sonar> u = axis(static_cast<int>(row));
         if (u.z < params_.min_dip || (plane.range(u) > reach && !(whole && sees[row]))) continue;
+        if (!sees[row] && !visible(plane, static_cast<int>(row), strength)) continue;
         ++expected;
         if (sees[row]) ++seen;
       }
@@ -252,13 +223,33 @@ class SeabedFinder {
   void bounds(const Plane& plane, Seabed& seabed) const {
     seabed.min_x = seabed.min_y = std::numeric_limits<double>::infinity();
     seabed.max_x = seabed.max_y = -std::numeric_limits<double>::infinity();
-    for (const Echo& echo : echoes_) {
-      if (std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) > inlier_m(echo.range_m)) continue;
+    for (const SeabedEcho& echo : echoes_) {
+      if (!is_of(echo, plane)) continue;
       seabed.min_x = std::min(seabed.min_x, echo.place.x);
       seabed.max_x = std::max(seabed.max_x, echo.place.x);
       seabed.min_y = std::min(seabed.min_y, echo.place.y);
       seabed.max_y = std::max(seabed.max_y, echo.place.y);
     }
+  }
+
+  /// Range at which a beam sees the plane loudest: flat beams by their lower flank, where it is nearer and steeper.
+  [[nodiscard]] double loudest_m(const Plane& plane, int row, double width_rad) const {
+    constexpr int kSteps = 12;
+    double best_m = plane.range(axis(row));
+    double best_db = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= kSteps; ++k) {
+      const double off_rad = params_.edge_widths * width_rad * k / kSteps;
+      const Point<Sonar> u = axis(row, off_rad);
+      const double range_m = plane.range(u);
+      if (!std::isfinite(range_m)) continue;
+      const double off_widths = off_rad / width_rad;
+      const double level_db = lambert_db(plane, u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
+      if (level_db > best_db) {
+        best_db = level_db;
+        best_m = range_m;
+      }
+    }
+    return best_m;
   }
 
   /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
@@ -272,12 +263,12 @@ class SeabedFinder {
     const double on_axis_m = plane.range(axis(row));
     if (!(nearest_m <= axis_m.range_m(samples - 1))) return samples;
     const double last_m = axis_m.range_m(samples - 1);
-    const int from = static_cast<int>(axis_m.sample_at(std::min(on_axis_m, last_m)));
+    const int from = static_cast<int>(axis_m.sample_at(std::min(loudest_m(plane, row, width), last_m)));
     const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
     const auto counts = sv_.row(row);
     const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
     const int gap = std::max(1, static_cast<int>(params_.onset_gap_m / axis_m.spacing_m));
-    int first = on_axis_m <= last_m ? from : samples;
+    int first = on_axis_m <= last_m ? static_cast<int>(axis_m.sample_at(on_axis_m)) : samples;
     for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
       const bool loud = counts[static_cast<std::size_t>(s)] >= level;
       if (loud) first = s;
@@ -287,20 +278,26 @@ class SeabedFinder {
     return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
   }
 
+  const SeabedWater& water_;
   View3<const std::int16_t> sv_;
-  View3<const SampleFlags> flags_;
   const Sector& sector_;
   const std::vector<double>& width_deg_;
   const SeabedParams& params_;
-  std::vector<Echo> echoes_;
+  std::vector<SeabedEcho> echoes_;
 };
 
 }  // namespace
 
-Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
-                   const std::vector<double>& vertical_width_deg, const SeabedParams& params) {
+Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
+                   const Sector& sector, const std::vector<double>& vertical_width_deg, const SeabedParams& params) {
   SONAR_CHECK(sv.shape() == flags.shape());
-  return SeabedFinder(sv, flags, sector, vertical_width_deg, params).find();
+  if (!params.enabled) {
+    Seabed none;
+    none.first_sample.assign(sv.shape().rows(), sv.shape().samples);
+    return none;
+  }
+  const SeabedWater water{sv, flags, background, sector, params};
+  return SeabedFinder(water, vertical_width_deg).find();
 }
 
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {

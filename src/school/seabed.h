@@ -9,14 +9,17 @@
 #include "base/sample_flags.h"
 #include "geo/frames.h"
 #include "geo/sector.h"
+#include "school/background.h"
 
 namespace sonar {
 
 struct SeabedParams {
   bool enabled = true;
-  double level_db = -50.0;
+  double level_db = -60.0;
+  double above_background_db = 2.0;
+  double visible_db = 3.0;
   double min_echo_m = 10.0;
-  double rise_db = 10.0;
+  double rise_db = 4.0;
   double max_slope_deg = 20.0;
   double inlier_m = 6.0;
   double inlier_share = 0.06;
@@ -32,7 +35,7 @@ struct SeabedParams {
   double whole_fan_share = 0.9;
   double reach_share = 0.9;
   double min_dip = 0.3;
-  double onset_gap_m = 2.0;
+  double onset_gap_m = 4.0;
   int trials = 300;
   int refinements = 5;
   double min_triangle_m2 = 25.0;
@@ -42,6 +45,13 @@ template <class Visitor>
 void describe(Visitor& v, SeabedParams& p) {
   v.field("enabled", p.enabled, {.text = "look for the seabed at all"});
   v.field("level_db", p.level_db, {.unit = "dB re 1 m-1", .min = -100, .max = 0, .text = "lowest Sv of a seabed echo"});
+  v.field("above_background_db", p.above_background_db,
+          {.unit = "dB", .min = 0, .max = 60, .text = "its echo stands so far above the background too"});
+  v.field("visible_db", p.visible_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "beams need not agree where Lambert's law brings its peak less far above both"});
   v.field("min_echo_m", p.min_echo_m, {.unit = "m", .min = 0, .max = 500, .text = "its least extent along range"});
   v.field("rise_db", p.rise_db,
           {.unit = "dB", .min = 0, .max = 60, .text = "its peak stands so far above what lies before it"});
@@ -107,11 +117,13 @@ struct Seabed {
 
 /// Finds the seabed from this ping alone: echoes per beam, a robust plane in metres, its onset along each beam.
 /// sv        [fan][beam][sample], median-filtered Sv counts
+/// background  the noise's share of sv: where it is loud, an echo must stand above it
 /// vertical_width_deg  [fan][beam] one-way -3 dB, BeamGrid's
 /// out       found = false where the beams that would see a plane do not agree on one
 /// threads   pure
 /// source    reference: robust plane over per-beam candidates
-[[nodiscard]] Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
+[[nodiscard]] Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
+                                 const Background& background, const Sector& sector,
                                  const std::vector<double>& vertical_width_deg, const SeabedParams& params);
 
 /// Sets SampleFlags::seabed from first_sample to the end of each row.

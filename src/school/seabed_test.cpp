@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "base/units.h"
 #include "school/test_water.h"
@@ -14,8 +16,23 @@ namespace {
 struct BottomScene {
   BottomScene() : sector(test::grid().sector(test::range_axis())), expected(Shape3{20, 25, 900}) {}
 
-  /// A plane z = depth + slope_y y, seen through the beam's vertical pattern.
+  /// A plane z = depth + slope_y y, seen through the beam's vertical pattern, as loud everywhere.
   void add_bottom(double depth_m, double slope_y = 0.0) {
+    add_bottom(depth_m, slope_y, [](double) { return 3e-3; });
+  }
+
+  /// A level one by Lambert's law: S_b sin^2 over the height of the beam there, 1 / (sqrt(2 pi) sigma r cos).
+  void add_lambert_bottom(double depth_m, double lambert_db) {
+    const double sigma = rad_from_deg(test::kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+    add_bottom(depth_m, 0.0, [=](double r) {
+      const double sine = depth_m / r;
+      const double height_m = std::sqrt(2.0 * std::numbers::pi) * sigma * r * std::sqrt(1.0 - sine * sine);
+      return linear_from_db(lambert_db) * sine * sine / height_m;
+    });
+  }
+
+  template <class SvAtRange>
+  void add_bottom(double depth_m, double slope_y, SvAtRange sv) {
     const double sigma = rad_from_deg(test::kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
     for (int f = 0; f < 20; ++f) {
       for (int b = 0; b < 25; ++b) {
@@ -31,7 +48,7 @@ struct BottomScene {
           }
           if (!meets) continue;
           const double off = (e - sector.elevation_rad(f)) / sigma;
-          expected(f, b, s) += 3e-3 * std::exp(-0.5 * off * off);
+          expected(f, b, s) += sv(r) * std::exp(-0.5 * off * off);
         }
       }
     }
@@ -40,7 +57,7 @@ struct BottomScene {
   Seabed look(std::uint64_t seed) {
     flags = test::cropped_flags(expected.shape(), sector);
     const Array3<std::int16_t> sv = test::filtered(test::counts_of(expected, seed), flags);
-    return find_seabed(sv.view(), flags.view(), sector, test::grid().vertical_width_deg, {});
+    return find_seabed(sv.view(), flags.view(), {}, sector, test::grid().vertical_width_deg, {});
   }
 
   Sector sector;
@@ -77,6 +94,43 @@ TEST(Seabed, TwoFansSeeItBeforeTheRecordEnds) {
   EXPECT_NEAR(bottom_depth_m(seabed, place, {}, 0.3, 20.0), depth_m, 8.0);
 }
 
+// Mud gives -25 to -40 dB by Lambert's law, rock -10: all of it is seabed as far as it would be taken for fish.
+TEST(Seabed, WeakAndStrongBottomsAreFound) {
+  for (const double depth_m : {80.0, 150.0, 220.0}) {
+    for (const double lambert_db : {-10.0, -20.0, -30.0, -36.0}) {
+      BottomScene scene;
+      scene.add_lambert_bottom(depth_m, lambert_db);
+      const Seabed seabed = scene.look(7);
+      ASSERT_TRUE(seabed.found) << depth_m << " " << lambert_db;
+      const Point<Sonar> place = Sector::direction(rad_from_deg(-45.0), rad_from_deg(270.0)) * (1.4 * depth_m);
+      EXPECT_NEAR(bottom_depth_m(seabed, place, {}, 0.3, 20.0), depth_m, 8.0) << lambert_db;
+      flag_seabed(seabed, scene.flags.view());
+      int loud = 0;
+      int left = 0;
+      for (std::size_t i = 0; i < scene.expected.shape().size(); ++i) {
+        if (scene.expected.all()[i] < 2e-6) continue;  // -57 dB
+        ++loud;
+        left += any(scene.flags.all()[i] & SampleFlags::seabed) ? 0 : 1;
+      }
+      EXPECT_LE(left, loud / 50) << depth_m << " " << lambert_db;
+    }
+  }
+}
+
+// The tail of the transducer's ringing is long, loud and in all beams; but it begins in the crop, and so rises from
+// nothing that is known.
+TEST(Seabed, TheRingingBehindTheCropIsNone) {
+  BottomScene scene;
+  for (int row = 0; row < 500; ++row) {
+    for (int s = 0; s < 900; ++s) {
+      const double r = scene.sector.range().range_m(s);
+      const double sv_db = r < 15.0 ? 0.0 : -35.0 - 1.25 * (r - 15.0);
+      scene.expected.view().row(row)[static_cast<std::size_t>(s)] += linear_from_db(sv_db);
+    }
+  }
+  EXPECT_FALSE(scene.look(8).found);
+}
+
 TEST(Seabed, FollowsASlope) {
   BottomScene scene;
   scene.add_bottom(120.0, -0.1);  // deeper to port
@@ -92,15 +146,16 @@ TEST(Seabed, NoBottomNoSeabed) {
   for (const int first : seabed.first_sample) EXPECT_EQ(first, 900);
 }
 
-TEST(Seabed, ADenseSchoolIsNone) {
-  for (const double elevation_deg : {-40.0, -30.0, -15.0}) {
+TEST(Seabed, ASchoolIsNone) {
+  for (const auto& [elevation_deg, sv_db] :
+       {std::pair{-40.0, -28.0}, {-30.0, -28.0}, {-15.0, -28.0}, {-40.0, -50.0}, {-30.0, -52.0}, {-25.0, -55.0}}) {
     BottomScene scene;
     test::Ellipsoid e;
     e.centre = Sector::direction(rad_from_deg(elevation_deg), rad_from_deg(270.0)) * 150.0;
     e.half_x = 40.0;
     e.half_y = 25.0;
     e.half_z = 10.0;
-    e.sv = linear_from_db(-28.0);
+    e.sv = linear_from_db(sv_db);
     test::add_ellipsoid(scene.expected, scene.sector, e);
     EXPECT_FALSE(scene.look(4).found) << elevation_deg;
   }
