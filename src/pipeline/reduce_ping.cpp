@@ -42,7 +42,9 @@ IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
 std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams& params) {
   const Shape3 shape = ping.filtered->counts.shape();
   const Background background = ping.background();
-  const Thresholder thresholder(ping.filtered->counts.view(), ping.filtered->flags.view(), background, nullptr);
+  const auto sv = std::as_const(*ping.filtered).counts.view();
+  const auto flags = std::as_const(*ping.filtered).flags.view();
+  const Thresholder thresholder(sv, flags, background, water_counts(sv, flags, params), nullptr);
   const std::vector<Run> runs =
       thresholder.candidates(params.floor_db - kCandidateSlack_db, params.background_margin_db - kCandidateSlack_db);
   const Components parts = label_runs(runs, shape, params.connectivity);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "base/units.h"
 
@@ -37,11 +38,17 @@ int rounded_counts(double counts) {
   return static_cast<int>(std::lround(std::clamp(counts, double{kMinCount}, double{kMaxCount})));
 }
 
+/// By which every median of Rayleigh-fading echo lies below its mean.
+int median_of_mean_counts() {
+  static const int counts = rounded_counts(counts_from_db(db_from_linear(std::numbers::ln2)));
+  return counts;
+}
+
 }  // namespace
 
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
-                         const PingMask* taken)
-    : sv_(sv), flags_(flags), background_(background), taken_(taken) {
+                         std::vector<std::int16_t> water, const PingMask* taken)
+    : sv_(sv), flags_(flags), background_(background), water_(std::move(water)), taken_(taken) {
   if (taken_ != nullptr) taken_rows_ = index_rows(taken_->runs, sv.shape().rows());
 }
 
@@ -62,15 +69,21 @@ std::vector<Run> Thresholder::candidates(double floor_db, double margin_db) cons
   const int floor = rounded_counts(counts_from_db(floor_db));
   const Shape3 shape = sv_.shape();
   std::vector<Run> runs;
-  // one block more, so that a block never reads beyond the row
-  std::vector<std::int32_t> threshold(static_cast<std::size_t>(shape.samples + kBlock), floor);
+  // The water's level is a median of many as the filtered samples are; the margin counts from means.
+  const int above_water = rounded_counts(counts_from_db(margin_db)) - median_of_mean_counts();
+  std::vector<int> quiet_limit(water_.size());
+  std::transform(water_.begin(), water_.end(), quiet_limit.begin(),
+                 [&](int water) { return std::max(floor, water + above_water); });
   for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
     const std::int16_t* counts = sv_.row(row).data();
     const SampleFlags* flags = flags_.row(row).data();
     const bool known = background_.known(row);
     const int level = known ? rounded_counts(background_.power_counts(row) + counts_from_db(margin_db)) : 0;
     const std::int16_t* table = known ? background_.calibration.row(row).data() : nullptr;
-    const auto limit = [&](int s) { return table != nullptr ? std::max(floor, level + table[s]) : floor; };
+    const auto limit = [&](int s) {
+      const int quiet = quiet_limit[static_cast<std::size_t>(s)];
+      return table != nullptr ? std::max(quiet, level + table[s]) : quiet;
+    };
     int start = -1;
     for (int block = 0; block < shape.samples; block += kBlock) {
       const int end = std::min(block + kBlock, shape.samples);
@@ -94,7 +107,6 @@ std::vector<Run> Thresholder::candidates(double floor_db, double margin_db) cons
 }
 
 std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double rest_db) const {
-  const double median_of_mean = counts_from_db(db_from_linear(std::numbers::ln2));
   const int level = rounded_counts(std::ceil(counts_from_db(level_db) - 1e-9));
   const int rest = rounded_counts(counts_from_db(rest_db));
   std::vector<Run> runs;
@@ -105,16 +117,16 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
       const auto flags = flags_.row(row);
       const bool known = background_.known(row);
       const int mean = known ? rounded_counts(background_.power_counts(row)) : 0;
-      const int median = known ? mean + rounded_counts(median_of_mean) : 0;
       const auto limit = [&](std::size_t s) {
-        const int table = background_.calibration.row(row)[s];
-        return std::max(level_sum(level, median + table), mean + table + rest);
+        int median = water_[s];
+        if (known) median = std::max(median, mean + median_of_mean_counts() + background_.calibration.row(row)[s]);
+        return std::max(level_sum(level, median), median - median_of_mean_counts() + rest);
       };
       int start = -1;
       for (int s = box.first_sample; s <= box.last_sample + 1; ++s) {
         const auto i = static_cast<std::size_t>(s);
         const bool member = s <= box.last_sample && counts[i] >= level && counts[i] != kNoData &&
-                            !any(flags[i] & kNeverMember) && (!known || counts[i] >= limit(i));
+                            !any(flags[i] & kNeverMember) && counts[i] >= limit(i);
         if (member && start < 0) start = s;
         if (!member && start >= 0) {
           cut(row, start, s, runs);

@@ -20,6 +20,7 @@ namespace sonar {
 struct DetectParams {
   double floor_db = -60.0;
   double background_margin_db = 8.0;
+  double water_share = 0.3;
   double reference_percentile = 90.0;
   double tolerance_db = 10.0;
   double link_db = 3.0;
@@ -54,6 +55,12 @@ void describe(Visitor& v, DetectParams& p) {
   v.field("floor_db", p.floor_db, {.unit = "dB re 1 m-1", .min = -120, .max = 0, .text = "lowest Sv of a candidate"});
   v.field("background_margin_db", p.background_margin_db,
           {.unit = "dB", .min = 0, .max = 60, .text = "candidates lie so far above the background"});
+  v.field(
+      "water_share", p.water_share,
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .text = "the water's own level at a range is background too: above this share of the beams; 0 = not looked at"});
   v.field("reference_percentile", p.reference_percentile,
           {.unit = "%", .min = 1, .max = 100, .text = "a school's reference: this share of the candidate lies below"});
   v.field("tolerance_db", p.tolerance_db,
@@ -138,7 +145,8 @@ struct Detection {
   std::int32_t edge_flags = 0;  ///< EdgeFlags
 };
 
-/// Schools of one ping, without a human: candidates at max(floor, background + margin), components by runs, then a
+/// Schools of one ping, without a human: candidates at max(floor, background + margin), the background being the beams'
+/// noise or the water at that range; components by runs, then a
 /// threshold relative to each candidate's own reference; what falls apart there becomes several detections.
 /// sv          [fan][beam][sample], median-filtered Sv counts
 /// flags       same shape, seabed included; kNeverMember voxels are never members
@@ -150,6 +158,10 @@ struct Detection {
 [[nodiscard]] std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
                                             const Sector& sector, const Background& background,
                                             const DetectParams& params, const PingMask* taken = nullptr);
+
+/// The water's level by range that detection takes for background: reverberation_counts().
+[[nodiscard]] std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
+                                                     const DetectParams& params);
 
 /// Fills in what a mask alone tells (box, centre, covariance, volume, edges): for masks that a human or a propagation
 /// made, so that they can be tracked like detections.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/units.h"
 #include "model/school.h"
 #include "school/edges.h"
@@ -84,6 +86,42 @@ TEST(Detect, FindsAnEllipsoid) {
 
 TEST(Detect, FindsNothingInNoise) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) EXPECT_TRUE(Scene().look(seed).empty());
+}
+
+// Reverberation is background too, at whatever range it is loud: alone it holds no school, and a school in it is found
+// as large as the school is.
+TEST(Detect, ReverberationIsNoSchoolAndHidesNone) {
+  for (const bool steep : {false, true}) {
+    Scene scene;
+    scene.add(180.0, -18.0, 268.0, -42.0);
+    Scene alone;
+    for (Scene* one : {&scene, &alone}) {
+      for (int row = 0; row < 500; ++row) {
+        for (int s = 40; s < 900; ++s) {
+          const double r = one->sector.range().range_m(s);
+          const double sv_db = steep ? -62.0 - 20.0 * std::log10(r / 100.0) : -58.0;
+          one->expected.view().row(row)[static_cast<std::size_t>(s)] += linear_from_db(sv_db);
+        }
+      }
+    }
+    EXPECT_TRUE(alone.look(5).empty()) << steep;
+    const std::vector<Detection> found = scene.look(6);
+    ASSERT_EQ(found.size(), 1U) << steep;
+    EXPECT_NEAR(volume(found[0].mask, scene.sector) / volume(scene.truths[0], scene.sector), 1.0, 0.35) << steep;
+    DetectParams blind;
+    blind.water_share = 0.0;
+    // what fills all of the sector is refused anyhow
+    EXPECT_EQ(alone.look(5, blind).empty(), !steep);
+  }
+}
+
+// At 80 m a long school fills all beams of its fans: that is no property of the water.
+TEST(Detect, ASchoolThatFillsItsFansIsNoWater) {
+  Scene scene;
+  scene.add(90.0, -20.0, 270.0, -45.0, {45, 12, 8});
+  const std::vector<Detection> found = scene.look(7);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GT(dice(found[0].mask, scene.truths[0]), 0.8);
 }
 
 TEST(Detect, KeepsWeakBesideStrong) {

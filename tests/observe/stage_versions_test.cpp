@@ -38,11 +38,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
-    {"seabed", 1, "83bff1da2ba360f5c46043e344309578"},
-    {"detect", 2, "ccc44b9443e584e22db20886484d607b"},
+    {"seabed", 2, "302f9abf849dafe0eb44d37e3f0e2527"},
+    {"detect", 3, "ccc44b9443e584e22db20886484d607b"},
     {"track", 4, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 2, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 5, "ecf4751c220fff60b430354a8c4fa3ef"},
+    {"measure", 5, "a70c5b9693951765117e228f1e01832a"},
     {"summarise", 1, "98e2f839d24ac8e06a54a9584da060c4"},
 }};
 

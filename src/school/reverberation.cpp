@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/reverberation.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kStep = 8;  ///< samples between two looks: the filter is longer than that
+/// Fewer open beams could be one school's.
+constexpr double kOpenShare = 0.3;
+
+/// The share's quantile of what is open at one sample; kMinCount where that is no louder than least.
+std::int16_t level_at(View3<const std::int16_t> sv, View3<const SampleFlags> flags, std::size_t sample, double share,
+                      int least, std::vector<std::int16_t>& values) {
+  values.clear();
+  std::size_t loud = 0;
+  for (int row = 0; row < static_cast<int>(sv.shape().rows()); ++row) {
+    const std::int16_t count = sv.row(row)[sample];
+    if (count == kNoData || any(flags.row(row)[sample] & kNeverMember)) continue;
+    values.push_back(count);
+    loud += count > least ? 1 : 0;
+  }
+  const auto open = static_cast<double>(values.size());
+  if (open < kOpenShare * static_cast<double>(sv.shape().rows())) return kMinCount;
+  if (static_cast<double>(loud) <= (1.0 - share) * open) return kMinCount;
+  const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * open);
+  std::nth_element(values.begin(), rank, values.end());
+  return *rank;
+}
+
+}  // namespace
+
+std::vector<std::int16_t> reverberation_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
+                                               double share, int least) {
+  const int samples = sv.shape().samples;
+  std::vector<std::int16_t> level(static_cast<std::size_t>(samples), kMinCount);
+  if (!(share > 0.0) || !(share < 1.0)) return level;
+  std::vector<std::int16_t> values;
+  values.reserve(sv.shape().rows());
+  const auto look = [&](int sample) {
+    return int{level_at(sv, flags, static_cast<std::size_t>(sample), share, least, values)};
+  };
+  int here = samples > 0 ? look(0) : kMinCount;
+  for (int first = 0; first < samples; first += kStep) {
+    const int next = first + kStep < samples ? look(first + kStep) : here;
+    for (int s = first; s < std::min(first + kStep, samples); ++s) {
+      const bool both = here > kMinCount && next > kMinCount;
+      const int between = both ? here + (next - here) * (s - first) / kStep : std::max(here, next);
+      level[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(between);
+    }
+    here = next;
+  }
+  return level;
+}
+
+}  // namespace sonar
