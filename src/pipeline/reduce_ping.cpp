@@ -44,7 +44,7 @@ std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams
   const Background background = ping.background();
   const auto sv = std::as_const(*ping.filtered).counts.view();
   const auto flags = std::as_const(*ping.filtered).flags.view();
-  const Thresholder thresholder(sv, flags, background, water_counts(sv, flags, params), nullptr);
+  const Thresholder thresholder(sv, flags, background, water_counts(sv, flags, background, params), nullptr);
   const std::vector<Run> runs =
       thresholder.candidates(params.floor_db - kCandidateSlack_db, params.background_margin_db - kCandidateSlack_db);
   const Components parts = label_runs(runs, shape, params.connectivity);

@@ -44,7 +44,7 @@ class PingDetector {
         flags_(flags),
         sector_(sector),
         params_(params),
-        thresholder_(sv, flags, background, water_counts(sv, flags, params), taken),
+        thresholder_(sv, flags, background, water_counts(sv, flags, background, params), taken),
         claimed_(sv.shape()) {}
 
   std::vector<Detection> run() {
@@ -315,10 +315,10 @@ std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFl
 }
 
 std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                       const DetectParams& params) {
+                                       const Background& noise, const DetectParams& params) {
   // Quieter water changes nothing: candidates lie above the floor anyhow.
   const double least_db = params.floor_db - params.background_margin_db + kMedianOfMean_db;
-  return reverberation_counts(sv, flags, params.water_share, static_cast<int>(counts_from_db(least_db)));
+  return reverberation_counts(sv, flags, noise, params.water_share, static_cast<int>(counts_from_db(least_db)));
 }
 
 Detection describe_mask(PingMask mask, View3<const SampleFlags> flags, const Sector& sector) {

@@ -161,7 +161,7 @@ struct Detection {
 
 /// The water's level by range that detection takes for background: reverberation_counts().
 [[nodiscard]] std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                                     const DetectParams& params);
+                                                     const Background& noise, const DetectParams& params);
 
 /// Fills in what a mask alone tells (box, centre, covariance, volume, edges): for masks that a human or a propagation
 /// made, so that they can be tracked like detections.

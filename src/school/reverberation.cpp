@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numbers>
 
 #include "base/units.h"
 
@@ -12,17 +13,44 @@ namespace {
 constexpr int kStep = 8;  ///< samples between two looks: the filter is longer than that
 /// Fewer open beams could be one school's.
 constexpr double kOpenShare = 0.3;
+/// Above the filtered noise, which fluctuates by less.
+constexpr double kAboveNoise_db = 1.0;
+
+/// From which count on a sample of each row stands out of its beam's noise, less the beam's calibration.
+std::vector<int> noise_limits(const Background& noise, std::size_t rows) {
+  const double median_db = db_from_linear(std::numbers::ln2) + kAboveNoise_db;
+  std::vector<int> limits(rows, kMinCount);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!noise.known(static_cast<int>(row))) continue;
+    limits[row] = static_cast<int>(noise.power_counts(static_cast<int>(row)) + counts_from_db(median_db));
+  }
+  return limits;
+}
+
+struct Water {
+  View3<const std::int16_t> sv;
+  View3<const SampleFlags> flags;
+  const Background& noise;
+  std::vector<int> noise_limit;  ///< [row]
+
+  [[nodiscard]] bool stands_out(int row, std::size_t sample, int count) const {
+    const int limit = noise_limit[static_cast<std::size_t>(row)];
+    return limit == kMinCount || count > limit + noise.calibration.row(row)[sample];
+  }
+};
 
 /// The share's quantile of what is open at one sample; kMinCount where that is no louder than least.
-std::int16_t level_at(View3<const std::int16_t> sv, View3<const SampleFlags> flags, std::size_t sample, double share,
-                      int least, std::vector<std::int16_t>& values) {
+std::int16_t level_at(const Water& water, std::size_t sample, double share, int least,
+                      std::vector<std::int16_t>& values) {
+  const auto& [sv, flags, noise, noise_limit] = water;
   values.clear();
   std::size_t loud = 0;
   for (int row = 0; row < static_cast<int>(sv.shape().rows()); ++row) {
     const std::int16_t count = sv.row(row)[sample];
     if (count == kNoData || any(flags.row(row)[sample] & kNeverMember)) continue;
-    values.push_back(count);
-    loud += count > least ? 1 : 0;
+    const bool is_loud = count > least && water.stands_out(row, sample, count);
+    values.push_back(is_loud ? count : std::int16_t{kMinCount});
+    loud += is_loud ? 1 : 0;
   }
   const auto open = static_cast<double>(values.size());
   if (open < kOpenShare * static_cast<double>(sv.shape().rows())) return kMinCount;
@@ -35,14 +63,15 @@ std::int16_t level_at(View3<const std::int16_t> sv, View3<const SampleFlags> fla
 }  // namespace
 
 std::vector<std::int16_t> reverberation_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                               double share, int least) {
+                                               const Background& noise, double share, int least) {
   const int samples = sv.shape().samples;
   std::vector<std::int16_t> level(static_cast<std::size_t>(samples), kMinCount);
   if (!(share > 0.0) || !(share < 1.0)) return level;
   std::vector<std::int16_t> values;
   values.reserve(sv.shape().rows());
+  const Water water{sv, flags, noise, noise_limits(noise, sv.shape().rows())};
   const auto look = [&](int sample) {
-    return int{level_at(sv, flags, static_cast<std::size_t>(sample), share, least, values)};
+    return int{level_at(water, static_cast<std::size_t>(sample), share, least, values)};
   };
   int here = samples > 0 ? look(0) : kMinCount;
   for (int first = 0; first < samples; first += kStep) {
