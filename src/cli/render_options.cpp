@@ -53,6 +53,20 @@ Result<std::array<double, count>> numbers(std::string_view option, const std::st
   return out;
 }
 
+const std::vector<std::string> kLooks{"shown", "hatched", "transparent"};
+
+/// Boundaries have no water to tell from them: where faults are hatched they are faded, as in the desktop.
+void take_looks(const RenderArguments& arguments, PictureOptions& out) {
+  if (arguments.removed == "hatched") {
+    out.flags.hatched = kFault;
+    out.flags.faded = kNeverMember;
+  }
+  if (arguments.removed == "transparent") out.flags.hidden = kNotFiltered;
+  if (arguments.weak == "hatched") out.flags.hatched |= SampleFlags::low_snr;
+  if (arguments.weak == "transparent") out.flags.faded |= SampleFlags::low_snr;
+  if (arguments.weak != "shown") out.weak_below_db = arguments.weak_db;
+}
+
 constexpr double kMostPixels = 64e6;
 
 Result<PixelSize> size_of(const std::string& text, double scale) {
@@ -160,6 +174,20 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--point", a.plane_point, "slice-plane: oblique, through X,Y,Z (m towards bow, starboard, down)")
       ->group(group);
   verb.add_option("--normal", a.plane_normal, "slice-plane: its normal X,Y,Z, towards the viewer")->group(group);
+  verb.add_option("--removed", a.removed, "Unfiltered, how samples look that noise removal takes out; the key says so")
+      ->check(CLI::IsMember(kLooks))
+      ->capture_default_str()
+      ->group(group);
+  auto* weak =
+      verb.add_option("--weak", a.weak, "How samples look that hardly rise above the background noise; the key says so")
+          ->check(CLI::IsMember(kLooks))
+          ->capture_default_str()
+          ->group(group);
+  verb.add_option("--weak-db", a.weak_db, "--weak: those with less signal-to-noise, dB")
+      ->needs(weak)
+      ->check(between(0.0, 60.0))
+      ->capture_default_str()
+      ->group(group);
   verb.add_flag("--north-up", a.picture.north_up, "Turn slices from above so that north is up")->group(group);
   verb.add_flag("--grid", a.picture.grid_lines, "Grid lines")->group(group);
 }
@@ -267,7 +295,7 @@ struct Suits {
 };
 constexpr std::string_view kOfPing = "slice- volume propagation observation-map";
 constexpr std::string_view kOfSv = "slice- volume timeline";
-constexpr std::array<Suits, 42> kSuits{{
+constexpr std::array<Suits, 45> kSuits{{
     {"--observation", "slice- volume propagation observation-map timeline"},
     {"--ping", kOfPing},
     {"--filtered", kOfSv},
@@ -285,6 +313,9 @@ constexpr std::array<Suits, 42> kSuits{{
     {"--through", "slice-plane"},
     {"--point", "slice-plane"},
     {"--normal", "slice-plane"},
+    {"--removed", "slice-"},
+    {"--weak", "slice-"},
+    {"--weak-db", "slice-"},
     {"--north-up", "slice-top slice-plane"},
     {"--grid", "slice-"},
     {"--mode", "volume"},
@@ -365,6 +396,7 @@ Result<PictureOptions> picture_options(const RenderArguments& arguments) {
   }
   if (auto taken = take_plane(arguments, out.plane); !taken) return pass_on(taken);
   if (auto taken = take_camera(arguments, out.camera); !taken) return pass_on(taken);
+  take_looks(arguments, out);
   if (arguments.mode == "first-hit") out.mode = RayMode::first_hit;
   if (arguments.mode == "maximum") out.mode = RayMode::maximum;
   if (arguments.renderer == "cpu") out.renderer = RendererChoice::cpu;

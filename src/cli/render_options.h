@@ -30,6 +30,9 @@ struct RenderArguments {
   std::string map = "ek500";
   bool filtered = false;
   bool unfiltered = false;
+  std::string removed = "shown";
+  std::string weak = "shown";
+  double weak_db = 3.0;
   std::optional<double> low_db;
   std::optional<double> span_db;
   std::string transfer;

@@ -31,13 +31,32 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
   return first < count ? first : count / 2;
 }
 
+namespace {
+
+Rgba8 colour_of(const DrawnMask& drawn, const PictureOptions& options) {
+  return drawn.status == "rejected" ? theme_of(options).muted : school_colour(static_cast<int>(drawn.school_id));
+}
+
+}  // namespace
+
+std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
+  std::vector<SchoolKey> keys;
+  if (!options.masks) return keys;
+  for (const DrawnMask& drawn : ping.masks) {
+    if (!wanted(drawn.school_id, options)) continue;
+    const char* comma = drawn.status.empty() ? "" : ", ";
+    keys.push_back(
+        {colour_of(drawn, options), drawn.status, fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status)});
+  }
+  return keys;
+}
+
 std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<MaskLayer> layers;
   if (!options.masks) return layers;
-  const Rgba8 grey = theme_of(options).muted;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, options)) continue;
-    const Rgba8 colour = drawn.status == "rejected" ? grey : school_colour(static_cast<int>(drawn.school_id));
+    const Rgba8 colour = colour_of(drawn, options);
     const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
     layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}, status_line(drawn.status)});
   }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "publish/picture_options.h"
@@ -19,6 +20,15 @@ namespace sonar {
 
 /// A ping's masks that the options ask for, each in its school's colour.
 [[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
+
+/// A school of a ping as a key names it: "school 3, unreviewed". Rejected ones are grey, as their masks are.
+struct SchoolKey {
+  Rgba8 colour;
+  std::string status;
+  std::string name;
+};
+/// Of the masks that the options ask for, in their order.
+[[nodiscard]] std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
 /// Middle of the largest mask; empty without one.
 struct MaskMiddle {

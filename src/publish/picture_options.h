@@ -72,9 +72,7 @@ struct PictureOptions {
   std::optional<int> beam;
   std::optional<double> range_m;
   PlaneChoice plane;
-  FlagStyle flags{.hidden = SampleFlags::none,
-                  .hatched = SampleFlags::hot_beam | SampleFlags::wall | SampleFlags::impulse,
-                  .faded = SampleFlags::near_field | SampleFlags::surface | SampleFlags::seabed};
+  FlagStyle flags;  ///< none: each cell with its own value; else the picture has a key of what is drawn otherwise
   bool grid_lines = false;
   std::optional<double>
       weak_below_db;  ///< samples with less signal-to-noise carry low_snr; empty = none do. Volumes too

@@ -104,6 +104,20 @@ TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
   }
 }
 
+// The default draws every cell with its own value; what is asked for beside that is said in a key.
+TEST_F(Pictures, SlicesArePlainAndNameTheirSchools) {
+  EXPECT_EQ(PictureOptions{}.flags, FlagStyle{});
+  EXPECT_FALSE(PictureOptions{}.weak_below_db);
+  options_.ping = 2;
+  const auto plain = texts(*picture(PictureKind::slice_top));
+  EXPECT_THAT(plain, testing::IsSupersetOf({"school 1, unreviewed", "school 2, unreviewed"}));
+  EXPECT_THAT(plain, testing::Not(testing::Contains(testing::HasSubstr("near field"))));
+  options_.flags.faded = SampleFlags::near_field;
+  EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Contains("faded: near field"));
+  options_.schools = {2};
+  EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Not(testing::Contains("school 1, unreviewed")));
+}
+
 // Depths rise by 10 m a hundredth of a degree northwards, 300 m where the ship is.
 TEST_F(Pictures, AVolumeWithASeabedHasAScaleOfItsDepths) {
   const fs::path file = test::scratch_path(".tif");

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "pipeline/weak_samples.h"
 #include "publish/drawn_schools.h"
+#include "view/school_look.h"
 
 namespace sonar {
 namespace {
@@ -23,6 +24,17 @@ struct Chosen {
     return std::isnan(navigation.heading_deg) ? 0.0 : rad_from_deg(navigation.heading_deg);
   }
 };
+
+/// What of the picture is not as recorded, and the schools in it.
+SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
+  SliceKey key;
+  key.filtered = ping.staged != nullptr && options.filtered.value_or(false);
+  key.weak_below_db = options.weak_below_db;
+  for (const SchoolKey& school : school_keys(ping, options)) {
+    key.schools.push_back({school.colour, status_line(school.status), school.name});
+  }
+  return key;
+}
 
 Result<Slice> range_slice(const Chosen& chosen) {
   const RangeAxis& range = chosen.sector.range();
@@ -123,6 +135,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   style.masks.core_at = static_cast<double>(options.mask_style.core_at);
   style.grid = options.grid_lines;
   style.north_up = options.north_up;
+  style.key = slice_key_of(*ping, options);
   auto picture = slice_picture(*sector, data, titled, view, style, theme_of(options), options.size);
   if (!picture) return pass_on(picture);
   picture->frame.title = observation.title() + ": " + picture->frame.title;

@@ -30,10 +30,8 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (!ping) return pass_on(ping);
   VolumeFigure out;
   out.masks = mask_layers(*ping, options);
-  for (const DrawnMask& drawn : ping->masks) {
-    if (!wanted(drawn.school_id, options)) continue;
-    out.legend.emplace_back(school_colour(static_cast<int>(drawn.school_id)),
-                            fmt::format("school {}", drawn.school_id));
+  for (SchoolKey& school : school_keys(*ping, options)) {
+    out.legend.emplace_back(school.colour, std::move(school.name));
   }
   out.navigation = ping->navigation;
   out.samples = ping->staged != nullptr;

@@ -60,6 +60,8 @@ void make_isotropic(PlotFrame& plot);
 
 // --- layout -------------------------------------------------------------------------------------------------------
 
+inline constexpr double kFootLine_em = 1.5;
+
 /// What a picture has beside its plot.
 struct LayoutNeeds {
   int title_lines = 2;  ///< the first large
@@ -67,6 +69,7 @@ struct LayoutNeeds {
   bool x_axis = true;
   bool y_axis = true;
   int y_label_characters = 5;  ///< of its longest tick label
+  int foot_lines = 0;          ///< of a key below the plot and its axis
 };
 
 /// Where things go; margins follow the theme's text.
@@ -74,6 +77,7 @@ struct Layout {
   PixelRect title;
   PixelRect plot;
   PixelRect colour_bar;  ///< the bar alone, its labels to its right; empty without
+  PixelRect foot;        ///< below the plot and its axis; empty without
 };
 [[nodiscard]] Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs = {});
 

@@ -17,13 +17,16 @@ Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
   const double title_height = needs.title_lines > 0 ? 1.5 * theme.title_px + 1.45 * em * (needs.title_lines - 1) : 0.0;
   const double left =
       needs.y_axis ? std::round((0.45 + 0.3 + 0.64 * needs.y_label_characters + 1.8) * em + pad / 2) : pad;
-  const double bottom = needs.x_axis ? std::round(3.3 * em + pad / 2) : pad;
+  const double foot = needs.foot_lines * kFootLine_em * em;
+  const double bottom = (needs.x_axis ? std::round(3.3 * em + pad / 2) : pad) + std::round(foot);
   const double top = std::round(pad + title_height + (needs.title_lines > 0 ? 0.35 * em : 0.0));
   const double right = std::round(needs.colour_bar ? 8.8 * em : 1.2 * pad);
   Layout out;
   out.plot = {std::round(left), top, std::max(8.0, std::round(size.width - left - right)),
               std::max(8.0, std::round(size.height - top - bottom))};
   out.title = {out.plot.x, pad, std::max(8.0, size.width - out.plot.x - pad), title_height};
+  if (needs.foot_lines > 0)
+    out.foot = {pad, size.height - 0.5 * pad - foot, std::max(8.0, size.width - 2.0 * pad), foot};
   if (needs.colour_bar) {
     const double height = std::round(std::min(out.plot.height - 3.0 * em, std::max(10.0 * em, 0.86 * out.plot.height)));
     out.colour_bar = {out.plot.x + out.plot.width + std::round(1.5 * em), out.plot.y + std::round(0.5 * em),

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "base/units.h"
+#include "view/slice_key.h"
 #include "view/slice_masks.h"
 #include "view/slice_picture.h"
 
 namespace sonar {
 namespace {
 
-constexpr int kFade = 178;  ///< of 255: the water's share in a faded sample
 constexpr std::size_t kCounts = 65536;
 
 /// Opaque colours by count: what is not shown becomes water, translucent colours lie over it. A second table for faded
@@ -30,7 +30,7 @@ std::vector<Rgba8> colour_table(const SvColours& colours, bool faded, const Them
   // Neighbouring counts mostly share a colour.
   for (std::size_t i = 0; i < kCounts; ++i) {
     const bool same = i > 0 && out[i] == out[i - 1];
-    out[kCounts + i] = same ? out[kCounts + i - 1] : mixed(out[i], theme.water, kFade);
+    out[kCounts + i] = same ? out[kCounts + i - 1] : faded_colour(out[i], theme);
   }
   return out;
 }
@@ -60,7 +60,6 @@ void colour_flagged_samples(Image& image, const SliceMap& map, const SliceData& 
   const std::vector<std::int32_t>& voxels = map.voxels();
   const std::int16_t* sv = data.sv.data();
   const SampleFlags* flags = data.flags.data();
-  const int stripe = std::max(1, static_cast<int>(std::lround(theme.line_px)));
   std::size_t i = 0;
   for (int y = 0; y < image.size.height; ++y) {
     for (int x = 0; x < image.size.width; ++x, ++i) {
@@ -70,7 +69,7 @@ void colour_flagged_samples(Image& image, const SliceMap& map, const SliceData& 
       Rgba8 colour = table[act.table + static_cast<std::size_t>(sv[voxel] + 32768)];
       if (act.hidden) {
         colour = theme.no_data;
-      } else if (act.hatched && ((x + y) / stripe) % 6 == 0) {
+      } else if (act.hatched && on_hatch(x, y, theme)) {
         colour = mixed(colour, theme.hatch, theme.hatch.a);
       }
       image.pixels[i] = colour;

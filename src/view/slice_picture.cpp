@@ -12,6 +12,7 @@
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/slice_context.h"
+#include "view/slice_key.h"
 #include "view/time_text.h"
 
 namespace sonar {
@@ -106,7 +107,12 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   if (auto ok = check_slice(sector, view); !ok) return pass_on(ok);
   Layout layout;
   layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
-  if (style.decorations) layout = lay_out(size, theme);
+  std::vector<SliceKeyEntry> key;
+  if (style.decorations) {
+    key = slice_key(style);
+    const double width = lay_out(size, theme, {.foot_lines = 1}).foot.width;
+    layout = lay_out(size, theme, {.foot_lines = slice_key_lines(key, width, theme)});
+  }
   const PixelSize pixels{static_cast<int>(layout.plot.width), static_cast<int>(layout.plot.height)};
   SlicePicture out;
   if (earlier != nullptr && earlier->fits(sector, view, pixels)) {
@@ -134,6 +140,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   out.frame.items.emplace_back(ClipItem{});
   if (style.decorations && nothing_recorded(*out.map, data)) say_nothing_recorded(out.frame, layout.plot, theme);
   if (style.decorations) add_words(out, layout, ping, style, theme);
+  add_slice_key(out.frame, layout.foot, key, style.colours, theme);
   return out;
 }
 

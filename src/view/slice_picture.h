@@ -65,14 +65,27 @@ struct SlicePing {
   std::vector<double> frequency_hz;  ///< [fan], for the title; may be empty
 };
 
+/// What a slice's key tells beside the looks of flagged samples.
+struct SliceKey {
+  struct School {
+    Rgba8 colour;
+    OutlineLine line = OutlineLine::solid;
+    std::string name;
+  };
+  bool filtered = false;                  ///< noise removal took samples out, which are drawn as no data
+  std::optional<double> weak_below_db{};  ///< of the samples that carry low_snr
+  std::vector<School> schools{};
+};
+
 struct SliceStyle {
   SvColours colours = sv_colours(SvScale{});
   FlagStyle flags;
   SliceMaskStyle masks;
   bool grid = false;
-  bool rings = true;        ///< range rings and bearings, sector outline
-  bool decorations = true;  ///< title, axes, colour bar; false = the slice alone, edge to edge
-  bool north_up = false;    ///< the view's `up_rad` was made so: axes read east and north
+  bool rings = true;              ///< range rings and bearings, sector outline
+  bool decorations = true;        ///< title, axes, colour bar; false = the slice alone, edge to edge
+  bool north_up = false;          ///< the view's `up_rad` was made so: axes read east and north
+  std::optional<SliceKey> key{};  ///< below the slice: what is not drawn as recorded, and whose the outlines are
 };
 
 /// A slice ready to be drawn, with what a pointer needs.

@@ -33,6 +33,7 @@ PICTURES = {
     "slice-top": (["slice-top", *BOTH], DRAWN),
     "slice-top-dark-north-up": (["slice-top", *BOTH, "--dark", "--north-up", "--map", "viridis"], DRAWN),
     "slice-side": (["slice-side", *BOTH], DRAWN),
+    "slice-side-noise": (["slice-side", *BOTH, "--removed", "hatched", "--weak", "transparent"], DRAWN),
     "slice-range": (["slice-range", *BOTH], DRAWN),
     "slice-plane-horizontal": (["slice-plane", *BOTH, "--filtered"], DRAWN),
     "slice-plane-vertical": (["slice-plane", *BOTH, "--bearing-deg", "280"], DRAWN),
@@ -120,6 +121,14 @@ class Files(unittest.TestCase):
             file = sonarx.WORK / f"title-{kind}.svg"
             self.assertEqual(render(kind, sonarx.OUT, "--out", file)[0], 0)
             self.assertTrue("SYNTHETIC" in file.read_text(encoding="utf-8"), kind)
+
+    def test_slices_are_plain_unless_asked(self):
+        plain = sonarx.WORK / "plain.png"
+        self.assertEqual(render("slice-side", *BOTH, *SIZE, "--out", plain)[0], 0)
+        for options, code in ((["--removed", "shown", "--weak", "shown", "--unfiltered"], 0), (["--removed", "hatched"], 1),
+                              (["--removed", "transparent"], 1), (["--weak", "hatched"], 1), (["--filtered"], 1)):
+            self.assertEqual(render("slice-side", *BOTH, *SIZE, *options, "--reference", plain,
+                                    "--largest-difference", 0, "--mean-difference", 0)[0], code, options)
 
     def test_scale_gives_more_pixels(self):
         file = sonarx.WORK / "scaled.png"
@@ -249,6 +258,8 @@ class BadInput(unittest.TestCase):
         self.refused("timeline", *BOTH, "--depth-raster", DEPTHS, *picture, code=2, says="--depth-raster")
         self.refused("timeline", *BOTH, "--schools", "999", *picture, code=2, says="no school 999")
         self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "nofolder" / "x.png", code=1, says="nofolder")
+        self.refused("slice-top", *BOTH, "--weak-db", "4", *picture, code=2, says="--weak")
+        self.refused("slice-top", *BOTH, "--removed", "green", *picture, code=2, says=["--removed", "hatched"])
         self.refused("slice-top", *BOTH, "--size", "huge", *picture, code=2, says="--size huge")
         self.refused("slice-plane", *BOTH, "--point", "1,2", "--normal", "0,0,1", *picture, code=2, says="--point")
         self.refused("slice-plane", *BOTH, "--point", "1,2,3", *picture, code=2, says="--normal")
@@ -272,6 +283,8 @@ class BadInput(unittest.TestCase):
             (["--transfer-function", "curve.json"], "survey-map", "timeline"),
             (["--transfer-function", "curve.json"], "propagation", "volume"),
             (["--north-up"], "slice-side", "slice-top"),
+            (["--removed", "hatched"], "volume", "slice-range"),
+            (["--weak", "hatched"], "timeline", "slice-plane"),
             (["--grid"], "volume", "slice-range"),
             (["--core", "0.5"], "timeline", "propagation"),
             (["--core", "0.5"], "survey-map", "slice-plane"),
