@@ -142,6 +142,14 @@ TEST_F(Pictures, AVolumeWithASeabedHasAScaleOfItsDepths) {
   EXPECT_THAT(texts(*with), testing::IsSupersetOf({"298.8", "301.2"}));
 }
 
+TEST_F(Pictures, AVolumesLegendNamesCoreAndFuzzyAreaAndTheSchools) {
+  options_.ping = 2;
+  EXPECT_THAT(texts(*picture(PictureKind::volume)),
+              testing::IsSupersetOf({"core, confidence 0.64 and more", "fuzzy area", "school 1, unreviewed"}));
+  options_.masks = false;
+  EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Not(testing::Contains("fuzzy area")));
+}
+
 // The heading is known: it is 0.
 TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools; true bearings"));

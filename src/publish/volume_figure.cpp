@@ -50,21 +50,56 @@ void add_colour_bars(FrameDescription& frame, const VolumeFigure& figure, const 
     add_colour_bar(frame, below, seabed_colours(), depths->first, depths->second, theme, "seabed depth (m)", true);
 }
 
-/// Which colour is which school, in the lower left corner.
+/// How core and fuzzy area look, and which colour is which school, in the lower left corner.
+class SchoolLegend {
+ public:
+  SchoolLegend(FrameDescription& frame, const PixelRect& place, const Theme& theme, std::size_t rows)
+      : frame_(frame),
+        theme_(theme),
+        x_(place.x + line()),
+        y_(place.y + place.height - line() * (static_cast<double>(rows))) {}
+
+  void area(Rgba8 colour, const std::string& words) {
+    const double em = theme_.text_px;
+    frame_.items.emplace_back(rectangle_item({x_, y_ - 0.4 * em, 0.8 * em, 0.8 * em}, colour));
+    text(words);
+  }
+  void outline(bool broken, const std::string& words) {
+    const double em = theme_.text_px;
+    PathItem item = line_item({x_ - 0.2 * em, y_}, {x_ + em, y_}, theme_.text, 2.0 * theme_.line_px);
+    if (broken) item.stroke.dashes_px = {0.3 * em, 0.3 * em};
+    frame_.items.emplace_back(std::move(item));
+    text(words);
+  }
+
+ private:
+  [[nodiscard]] double line() const { return 1.5 * theme_.text_px; }
+  void text(const std::string& words) {
+    frame_.items.emplace_back(
+        TextItem{{x_ + line(), y_}, words, theme_.text_px, theme_.text, TextAnchor::left, 0.0, false, theme_.halo});
+    y_ += line();
+  }
+
+  FrameDescription& frame_;
+  const Theme& theme_;
+  double x_;
+  double y_;
+};
+
 void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
                        const PixelRect& place, const Theme& theme) {
   constexpr std::size_t kMostEntries = 12;
   if (!options.masks || figure.legend.empty() || figure.legend.size() > kMostEntries) return;
-  const double line = 1.5 * theme.text_px;
-  double y = place.y + place.height - line * static_cast<double>(figure.legend.size());
-  for (const auto& [colour, name] : figure.legend) {
-    const double x = place.x + line;
-    frame.items.emplace_back(
-        rectangle_item({x, y - 0.4 * theme.text_px, 0.8 * theme.text_px, 0.8 * theme.text_px}, colour));
-    frame.items.emplace_back(
-        TextItem{{x + line, y}, name, theme.text_px, theme.text, TextAnchor::left, 0.0, false, theme.halo});
-    y += line;
+  SchoolLegend legend(frame, place, theme, figure.legend.size() + 2);
+  const std::string core = fmt::format("core, confidence {:g} and more", options.mask_style.core_at);
+  if (figure.outlined) {
+    legend.outline(true, core);
+    legend.outline(false, "fuzzy area");
+  } else {
+    legend.area(theme.text, core);
+    legend.area(with_alpha(theme.text, static_cast<int>(255.0F * options.mask_style.fuzzy_opacity)), "fuzzy area");
   }
+  for (const auto& [colour, name] : figure.legend) legend.area(colour, name);
 }
 
 }  // namespace

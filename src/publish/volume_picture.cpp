@@ -10,6 +10,7 @@
 #include "geo/geodesic.h"
 #include "io/depth_raster.h"
 #include "publish/drawn_schools.h"
+#include "publish/mask_outlines.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
@@ -66,15 +67,7 @@ Result<std::optional<SeabedPatch>> seabed(const VolumeFigure& figure, const Pict
   return std::optional(std::move(*patch));
 }
 
-Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
-  const auto table = volume_table(options);
-  if (!table) return pass_on(table);
-  auto offscreen = offscreen_renderer(options.renderer);
-  if (!offscreen) return pass_on(offscreen);
-  VolumeRenderer& renderer = *offscreen->renderer;
-  if (auto set = renderer.set_volume(figure.volume); !set) return pass_on(set);
-  if (auto set = renderer.set_transfer(*table); !set) return pass_on(set);
-  if (auto set = renderer.set_masks(figure.masks); !set) return pass_on(set);
+Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const PictureOptions& options, Work& work) {
   if (options.frames <= 0) return renderer.draw(view, {}, work);
   Refinement refinement(renderer, {.most_frames = options.frames, .rest_budget_s = options.seconds});
   refinement.restart(view);
@@ -85,6 +78,33 @@ Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, cons
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     work.progress("drawing", frame->averaged, options.frames);
   }
+}
+
+/// Where a ray's colour tells one Sv, masks are outlined: a tint would make it another Sv, or hide it.
+bool outlines(const VolumeFigure& figure, const PictureOptions& options) {
+  return options.mode != RayMode::accumulate && options.mask_style.data_too && figure.samples && !figure.masks.empty();
+}
+
+Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
+  const auto table = volume_table(options);
+  if (!table) return pass_on(table);
+  auto offscreen = offscreen_renderer(options.renderer);
+  if (!offscreen) return pass_on(offscreen);
+  VolumeRenderer& renderer = *offscreen->renderer;
+  if (auto set = renderer.set_volume(figure.volume); !set) return pass_on(set);
+  if (auto set = renderer.set_transfer(*table); !set) return pass_on(set);
+  if (!figure.outlined) {
+    if (auto set = renderer.set_masks(figure.masks); !set) return pass_on(set);
+    return refined(renderer, view, options, work);
+  }
+  const auto silhouettes = mask_silhouettes(renderer, figure.masks, view, work);
+  if (!silhouettes) return pass_on(silhouettes);
+  if (auto set = renderer.set_masks({}); !set) return pass_on(set);
+  auto rays = refined(renderer, view, options, work);
+  if (!rays) return rays;
+  const Theme theme = theme_of(options);
+  lay_outlines(*rays, figure.masks, *silhouettes, static_cast<int>(std::lround(1.5 * theme.line_px)), theme.text);
+  return rays;
 }
 
 }  // namespace
@@ -112,6 +132,7 @@ Result<FrameDescription> volume_frame(DrawnObservation& observation, const Pictu
   auto patch = seabed(*figure, options);
   if (!patch) return pass_on(patch);
   figure->seabed = std::move(*patch);
+  figure->outlined = outlines(*figure, options);
   const Camera camera = volume_camera(figure->sector(), options, place->rays);
   const ContextPicture context = volume_context(*figure, options, *place, camera, work);
   const VolumeView view = volume_view(*figure, options, *place, camera, context);

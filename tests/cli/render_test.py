@@ -29,6 +29,7 @@ DRAWN, TRACED = (64, 0.2), (96, 0.05)
 # 45; so few rays do that the mean stays below a step in one of a hundred pixels.
 SMOOTH, SURFACES = (2, 0.01), (45, 0.01)
 
+NEAR = ["--eye", "180,-60,-40", "--target", "30,-110,60"]
 PICTURES = {
     "slice-top": (["slice-top", *BOTH], DRAWN),
     "slice-top-dark-north-up": (["slice-top", *BOTH, "--dark", "--north-up", "--map", "viridis"], DRAWN),
@@ -43,6 +44,8 @@ PICTURES = {
     "volume-seabed": (["volume", *BOTH, "--frames", "2", "--depth-raster", DEPTHS, "--dark"], TRACED),
     "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--first-hit-db", "-42", "--map", "grey", "--lighting", "--no-masks"], TRACED),
     "volume-maximum": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--no-masks"], TRACED),
+    "volume-first-hit-masks": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--ping", "9", *NEAR], TRACED),
+    "volume-maximum-masks": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--ping", "9", *NEAR, "--dark"], TRACED),
     "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone", "--lighting"], TRACED),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
     "propagation-side": (["propagation", sonarx.OUT, "--ping", "3", "--side", "--neighbours", "1"], DRAWN),
