@@ -15,16 +15,33 @@
 #include "view/survey_map.h"
 
 namespace sonar {
+namespace {
+
+/// Schools in their own colours, rejected ones grey.
+MaskPalette palette_of(const ObservationProduct& product, const PictureOptions& options) {
+  MaskPalette palette;
+  palette.core_at = static_cast<double>(options.mask_style.core_at);
+  palette.rejected.assign(MaskMosaic::kSchools, false);
+  for (const SchoolRow& school : product.schools) {
+    palette.rejected[static_cast<std::size_t>(school.school_id) % palette.rejected.size()] =
+        school.status == "rejected";
+  }
+  return palette;
+}
+
+}  // namespace
+
 Result<FrameDescription> observation_map_frame(const DrawnObservation& observation, const PictureOptions& options) {
   if (auto known = require_schools(observation, options); !known) return pass_on(known);
   const auto ping = chosen_ping(observation, options);
   if (!ping) return pass_on(ping);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
-  const auto base = observation_map_base(product, options.size, theme_of(options));
+  const auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
   if (!base) return pass_on(base);
-  MaskPalette palette;
-  palette.core_at = static_cast<double>(options.mask_style.core_at);
-  return observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping), palette);
+  FrameDescription frame = observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping),
+                                           palette_of(product, options));
+  add_map_schools(frame, *base, map_schools(product));
+  return frame;
 }
 
 Result<FrameDescription> propagation_frame(const DrawnObservation& observation, const PictureOptions& options) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -116,6 +117,43 @@ TEST_F(Pictures, SlicesArePlainAndNameTheirSchools) {
   EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Contains("faded: near field"));
   options_.schools = {2};
   EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Not(testing::Contains("school 1, unreviewed")));
+}
+
+// A school's number and its colour are the same in a volume's legend, in the slice's outline and on the map.
+TEST_F(Pictures, TheObservationMapNumbersItsSchoolsInTheirColours) {
+  options_.ping = 2;
+  for (const int school : {1, 2}) {  // one lies on the other: alone each has room for its number
+    options_.schools = {school};
+    EXPECT_THAT(texts(*picture(PictureKind::observation_map)),
+                testing::IsSupersetOf({std::to_string(school), std::string("current ping"),
+                                       std::string("path of a school, unreviewed")}));
+  }
+  options_.schools.clear();
+  const auto map = picture(PictureKind::observation_map);
+  ASSERT_TRUE(map);
+  const auto strokes = [&](const FrameDescription& frame, Rgba8 colour) {
+    return std::count_if(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+      const auto* path = std::get_if<PathItem>(&item);
+      return path != nullptr && path->stroke.colour == colour;
+    });
+  };
+  const auto slice = picture(PictureKind::slice_top);
+  for (const int school : {1, 2}) {
+    EXPECT_EQ(strokes(*map, school_colour(school)), 1) << school;
+    EXPECT_EQ(strokes(*slice, school_colour(school)), 1) << school;
+  }
+  EXPECT_EQ(strokes(*map, school_colour(0)), 0);
+  const auto* masks = [&]() -> const Image* {
+    for (const auto& item : map->items) {
+      if (const auto* image = std::get_if<ImageItem>(&item)) return image->image.get();
+    }
+    return nullptr;
+  }();
+  ASSERT_NE(masks, nullptr);
+  for (const Rgba8& pixel : masks->pixels) {
+    const Rgba8 opaque = with_alpha(pixel, 255);
+    ASSERT_TRUE(pixel.a == 0 || opaque == school_colour(1) || opaque == school_colour(2));
+  }
 }
 
 // Depths rise by 10 m a hundredth of a degree northwards, 300 m where the ship is.

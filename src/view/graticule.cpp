@@ -165,9 +165,9 @@ void add_graticule(FrameDescription& frame, const MapFrame& map, const Theme& th
   double free_x = -1e9;
   for (const Graticule::Label& label : g.longitudes) {
     const double half = text_width_px(label.text.c_str(), em) / 2.0;
-    if (label.at.x - half < free_x) continue;
-    free_x = label.at.x + half + 0.8 * em;
     frame.items.emplace_back(line_item(label.at, {label.at.x, label.at.y + 0.35 * em}, theme.axis, theme.line_px));
+    if (label.at.x - half < std::max(0.0, free_x) || label.at.x + half > frame.size.width) continue;
+    free_x = label.at.x + half + 0.8 * em;
     frame.items.emplace_back(
         text_item({label.at.x, label.at.y + 1.1 * em}, label.text, em, theme.text, TextAnchor::centre));
   }

@@ -27,6 +27,24 @@ bool inside(const PixelRect& r, PixelPoint p) {
 
 }  // namespace
 
+std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64_t selected, bool rejected) {
+  std::vector<MapSchool> schools;
+  auto row = product.school_pings.begin();
+  for (const SchoolRow& school : product.schools) {
+    if (!rejected && school.status == "rejected") continue;
+    MapSchool& shown = schools.emplace_back();
+    shown.number = school.school_id;
+    shown.status = school.status;
+    shown.selected = school.school_id == selected;
+    // Both tables rise with the number.
+    while (row != product.school_pings.end() && row->school_id < school.school_id) ++row;
+    for (; row != product.school_pings.end() && row->school_id == school.school_id; ++row) {
+      shown.places.push_back({row->latitude, row->longitude});
+    }
+  }
+  return schools;
+}
+
 void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools) {
   const Theme& theme = base.theme;
   const double em = theme.text_px;

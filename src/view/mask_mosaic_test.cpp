@@ -122,10 +122,10 @@ TEST_F(Mosaic, TwoPingsByHand) {
   };
   const MaskMosaic::Cell first = seen(destination(p.pings[0].transducer, 49.0, 270.0));
   EXPECT_EQ(MaskMosaic::confidence(first), 100);
-  EXPECT_EQ(MaskMosaic::school(first), 0);
+  EXPECT_EQ(MaskMosaic::school(first), 1);
   const MaskMosaic::Cell second = seen(destination(p.pings[1].transducer, 49.0, 270.0));
   EXPECT_EQ(MaskMosaic::confidence(second), 250);
-  EXPECT_EQ(MaskMosaic::school(second), 1);
+  EXPECT_EQ(MaskMosaic::school(second), 2);
   EXPECT_EQ(seen(destination(p.pings[0].transducer, 49.0, 90.0)), 0);   // starboard
   EXPECT_EQ(seen(destination(p.pings[0].transducer, 80.0, 270.0)), 0);  // too far
 }

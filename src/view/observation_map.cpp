@@ -13,6 +13,7 @@
 #include "view/axes.h"
 #include "view/graticule.h"
 #include "view/map_items.h"
+#include "view/observation_map_key.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -41,11 +42,11 @@ std::vector<PlanePoint> on_map(const MapProjection& projection, const Geographic
   return out;
 }
 
-PixelRect map_place(PixelSize size, const Theme& theme) {
+PixelRect map_place(PixelSize size, const Theme& theme, double key_px) {
   const double em = theme.text_px;
   const double left = 7.6 * em;
   const double top = 1.6 * em + 1.5 * theme.title_px + 1.1 * em;
-  return {left, top, size.width - left - 1.4 * em, size.height - top - 2.6 * em};
+  return {left, top, size.width - left - 1.4 * em, size.height - top - 2.6 * em - key_px};
 }
 
 std::shared_ptr<const Image> painted(const MaskMosaic& mosaic, const MaskPalette& palette) {
@@ -78,7 +79,7 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
 }  // namespace
 
 Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
-                                                const MapZoom& zoom) {
+                                                const MapZoom& zoom, bool key) {
   if (size.width < 24.0 * theme.text_px || size.height < 16.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
@@ -99,17 +100,24 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   if (!extent) return fail(ErrorCode::not_found, fmt::format("{}: no ping has a position", product.observation));
   const double size_m =
       geodesic({extent->south_deg, extent->west_deg}, {extent->north_deg, extent->east_deg}).distance_m;
+  std::vector<KeyEntry> entries;
+  if (key) entries = observation_map_key(product, theme);
+  const double em = theme.text_px;
+  const double key_width = size.width - 2.0 * em;
+  const double key_px = key_lines(entries, key_width, theme) * kFootLine_em * em;
   ObservationMapBase base{
       zoomed(fit_map(
                  widened(*extent, std::max({kLeastMargin_m, kMargin * size_m, (kLeastShips * kShip_m - size_m) / 2.0})),
-                 map_place(size, theme)),
+                 map_place(size, theme, key_px)),
              zoom),
       size,
       theme,
       {},
       {},
       {},
-      {}};
+      {},
+      std::move(entries),
+      {em, size.height - 0.5 * em - key_px, key_width, key_px}};
   base.title = observation_title(product);
   base.track = track_item(base.map, product.pings, {theme.track, 1.6 * theme.line_px, {}});
   base.footprints.resize(product.pings.size());
@@ -136,10 +144,7 @@ MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct&
   std::vector<std::vector<MosaicMask>> of_ping(product.pings.size());
   for (const SchoolMask& m : product.masks) {
     if (m.ping_index < 0 || m.ping_index >= static_cast<std::int64_t>(of_ping.size())) continue;
-    const auto at = std::find_if(product.schools.begin(), product.schools.end(),
-                                 [&](const SchoolRow& s) { return s.school_id == m.school_id; });
-    of_ping[static_cast<std::size_t>(m.ping_index)].push_back(
-        {static_cast<int>(at - product.schools.begin()), &m.mask});
+    of_ping[static_cast<std::size_t>(m.ping_index)].push_back({static_cast<int>(m.school_id), &m.mask});
   }
   for (std::size_t i = 0; i < of_ping.size(); ++i) {
     if (!of_ping[i].empty()) mosaic.set(i, sector, product.pings[i], of_ping[i]);
@@ -174,6 +179,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, base.map, theme);
   add_scale_and_north(frame, base.map, theme);
+  add_key(frame, base.key_place, base.key, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
   const std::string count = fmt::format("{} pings, {} school{}", product.pings.size(), product.schools.size(),

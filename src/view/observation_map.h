@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "model/product.h"
 #include "view/frame_description.h"
+#include "view/key_rows.h"
 #include "view/map_frame.h"
 #include "view/mask_colours.h"
 #include "view/mask_mosaic.h"
@@ -27,17 +28,21 @@ struct ObservationMapBase {
   PathItem track;                                   ///< the ship's path
   std::vector<std::vector<PixelPoint>> footprints;  ///< [ping]; empty without position, heading or grid
   std::string title;
+  std::vector<KeyEntry> key{};  ///< below the map; may be empty
+  PixelRect key_place{};
 };
 
+/// key     with room for a key of lines and colours below the map
 /// pings   of the observation; product may lack schools and masks
 /// errors  not_found: no ping has a position; bad_parameter: a picture too small for a map
 [[nodiscard]] Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size,
-                                                              const Theme& theme, const MapZoom& zoom = {});
+                                                              const Theme& theme, const MapZoom& zoom = {},
+                                                              bool key = false);
 
 /// Without a mask: for whoever sets pings one by one.
 [[nodiscard]] MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings);
 
-/// All masks of a product in a mosaic that lies in the map; schools are numbered in the order of product.schools.
+/// All masks of a product in a mosaic that lies in the map; a school's number tells its colour, as everywhere.
 [[nodiscard]] MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product);
 
 /// The observation from above (Balabanian et al. 2007, figure 5, green): ship and path, convex hull of all pings'
@@ -55,6 +60,11 @@ struct MapSchool {
   bool selected = false;
   std::vector<Geographic> places;  ///< in time order
 };
+/// The schools of a product with their places.
+/// selected  school_id that stands out; 0 = none
+/// rejected  those that were rejected, too
+[[nodiscard]] std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64_t selected = 0,
+                                                 bool rejected = true);
 /// Paths of schools in their colours, rejected ones grey, with their numbers where there is room; over an observation map.
 void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools);
 

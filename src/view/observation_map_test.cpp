@@ -7,6 +7,7 @@
 #include <cmath>
 #include <variant>
 
+#include "view/label_room.h"
 #include "view/map_example.h"
 #include "view/map_items.h"
 #include "view/propagation_view.h"
@@ -55,7 +56,7 @@ TEST(ObservationMap, HullHoldsEveryFootprint) {
 
 TEST(ObservationMap, ASchoolsVoxelsHaveItsColourAndTheRestIsClear) {
   ObservationProduct p = map_example::product("obs-0001", 20);
-  map_example::add_school(p, 7, p.pings[4].transducer, 4, 4, map_example::block(2, 1, 2, 24, 3));
+  map_example::add_school(p, 8, p.pings[4].transducer, 4, 4, map_example::block(2, 1, 2, 24, 3));
   const auto base = observation_map_base(p, kSize, light_theme(kSize));
   ASSERT_TRUE(base);
   const FrameDescription frame = observation_map(*base, p, mask_mosaic(*base, p), 4, {});
@@ -63,7 +64,7 @@ TEST(ObservationMap, ASchoolsVoxelsHaveItsColourAndTheRestIsClear) {
   ASSERT_NE(image, nullptr);
   const PixelPoint at = *base->map.at(destination(p.pings[4].transducer, 49.0, 270.0));
   EXPECT_EQ(image->image->at(static_cast<int>(at.x - image->place.x), static_cast<int>(at.y - image->place.y)),
-            mask_colour({}, 0, 255));
+            school_colour(8));
   EXPECT_EQ(image->image->at(2, 2).a, 0);
   EXPECT_TRUE(says(frame, "ping 4"));
   EXPECT_TRUE(says(frame, "SYNTHETIC"));
@@ -122,6 +123,58 @@ TEST(ObservationMap, SchoolsHavePathsInTheirColoursAndNumbers) {
   EXPECT_EQ(strokes(theme.muted), muted + 1);
   EXPECT_TRUE(says(frame, "12"));
   EXPECT_TRUE(says(frame, "13"));
+}
+
+// Each line and colour of the map is named once, of the schools' statuses those that there are; nothing is cut.
+TEST(ObservationMap, AKeyNamesItsLinesAndColours) {
+  ObservationProduct p = map_example::product("obs-0001", 20);
+  map_example::add_school(p, 3, p.pings[4].transducer, 4, 6, map_example::block(2, 1, 2, 24, 3));
+  map_example::add_school(p, 5, p.pings[9].transducer, 9, 12, map_example::block(2, 1, 2, 24, 3));
+  p.schools[0].status = "rejected";
+  p.schools[1].status = "accepted";
+  for (const PixelSize size : {PixelSize{320, 240}, PixelSize{640, 480}, PixelSize{2560, 1600}}) {
+    const Theme theme = light_theme(size);
+    const auto plain = observation_map_base(p, size, theme);
+    const auto base = observation_map_base(p, size, theme, {}, true);
+    ASSERT_TRUE(plain && base);
+    EXPECT_TRUE(plain->key.empty());
+    EXPECT_LT(base->map.place.height, plain->map.place.height);
+    auto frame = observation_map(*base, p, mask_mosaic(*base, p), 4, {});
+    add_map_schools(frame, *base, map_schools(p));
+    for (const char* words : {"ship", "its path", "start", "hull of all pings", "current ping", "core", "fuzzy area",
+                              "path of a school, accepted", "path of a school, rejected"}) {
+      EXPECT_TRUE(std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+        const auto* t = std::get_if<TextItem>(&item);
+        return t != nullptr && t->text == words;
+      })) << words;
+    }
+    EXPECT_FALSE(says(frame, "unreviewed"));
+    EXPECT_FALSE(says(frame, "corrected"));
+    for (const auto& item : frame.items) {
+      const auto* t = std::get_if<TextItem>(&item);
+      if (t == nullptr || t->turned_deg != 0.0) continue;
+      const PixelRect box = LabelRoom::box_of(*t);
+      EXPECT_GE(box.x, 0.0) << t->text;
+      EXPECT_LE(box.x + box.width, size.width) << t->text;
+      EXPECT_LE(t->at.y + 0.5 * t->size_px, size.height) << t->text;
+    }
+  }
+}
+
+TEST(ObservationMap, SchoolsHaveTheirPlacesInEachPing) {
+  ObservationProduct p = map_example::product("obs-0001", 20);
+  map_example::add_school(p, 3, p.pings[4].transducer, 4, 6, map_example::block(2, 1, 2, 24, 3));
+  map_example::add_school(p, 5, p.pings[9].transducer, 9, 12, map_example::block(2, 1, 2, 24, 3));
+  p.schools[0].status = "rejected";
+  const auto all = map_schools(p, 5);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].places.size(), 3U);
+  EXPECT_EQ(all[1].places.size(), 4U);
+  EXPECT_FALSE(all[0].selected);
+  EXPECT_TRUE(all[1].selected);
+  const auto kept = map_schools(p, 0, false);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].number, 5);
 }
 
 TEST(ObservationMap, ANarrowMapSaysItsPingAndNotItsDay) {

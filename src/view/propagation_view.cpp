@@ -312,9 +312,7 @@ std::vector<PropagationPanel> propagation_panels(const ObservationProduct& produ
     panel.bad = n.bad;
     for (const SchoolMask& m : product.masks) {
       if (m.ping_index != i) continue;
-      const auto at = std::find_if(product.schools.begin(), product.schools.end(),
-                                   [&](const SchoolRow& s) { return s.school_id == m.school_id; });
-      panel.masks.push_back({static_cast<int>(at - product.schools.begin()), &m.mask});
+      panel.masks.push_back({static_cast<int>(m.school_id), &m.mask});
       panel.school_ids.push_back(m.school_id);
     }
   }

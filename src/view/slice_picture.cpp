@@ -107,11 +107,11 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   if (auto ok = check_slice(sector, view); !ok) return pass_on(ok);
   Layout layout;
   layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
-  std::vector<SliceKeyEntry> key;
+  std::vector<KeyEntry> key;
   if (style.decorations) {
-    key = slice_key(style);
+    key = slice_key(style, theme);
     const double width = lay_out(size, theme, {.foot_lines = 1}).foot.width;
-    layout = lay_out(size, theme, {.foot_lines = slice_key_lines(key, width, theme)});
+    layout = lay_out(size, theme, {.foot_lines = key_lines(key, width, theme)});
   }
   const PixelSize pixels{static_cast<int>(layout.plot.width), static_cast<int>(layout.plot.height)};
   SlicePicture out;
@@ -140,7 +140,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   out.frame.items.emplace_back(ClipItem{});
   if (style.decorations && nothing_recorded(*out.map, data)) say_nothing_recorded(out.frame, layout.plot, theme);
   if (style.decorations) add_words(out, layout, ping, style, theme);
-  add_slice_key(out.frame, layout.foot, key, style.colours, theme);
+  add_key(out.frame, layout.foot, key, theme);
   return out;
 }
 

@@ -50,6 +50,7 @@ PICTURES = {
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
     "propagation-side": (["propagation", sonarx.OUT, "--ping", "3", "--side", "--neighbours", "1"], DRAWN),
     "observation-map": (["observation-map", sonarx.OUT], DRAWN),
+    "observation-map-dark": (["observation-map", sonarx.OUT, "--observation", "obs-0002", "--ping", "2", "--dark"], DRAWN),
     "survey-map": (["survey-map", sonarx.OUT, "--depth-raster", DEPTHS], DRAWN),
     "timeline": (["timeline", *BOTH], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),

@@ -12,24 +12,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<MapSchool> schools_of(const ObservationProduct& product, std::int64_t selected, bool rejected) {
-  std::vector<MapSchool> schools;
-  auto row = product.school_pings.begin();
-  for (const SchoolRow& school : product.schools) {
-    if (!rejected && school.status == "rejected") continue;
-    MapSchool& shown = schools.emplace_back();
-    shown.number = school.school_id;
-    shown.status = school.status;
-    shown.selected = school.school_id == selected;
-    // Both tables rise with the number.
-    while (row != product.school_pings.end() && row->school_id < school.school_id) ++row;
-    for (; row != product.school_pings.end() && row->school_id == school.school_id; ++row) {
-      shown.places.push_back({row->latitude, row->longitude});
-    }
-  }
-  return schools;
-}
-
 }  // namespace
 
 Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, PixelSize size) {
@@ -68,7 +50,7 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   const ObservationProduct& shown = wish.product ? *wish.product : head_;
   Painted painted;
   painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette);
-  if (wish.product) add_map_schools(painted.frame, *base_, schools_of(shown, wish.selected, wish.rejected));
+  if (wish.product) add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected));
   places->observation = observation_->index();
   places->map = map_;
   places->scale = wish.scale;
