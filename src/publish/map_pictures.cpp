@@ -52,6 +52,7 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   if (!sector) return pass_on(sector);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
   PropagationStyle style;
+  style.dates = true;
   style.before = style.after = options.neighbours;
   style.aspect = options.side_view ? MaskAspect::side : MaskAspect::above;
   style.palette.core_at = static_cast<double>(options.mask_style.core_at);

@@ -232,6 +232,73 @@ TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
   EXPECT_EQ(image_of(*frame, 1), nullptr);  // only one ping has a mask
 }
 
+// The example's ship starts at 2020-09-13 12:26:40 and pings every 5 s.
+TEST(PropagationView, APublishedPingHasItsDayAndItsClock) {
+  ObservationProduct p = map_example::product("obs-0001", 5);
+  map_example::add_school(p, 1, p.pings[3].transducer, 1, 3, map_example::block(2, 1, 2, 24, 3));
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  PropagationStyle style;
+  style.dates = true;
+  const auto frame = propagation_view(sector, propagation_panels(p, 2, style), style, {1200, 500},
+                                      light_theme({1200, 500}), "SYNTHETIC");
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "12:26:55 UTC"));
+  EXPECT_TRUE(says(*frame, "2020-09-13"));
+  style.dates = false;
+  const auto strip =
+      propagation_view(sector, propagation_panels(p, 2, style), style, {1200, 500}, light_theme({1200, 500}));
+  EXPECT_FALSE(says(*strip, "2020-09-13"));
+}
+
+// Two labelled depths give pixels per metre; the same scale and the transducer's depth give where the mask must lie.
+TEST(PropagationView, FromTheSideItHasAScaleOfDepths) {
+  ObservationProduct p = map_example::product("obs-0001", 3);
+  map_example::add_school(p, 1, p.pings[1].transducer, 1, 1, map_example::block(2, 1, 2, 24, 3));
+  p.pings[1].transducer_depth_m = 7.0;
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  PropagationStyle style;
+  style.before = style.after = 0;
+  const PixelSize size{900, 900};
+  const auto depths = [&](const FrameDescription& frame) {
+    std::vector<std::pair<double, double>> out;  // m, px
+    for (const auto& item : frame.items) {
+      const auto* t = std::get_if<TextItem>(&item);
+      if (t == nullptr || !t->text.ends_with(" m") || t->anchor != TextAnchor::left) continue;
+      out.emplace_back(std::stod(t->text), t->at.y);
+    }
+    return out;
+  };
+  const auto above = propagation_view(sector, propagation_panels(p, 1, style), style, size, light_theme(size));
+  ASSERT_TRUE(above);
+  EXPECT_TRUE(depths(*above).empty());
+  style.aspect = MaskAspect::side;
+  const auto side = propagation_view(sector, propagation_panels(p, 1, style), style, size, light_theme(size));
+  ASSERT_TRUE(side);
+  const auto scale = depths(*side);
+  ASSERT_GE(scale.size(), 2U);
+  const double px_per_m = (scale.back().second - scale.front().second) / (scale.back().first - scale.front().first);
+  const ImageItem* image = image_of(*side);
+  ASSERT_NE(image, nullptr);
+  int top = -1;
+  int bottom = -1;
+  for (int y = 0; y < image->image->size.height; ++y) {
+    for (int x = 0; x < image->image->size.width; ++x) {
+      if (image->image->at(x, y).a == 0) continue;
+      if (top < 0) top = y;
+      bottom = y + 1;
+    }
+  }
+  const auto depth_at = [&](double y) {
+    return scale.front().first + (image->place.y + y - scale.front().second) / px_per_m;
+  };
+  // The mask's cells: fan 2, samples 24 to 26; the sonar lies 7 m deep, z points down.
+  const auto [low, high] = std::pair(sector.elevation_bounds(2).lower, sector.elevation_bounds(2).upper);
+  const double near_m = sector.range().range_m(23.5);
+  const double far_m = sector.range().range_m(26.5);
+  EXPECT_NEAR(depth_at(bottom), 7.0 - far_m * std::sin(low), 2.0 / px_per_m);
+  EXPECT_NEAR(depth_at(top), 7.0 - near_m * std::sin(high), 2.0 / px_per_m);
+}
+
 TEST(PropagationView, OneScaleAndOnePlaceForAllPings) {
   // The same mask in two pings is the same picture; core and fuzzy have their two colours, and areas are true.
   ObservationProduct p = map_example::product("obs-0001", 5);

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "view/axes.h"
-#include "view/map_items.h"
+#include "view/propagation_labels.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -122,17 +122,18 @@ struct Panels {
 };
 
 /// As many columns as make the panels largest for what they show.
-Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Window& window, bool one_row) {
+Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Window& window,
+                const PropagationStyle& style) {
   const double em = theme.text_px;
   Panels p;
   p.gap_px = 0.7 * em;
-  p.label_px = 3.0 * em;
+  p.label_px = (style.dates ? 4.2 : 3.0) * em;
   const double top = 1.6 * em + 1.5 * theme.title_px;
   p.area = {em, top, size.width - 2.0 * em, size.height - top - 3.2 * em};
   const double shape = (window.right - window.left) / (window.high - window.low);
   double best = 0.0;
   const int n = static_cast<int>(count);
-  for (int columns = one_row ? n : 1; columns <= n; ++columns) {
+  for (int columns = style.one_row ? n : 1; columns <= n; ++columns) {
     const int rows = (n + columns - 1) / columns;
     const double width = (p.area.width - (columns - 1) * p.gap_px) / columns;
     const double height = (p.area.height - (rows - 1) * p.gap_px) / rows - p.label_px;
@@ -218,19 +219,6 @@ void add_numbers(FrameDescription& frame, const Sector& sector, const Propagatio
   }
 }
 
-/// Along the panel's lower edge, on as many lines as it takes.
-void add_note(FrameDescription& frame, const std::string& note, const PixelRect& place, const Theme& theme) {
-  const double size = 0.85 * theme.text_px;
-  const std::vector<std::string> lines = wrapped(note, place.width - size, size);
-  double y = place.y + place.height - 0.4 * size - 1.25 * size * (static_cast<double>(lines.size()) - 0.5);
-  for (const std::string& line : lines) {
-    TextItem text = text_item({place.x + place.width / 2.0, y}, line, size, theme.accent, TextAnchor::centre);
-    text.halo = theme.halo;
-    if (y > place.y) frame.items.emplace_back(std::move(text));
-    y += 1.25 * size;
-  }
-}
-
 void add_panel(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
                const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
   const double em = theme.text_px;
@@ -249,6 +237,9 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
                                        false});
     add_numbers(frame, sector, panel, style, scale, place, theme);
   }
+  if (style.aspect == MaskAspect::side && std::isfinite(panel.transducer_depth_m)) {
+    add_depth_scale(frame, panel.transducer_depth_m - scale.middle_y, scale.px_per_m, place, theme);
+  }
   frame.items.emplace_back(ClipItem{});
   frame.items.emplace_back(rectangle_item(place, {0, 0, 0, 0}, panel.current ? theme.accent : theme.axis,
                                           (panel.current ? 2.5 : 1.0) * theme.line_px));
@@ -258,16 +249,8 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
   }
-  add_note(frame, panel.note, place, theme);
-  TextItem name = text_item({place.x + place.width / 2.0, place.y - 2.1 * em}, fmt::format("ping {}", panel.ping_index),
-                            em, theme.text, TextAnchor::centre);
-  name.bold = panel.current;
-  frame.items.emplace_back(std::move(name));
-  if (panel.time != 0) {
-    frame.items.emplace_back(text_item({place.x + place.width / 2.0, place.y - 0.8 * em},
-                                       clock_text(panel.time, true).substr(11), 0.9 * em, theme.muted,
-                                       TextAnchor::centre));
-  }
+  add_panel_note(frame, panel.note, place, theme);
+  add_ping_label(frame, panel, style, place, theme);
 }
 
 void add_footer(FrameDescription& frame, const Panels& panels, const PropagationStyle& style, const Scale& scale,
@@ -282,19 +265,20 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
   const double end = x + length_m * scale.px_per_m;
   frame.items.emplace_back(polyline_item({{x, y - 0.3 * em}, {x, y}, {end, y}, {end, y - 0.3 * em}}, false, theme.text,
                                          1.5 * theme.line_px));
-  std::string words = fmt::format("{:g} m", length_m);
-  words +=
-      style.aspect == MaskAspect::above ? " · from above, bow up" : " · from the side, away from the ship to the right";
-  frame.items.emplace_back(text_item({end + 0.6 * em, y}, words, em, theme.muted));
-  if (style.palette.colouring != MaskColouring::core_fuzzy) return;
   double right = panels.area.x + panels.area.width;
-  for (const auto& [q, label] : {std::pair<std::uint8_t, const char*>{1, "fuzzy"}, {255, "core"}}) {
-    frame.items.emplace_back(text_item({right, y}, label, em, theme.text, TextAnchor::right));
-    right -= text_width_px(label, em) + 0.5 * em;
-    frame.items.emplace_back(rectangle_item({right - 1.2 * em, y - 0.5 * em, 1.2 * em, em},
-                                            mask_colour(style.palette, 0, q), theme.axis, 0.5 * theme.line_px));
-    right -= 2.2 * em;
+  if (style.palette.colouring == MaskColouring::core_fuzzy) {
+    for (const auto& [q, label] : {std::pair<std::uint8_t, const char*>{1, "fuzzy"}, {255, "core"}}) {
+      frame.items.emplace_back(text_item({right, y}, label, em, theme.text, TextAnchor::right));
+      right -= text_width_px(label, em) + 0.5 * em;
+      frame.items.emplace_back(rectangle_item({right - 1.2 * em, y - 0.5 * em, 1.2 * em, em},
+                                              mask_colour(style.palette, 0, q), theme.axis, 0.5 * theme.line_px));
+      right -= 2.2 * em;
+    }
   }
+  std::string words = fmt::format("{:g} m", length_m);
+  words += style.aspect == MaskAspect::above ? " · from above, bow up"
+                                             : " · from the side, ship to the left; depths below the surface";
+  frame.items.emplace_back(text_item({end + 0.6 * em, y}, elided(words, em, right - end - 0.6 * em), em, theme.muted));
 }
 
 }  // namespace
@@ -309,6 +293,7 @@ std::vector<PropagationPanel> propagation_panels(const ObservationProduct& produ
     panel.current = i == current;
     const PingNavigation& n = product.pings[static_cast<std::size_t>(i)];
     panel.time = n.time;
+    panel.transducer_depth_m = n.transducer_depth_m;
     panel.bad = n.bad;
     for (const SchoolMask& m : product.masks) {
       if (m.ping_index != i) continue;
@@ -331,7 +316,7 @@ Result<LaidOut> laid_out(const Sector& sector, std::span<const PropagationPanel>
   if (auto ok = validate(style); !ok) return pass_on(ok);
   if (panels.empty()) return fail(ErrorCode::bad_parameter, "a propagation view needs at least one ping");
   const Window window = window_of(sector, panels, style);
-  LaidOut out{laid_out(size, theme, panels.size(), window, style.one_row), {}};
+  LaidOut out{laid_out(size, theme, panels.size(), window, style), {}};
   const Grid& grid = out.places.grid;
   if (grid.width < kLeastPanel_em * theme.text_px || grid.height < kLeastPanel_em * theme.text_px / 2.0) {
     return fail(ErrorCode::bad_parameter, fmt::format("a picture of {} x {} pixels is too small for {} pings",

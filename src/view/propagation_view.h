@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ struct PropagationStyle {
   MaskAspect aspect = MaskAspect::above;
   bool whole_sector = false;  ///< else only where masks are
   bool one_row = false;       ///< side by side, however narrow
+  bool dates = false;         ///< each ping's day and "UTC", too: where nothing round the view tells them
   MaskPalette palette{.colouring = MaskColouring::core_fuzzy, .core_at = 0.64};
   int focus = -1;  ///< school of MosaicMask that the view is fitted to, where it is seen; -1 = all
   friend bool operator==(const PropagationStyle&, const PropagationStyle&) = default;
@@ -43,6 +45,7 @@ void describe(Visitor& v, PropagationStyle& p) {
   v.choice("aspect", p.aspect, kMaskAspectNames, "from where masks are seen");
   v.field("whole_sector", p.whole_sector, {.text = "show the whole sector, not only where masks are"});
   v.field("one_row", p.one_row, {.text = "all pings in one row"});
+  v.field("dates", p.dates, {.text = "the day of each ping beside its time"});
   v.group("palette", p.palette, "colours of masks");
 }
 
@@ -52,7 +55,8 @@ struct PropagationPanel {
   bool bad = false;  ///< the ping was not used
   bool current = false;
   TimeNs time = 0;
-  std::vector<MosaicMask> masks;         ///< point into what the panel was made from
+  double transducer_depth_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN = no scale of depths from the side
+  std::vector<MosaicMask> masks;                                         ///< point into what the panel was made from
   std::vector<std::int64_t> school_ids;  ///< of `masks`, written beside them; may be empty
   std::string note;                      ///< along the lower edge: why a propagation ended here; may be empty
 };
@@ -67,7 +71,7 @@ struct PropagationPanel {
                                                                 const Theme& theme);
 
 /// The current ping and its neighbours side by side, each a projection of its masks, all at one scale about one place in
-/// the sonar's frame; each labelled with ping and time; pings without a school, and bad ones say so.
+/// the sonar's frame; each labelled with ping and time, from the side with depths below the sea surface; pings without a school, and bad ones say so.
 /// title   first line of the picture
 /// errors  bad_parameter: a parameter out of range, no panels, or a picture too small for them
 [[nodiscard]] Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,

@@ -48,6 +48,7 @@ std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPi
     const auto i = static_cast<std::size_t>(ping);
     const PingNavigation& navigation = wish.observation->files().navigation[i];
     panel.time = navigation.time;
+    panel.transducer_depth_m = navigation.transducer_depth_m;
     panel.bad = navigation.bad || (wish.state && is_bad(*wish.state, ground.times[i]));
     if (const auto found = masks.pings.find(ping); found != masks.pings.end()) {
       panel.masks = found->second;
