@@ -180,6 +180,25 @@ TEST_F(Pictures, AVolumeWithASeabedHasAScaleOfItsDepths) {
   EXPECT_THAT(texts(*with), testing::IsSupersetOf({"298.8", "301.2"}));
 }
 
+// A raster that ends at the ship's longitude: half of what the picture has room for, and up to a node's step (28 of
+// 258 m) more, as far as the outermost nodes are believed.
+TEST_F(Pictures, AVolumeSaysHowMuchOfTheSeabedIsKnown) {
+  const fs::path file = test::scratch_path(".tif");
+  DepthGrid grid;
+  grid.rows = grid.columns = 40;
+  grid.south_deg = 59.99;
+  grid.west_deg = 5.0 - 39.5 * 0.0005;
+  grid.step_latitude_deg = grid.step_longitude_deg = 0.0005;
+  grid.depth_m.assign(1600, 100.0F);
+  ASSERT_TRUE(write_depth_raster(file, grid));
+  options_.depth_raster = file;
+  const auto part = picture(PictureKind::volume);
+  fs::remove(file);
+  ASSERT_TRUE(part) << to_line(part.error());
+  EXPECT_THAT(texts(*part),
+              testing::Contains(testing::MatchesRegex(".*depths known of (5[0-9]|6[01]) % of the seabed.*")));
+}
+
 TEST_F(Pictures, AVolumesLegendNamesCoreAndFuzzyAreaAndTheSchools) {
   options_.ping = 2;
   EXPECT_THAT(texts(*picture(PictureKind::volume)),

@@ -16,7 +16,12 @@
 namespace sonar {
 namespace {
 
-/// "2020-01-04 08:00:00.350 UTC"
+/// Of the seabed that the picture has room for, percent; 100 only where nothing is missing.
+int known_percent(const SeabedPatch& bed) {
+  const auto known = std::count_if(bed.depth_m.begin(), bed.depth_m.end(), [](float d) { return !std::isnan(d); });
+  return static_cast<int>(100 * known / std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(bed.depth_m.size())));
+}
+
 /// How the picture was made and what its bearings start from, for its second line.
 std::string view_line(const VolumeFigure& figure, const PictureOptions& options, bool data_too) {
   std::string line = "masks of schools";
@@ -26,6 +31,9 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
     if (options.mode == RayMode::maximum) line += ", maximum along each ray";
     if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
     if (options.lighting) line += ", lit";
+  }
+  if (figure.seabed && known_percent(*figure.seabed) < 100) {
+    line += fmt::format("; depths known of {} % of the seabed", known_percent(*figure.seabed));
   }
   if (!options.context) return line;
   return line + (std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings");

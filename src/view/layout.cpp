@@ -37,7 +37,8 @@ Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
 
 namespace {
 
-constexpr double kBold = 1.1;  ///< bold letters, of the width of plain ones
+constexpr double kBold = 1.1;      ///< bold letters, of the width of plain ones
+constexpr double kSmaller = 0.85;  ///< of the text that stands at a title's right
 
 /// A title shortened to a width; data that nobody has recorded must still be known by it.
 std::string shortened_title(const std::string& title, double size_px, double width_px) {
@@ -53,10 +54,18 @@ void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme
                const std::string& right) {
   // The plot's width is no limit, the picture's is.
   const double width = std::max(layout.title.width, frame.size.width - layout.title.x - 0.5 * theme.text_px);
-  const double right_width = right.empty() ? 0.0 : text_width_px(right.c_str(), theme.text_px) + theme.text_px;
-  // Where both do not fit, the right-hand text goes down to the second line's end.
-  const bool beside =
-      !lines.empty() && text_width_px(lines[0].c_str(), kBold * theme.title_px) + right_width < layout.title.width;
+  const auto width_at = [&](double size) {
+    return right.empty() ? 0.0 : text_width_px(right.c_str(), size) + theme.text_px;
+  };
+  const auto fits_at = [&](double size) {
+    return !lines.empty() &&
+           text_width_px(lines[0].c_str(), kBold * theme.title_px) + width_at(size) < layout.title.width;
+  };
+  // Where both do not fit, the right-hand text becomes smaller, else it goes down to the second line's end.
+  const double right_size =
+      !fits_at(theme.text_px) && fits_at(kSmaller * theme.text_px) ? kSmaller * theme.text_px : theme.text_px;
+  const double right_width = width_at(right_size);
+  const bool beside = fits_at(right_size);
   const bool below = !beside && lines.size() > 1;
   // It stays away where it would leave no room to the second line's own words.
   const bool stays = !right.empty() && (beside || layout.title.width - right_width > 8.0 * theme.text_px);
@@ -74,7 +83,7 @@ void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme
     frame.items.emplace_back(std::move(item));
     if (shared) {
       frame.items.emplace_back(
-          text_item({layout.title.x + layout.title.width, y}, right, theme.text_px, theme.muted, TextAnchor::right));
+          text_item({layout.title.x + layout.title.width, y}, right, right_size, theme.muted, TextAnchor::right));
     }
     y += first ? 0.75 * theme.title_px + 0.7 * theme.text_px : 1.45 * theme.text_px;
   }

@@ -263,7 +263,7 @@ TEST(PropagationView, FromTheSideItHasAScaleOfDepths) {
     std::vector<std::pair<double, double>> out;  // m, px
     for (const auto& item : frame.items) {
       const auto* t = std::get_if<TextItem>(&item);
-      if (t == nullptr || !t->text.ends_with(" m") || t->anchor != TextAnchor::left) continue;
+      if (t == nullptr || t->text == "0 m" || !t->text.ends_with(" m") || t->anchor != TextAnchor::left) continue;
       out.emplace_back(std::stod(t->text), t->at.y);
     }
     return out;

@@ -52,7 +52,10 @@ void add_depth_scale(FrameDescription& frame, double middle_m, double px_per_m, 
     const double y = y_of(depth);
     if (y - 0.7 * size < place.y || y + 0.7 * size > place.y + place.height) continue;
     frame.items.emplace_back(line_item({place.x, y}, {place.x + 0.5 * size, y}, theme.axis, theme.line_px));
-    TextItem text = text_item({place.x + 0.7 * size, y}, tick_text(depth, ticks.decimals) + " m", size, theme.text);
+    // The surface's own label stands on its line.
+    const double words_y = depth > 0.0 ? y : std::max(place.y + 0.6 * size, y - 0.8 * size);
+    TextItem text =
+        text_item({place.x + 0.7 * size, words_y}, tick_text(depth, ticks.decimals) + " m", size, theme.text);
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
   }

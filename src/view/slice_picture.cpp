@@ -18,7 +18,6 @@
 namespace sonar {
 namespace {
 
-/// "2026-11-21 19:57:26.123 UTC"
 /// Axes in the slice's own coordinates, x right and y down, grown to fill the plot with square metres or degrees.
 PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   PlotFrame plot{place, {extent.x0, extent.x1, "", false}, {extent.y0, extent.y1, "", false}};

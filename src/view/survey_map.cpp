@@ -11,13 +11,13 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "view/axes.h"
-#include "view/colour_bar.h"
 #include "view/depth_layer.h"
 #include "view/graticule.h"
 #include "view/map_frame.h"
 #include "view/map_items.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
+#include "view/survey_map_legend.h"
 
 namespace sonar {
 namespace {
@@ -25,7 +25,6 @@ namespace {
 constexpr double kLegend_em = 17.0;
 constexpr double kLeastMargin_m = 150.0;
 constexpr int kMostNames = 60;
-constexpr Rgba8 kSwept{110, 110, 110, 95};
 
 struct Places {
   PixelRect title;
@@ -62,14 +61,6 @@ const ObservationOutlines* outlines_of(std::span<const ObservationOutlines> outl
   return found != outlines.end() ? &*found : nullptr;
 }
 
-struct Drawing {
-  FrameDescription& frame;
-  const MapFrame& map;
-  const Theme& theme;
-  const SchoolLook& look;
-  double em;
-};
-
 double area_px2(const PathItem& item) {
   double sum = 0.0;
   for (const PathItem::Part& part : item.parts) {
@@ -82,7 +73,7 @@ double area_px2(const PathItem& item) {
   return std::abs(sum);
 }
 
-void add_school(const Drawing& d, const SchoolRow& school, const ObservationOutlines* outlines) {
+void add_school(const SurveyMapDrawing& d, const SchoolRow& school, const ObservationOutlines* outlines) {
   const Rgba8 colour = d.look.colour(school);
   const Stroke edge{d.theme.text, 0.8 * d.theme.line_px, status_dashes(school.status, d.theme)};
   double area = 0.0;
@@ -104,7 +95,7 @@ void add_school(const Drawing& d, const SchoolRow& school, const ObservationOutl
                                          {d.theme.text, 0.8 * d.theme.line_px, {}}));
 }
 
-void add_start(const Drawing& d, const ObservationProduct& product) {
+void add_start(const SurveyMapDrawing& d, const ObservationProduct& product) {
   const auto first =
       std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
   if (first == product.pings.end()) return;
@@ -113,8 +104,24 @@ void add_start(const Drawing& d, const ObservationProduct& product) {
   d.frame.items.emplace_back(circle_item(*at, 0.5 * d.em, kStartColour, {d.theme.text, d.theme.line_px, {}}));
 }
 
+/// How far from a start its name begins: past the marker, and past the circles of schools that reach there.
+double past_circles(const SurveyMapDrawing& d, const ObservationProduct& product, const PixelPoint& start,
+                    double side) {
+  double out = 0.9 * d.em;
+  for (const SchoolRow& school : product.schools) {
+    if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
+    const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
+    if (!centre) continue;
+    const double radius = d.look.radius_px(school.backscatter_m2);
+    const double off = side * (centre->x - start.x);
+    const bool meets = std::abs(centre->y - start.y) < radius + 0.5 * d.em && std::abs(off) < radius + d.em;
+    if (meets) out = std::max(out, off + radius + 0.3 * d.em);
+  }
+  return out;
+}
+
 /// Beside the start's marker, away from where the ship went as long as it fits there.
-std::optional<TextItem> start_name(const Drawing& d, const ObservationProduct& product) {
+std::optional<TextItem> start_name(const SurveyMapDrawing& d, const ObservationProduct& product) {
   const auto first =
       std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
   if (first == product.pings.end()) return std::nullopt;
@@ -125,32 +132,21 @@ std::optional<TextItem> start_name(const Drawing& d, const ObservationProduct& p
   });
   const auto next = after != product.pings.end() ? d.map.at(after->transducer) : std::nullopt;
   bool to_left = next && next->x > at->x;
-  const double reach = 1.1 * d.em + text_width_px(product.observation.c_str(), 0.9 * d.em);
+  const double wide = text_width_px(product.observation.c_str(), 0.9 * d.em);
+  const auto beside = [&](double side) { return past_circles(d, product, *at, side); };
+  const double reach = 0.2 * d.em + std::max(beside(-1.0), beside(1.0)) + wide;
   const bool fits_left = at->x - reach > d.map.place.x;
   const bool fits_right = at->x + reach < d.map.place.x + d.map.place.width;
   if (to_left ? !fits_left && fits_right : !fits_right && fits_left) to_left = !to_left;
   const double low = d.map.place.y + 0.8 * d.em;
   const double y = std::clamp(at->y, low, std::max(low, d.map.place.y + d.map.place.height - 0.8 * d.em));
-  TextItem name = text_item({at->x + (to_left ? -0.9 : 0.9) * d.em, y}, product.observation, 0.9 * d.em, d.theme.text,
-                            to_left ? TextAnchor::right : TextAnchor::left);
+  TextItem name = text_item({at->x + (to_left ? -beside(-1.0) : beside(1.0)), y}, product.observation, 0.9 * d.em,
+                            d.theme.text, to_left ? TextAnchor::right : TextAnchor::left);
   name.halo = d.theme.halo;
   return name;
 }
 
-/// "depth.tif (elevation, negative down)": how the sign was told, and a variable of the same name, say nothing more.
-std::string brief_source(std::string source) {
-  if (const auto why = source.rfind(" (told by "); why != std::string::npos) source.resize(why);
-  const auto colon = source.rfind(": ");
-  if (colon == std::string::npos) return source;
-  std::string head = source.substr(0, colon);
-  const std::string meaning = source.substr(colon + 2);
-  if (const auto comma = head.rfind(", "); comma != std::string::npos && meaning.starts_with(head.substr(comma + 2))) {
-    head.resize(comma);
-  }
-  return head + " (" + meaning + ")";
-}
-
-void add_ship(const Drawing& d, std::span<const ObservationProduct> observations) {
+void add_ship(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations) {
   const PingNavigation* last = nullptr;
   for (const ObservationProduct& product : observations) {
     for (const PingNavigation& n : product.pings) {
@@ -164,107 +160,6 @@ void add_ship(const Drawing& d, std::span<const ObservationProduct> observations
   const double turned =
       (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + d.map.projection.north_rad(last->transducer);
   d.frame.items.emplace_back(ship_item(*at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
-}
-
-/// What the legend says below its colour bars, line by line.
-class Legend {
- public:
-  Legend(const Drawing& d, const PixelRect& place, double y) : d_(d), place_(place), y_(y) {}
-
-  [[nodiscard]] PixelPoint symbol() const { return {place_.x + 1.1 * d_.em, y_}; }
-  [[nodiscard]] bool full() const { return y_ > place_.y + place_.height - 0.6 * d_.em; }
-  void text(const std::string& words) {
-    d_.frame.items.emplace_back(text_item({place_.x + 2.8 * d_.em, y_}, words, d_.em, d_.theme.text));
-    y_ += 1.6 * d_.em;
-  }
-  void small(const std::string& words) {
-    const double size = 0.82 * d_.em;
-    for (const std::string& line : wrapped(words, place_.width, size)) {
-      if (full()) return;
-      d_.frame.items.emplace_back(text_item({place_.x, y_}, line, size, d_.theme.muted));
-      y_ += 1.25 * size;
-    }
-    y_ += 0.5 * d_.em;
-  }
-  void gap() { y_ += 0.5 * d_.em; }
-
- private:
-  const Drawing& d_;
-  PixelRect place_;
-  double y_;
-};
-
-void add_sizes(const Drawing& d, Legend& legend, const SurveyMapStyle& style) {
-  const std::vector<double> sizes = d.look.sizes();
-  const Rgba8 fill = style.colouring == SchoolColouring::mean_sv ? d.look.map().at(0.6) : d.theme.muted;
-  for (const double size : sizes) {
-    if (legend.full()) return;
-    d.frame.items.emplace_back(circle_item(legend.symbol(), d.look.radius_px(size), with_alpha(fill, 205),
-                                           {d.theme.text, 0.8 * d.theme.line_px, {}}));
-    legend.text(fmt::format("{:g} m² backscatter", size));
-  }
-}
-
-void add_symbols(const Drawing& d, Legend& legend, const SurveyMapStyle& style) {
-  const double em = d.em;
-  const auto at = [&] { return legend.symbol(); };
-  d.frame.items.emplace_back(
-      ship_item(at(), 1.9 * em, 0.5 * 3.14159, d.theme.ship, d.theme.background, d.theme.line_px));
-  legend.text("ship, last position");
-  d.frame.items.emplace_back(
-      line_item({at().x - em, at().y}, {at().x + em, at().y}, d.theme.track, 1.6 * d.theme.line_px));
-  legend.text("ship's track");
-  d.frame.items.emplace_back(circle_item(at(), 0.5 * em, kStartColour, {d.theme.text, d.theme.line_px, {}}));
-  legend.text("start of an observation");
-  if (style.swept) {
-    d.frame.items.emplace_back(rectangle_item({at().x - em, at().y - 0.55 * em, 2.0 * em, 1.1 * em}, kSwept));
-    legend.text("search volume");
-  }
-  for (const auto& [colour, name] : d.look.entries()) {
-    if (legend.full()) return;
-    d.frame.items.emplace_back(rectangle_item({at().x - em, at().y - 0.45 * em, 2.0 * em, 0.9 * em}, colour,
-                                              d.theme.text, 0.8 * d.theme.line_px));
-    legend.text(name);
-  }
-}
-
-void add_legend(const Drawing& d, const PixelRect& place, const DepthBands& bands, const SurveyMapStyle& style,
-                const DepthGrid* depths, bool schools, const std::string& note) {
-  const double em = d.em;
-  const double height = std::clamp(0.3 * place.height, 6.0 * em, 15.0 * em);
-  double x = place.x + 0.4 * em;
-  const double y = place.y + 1.8 * em;
-  bool bars = false;
-  if (schools && style.colouring == SchoolColouring::mean_sv) {
-    add_colour_bar(d.frame, {x, y, 1.3 * em, height}, d.look.map(), style.sv_low_db, style.sv_high_db, d.theme,
-                   "mean Sv (dB)");
-    x += 8.4 * em;
-    bars = true;
-  }
-  if (bands.levels_m.size() > 1) {
-    add_colour_bar(d.frame, {x, y, 1.3 * em, height}, bands.map, bands.levels_m.front(), bands.levels_m.back(), d.theme,
-                   "depth (m)", true);
-    bars = true;
-  }
-  Legend legend(d, place, bars ? y + height + 2.2 * em : place.y + em);
-  add_symbols(d, legend, style);
-  if (bands.land) {
-    d.frame.items.emplace_back(
-        rectangle_item({legend.symbol().x - em, legend.symbol().y - 0.55 * em, 2.0 * em, 1.1 * em}, d.theme.land,
-                       d.theme.text, 0.5 * d.theme.line_px));
-    legend.text("land");
-  }
-  add_sizes(d, legend, style);
-  legend.gap();
-  legend.small(d.map.projection.name());
-  if (depths != nullptr) {
-    legend.small("Depths: " + brief_source(depths->source));
-    if (bands.levels_m.empty()) legend.small("The raster has no depths here.");
-    if (bands.unknown && !bands.levels_m.empty()) legend.small("Plain where the raster has no depths.");
-  } else {
-    legend.small("No depth raster: plain sea.");
-  }
-  if (!note.empty()) legend.small(note);
 }
 
 std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look) {
@@ -340,7 +235,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   Places p;
   const MapFrame map = laid_out(*extent, style, size, theme, p);
   const SchoolLook look(observations, style, theme);
-  const Drawing d{frame, map, theme, look, theme.text_px};
+  const SurveyMapDrawing d{frame, map, theme, look, theme.text_px};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
   DepthBands bands;
   std::vector<TextItem> names;
@@ -359,7 +254,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   for (const ObservationProduct& product : observations) {
     const ObservationOutlines* o = outlines_of(outlines, product.observation);
     if (style.swept && o != nullptr)
-      frame.items.emplace_back(area_item(map, o->swept, kSwept, {{0, 0, 0, 0}, 0.0, {}}));
+      frame.items.emplace_back(area_item(map, o->swept, kSweptColour, {{0, 0, 0, 0}, 0.0, {}}));
     schools = schools || !product.schools.empty();
   }
   for (const ObservationProduct& product : observations) {
@@ -378,7 +273,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);
-  if (style.legend) add_legend(d, p.legend, bands, style, depths, schools, note);
+  if (style.legend) add_survey_legend(d, p.legend, bands, style, depths, schools, note);
   Layout layout;
   layout.title = p.title;
   add_title(frame, layout, theme, {frame.title, second_line(observations, look)});

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "view/label_room.h"
 #include "view/map_example.h"
 #include "view/map_items.h"
 
@@ -115,6 +116,73 @@ TEST(SurveyMap, SaysWhatItIs) {
   EXPECT_TRUE(says(*frame, "no such depth raster"));
   EXPECT_TRUE(says(*frame, "Lambert conformal conic"));  // 1.2 km high, 1.5 km wide, at 60 N
   EXPECT_TRUE(says(*frame, "nmi"));
+}
+
+// The map's circles have their school's colour or none: discs of the legend tell the size and have none of their own.
+TEST(SurveyMap, TheLegendExplainsCirclesAsTheMapDrawsThem) {
+  const auto all = survey({60.0, 5.0});
+  const auto frame = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "Circles have"));
+  EXPECT_TRUE(says(*frame, "seen."));
+  double legend_x = 0.0;
+  for (const auto& item : frame->items) {
+    const auto* t = std::get_if<TextItem>(&item);
+    if (t != nullptr && t->text.ends_with("backscatter")) legend_x = t->at.x;
+  }
+  ASSERT_GT(legend_x, 0.0);
+  int discs = 0;
+  for (const auto& item : frame->items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->parts.size() != 1 || path->parts[0].points.size() != 32) continue;
+    const PixelPoint p = path->parts[0].points[0];
+    if (p.x < legend_x - 60.0 || path->fill == kStartColour) continue;
+    EXPECT_EQ(path->fill.a, 0);
+    ++discs;
+  }
+  EXPECT_EQ(discs, 3);
+}
+
+// A school at the start itself: the name stands clear of its circle.
+TEST(SurveyMap, NamesStandClearOfTheSchoolsAtTheirStarts) {
+  auto all = survey({60.0, 5.0});
+  all[0].schools[0].latitude = all[0].pings[0].transducer.latitude_deg;
+  all[0].schools[0].longitude = all[0].pings[0].transducer.longitude_deg;
+  const auto frame = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  const PixelPoint start = FromLabels(*frame).at(all[0].pings[0].transducer);
+  double radius = 0.0;
+  PixelRect name;
+  for (const auto& item : frame->items) {
+    if (const auto* t = std::get_if<TextItem>(&item); t != nullptr && t->text == "obs-0001")
+      name = LabelRoom::box_of(*t);
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->parts.size() != 1 || path->parts[0].points.size() != 32) continue;
+    for (const PixelPoint& p : path->parts[0].points) {
+      const double away = std::hypot(p.x - start.x, p.y - start.y);
+      if (away < 40.0) radius = std::max(radius, away);
+    }
+  }
+  ASSERT_GT(radius, 0.9 * light_theme(kSize).text_px) << "the largest school's circle reaches past the usual place";
+  ASSERT_GT(name.width, 0.0);
+  EXPECT_TRUE(name.x > start.x + radius - 1.0 || name.x + name.width < start.x - radius + 1.0);
+}
+
+// A note either stands there whole or not at all.
+TEST(SurveyMap, NotesOfTheLegendAreNotCut) {
+  const auto all = survey({60.0, 5.0});
+  const std::string note = "This note is long enough to take some lines of a narrow legend and then ends here.";
+  int whole = 0;
+  int none = 0;
+  for (int height = 240; height <= 500; height += 10) {
+    const PixelSize size{320, height};
+    const auto frame = survey_map(all, {}, nullptr, {}, size, light_theme(size), note);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(says(*frame, "This note"), says(*frame, "ends here.") || says(*frame, "here.")) << height;
+    ++(says(*frame, "This note") ? whole : none);
+  }
+  EXPECT_GT(whole, 0);
+  EXPECT_GT(none, 0);
 }
 
 TEST(SurveyMap, DepthsAreColouredAndSaidWhereFrom) {

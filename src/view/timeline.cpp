@@ -34,8 +34,11 @@ Along along(const ObservationProduct& product, TimelineAxis axis, TimeNs zero) {
     return a;
   }
   std::fill(a.x.begin(), known, *known);
+  // A log that is coarser than the pings' distance stands still between its steps: those that it takes tell.
   std::vector<double> steps;
-  for (std::size_t i = 1; i < a.x.size(); ++i) steps.push_back(a.x[i] - a.x[i - 1]);
+  for (std::size_t i = 1; i < a.x.size(); ++i) {
+    if (a.x[i] > a.x[i - 1]) steps.push_back(a.x[i] - a.x[i - 1]);
+  }
   if (!steps.empty()) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
@@ -50,7 +53,7 @@ std::int16_t value_of(const EchogramCell& cell, EchogramValue value) {
   return value == EchogramValue::minimum ? cell.low : cell.mean_count();
 }
 
-/// Pings under a column of pixels: [first, end). A ping fills x up to the next one.
+/// Pings under a column of pixels: [first, end). A ping fills x up to the next one; before a gap, its own interval.
 struct Pings {
   std::size_t first = 0;
   std::size_t end = 0;
@@ -62,9 +65,7 @@ Pings pings_under(std::span<const double> x, double gap, double from, double to)
   Pings p{at(from), at(to)};
   if (p.first < p.end || p.first == 0) return p;
   const std::size_t before = p.first - 1;
-  const double until =
-      before + 1 < x.size() ? std::min(x[before + 1], x[before] + gap) : x[before] + gap / kGapIntervals;
-  if (from < until) p = {before, before + 1};
+  if (from < filled_until(x, gap, before)) p = {before, before + 1};
   return p;
 }
 
@@ -119,31 +120,38 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
   const double em = theme.text_px;
   const ObservationProduct& product = *strip.observation->product;
   for (const SchoolRow& school : product.schools) {
-    PathItem::Part part;
+    std::vector<PathItem::Part> parts;
+    std::size_t last = 0;
     for (const SchoolPingRow& row : product.school_pings) {
       const auto i = static_cast<std::size_t>(std::max<std::int64_t>(0, row.ping_index));
       if (row.school_id != school.school_id || row.ping_index < 0 || i >= strip.along.x.size()) continue;
-      if (std::isfinite(row.range_m)) part.points.push_back(plot.at(strip.along.x[i], row.range_m));
+      if (!std::isfinite(row.range_m)) continue;
+      if (parts.empty() || strip.along.gap_between(last, i)) parts.emplace_back();
+      parts.back().points.push_back(plot.at(strip.along.x[i], row.range_m));
+      last = i;
     }
-    if (part.points.empty()) continue;
-    const PixelPoint first = part.points.front();
+    if (parts.empty()) continue;
     const bool selected = strip.observation->selected == school.school_id;
     const Rgba8 colour = look_of(school, style, theme);
-    if (part.points.size() == 1) part.points.push_back({first.x + 1.0, first.y});
+    std::vector<PixelPoint> points;
+    for (PathItem::Part& part : parts) {
+      points.insert(points.end(), part.points.begin(), part.points.end());
+      if (part.points.size() == 1) part.points.push_back({part.points[0].x + 1.0, part.points[0].y});
+    }
     // A dark line below a bright one is seen on every colour.
     const double wide = (style.by_school ? 3.0 : 1.8) + (selected ? 1.5 : 0.0);
     for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.8), std::pair(colour, wide)}) {
       PathItem item;
-      item.parts.push_back(part);
+      item.parts = parts;
       item.stroke = {line, width * theme.line_px,
                      width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
       frame.items.emplace_back(std::move(item));
     }
     // Where a part of the axis is shown, the number stands at the first ping in it.
-    const auto seen = std::find_if(part.points.begin(), part.points.end(), [&](const PixelPoint& p) {
+    const auto seen = std::find_if(points.begin(), points.end(), [&](const PixelPoint& p) {
       return p.x >= plot.place.x - 0.5 && p.x <= plot.place.x + plot.place.width + 0.5;
     });
-    if (seen == part.points.end()) continue;
+    if (seen == points.end()) continue;
     const PixelPoint at{seen->x, seen->y - 0.9 * em};
     const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
       return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
@@ -294,7 +302,7 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   auto strips = strips_of(observations, style.axis, out.zero);
   if (!strips) return pass_on(strips);
   out.strips = std::move(*strips);
-  out.title = survey_title(heads);
+  out.title = heads.size() == 1 ? observation_title(heads.front()) : survey_title(heads);
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
   out.layout = lay_out(
@@ -326,9 +334,14 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
 
 void add_echogram(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const TimelineStyle& style,
                   const SvColours& colours, const Theme& theme) {
-  const double from = plot.at(s.span().first, 0.0).x;
-  const double to = std::max(from + 1.0, plot.at(s.span().last, 0.0).x);
-  frame.items.emplace_back(rectangle_item({from, plot.place.y, to - from, plot.place.height}, theme.water));
+  // Water where pings were made; a gap stays as empty as what lies between observations.
+  const std::vector<double>& x = s.along.x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double from = plot.at(x[i], 0.0).x;
+    while (i + 1 < x.size() && x[i + 1] - x[i] <= s.along.gap) ++i;
+    const double to = std::max(from + 1.0, plot.at(filled_until(x, s.along.gap, i), 0.0).x);
+    frame.items.emplace_back(rectangle_item({from, plot.place.y, to - from, plot.place.height}, theme.water));
+  }
   if (s.observation->echogram == nullptr) return;
   auto image = std::make_shared<Image>(
       echogram_image(*s.observation->echogram, s.along.x, s.along.gap, plot, style.value, colours).image);

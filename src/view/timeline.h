@@ -76,7 +76,7 @@ struct EchogramImage {
   std::uint64_t cells_read = 0;  ///< grows with the picture, not with the number of pings
 };
 /// x       [ping] places of the pings on the plot's x axis, not falling
-/// gap     longest step of x that a ping fills up to the next one
+/// gap     longest step of x that a ping fills up to the next one; before a longer one it fills a third of it
 [[nodiscard]] EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const double> x, double gap,
                                            const PlotFrame& plot, EchogramValue value, const SvColours& colours);
 

@@ -8,14 +8,27 @@
 
 namespace sonar {
 
-/// A ping fills up to the next, but no more than so many usual intervals.
+/// A ping fills up to the next one; where that lies more than so many usual intervals away there is a gap.
 inline constexpr double kGapIntervals = 3.0;
 
 /// Where the pings of an observation lie along x, and how far one may reach.
 struct Along {
   std::vector<double> x;  ///< [ping]
   double gap = 0.0;
+  /// Whether there is a gap between two pings.
+  [[nodiscard]] bool gap_between(std::size_t from, std::size_t to) const {
+    for (std::size_t i = from; i < to; ++i) {
+      if (x[i + 1] - x[i] > gap) return true;
+    }
+    return false;
+  }
 };
+
+/// Where what is shown of a ping ends: at the next one, or before a gap after a usual interval.
+[[nodiscard]] inline double filled_until(std::span<const double> x, double gap, std::size_t ping) {
+  const bool on = ping + 1 < x.size() && x[ping + 1] - x[ping] <= gap;
+  return on ? x[ping + 1] : x[ping] + gap / kGapIntervals;
+}
 
 struct StripSpan {
   double first = 0.0;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "view/map_example.h"
+#include "view/school_look.h"
 
 namespace sonar {
 namespace {
@@ -138,8 +139,8 @@ TEST(EchogramImage, GapsStayEmptyAndPingsFillUpToTheNext) {
   const auto image =
       echogram_image(pyramid, x, 30.0, plot_of(200.0, 100.0), EchogramValue::mean, sv_colours(SvScale{})).image;
   EXPECT_EQ(image.at(5, 50).a, 255);
-  EXPECT_EQ(image.at(48, 50).a, 255);  // 30 s after the ping at 20 s it ends
-  EXPECT_EQ(image.at(51, 50).a, 0);
+  EXPECT_EQ(image.at(28, 50).a, 255);  // before the gap the ping at 20 s fills one usual step
+  EXPECT_EQ(image.at(31, 50).a, 0);
   EXPECT_EQ(image.at(149, 50).a, 0);
   EXPECT_EQ(image.at(155, 50).a, 255);
   EXPECT_EQ(image.at(169, 50).a, 255);  // the last ping fills one usual step
@@ -151,6 +152,78 @@ bool says(const FrameDescription& frame, const std::string& words) {
     const auto* t = std::get_if<TextItem>(&item);
     return t != nullptr && t->text.find(words) != std::string::npos;
   });
+}
+
+// 12 pings 0.01 nmi apart, then 0.1 nmi without any, then 12 more. The gap is as empty as the plot round the strip.
+TEST(Timeline, AGapAlongTheLogIsEmpty) {
+  ObservationProduct p = map_example::product("obs-0001", 24);
+  const EchogramRange range{0.0, 1.0, 100};
+  EchogramPyramid pyramid(range);
+  for (std::size_t i = 0; i < p.pings.size(); ++i) {
+    p.pings[i].distance_nmi = 10.0 + 0.01 * static_cast<double>(i) + (i < 12 ? 0.0 : 0.1);
+    const std::vector<EchogramCell> column(100, cell(1e-4, 1.0));
+    pyramid.add_ping(p.pings[i].time, column, p.pings[i].distance_nmi);
+  }
+  map_example::add_school(p, 1, p.pings[3].transducer, 3, 20, map_example::block(2, 1, 2, 24, 3));
+  const TimelineObservation observation{&p, &pyramid};
+  TimelineStyle style;
+  style.axis = TimelineAxis::log;
+  constexpr PixelSize kWide{900, 500};
+  const Theme theme = light_theme(kWide);
+  const auto frame = timeline(std::span(&observation, 1), style, kWide, theme);
+  const auto plot = timeline_plot(std::span(&observation, 1), style, kWide, theme);
+  ASSERT_TRUE(frame && plot);
+  const double gap_from = plot->plot.at(10.11 + 0.01, 0.0).x;  // the last ping before it takes its own 0.01 nmi
+  const double gap_to = plot->plot.at(10.22, 0.0).x;
+  ASSERT_GT(gap_to - gap_from, 100.0);
+  const Rgba8 track = status_colour("unreviewed", theme);
+  int strips = 0;
+  for (const auto& item : frame->items) {
+    if (const auto* path = std::get_if<PathItem>(&item);
+        path != nullptr && path->fill == theme.water &&
+        path->parts[0].points[0].x < plot->plot.place.x + plot->plot.place.width) {
+      ++strips;
+      for (const PixelPoint& point : path->parts[0].points) {
+        EXPECT_TRUE(point.x < gap_from + 0.5 || point.x > gap_to - 0.5) << point.x;
+      }
+    }
+    if (const auto* path = std::get_if<PathItem>(&item); path != nullptr && path->stroke.colour == track) {
+      EXPECT_EQ(path->parts.size(), 2U) << "a track does not cross the gap";
+    }
+    if (const auto* image = std::get_if<ImageItem>(&item); image != nullptr && image->place.x == plot->plot.place.x) {
+      for (int x = 0; x < image->image->size.width; ++x) {
+        const double at = image->place.x + x;
+        const bool empty = at > gap_from + 1.0 && at + 1.0 < gap_to - 1.0;
+        const bool full = at + 1.0 < gap_from - 1.0 || at > gap_to + 1.0;
+        if (empty || full) {
+          ASSERT_EQ(image->image->at(x, 50).a, full ? 255 : 0) << x;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(strips, 2);
+  EXPECT_EQ(frame->title, "obs-0001 of SYNTHETIC example");
+}
+
+// A log in tenths of a mile and pings every hundredth: its own steps are no gaps.
+TEST(Timeline, ACoarseLogHasNoGaps) {
+  ObservationProduct p = map_example::product("obs-0001", 100);
+  EchogramPyramid pyramid(EchogramRange{0.0, 1.0, 100});
+  for (std::size_t i = 0; i < p.pings.size(); ++i) {
+    p.pings[i].distance_nmi = 10.0 + 0.1 * static_cast<double>(i / 10);
+    pyramid.add_ping(p.pings[i].time, std::vector<EchogramCell>(100, cell(1e-4, 1.0)), p.pings[i].distance_nmi);
+  }
+  const TimelineObservation observation{&p, &pyramid};
+  TimelineStyle style;
+  style.axis = TimelineAxis::log;
+  constexpr PixelSize kWide{900, 500};
+  const auto frame = timeline(std::span(&observation, 1), style, kWide, light_theme(kWide));
+  ASSERT_TRUE(frame);
+  for (const auto& item : frame->items) {
+    const auto* image = std::get_if<ImageItem>(&item);
+    if (image == nullptr || image->image->size.width < 100) continue;
+    for (int x = 0; x + 1 < image->image->size.width; ++x) ASSERT_EQ(image->image->at(x, 50).a, 255) << x;
+  }
 }
 
 TEST(Timeline, WithoutRawThereAreTheSchoolsAndANote) {

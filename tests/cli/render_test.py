@@ -52,10 +52,20 @@ PICTURES = {
     "observation-map": (["observation-map", sonarx.OUT], DRAWN),
     "observation-map-dark": (["observation-map", sonarx.OUT, "--observation", "obs-0002", "--ping", "2", "--dark"], DRAWN),
     "survey-map": (["survey-map", sonarx.OUT, "--depth-raster", DEPTHS], DRAWN),
+    "survey-map-dark": (["survey-map", sonarx.OUT, "--depth-raster", DEPTHS, "--dark"], DRAWN),
+    "survey-map-without-schools": (["survey-map", sonarx.OUT, "--no-masks"], DRAWN),
     "timeline": (["timeline", *BOTH], DRAWN),
+    "timeline-without-schools": (["timeline", *BOTH, "--no-masks", "--along-log", "--dark"], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
 }
 SIZE = ["--size", "640x480"]
+# The smallest size there is, and print: twice the pixels.
+PICTURES |= {f"small-{kind}": ([kind, *paths, *options, "--size", "320x240"], DRAWN) for kind, paths, options in (
+    ("slice-top", BOTH, ["--ping", "10"]), ("volume", BOTH, ["--ping", "10", "--frames", "0", "--depth-raster", DEPTHS]),
+    ("propagation", [sonarx.OUT], ["--ping", "10", "--side"]), ("observation-map", [sonarx.OUT], ["--ping", "10"]),
+    ("survey-map", [sonarx.OUT], ["--depth-raster", DEPTHS]), ("timeline", BOTH, []))}
+PICTURES |= {f"print-{kind}": ([kind, *BOTH, "--ping", "10", "--size", "480x360", "--scale", "2"], DRAWN)
+             for kind in ("slice-side", "observation-map")}
 
 
 def render(*arguments, environment=None):
@@ -74,7 +84,8 @@ class Goldens(unittest.TestCase):
     def test_every_picture_is_as_it_was_looked_at(self):
         for name, (arguments, (largest, mean)) in PICTURES.items():
             with self.subTest(name):
-                code, out, error = render(*arguments, *SIZE, "--reference", GOLDEN / f"{name}.png",
+                size = [] if "--size" in arguments else SIZE
+                code, out, error = render(*arguments, *size, "--reference", GOLDEN / f"{name}.png",
                                           "--largest-difference", largest, "--mean-difference", mean)
                 self.assertEqual((code, error), (0, ""), out + error)
 
@@ -345,7 +356,8 @@ class BadInput(unittest.TestCase):
 def look(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name, (arguments, _) in PICTURES.items():
-        code, _, error = render(*arguments, *SIZE, "--out", folder / f"{name}.png")
+        size = [] if "--size" in arguments else SIZE
+        code, _, error = render(*arguments, *size, "--out", folder / f"{name}.png")
         print(name, code, error.strip())
 
 

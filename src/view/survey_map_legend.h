@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "model/depth_grid.h"
+#include "view/depth_layer.h"
+#include "view/map_frame.h"
+#include "view/school_look.h"
+#include "view/survey_map.h"
+
+namespace sonar {
+
+/// What the parts of a survey map draw with; borrows all of it.
+struct SurveyMapDrawing {
+  FrameDescription& frame;
+  const MapFrame& map;
+  const Theme& theme;
+  const SchoolLook& look;
+  double em;
+};
+
+inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
+
+/// Colour bars, symbols, circles and notes beside the map, as far as there is room for them.
+/// schools  there are some
+/// note     one more line; may be empty
+void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const DepthBands& bands,
+                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools, const std::string& note);
+
+}  // namespace sonar
