@@ -96,7 +96,16 @@ std::string DrawnObservation::title() const {
 Result<Sector> DrawnObservation::sector() const {
   if (files_ != nullptr && files_->grid) return files_->sector();
   if (product_->grid) return product_->grid->grid.sector(product_->grid->range);
-  return fail(ErrorCode::unsupported, "the beams of " + name() + " make no grid of fans and beams to draw");
+  std::string line = "the beams of " + name() + " make no grid of fans and beams to draw";
+  const Diagnostics& notes = files_ != nullptr ? files_->diagnostics : product_->diagnostics;
+  const auto why = std::find_if(notes.begin(), notes.end(), [](const Diagnostic& note) {
+    return note.code == DiagnosticCode::no_grid || note.code == DiagnosticCode::no_common_range;
+  });
+  if (why == notes.end()) return fail(ErrorCode::unsupported, std::move(line));
+  // "the beams make no product grid: ..." would say it twice.
+  const auto reason = why->text.starts_with("the beams make no") ? why->text.find(": ") : std::string::npos;
+  line += ": " + (reason == std::string::npos ? why->text : why->text.substr(reason + 2));
+  return fail(ErrorCode::unsupported, std::move(line));
 }
 
 const std::vector<double>& DrawnObservation::frequency_hz() const {
@@ -159,9 +168,19 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::p
   source->match();
   if (source->observations_.empty()) {
     const std::string named = paths.empty() ? std::string() : paths.front().string();
-    return fail(ErrorCode::usage, "nothing to draw: neither raw files with pings nor products in it", {named});
+    std::string line = "nothing to draw: neither raw files with pings nor products in it";
+    if (const std::string why = source->why_no_pings(); !why.empty()) line += "; " + why;
+    return fail(ErrorCode::usage, std::move(line), {named});
   }
   return source;
+}
+
+std::string PictureSource::why_no_pings() const {
+  if (!survey_) return {};
+  for (const SurveyFile& file : survey_->files) {
+    if (!file.index.diagnostics.empty()) return file.index.diagnostics.front().text;
+  }
+  return survey_->diagnostics.empty() ? std::string{} : survey_->diagnostics.front().text;
 }
 
 void PictureSource::match() {

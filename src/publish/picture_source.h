@@ -96,6 +96,8 @@ class PictureSource {
 
  private:
   void match();
+  /// What was noted first while the raw files were read; may be empty.
+  [[nodiscard]] std::string why_no_pings() const;
 
   std::shared_ptr<const SurveyFiles> survey_;
   std::vector<ObservationProduct> products_;  ///< by first ping

@@ -105,6 +105,19 @@ TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
   }
 }
 
+TEST_F(Pictures, WhyThereIsNoGridIsSaid) {
+  ObservationProduct product = example::empty("obs-0001", 5);
+  product.grid.reset();
+  product.diagnostics.push_back(
+      {DiagnosticCode::no_grid, "", -1, -1, "the beams make no product grid: a ME70 does not look sideways in fans"});
+  source_ = PictureSource::of(nullptr, {product}, Recipe{});
+  const std::string line =
+      "the beams of obs-0001 make no grid of fans and beams to draw: a ME70 does not look sideways in fans";
+  for (const PictureKind kind : {PictureKind::slice_top, PictureKind::volume, PictureKind::propagation}) {
+    refused(kind, line, [](PictureOptions&) {});
+  }
+}
+
 // The default draws every cell with its own value; what is asked for beside that is said in a key.
 TEST_F(Pictures, SlicesArePlainAndNameTheirSchools) {
   EXPECT_EQ(PictureOptions{}.flags, FlagStyle{});

@@ -175,6 +175,23 @@ def silence(path):
     os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
+def without_samples(source, to, ping):
+    """A raw file whose one ping has its channels, each without a sample."""
+    data, out, offset, times = source.read_bytes(), bytearray(), 0, []
+    while offset + 16 <= len(data):
+        (length,) = struct.unpack_from("<i", data, offset)
+        body = bytearray(data[offset + 4:offset + 4 + length])
+        if body[:4] == b"RAW0":
+            if bytes(body[4:12]) not in times:
+                times.append(bytes(body[4:12]))
+            if len(times) == ping + 1:
+                body = body[:12 + 72]
+                struct.pack_into("<i", body, 12 + 68, 0)
+        out += struct.pack("<i", len(body)) + body + struct.pack("<i", len(body))
+        offset += length + 8
+    to.write_bytes(out)
+
+
 class KeptEchogram(unittest.TestCase):
     def test_a_second_timeline_is_equal_and_reads_no_raw_data(self):
         survey, kept, other = (sonarx.Case.fresh(name) for name in ("kept_survey", "kept_cache", "other_cache"))
@@ -220,7 +237,36 @@ class BadInput(unittest.TestCase):
         if file is None:
             self.skipTest("no recorded EK60 file here")
         for kind in ("slice-top", "volume", "propagation", "timeline"):
-            self.refused(kind, file, "--out", sonarx.WORK / "bad.png", code=1, says="make no grid")
+            self.refused(kind, file, "--out", sonarx.WORK / "bad.png", code=1,
+                         says=["make no grid", "does not look sideways in fans"])
+
+    def test_one_fan_is_sliced_and_is_no_volume(self):
+        folder = sonarx.Case.fresh("one_fan")
+        columns = ("channel,count,elevation_deg,azimuth_deg,frequency_hz,vertical_width_deg,horizontal_width_deg,gain_db,psi_db,"
+                   "sa_correction_db,power_w,absorption_db_per_m")
+        rows = [f"{beam},800,-10,{2.5 * beam - 30},100000,3,3,27,-27,0,1000,0.03" for beam in range(25)]
+        (folder / "beams.csv").write_text("\n".join([columns, *rows]) + "\n", encoding="ascii")
+        code, out, error = sonarx.run("simulate", folder / "survey", "--preset", "easy", "--observations", "1", "--pings", "2",
+                                      "--schools", "1", "--beams", folder / "beams.csv")
+        self.assertEqual(code, 0, out + error)
+        for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "timeline", "observation-map"):
+            self.assertEqual(render(kind, folder / "survey", "--out", folder / "x.png")[0], 0, kind)
+        self.refused("volume", folder / "survey", "--out", folder / "x.png", code=1, says=["1 fans", "2 of each"])
+
+    def test_a_ping_without_data(self):
+        folder = sonarx.Case.fresh("silent_ping")
+        raw = sorted(sonarx.SURVEY.glob("*.raw"))[0]
+        without_samples(raw, folder / raw.name, 4)
+        for kind in ("slice-top", "slice-side", "slice-range", "slice-plane"):
+            size = ["--size", "480x360"]
+            self.assertEqual(render(kind, folder, "--ping", "4", *size, "--out", folder / "x.png"),
+                             (0, f"{folder / 'x.png'}\n", ""))
+            self.assertEqual(render(kind, folder, "--ping", "3", *size, "--reference", folder / "x.png")[0], 1, kind)
+        self.refused("volume", folder, "--ping", "4", "--out", folder / "x.png", code=1,
+                     says=["a ping without data", "no sample"])
+        for kind in ("propagation", "observation-map"):
+            self.assertEqual(render(kind, folder, "--ping", "4", "--out", folder / "x.png")[0], 0, kind)
+        self.assertEqual(render("timeline", folder, "--out", folder / "x.png")[0], 0)
 
     def test_what_is_not_there(self):
         picture = ["--out", sonarx.WORK / "bad.png"]
