@@ -251,22 +251,23 @@ class BadInput(unittest.TestCase):
         self.assertEqual(code, 0, out + error)
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "timeline", "observation-map"):
             self.assertEqual(render(kind, folder / "survey", "--out", folder / "x.png")[0], 0, kind)
-        self.refused("volume", folder / "survey", "--out", folder / "x.png", code=1, says=["1 fans", "2 of each"])
+        self.refused("volume", folder / "survey", "--out", folder / "x.png", code=2, says=["1 fans", "2 of each"])
 
     def test_a_ping_without_data(self):
         folder = sonarx.Case.fresh("silent_ping")
         raw = sorted(sonarx.SURVEY.glob("*.raw"))[0]
         without_samples(raw, folder / raw.name, 4)
+        picture = sonarx.WORK / "silent.png"
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane"):
             size = ["--size", "480x360"]
-            self.assertEqual(render(kind, folder, "--ping", "4", *size, "--out", folder / "x.png"),
-                             (0, f"{folder / 'x.png'}\n", ""))
-            self.assertEqual(render(kind, folder, "--ping", "3", *size, "--reference", folder / "x.png")[0], 1, kind)
-        self.refused("volume", folder, "--ping", "4", "--out", folder / "x.png", code=1,
+            self.assertEqual(render(kind, folder, "--ping", "4", *size, "--out", picture),
+                             (0, f"{picture}\n", ""))
+            self.assertEqual(render(kind, folder, "--ping", "3", *size, "--reference", picture)[0], 1, kind)
+        self.refused("volume", folder, "--ping", "4", "--out", picture, code=1,
                      says=["a ping without data", "no sample"])
         for kind in ("propagation", "observation-map"):
-            self.assertEqual(render(kind, folder, "--ping", "4", "--out", folder / "x.png")[0], 0, kind)
-        self.assertEqual(render("timeline", folder, "--out", folder / "x.png")[0], 0)
+            self.assertEqual(render(kind, folder, "--ping", "4", "--out", picture)[0], 0, kind)
+        self.assertEqual(render("timeline", folder, "--out", picture)[0], 0)
 
     def test_what_is_not_there(self):
         picture = ["--out", sonarx.WORK / "bad.png"]
