@@ -263,7 +263,7 @@ class BadInput(unittest.TestCase):
             self.assertEqual(render(kind, folder, "--ping", "4", *size, "--out", picture),
                              (0, f"{picture}\n", ""))
             self.assertEqual(render(kind, folder, "--ping", "3", *size, "--reference", picture)[0], 1, kind)
-        self.refused("volume", folder, "--ping", "4", "--out", picture, code=1,
+        self.refused("volume", folder, "--ping", "4", "--out", picture, code=2,
                      says=["a ping without data", "no sample"])
         for kind in ("propagation", "observation-map"):
             self.assertEqual(render(kind, folder, "--ping", "4", "--out", picture)[0], 0, kind)
