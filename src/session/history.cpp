@@ -80,6 +80,7 @@ std::string act_name(const JournalAct& act, const CommandGround& ground, const J
   if (const auto* c = std::get_if<PropagateCommand>(&act.command)) return "propagate" + made_or(c->school);
   if (const auto* c = std::get_if<GrowCommand>(&act.command)) {
     if (c->to == GrowTo::take_away) return "take away from" + made_or(c->school);
+    if (c->to == GrowTo::replace) return "grow" + made_or(c->school) + " anew";
     return (c->to == GrowTo::add ? "add to" : "grow") + made_or(c->school);
   }
   if (const auto* c = std::get_if<BrushCommand>(&act.command)) return "brush" + made_or(c->school);

@@ -41,7 +41,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"seabed", 2, "302f9abf849dafe0eb44d37e3f0e2527"},
     {"detect", 3, "ccc44b9443e584e22db20886484d607b"},
     {"track", 4, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 2, "796c2390f6457277936c4d7907e65301"},
+    {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
     {"measure", 5, "a70c5b9693951765117e228f1e01832a"},
     {"summarise", 1, "98e2f839d24ac8e06a54a9584da060c4"},
 }};

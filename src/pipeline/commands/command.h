@@ -31,16 +31,17 @@ struct RunKey {
 };
 
 /// What a growth does to a school.
-enum class GrowTo { school, add, take_away };
-inline constexpr std::array<std::string_view, 3> kGrowToNames{"new", "add", "take_away"};
+enum class GrowTo { school, add, take_away, replace };
+inline constexpr std::array<std::string_view, 4> kGrowToNames{"new", "add", "take_away", "replace"};
 
-/// `grow`: clicks on one ping, grown and joined: a new school, or more or less of one that is there.
+/// `grow`: clicks on one ping, grown and joined: a new school, more or less of one that is there, or what that one has in
+/// this ping from now on.
 struct GrowCommand {
   GrowTo to = GrowTo::school;
   GrowParams grow;
   TransferFunction growth_curve;
   std::vector<SeedKey> seeds;
-  std::optional<SchoolKey> school;  ///< for add and take_away
+  std::optional<SchoolKey> school;  ///< for add, take_away and replace
 };
 
 /// `brush`: voxels join a school, or make a new one; whoever had them loses them.

@@ -77,7 +77,7 @@ Result<Command> read_grow(const json& args, TimeNs ping_time) {
   if (!seeds) return pass_on(seeds);
   if (!school) return pass_on(school);
   if ((command.to == GrowTo::school) == school->has_value()) {
-    return fail(ErrorCode::format, "school: expected with add and take_away, and only there");
+    return fail(ErrorCode::format, "school: expected with add, take_away and replace, and only there");
   }
   command.grow = *grow;
   command.growth_curve = std::move(*curve);

@@ -34,6 +34,9 @@ std::vector<std::pair<int, Command>> every_command() {
   GrowCommand less = grow;
   less.to = GrowTo::take_away;
   less.school = key_a(3);
+  GrowCommand anew = grow;
+  anew.to = GrowTo::replace;
+  anew.school = key_a(3);
   PropagateCommand on;
   on.school = key_b(4);
   on.reach_backward = 0;
@@ -43,6 +46,7 @@ std::vector<std::pair<int, Command>> every_command() {
           {3, grow},
           {3, more},
           {3, less},
+          {3, anew},
           {3, BrushCommand{{stroke}, key_a(3)}},
           {3, BrushCommand{{stroke}, {}}},
           {3, EraseCommand{{{channel_at(2, 3), 31, 2}}, key_a(3)}},
@@ -183,6 +187,66 @@ TEST(Commands, GrowingAddsAndTakesAway) {
   away.to = GrowTo::take_away;
   const JournalState apart = after({{3, join}, {3, away}});
   EXPECT_EQ(mask_of(apart, 1, 3), block_mask(kB));
+}
+
+TEST(Commands, GrowingAnewLeavesWhatGrowsAndNothingElseOfThePing) {
+  const RunKey stroke{channel_at(5, 6), 60, 4};  // water that nothing grows into
+  GrowCommand anew;
+  anew.to = GrowTo::replace;
+  anew.school = key_a(3);
+  anew.seeds = {seed_a()};
+  anew.grow.tolerance_db = 7.0;
+  const JournalState state = after({{3, BrushCommand{{stroke}, key_a(3)}}, {3, anew}});
+  EXPECT_EQ(mask_of(state, 0, 3).runs, block_mask(kA).runs);
+  EXPECT_NEAR(in_ping(state.schools[0]->masks, 3)->threshold_db, -47.0, 0.01);  // -40 dB less the tolerance
+  EXPECT_EQ(in_ping(state.schools[0]->masks, 2)->threshold_db, -50.0);
+  EXPECT_EQ(state.schools[0]->masks.decided.status, "corrected");
+  // In a ping without the school there is nothing to take the place of.
+  anew.school = key_a(4);
+  const JournalState without = after({{3, EraseCommand{{{channel_at(2, 3), 30, 8}}, key_a(3)}},
+                                      {3, SplitCommand{key_a(3), {}}},
+                                      {2, DeleteCommand{key_a(3)}},
+                                      {3, anew}});
+  EXPECT_FALSE(without.notes.empty());
+}
+
+TEST(Commands, WhatAHumanAcceptedKeepsItsVoxels) {
+  // Weak water between A and B becomes fish: all three grow together.
+  SmallSea sea;
+  auto joined = std::make_shared<Volume>(*sea.volume);
+  for (int s = kA.last_sample + 1; s < kB.first_sample; ++s) {
+    joined->counts(2, 3, s) = static_cast<std::int16_t>(counts_from_db(-40.0));
+  }
+  sea.volume = joined;
+  const auto done = [&](const std::vector<Command>& commands) {
+    std::vector<JournalLine> lines;
+    for (const Command& command : commands) {
+      lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, 4, command));
+    }
+    return fold(effective_lines(lines), SmallSea::detected(), sea.ground());
+  };
+  const DecideCommand accept{{decision(key_b(), "accepted")}, ""};
+  PropagateCommand on;
+  on.school = key_a(4);
+  GrowCommand more;
+  more.to = GrowTo::add;
+  more.school = key_a(4);
+  more.seeds = {seed_a()};
+  for (const Command& command : {Command(on), Command(more), Command(propagate_from(seed_a()))}) {
+    const JournalState kept = done({accept, command});
+    const auto b = school_at(kept, sea.ground(), key_b(4));
+    ASSERT_TRUE(b) << command_name(command);
+    EXPECT_EQ(kept.schools[*b]->number, 2) << command_name(command);
+    for (int ping = 0; ping < kPings; ++ping) EXPECT_EQ(mask_of(kept, *b, ping), block_mask(kB)) << ping;
+    // Nobody has looked at it: it is one with what grew over it, and an undo has both back.
+    const JournalState merged = done({command});
+    const auto other = school_at(merged, sea.ground(), key_b(4));
+    ASSERT_TRUE(other) << command_name(command);
+    EXPECT_NE(merged.schools[*other]->number, 2) << command_name(command);
+    JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
+    const JournalState back = fold(effective_lines({line(1, 4, command), undo}), SmallSea::detected(), sea.ground());
+    EXPECT_EQ(told(back), told(SmallSea::detected())) << command_name(command);
+  }
 }
 
 TEST(Commands, BrushTakesVoxelsFromWhoeverHadThem) {

@@ -49,7 +49,7 @@ Result<std::vector<Run>> Edit::rows_of(const std::vector<RunKey>& runs, const Sh
 PingMask Edit::taken(std::int64_t ping_index, std::optional<std::size_t> but) const {
   PingMask voxels;
   for (std::size_t i = 0; i < state_.schools.size(); ++i) {
-    if (i == but || !state_.schools[i]->by_hand) continue;
+    if (i == but || !keeps_its_voxels(*state_.schools[i])) continue;
     if (const auto* there = in_ping(masks(i), ping_index)) voxels = unite(voxels, there->mask);
   }
   return voxels;

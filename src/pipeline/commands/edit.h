@@ -27,7 +27,7 @@ class Edit {
   [[nodiscard]] Result<std::size_t> find(const SchoolKey& key) const;
   /// The act's runs by rows of the grid. errors: bad_parameter: a run outside the grid
   [[nodiscard]] Result<std::vector<Run>> rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const;
-  /// Voxels that humans gave to other schools than this one.
+  /// Voxels of other schools than this one that humans gave or confirmed to them.
   [[nodiscard]] PingMask taken(std::int64_t ping_index, std::optional<std::size_t> but) const;
   [[nodiscard]] const PingMask& mask(std::size_t school, std::int64_t ping_index) const;
 

@@ -55,6 +55,10 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
     if (!found) return pass_on(found);
     school = *found;
   }
+  const bool anew = command.to == GrowTo::replace;
+  if (anew && edit.mask(*school, edit.ping()).empty()) {
+    return fail(ErrorCode::bad_parameter, "the school is not in this ping");
+  }
   auto ping = edit.ground().ping(edit.ping());
   if (!ping) return pass_on(ping);
   const bool away = command.to == GrowTo::take_away;
@@ -70,6 +74,7 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
   const double threshold_db = threshold_of(command, edit.ground(), *ping);
   if (school) {
     edit.touch(*school);
+    if (anew) edit.set_mask(*school, edit.ping(), {});  // its threshold goes with it
     edit.set_mask(*school, edit.ping(), unite(edit.mask(*school, edit.ping()), *grown), threshold_db);
   } else {
     school = edit.add(one_ping(edit.ping(), *grown, threshold_db));

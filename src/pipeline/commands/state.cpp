@@ -10,6 +10,8 @@
 
 namespace sonar {
 
+bool keeps_its_voxels(const StateSchool& school) { return school.by_hand || school.masks.decided.status == "accepted"; }
+
 JournalState state_of_detected(std::vector<SchoolMasks> schools) {
   JournalState state;
   for (SchoolMasks& masks : schools) {

@@ -21,9 +21,12 @@ namespace sonar {
 struct StateSchool {
   std::int64_t number = 0;   ///< 1, 2, ... in the order in which schools came to be; for people
   std::int64_t made_by = 0;  ///< the journal line that made it; 0 = detected
-  bool by_hand = false;      ///< a human made or changed its mask: other growths leave its voxels alone
+  bool by_hand = false;      ///< a human made or changed its mask
   SchoolMasks masks;
 };
+
+/// A human made, changed or accepted its mask: growths and propagations of other schools leave its voxels alone.
+[[nodiscard]] bool keeps_its_voxels(const StateSchool& school);
 
 /// What one observation's journal says up to some line. A value: a later state shares what did not change.
 struct JournalState {

@@ -11,13 +11,13 @@
 namespace sonar {
 namespace {
 
-/// Voxels that a growth leaves to the schools that humans made: of all but the one that it adds to.
+/// Voxels that a growth leaves to the schools that humans made or accepted: of all but the one that it adds to.
 PingMask taken_by_others(const GrowthTrial& trial, std::optional<std::size_t> but) {
   PingMask taken;
   if (!trial.state || trial.command.to == GrowTo::take_away) return taken;
   for (std::size_t i = 0; i < trial.state->schools.size(); ++i) {
     const StateSchool& school = *trial.state->schools[i];
-    if (!school.by_hand || i == but) continue;
+    if (!keeps_its_voxels(school) || i == but) continue;
     if (const auto* there = in_ping(school.masks, trial.ping->ping_index)) taken = unite(taken, there->mask);
   }
   return taken;
@@ -61,6 +61,22 @@ SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel) {
   return {observation.grid().channel[row], voxel.sample};
 }
 
+std::optional<SeedKey> best_seed(const PingMask& mask, const Volume& filtered, const BeamGrid& grid) {
+  std::optional<SeedKey> best;
+  std::int16_t loudest = kNoData;
+  for (const Run& run : mask.runs) {
+    const auto counts = filtered.counts.view().row(run.row);
+    const auto flags = filtered.flags.view().row(run.row);
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      if (counts[i] <= loudest || any(flags[i] & kNeverMember)) continue;
+      loudest = counts[i];
+      best = SeedKey{grid.channel[static_cast<std::size_t>(run.row)], s};
+    }
+  }
+  return best;
+}
+
 JournalStatePtr state_of(const Document& document, std::size_t observation) {
   const auto& states = document.choices().states;
   const auto found = states.find(observation);
@@ -93,13 +109,14 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
     if (!of_choices) return pass_on(of_choices);
     ping.volume = of_choices->volume;
   }
+  const bool needed = trial.command.to == GrowTo::take_away || trial.command.to == GrowTo::replace;
+  const auto* there = needed ? in_ping(trial.state->schools[*school]->masks, trial.ping->ping_index) : nullptr;
+  if (needed && there == nullptr) return fail(ErrorCode::bad_parameter, "the selected school is not in this ping");
   ping.taken = taken_by_others(trial, school);
   auto grown = grow_seeds(ground, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
   if (!grown) return grown;
   if (grown->empty()) return fail(ErrorCode::bad_parameter, "all voxels there belong to other schools");
   if (trial.command.to != GrowTo::take_away) return grown;
-  const auto* there = in_ping(trial.state->schools[*school]->masks, trial.ping->ping_index);
-  if (there == nullptr) return fail(ErrorCode::bad_parameter, "the selected school is not in this ping");
   PingMask gone = subtract(there->mask, subtract(there->mask, *grown));
   if (gone.empty()) return fail(ErrorCode::bad_parameter, "the selected school has nothing there");
   return gone;

@@ -37,6 +37,9 @@ struct GrowthTrial {
 /// A propagation as the control panel has it, both ways as far as its reach; the school is still to be named.
 [[nodiscard]] PropagateCommand propagation_as_set(const Workspace& workspace);
 [[nodiscard]] SeedKey seed_key(const OpenObservation& observation, const Voxel& voxel);
+/// The member of a school from which it grows best: the loudest of the filtered ping; of several the first.
+/// Empty where no member may be a seed.
+[[nodiscard]] std::optional<SeedKey> best_seed(const PingMask& mask, const Volume& filtered, const BeamGrid& grid);
 /// The state of an observation; null before it is known.
 [[nodiscard]] JournalStatePtr state_of(const Document& document, std::size_t observation);
 /// Index of the school that has a voxel of a ping; empty where nobody has it.

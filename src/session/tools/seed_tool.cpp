@@ -9,19 +9,26 @@
 #include <utility>
 
 namespace sonar {
+namespace {
+
+bool same_tolerance(const GrowParams& a, const GrowParams& b) {
+  return a.tolerance_db == b.tolerance_db && a.tolerance_opacity == b.tolerance_opacity;
+}
+
+}  // namespace
 
 SeedTool::SeedTool(Workspace& workspace, Pulse& pulse)
     : workspace_(workspace), pulse_(pulse), params_(grow_params(workspace.select.values())) {
   document_listening_ = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
-  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(); });
+  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(false); });
   tool_listening_ = workspace.tool.changed().add([this] { leave(); });
   workspace.select.on_change([this, alive = std::weak_ptr<bool>(alive_)](const SelectParams& params) {
     if (alive.expired()) return;
     const GrowParams now = grow_params(params);
-    const bool same = now.mode == params_.mode && now.connectivity == params_.connectivity &&
-                      now.tolerance_db == params_.tolerance_db && now.tolerance_opacity == params_.tolerance_opacity;
+    const bool tolerance = !same_tolerance(now, params_);
+    const bool changed = tolerance || now.mode != params_.mode || now.connectivity != params_.connectivity;
     params_ = now;
-    if (!same) parameters_changed();
+    if (changed) parameters_changed(tolerance);
   });
 }
 
@@ -137,10 +144,10 @@ void SeedTool::select(const Voxel& voxel) {
             : std::nullopt);
 }
 
-void SeedTool::act(std::size_t observation, StagedPingPtr staged, GrowCommand command) {
+void SeedTool::act(std::size_t observation, StagedPingPtr staged, GrowCommand command, std::int64_t number) {
   made_.reset();
   const std::int64_t ping = staged->ping_index;
-  pending_ = Pending{observation, std::move(staged), command, false};
+  pending_ = Pending{observation, std::move(staged), command, false, number};
   workspace_.document.act(observation, ping, std::move(command));
 }
 
@@ -199,10 +206,8 @@ void SeedTool::take_state() {
              now.lines->back().args == to_json(Command(pending_->command))) {
     take_made(*std::exchange(pending_, std::nullopt), std::move(before));
   }
-  if (made_ && !stands_last()) {
-    made_.reset();
-    anew_.reset();
-  }
+  if (made_ && !stands_last()) made_.reset();
+  if (anew_ && (anew_->instead_of_last ? !made_ : anew_->before != state_)) anew_.reset();
   if (workspace_.tool() != ToolName::seed) return;
   if (over_) return show_place();
   if (!anew_) drop_preview();
@@ -211,7 +216,8 @@ void SeedTool::take_state() {
 void SeedTool::take_made(const Pending& done, JournalStatePtr before) {
   const Document& document = workspace_.document;
   const JournalState& state = document.state(done.observation);
-  made_ = Made{document.choices().done_line, done.observation, done.command, done.staged, std::move(before), 0};
+  made_ =
+      Made{document.choices().done_line, done.observation, done.command, done.staged, std::move(before), done.number};
   if (done.command.to == GrowTo::school) {
     const auto made = std::find_if(state.schools.begin(), state.schools.end(),
                                    [&](const auto& school) { return school->made_by == made_->line; });
@@ -219,7 +225,9 @@ void SeedTool::take_made(const Pending& done, JournalStatePtr before) {
     made_->number = (*made)->number;
     workspace_.school.set(SchoolName{done.observation, made_->number});
   }
-  if (done.carry_on) carry_on(done.observation, done.staged->ping_index, done.command.seeds.front());
+  if (done.carry_on) return carry_on(done.observation, done.staged->ping_index, done.command.seeds.front());
+  // The slider went on while the act was done.
+  if (!same_tolerance(params_, done.command.grow)) parameters_changed(true);
 }
 
 // --- what is selected anew
@@ -229,21 +237,48 @@ bool SeedTool::stands_last() const {
   return made_ && !lines.empty() && lines.back().n == made_->line;
 }
 
-void SeedTool::parameters_changed() {
+void SeedTool::parameters_changed(bool tolerance) {
   const auto& staged = workspace_.document.staged();
-  if (stands_last() && !workspace_.document.busy() && staged && staged->ping_index == made_->staged->ping_index) {
-    grow_anew();
-  } else {
-    show_place();
+  if (workspace_.document.busy()) return show_place();
+  if (stands_last() && staged && staged->ping_index == made_->staged->ping_index) {
+    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, true});
   }
+  if (!tolerance || !grow_selected_anew()) show_place();
 }
 
-void SeedTool::grow_anew() {
-  anew_ = made_->command;
-  anew_->grow = params_;
-  anew_->growth_curve = workspace_.growth_curve();
+/// False where something else is pointed at, or nothing is selected: the tolerance is that of the next click.
+bool SeedTool::grow_selected_anew() {
+  const Document& document = workspace_.document;
+  const auto selected = workspace_.selected();
+  const auto& staged = document.staged();
+  if (!selected || !staged || staged->ping_index != document.ping()) return false;
+  const auto under = place_ ? school_under(place_->voxel) : std::nullopt;
+  if (over_ && under != selected) return false;
+  const StateSchool& school = *document.state().schools[*selected];
+  const auto* there = in_ping(school.masks, staged->ping_index);
+  const auto seed =
+      there == nullptr ? std::nullopt : best_seed(there->mask, *staged->filtered, document.shown()->grid());
+  const bool rejected = school.masks.decided.status == "rejected";
+  if (!seed || school.by_hand || rejected) {
+    if (place_ && !under) return false;
+    const char* why = school.by_hand ? "was shaped by hand" : rejected ? "is rejected" : "has no seed in this ping";
+    say(fmt::format("school {} {}: the tolerance is that of the next click", school.number, why));
+    return true;
+  }
+  GrowCommand command;
+  command.to = GrowTo::replace;
+  command.seeds = {*seed};
+  command.school = key_of(school.masks, document.shown()->ground());
+  grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false});
+  return true;
+}
+
+void SeedTool::grow_anew(Anew anew) {
+  anew.command.grow = params_;
+  anew.command.growth_curve = workspace_.growth_curve();
   rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
-  show({workspace_.document.shown(), made_->staged, made_->before, *anew_}, made_->number);
+  show({workspace_.document.shown(), anew.staged, anew.before, anew.command}, anew.number);
+  anew_ = std::move(anew);
   pulse_.run("grow anew", [this](double now_s) { return rest(now_s); });
 }
 
@@ -261,14 +296,13 @@ bool SeedTool::rest(double now_s) {
 void SeedTool::finish_growing_anew() {
   if (!anew_) return;
   pulse_.stop("grow anew");
-  const GrowCommand command = *std::exchange(anew_, std::nullopt);
-  if (!stands_last() || workspace_.document.busy()) return;
-  const Made made = *std::exchange(made_, std::nullopt);
-  const auto of = workspace_.document.open_observation(made.observation);
+  const Anew anew = *std::exchange(anew_, std::nullopt);
+  if (workspace_.document.busy() || (anew.instead_of_last && !stands_last())) return;
+  const auto of = workspace_.document.open_observation(anew.observation);
   // What grows no more stays as it was.
-  if (!of || !try_growth({of, made.staged, made.before, command})) return;
-  workspace_.document.undo();
-  act(made.observation, made.staged, command);
+  if (!of || !try_growth({of, anew.staged, anew.before, anew.command})) return;
+  if (anew.instead_of_last) workspace_.document.undo();
+  act(anew.observation, anew.staged, anew.command, anew.number);
 }
 
 }  // namespace sonar

@@ -22,7 +22,8 @@ namespace sonar {
 ///
 /// While the last act of all is a growth by this tool, a change of its parameters grows it anew: shown at once as the
 /// preview; when the parameters have rested for kRest_s (or something else is done) the old growth is undone and the new
-/// one done, so that undo knows one growth.
+/// one done, so that undo knows one growth. A selected school that no human has shaped grows anew in this ping with each
+/// other tolerance, from its loudest member, in the same way.
 /// threads  the window's
 class SeedTool {
  public:
@@ -68,7 +69,17 @@ class SeedTool {
     std::size_t observation = 0;
     StagedPingPtr staged;
     GrowCommand command;
-    bool carry_on = false;  ///< a second press came meanwhile
+    bool carry_on = false;    ///< a second press came meanwhile
+    std::int64_t number = 0;  ///< of the school that is replaced; 0 = another growth
+  };
+  /// A growth that is looked at while its parameters move.
+  struct Anew {
+    std::size_t observation = 0;
+    StagedPingPtr staged;
+    JournalStatePtr before;  ///< the state it would be done upon
+    GrowCommand command;
+    std::int64_t number = 0;       ///< of the school that it would give
+    bool instead_of_last = false;  ///< of made_; else the next act
   };
 
   // What would be selected:
@@ -82,11 +93,12 @@ class SeedTool {
   void forget();
   void take_state();
   void take_made(const Pending& done, JournalStatePtr before);
-  void act(std::size_t observation, StagedPingPtr staged, GrowCommand command);
+  void act(std::size_t observation, StagedPingPtr staged, GrowCommand command, std::int64_t number = 0);
   void carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed);
   // What is selected anew:
-  void parameters_changed();
-  void grow_anew();
+  void parameters_changed(bool tolerance);
+  bool grow_selected_anew();
+  void grow_anew(Anew anew);
   [[nodiscard]] bool stands_last() const;
   bool rest(double now_s);
   void finish_growing_anew();
@@ -99,7 +111,7 @@ class SeedTool {
   std::int64_t stale_ = 0;  ///< those up to this one are wanted no more
   std::optional<Pending> pending_;
   std::optional<Made> made_;
-  std::optional<GrowCommand> anew_;  ///< what is to take the place of made_
+  std::optional<Anew> anew_;
   double rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
   std::weak_ptr<OpenObservation> of_;  ///< the observation on show
   JournalStatePtr state_;              ///< of the observation on show, as it was last told

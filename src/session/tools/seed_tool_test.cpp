@@ -252,6 +252,97 @@ TEST_F(SeedToolAtWork, AToleranceThatMovesAfterSomethingElseWasDoneChangesNoScho
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "redo"}));
 }
 
+/// A school that was found without a human, selected in a ping that it is in.
+class SeedToolOnDetected : public SeedToolAtWork {
+ protected:
+  void SetUp() override {
+    SeedToolAtWork::SetUp();
+    document().detect({0});
+    desk_.settle();
+    const auto under = tool().school_under(bright());
+    ASSERT_TRUE(under);
+    school_ = *under;
+    number_ = document().state().schools[school_]->number;
+    workspace().school.set(SchoolName{0, number_});
+  }
+  /// What the school's loudest voxel gives, by the science's own function.
+  PingMask from_loudest(const PingMask& mask) {
+    const Volume& filtered = *document().staged()->filtered;
+    Voxel loudest;
+    int most = kNoData;
+    const int beams = document().shown()->sector().beams();
+    for (const sonar::Run& run : mask.runs) {
+      for (int s = run.first_sample; s < run.end(); ++s) {
+        const Voxel voxel{run.row / beams, run.row % beams, s};
+        const int count = filtered.counts(voxel.fan, voxel.beam, voxel.sample);
+        if (count > most) loudest = voxel;
+        most = std::max(most, count);
+      }
+    }
+    return fresh(loudest);
+  }
+  const SchoolRow& decided() { return document().state().schools[school_]->masks.decided; }
+
+  std::size_t school_ = 0;
+  std::int64_t number_ = 0;
+};
+
+TEST_F(SeedToolOnDetected, ToleranceGrowsItAnewInThisPingAsOneActThatIsUndone) {
+  const PingMask found = mask_of(school_);
+  const JournalStatePtr before = state_of(document(), 0);
+  const std::size_t lines = journal().size();
+  for (const double db : {9.0, 6.0, 4.0}) set_tolerance(db);
+  desk_.settle();
+  EXPECT_EQ(workspace().preview().instead_of, number_);
+  ASSERT_TRUE(workspace().preview().mask);
+  const PingMask wanted = from_loudest(found);
+  EXPECT_EQ(*workspace().preview().mask, wanted);
+  EXPECT_EQ(mask_of(school_), found) << "so far it is only looked at";
+  rest();
+  EXPECT_EQ(mask_of(school_), wanted);
+  EXPECT_NE(wanted.runs, found.runs);
+  EXPECT_EQ(decided().status, "corrected");
+  EXPECT_EQ(journal().size(), lines + 1);
+  EXPECT_EQ(document().choices().undo_text, fmt::format("Undo grow school {} anew", number_));
+  const auto& pings = document().state().schools[school_]->masks.pings;
+  ASSERT_EQ(pings.size(), before->schools[school_]->masks.pings.size());
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (pings[i].ping_index == document().ping()) continue;
+    EXPECT_EQ(pings[i].mask, before->schools[school_]->masks.pings[i].mask) << "other pings stay";
+  }
+  // The slider goes on: still one act.
+  set_tolerance(8.0);
+  rest();
+  EXPECT_EQ(mask_of(school_), from_loudest(found));
+  EXPECT_EQ(workspace().school(), (SchoolName{0, number_}));
+  document().undo();
+  desk_.settle();
+  EXPECT_EQ(mask_of(school_), found);
+  EXPECT_EQ(decided().status, "unreviewed");
+}
+
+TEST_F(SeedToolOnDetected, ToleranceLeavesWhatAHumanShapedAndSaysSo) {
+  press(true);  // joins it
+  desk_.settle();
+  document().undo();
+  document().redo();
+  desk_.settle();
+  const PingMask shaped = mask_of(school_);
+  tool().leave();
+  set_tolerance(4.0);
+  rest();
+  EXPECT_EQ(mask_of(school_), shaped);
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("was shaped by hand"));
+}
+
+TEST_F(SeedToolOnDetected, WithThePointerElsewhereToleranceIsThatOfTheNextClick) {
+  const PingMask found = mask_of(school_);
+  tool().hover({bright().fan, bright().beam, 0}, false, false);
+  set_tolerance(4.0);
+  rest();
+  EXPECT_EQ(mask_of(school_), found);
+}
+
 TEST_F(SeedToolAtWork, ToleranceGrowsWhatIsHoveredAnew) {
   tool().hover(bright(), false, false);
   desk_.settle();
