@@ -232,20 +232,26 @@ TEST(Commands, WhatAHumanAcceptedKeepsItsVoxels) {
   more.to = GrowTo::add;
   more.school = key_a(4);
   more.seeds = {seed_a()};
-  for (const Command& command : {Command(on), Command(more), Command(propagate_from(seed_a()))}) {
-    const JournalState kept = done({accept, command});
+  const std::vector<std::vector<Command>> grown{{more}, {more, on}, {propagate_from(seed_a())}};
+  for (const std::vector<Command>& acts : grown) {
+    std::vector<Command> after_accepting = acts;
+    after_accepting.insert(after_accepting.begin(), accept);
+    const JournalState kept = done(after_accepting);
     const auto b = school_at(kept, sea.ground(), key_b(4));
-    ASSERT_TRUE(b) << command_name(command);
-    EXPECT_EQ(kept.schools[*b]->number, 2) << command_name(command);
+    ASSERT_TRUE(b);
+    EXPECT_EQ(kept.schools[*b]->number, 2);
     for (int ping = 0; ping < kPings; ++ping) EXPECT_EQ(mask_of(kept, *b, ping), block_mask(kB)) << ping;
-    // Nobody has looked at it: it is one with what grew over it, and an undo has both back.
-    const JournalState merged = done({command});
+    // Where nobody has looked at it, it is one with what grew over it, and an undo has both back.
+    const JournalState merged = done(acts);
     const auto other = school_at(merged, sea.ground(), key_b(4));
-    ASSERT_TRUE(other) << command_name(command);
-    EXPECT_NE(merged.schools[*other]->number, 2) << command_name(command);
-    JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
-    const JournalState back = fold(effective_lines({line(1, 4, command), undo}), SmallSea::detected(), sea.ground());
-    EXPECT_EQ(told(back), told(SmallSea::detected())) << command_name(command);
+    ASSERT_TRUE(other);
+    EXPECT_NE(merged.schools[*other]->number, 2);
+    std::vector<JournalLine> lines;
+    for (const Command& command : acts) lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, 4, command));
+    for (auto n = static_cast<std::int64_t>(acts.size()); n > 0; --n) {
+      lines.push_back({static_cast<std::int64_t>(lines.size()) + 1, 0, "", "undo", 0, {{"target", n}}});
+    }
+    EXPECT_EQ(told(fold(effective_lines(lines), SmallSea::detected(), sea.ground())), told(SmallSea::detected()));
   }
 }
 
