@@ -154,8 +154,9 @@ MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct&
 
 FrameDescription observation_map(const ObservationMapBase& base, const ObservationProduct& product,
                                  const MaskMosaic& mosaic, std::optional<std::size_t> current,
-                                 const MaskPalette& palette) {
+                                 const MaskPalette& palette, std::optional<std::size_t> schools) {
   const Theme& theme = base.theme;
+  const std::size_t told = schools.value_or(product.schools.size());
   FrameDescription frame;
   frame.size = base.size;
   frame.background = theme.background;
@@ -182,8 +183,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   add_key(frame, base.key_place, base.key, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
-  const std::string count = fmt::format("{} pings, {} school{}", product.pings.size(), product.schools.size(),
-                                        product.schools.size() == 1 ? "" : "s");
+  const std::string count = fmt::format("{} pings, {} school{}", product.pings.size(), told, told == 1 ? "" : "s");
   std::string ping;
   if (current && *current < product.pings.size()) {
     ping = fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));

@@ -49,9 +49,11 @@ struct ObservationMapBase {
 /// footprints, the current ping's footprint, and the maximum projection of the masks of all segmented pings.
 /// mosaic   made for this base; its raster is drawn as it is
 /// current  ping to mark; empty = none
+/// schools  how many the title tells of; empty = those of the product
 [[nodiscard]] FrameDescription observation_map(const ObservationMapBase& base, const ObservationProduct& product,
                                                const MaskMosaic& mosaic, std::optional<std::size_t> current,
-                                               const MaskPalette& palette);
+                                               const MaskPalette& palette,
+                                               std::optional<std::size_t> schools = std::nullopt);
 
 /// A school as a map shows it beside its masks.
 struct MapSchool {

@@ -70,6 +70,14 @@ TEST(ObservationMap, ASchoolsVoxelsHaveItsColourAndTheRestIsClear) {
   EXPECT_TRUE(says(frame, "SYNTHETIC"));
 }
 
+TEST(ObservationMap, TheTitleTellsOfTheSchoolsThatItIsGiven) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_TRUE(base);
+  EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}), "0 schools"));
+  EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}, 1), "1 school "));
+}
+
 TEST(ObservationMap, TheShipNeverFillsItAndLeavesTheStartSeen) {
   ObservationProduct p = map_example::product("obs-0001", 3);
   p.grid.reset();  // no footprints: 40 m of track

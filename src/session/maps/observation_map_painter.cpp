@@ -49,7 +49,9 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   const MaskMosaic& mosaic = mosaic_.mosaic();
   const ObservationProduct& shown = wish.product ? *wish.product : head_;
   Painted painted;
-  painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette);
+  // Those that are not measured yet are there as well.
+  const std::size_t schools = wish.state ? wish.state->schools.size() : shown.schools.size();
+  painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette, schools);
   if (wish.product) add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected));
   places->observation = observation_->index();
   places->map = map_;
