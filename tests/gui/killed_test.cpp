@@ -112,6 +112,65 @@ TEST_F(Killed, AmidAPropagationKeepsWhatWasDoneBeforeIt) {
   EXPECT_GT(masks().size(), 1U);
 }
 
+/// A search of which nothing is shown to the end.
+TEST_F(Killed, DISABLED_Detects) {
+  document().changes().add([this, told = false](DocumentChange change) mutable {
+    if (told || change != DocumentChange::progress || document().progress().stage != "detecting") return;
+    told = true;
+    tell();
+  });
+  key(Qt::Key_D);
+  while (true) ::pause();
+}
+
+TEST_F(Killed, AmidASearchFindsTheSameSchoolsWhenAskedAgain) {
+  document().act(EventCommand{"trawl", document().shown()->ground().times[2], "before"});
+  settle();
+  close();
+  kill_after("Detects", 1);
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_EQ(document().state().events.size(), 1U) << "what was done before is there";
+  // The search is in the journal and its schools are there, or neither is.
+  const std::size_t lines = document().choices().lines->size();
+  EXPECT_EQ(document().state().schools.size(), lines == 2 ? 2U : 0U) << lines << " lines";
+  key(Qt::Key_D);
+  EXPECT_EQ(document().state().schools.size(), 2U);
+  EXPECT_EQ(document().choices().lines->size(), 2U) << "asked for once, however often it was begun";
+}
+
+/// Accepts and rejects one school again and again, each as soon as the one before is shown.
+TEST_F(Killed, DISABLED_DecidesWithoutEnd) {
+  if (document().state().schools.empty()) key(Qt::Key_D);
+  for (int i = 0; i < kMostActs; ++i) {
+    Decision decision;
+    decision.school = key_of(document().state().schools.at(0)->masks, document().shown()->ground());
+    decision.status = i % 2 == 0 ? "accepted" : "rejected";
+    document().act(DecideCommand{{decision}, {}});
+    settle_jobs();
+    tell();
+  }
+  while (true) ::pause();
+}
+
+TEST_F(Killed, AmidDecisionsKeepsAllThatWereShownAndTheLastOneHolds) {
+  std::size_t kept = 1;  // the search
+  for (const int acts : {1, 6}) {
+    close();
+    kill_after("DecidesWithoutEnd", acts);
+    ASSERT_FALSE(HasFatalFailure());
+    const auto& lines = *document().choices().lines;
+    EXPECT_GE(lines.size(), kept + static_cast<std::size_t>(acts));
+    kept = lines.size();
+    ASSERT_EQ(document().state().schools.size(), 2U);
+    const auto last = act_of(lines.back());
+    ASSERT_TRUE(last);
+    EXPECT_EQ(document().state().schools[0]->masks.decided.status,
+              std::get<DecideCommand>(last->command).decisions.front().status);
+  }
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document().choices().lines->size(), kept + 1) << "the journal is carried on";
+}
+
 /// Runs in a process of its own: works until the first choice is shown, and dies without a farewell.
 TEST_F(Killed, DISABLED_WorksAndDies) {
   const Target target = look_at_school();
