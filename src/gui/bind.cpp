@@ -13,6 +13,7 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -140,17 +141,18 @@ std::string value_text(const PropertyValue& value, const Property& property) {
   return std::get<std::string>(value);
 }
 
+/// What it does; its range, unit and default on one line.
 std::string tooltip_of(const Property& property) {
-  std::string tip = property.tooltip;
+  std::string what = property.tooltip;
+  if (!what.empty()) what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
   const std::string unit = property.unit.empty() || property.unit == "1" ? "" : " " + property.unit;
+  const auto* number = std::get_if<double>(&property.initial);
+  const bool lowest = number != nullptr && *number <= property.min && !property.at_min.empty();
+  const std::string initial = lowest ? property.at_min : value_text(property.initial, property) + unit;
   if (std::isfinite(property.min) && std::isfinite(property.max) && property.max > property.min) {
-    tip += fmt::format("\n{:g} to {:g}{}", property.min, property.max, unit);
+    return fmt::format("{}\n{:g} to {:g}{}, default {}", what, property.min, property.max, unit, initial);
   }
-  if (const auto* number = std::get_if<double>(&property.initial);
-      number != nullptr && *number <= property.min && !property.at_min.empty()) {
-    return tip + "\nDefault: " + property.at_min;
-  }
-  return tip + "\nDefault: " + value_text(property.initial, property) + unit;
+  return fmt::format("{}\nDefault {}", what, initial);
 }
 
 }  // namespace

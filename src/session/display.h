@@ -25,23 +25,12 @@ struct TakenOut {
 
 template <class Visitor>
 void describe(Visitor& v, TakenOut& p) {
-  v.field(
-      "near_field", p.near_field,
-      {.text = "take out ringing near the transducer; off = it is shown as recorded (growing keeps to the recipe)"});
-  v.field("surface", p.surface,
-          {.text = "take out the sea surface; off = it is shown as recorded (growing keeps to the recipe)"});
-  v.field(
-      "hot_beams", p.hot_beams,
-      {.text = "take out stretches of lost packets; off = they are shown as recorded (growing keeps to the recipe)"});
-  v.field("walls", p.walls,
-          {.text = "take out walls at one range; off = they are shown as recorded (growing keeps to the recipe)"});
-  v.field(
-      "impulses", p.impulses,
-      {.text = "take out impulses of other devices; off = they are shown as recorded (growing keeps to the recipe)"});
-  v.field(
-      "seabed", p.seabed,
-      {.text =
-           "take out the seabed and what lies behind; off = it is shown as recorded (growing keeps to the recipe)"});
+  v.field("near_field", p.near_field, {.text = "take ringing near the transducer out of the pictures"});
+  v.field("surface", p.surface, {.text = "take the sea surface out of the pictures"});
+  v.field("hot_beams", p.hot_beams, {.text = "take stretches of lost packets out of the pictures"});
+  v.field("walls", p.walls, {.text = "take walls at one range out of the pictures"});
+  v.field("impulses", p.impulses, {.text = "take impulses of other devices out of the pictures"});
+  v.field("seabed", p.seabed, {.text = "take the seabed and what lies behind out of the pictures"});
 }
 
 /// How data and schools look in every view.
@@ -65,8 +54,8 @@ void describe(Visitor& v, DisplayParams& p) {
   v.group("scale", p.scale, "how Sv becomes colour");
   v.field("filtered", p.filtered, {.text = "show Sv after the median filter, on which schools are grown"});
   v.group("take_out", p.take_out, "what noise removal takes out");
-  v.choice("removed", p.removed, kNoiseLookNames, "samples that noise removal took out; their reason shows on hover");
-  v.choice("weak", p.weak, kNoiseLookNames, "samples that hardly rise above the background noise");
+  v.choice("removed", p.removed, kNoiseLookNames, "how samples that noise removal took out look");
+  v.choice("weak", p.weak, kNoiseLookNames, "how samples that hardly rise above the noise look");
   v.field("weak_below_db", p.weak_below_db,
           {.unit = "dB", .min = 0, .max = 30, .text = "a sample with less signal-to-noise is weak"});
   v.field("masks", p.masks, {.text = "show schools over the data"});
@@ -91,11 +80,10 @@ struct SelectParams {
 
 template <class Visitor>
 void describe(Visitor& v, SelectParams& p) {
-  v.choice("mode", p.mode, kGrowModeNames,
-           "tracked: one-sided in dB, follows the school; paper: two-sided in opacity, as in the 2007 paper");
+  v.choice("mode", p.mode, kGrowModeNames, "tracked: down from the reference in dB; paper: both ways in opacity");
   v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
   v.field("tolerance_db", p.tolerance_db,
-          {.unit = "dB", .min = 3, .max = 25, .text = "members lie no deeper below the reference level"});
+          {.unit = "dB", .min = 3, .max = 25, .text = "how far below the reference level members may lie"});
   v.field("tolerance_opacity", p.tolerance_opacity,
           {.unit = "1", .min = 0, .max = 1, .text = "mode paper: members differ no more in opacity"});
   v.field("reach_pings", p.reach_pings,

@@ -134,10 +134,12 @@ std::string SliceModel::hint(PixelPoint at) const {
   const int row = voxel->fan * document.shown()->sector().beams() + voxel->beam;
   const auto snr_db = signal_to_noise_db(*document.staged(), row, voxel->sample);
   if (snr_db && *snr_db < workspace_.display.values().weak_below_db) {
-    hint += fmt::format("\nweak: {:.1f} dB above the background noise", *snr_db);
+    hint += fmt::format("\nweak: {:.1f} dB above the noise", *snr_db);
   }
   if (!text.school.empty()) hint += "\n" + text.school;
-  if (!workspace_.preview().text.empty()) hint += "\n" + workspace_.preview().text;
+  // Over a school the preview says which one it is, as the line before does.
+  const Preview& preview = workspace_.preview();
+  if (!preview.text.empty() && (preview.mask || text.school.empty())) hint += "\n" + preview.text;
   return hint;
 }
 
