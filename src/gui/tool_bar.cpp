@@ -6,7 +6,9 @@
 #include <QIcon>
 #include <QPainter>
 #include <QPixmap>
+#include <QPointer>
 #include <QStyle>
+#include <QTimer>
 #include <QToolBar>
 #include <array>
 
@@ -53,9 +55,37 @@ QIcon tinted(const QIcon& icon, const QColor& colour) {
   return QIcon(shape);
 }
 
+/// Greys the buttons that cannot act now. Their actions stay alive: a greyed action's key is dead.
+void grey_buttons(const QMainWindow& window, QToolBar& bar, const Actions& actions) {
+  for (const Button& button : kButtons) {
+    QAction* shown = *button.id == '\0' ? nullptr : find_action(window, button.id);
+    QWidget* widget = shown == nullptr ? nullptr : bar.widgetForAction(shown);
+    const Action* action = actions.find(button.id);
+    if (widget != nullptr && action != nullptr) widget->setEnabled(!action->enabled || action->enabled());
+  }
+}
+
+void follow(QMainWindow& window, QToolBar& bar, Desk& desk) {
+  auto* soon = new QTimer(&bar);  // once for all changes of a turn
+  soon->setSingleShot(true);
+  QObject::connect(soon, &QTimer::timeout, &bar, [&window, &bar, &desk] { grey_buttons(window, bar, desk.actions); });
+  const auto later = [guarded = QPointer<QTimer>(soon)] {
+    if (!guarded.isNull()) guarded->start(0);
+  };
+  desk.workspace.document.changes().add([later](DocumentChange) { later(); });
+  desk.workspace.school.changed().add(later);
+  desk.workspace.mark.changed().add(later);
+  for (const Button& button : kButtons) {
+    QAction* shown = *button.id == '\0' ? nullptr : find_action(window, button.id);
+    // A button takes over what its action tells of itself, also that it can act.
+    if (shown != nullptr) QObject::connect(shown, &QAction::changed, &bar, later);
+  }
+  grey_buttons(window, bar, desk.actions);
+}
+
 }  // namespace
 
-void add_tool_bar(QMainWindow& window) {
+void add_tool_bar(QMainWindow& window, Desk& desk) {
   auto* bar = window.addToolBar("Tools");
   bar->setObjectName("tools");
   bar->setIconSize({kIcon_px, kIcon_px});
@@ -69,6 +99,7 @@ void add_tool_bar(QMainWindow& window) {
     bar->addAction(action);
   }
   tint_tool_bar(window);
+  follow(window, *bar, desk);
 }
 
 void tint_tool_bar(QMainWindow& window) {

@@ -3,12 +3,13 @@
 
 #include <QMainWindow>
 
-#include "session/actions.h"
+#include "session/desk.h"
 
 namespace sonar {
 
-/// A bar with what is done most, out of the menus' actions; those that are not there are left out.
-void add_tool_bar(QMainWindow& window);
+/// A bar with what is done most, out of the menus' actions; those that are not there are left out. What
+/// cannot act now is greyed.
+void add_tool_bar(QMainWindow& window, Desk& desk);
 
 /// Draws the bar's icons in the palette's colour of text: those that are black are lost on dark.
 void tint_tool_bar(QMainWindow& window);

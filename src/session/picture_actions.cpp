@@ -111,13 +111,15 @@ void add_pictures(Desk& desk) {
                     .text = "Save picture of view...",
                     .keys = {"Ctrl+S"},
                     .tip = "The view in use as it is on the screen",
-                    .run = [&desk] { save_view(desk); }});
+                    .run = [&desk] { save_view(desk); },
+                    .enabled = with_survey(desk)});
   desk.actions.add({.id = "file.copy_view",
                     .menu = kFile,
                     .text = "Copy picture of view",
                     .keys = {"Ctrl+Alt+C"},
                     .tip = "The view in use into the clipboard",
-                    .run = [&desk] { copy_view(desk); }});
+                    .run = [&desk] { copy_view(desk); },
+                    .enabled = with_survey(desk)});
 }
 
 }  // namespace sonar

@@ -35,6 +35,12 @@ void decide_all(Desk& desk, Review& review) {
   }
 }
 
+/// In any observation of the survey. What the journal knows of is opened with it.
+bool any_school(const Document& document) {
+  return std::any_of(document.choices().states.begin(), document.choices().states.end(),
+                     [](const auto& one) { return one.second && !one.second->schools.empty(); });
+}
+
 void add_decisions(Desk& desk, Review& review) {
   const auto with_school = [&desk] { return desk.workspace.school().has_value(); };
   desk.actions.add({.id = "review.next",
@@ -43,7 +49,7 @@ void add_decisions(Desk& desk, Review& review) {
                     .keys = {"N"},
                     .tip = "Show the next school of the whole survey that nobody has decided about",
                     .run = [&review] { review.next(); },
-                    .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; }});
+                    .enabled = [&desk] { return any_school(desk.workspace.document); }});
   const auto add = [&](const char* id, const char* text, std::vector<std::string> keys, const char* tip,
                        const char* status) {
     desk.actions.add({.id = id,
@@ -126,7 +132,7 @@ void add_lists(Desk& desk) {
                     .keys = {"Ctrl+B"},
                     .tip = "Accept or reject every unreviewed school of the survey that meets a rule: one step to undo",
                     .run = [&desk, &review] { decide_all(desk, review); },
-                    .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
+                    .enabled = [&workspace] { return any_school(workspace.document); }});
   desk.actions.add({.id = "review.advance",
                     .menu = kMenu,
                     .text = "Go on after a decision",

@@ -153,13 +153,15 @@ void add_search(Desk& desk) {
                     .text = "Look for schools in this observation",
                     .keys = {"D"},
                     .tip = "Detect schools without a human; what humans decided stays",
-                    .run = [&document] { detect(document, false); }});
+                    .run = [&document] { detect(document, false); },
+                    .enabled = [&document] { return document.shown() != nullptr; }});
   desk.actions.add({.id = "schools.detect_all",
                     .menu = kMenu,
                     .text = "Look for schools in the whole survey",
                     .keys = {"Ctrl+D"},
                     .tip = "Detect schools in every observation; what humans decided stays",
-                    .run = [&document] { detect(document, true); }});
+                    .run = [&document] { detect(document, true); },
+                    .enabled = [&document] { return document.shown() != nullptr; }});
 }
 
 void add_carrying(Desk& desk) {

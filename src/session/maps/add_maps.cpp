@@ -26,11 +26,13 @@ void add_chart_actions(Desk& desk) {
                     .text = "Depth chart…",
                     .keys = {},
                     .tip = "A raster of depths (GEBCO, EMODnet, GeoTIFF, netCDF) to lie under the survey map",
-                    .run = [&desk] {
-                      if (!desk.asking.file_to_open) return;
-                      const std::string file = desk.asking.file_to_open("Depth chart", kRasters);
-                      if (!file.empty()) desk.workspace.depth_raster.set(file);
-                    }});
+                    .run =
+                        [&desk] {
+                          if (!desk.asking.file_to_open) return;
+                          const std::string file = desk.asking.file_to_open("Depth chart", kRasters);
+                          if (!file.empty()) desk.workspace.depth_raster.set(file);
+                        },
+                    .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; }});
   desk.actions.add({.id = "map.no_depths",
                     .menu = kMenu,
                     .text = "No depth chart",
@@ -74,11 +76,13 @@ void add_maps(Desk& desk) {
                     .text = "Show whole maps and timelines",
                     .keys = {"Shift+Home"},
                     .tip = "Undo zooming and panning of maps and timelines",
-                    .run = [map = map.get(), survey = survey.get(), timelines] {
-                      map->show_all();
-                      survey->show_all();
-                      for (TimelineModel* one : timelines) one->show_all();
-                    }});
+                    .run =
+                        [map = map.get(), survey = survey.get(), timelines] {
+                          map->show_all();
+                          survey->show_all();
+                          for (TimelineModel* one : timelines) one->show_all();
+                        },
+                    .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
   desk.actions.add({.id = "strip.side",
                     .menu = kMenu,
                     .text = "Propagation strip from the side",

@@ -60,11 +60,17 @@ void add_display_actions(Desk& desk) {
   add_switch(desk, "display.filtered", "Filtered data", "F8", &DisplayParams::filtered);
   add_switch(desk, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
   add_switch(desk, "display.north_up", "North up", "Ctrl+U", &DisplayParams::north_up);
-  desk.actions.add({"display.all", kMenu, "Slices: show all", {"Ctrl+0"}, "Ends zoom and pan", [&desk] {
+  desk.actions.add({"display.all",
+                    kMenu,
+                    "Slices: show all",
+                    {"Ctrl+0"},
+                    "Ends zoom and pan",
+                    [&desk] {
                       for (const PictureDock& dock : desk.pictures) {
                         if (auto* slice = dynamic_cast<SliceModel*>(dock.picture.get())) slice->show_all();
                       }
-                    }});
+                    },
+                    [&desk] { return desk.workspace.document.shown() != nullptr; }});
 }
 
 }  // namespace sonar

@@ -13,6 +13,12 @@ constexpr std::int64_t kPage = 10;
 
 bool has_pings(const Desk& desk) { return desk.workspace.document.shown() != nullptr; }
 
+/// Whether there is a ping before, or behind, the one looked at.
+bool has_ping(const Desk& desk, bool behind) {
+  const Document& document = desk.workspace.document;
+  return has_pings(desk) && (behind ? document.ping() + 1 < document.shown()->pings() : document.ping() > 0);
+}
+
 void add_step(Desk& desk, const char* id, const char* text, const char* key, const char* tip, std::int64_t by) {
   desk.actions.add({id,
                     kMenu,
@@ -23,7 +29,7 @@ void add_step(Desk& desk, const char* id, const char* text, const char* key, con
                       Document& document = desk.workspace.document;
                       document.look_at(document.ping() + by);
                     },
-                    [&desk] { return has_pings(desk); }});
+                    [&desk, by] { return has_ping(desk, by > 0); }});
 }
 
 void add_end(Desk& desk, const char* id, const char* text, const char* key, bool last) {
@@ -36,7 +42,7 @@ void add_end(Desk& desk, const char* id, const char* text, const char* key, bool
                       Document& document = desk.workspace.document;
                       if (document.shown()) document.look_at(last ? document.shown()->pings() - 1 : 0);
                     },
-                    [&desk] { return has_pings(desk); }});
+                    [&desk, last] { return has_ping(desk, last); }});
 }
 
 /// by_fan, by_beam  one of them is 0
@@ -65,7 +71,7 @@ void add_playing(Desk& desk) {
                     {"Space"},
                     "Play through the pings, or pause",
                     [&playback] { playback.toggle(); },
-                    [&desk] { return has_pings(desk); },
+                    [&desk] { return has_ping(desk, true) || has_ping(desk, false); },
                     [&playback] { return playback.playing(); },
                     [&playback] { return (playback.playing() ? "Pause (" : "Play (") + playback.speed_text() + ")"; }});
   desk.actions.add({"ping.faster",

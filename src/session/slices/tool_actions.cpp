@@ -23,7 +23,7 @@ void add_tool(Desk& desk, const char* id, const char* text, const char* key, con
                       desk.brush_tool->cancel();
                       workspace.tool.set(tool);
                     },
-                    {},
+                    [&workspace] { return workspace.document.shown() != nullptr; },
                     [&workspace, tool] { return workspace.tool() == tool; }});
 }
 
