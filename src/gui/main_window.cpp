@@ -60,7 +60,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
     QDockWidget* shown = add_dock(*this, dock.id, dock.title, view);
     connect(shown, &QDockWidget::visibilityChanged, view, [view](bool in_front) { view->set_uncovered(in_front); });
     if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
-    if (dock.id == "top_slice") view->set_idle_text("Open a survey (Ctrl+O), or drop a folder of raw files here.");
+    view->set_idle_text([&desk, id = dock.id] { return QString::fromStdString(idle_text(desk, id)); });
   }
   for (RowsDock& dock : desk.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
   add_dock(*this, "controls", "Controls", new ControlPanelView(*desk.transfer, desk.workspace, desk.panel));
@@ -71,7 +71,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   for (const RowsDock& dock : desk.lists) {
     view_of<RowsView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
   }
-  add_tool_bar(*this);
+  add_tool_bar(*this, desk);
   add_status_line(*this, desk.workspace);
   answer();
   const auto theme = [this, &desk] {

@@ -95,7 +95,9 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   } else {
     painter.setPen(palette().color(QPalette::Text));
     painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
-                     picture_.problem().empty() ? idle_text_ : QString::fromStdString(picture_.problem()));
+                     !picture_.problem().empty() ? QString::fromStdString(picture_.problem())
+                     : idle_text_                ? idle_text_()
+                                                 : QString());
   }
   painter.setRenderHint(QPainter::Antialiasing);
   for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));

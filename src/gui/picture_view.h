@@ -3,6 +3,8 @@
 
 #include <QMenu>
 #include <QWidget>
+#include <functional>
+#include <utility>
 
 #include "session/live_picture.h"
 #include "session/workspace.h"
@@ -18,7 +20,7 @@ class PictureView : public QWidget {
   ~PictureView() override;
   [[nodiscard]] LivePicture& picture() { return picture_; }
   /// What stands there while there is no picture and nothing wrong.
-  void set_idle_text(const QString& text) { idle_text_ = text; }
+  void set_idle_text(std::function<QString()> text) { idle_text_ = std::move(text); }
   /// What a right click opens; it outlives the view.
   void set_menu(QMenu* menu);
   /// Whether its dock is in front of others that share its place.
@@ -50,7 +52,7 @@ class PictureView : public QWidget {
   Shared<bool>& latencies_;
   int listening_;
   int listening_latencies_;
-  QString idle_text_;
+  std::function<QString()> idle_text_;
   QMenu* menu_ = nullptr;
   bool menu_open_ = false;
 };

@@ -34,4 +34,10 @@ Rows* Desk::rows(const std::string& id) {
   return found == lists.end() ? nullptr : found->rows.get();
 }
 
+std::string idle_text(const Desk& desk, const std::string& dock) {
+  const Document& document = desk.workspace.document;
+  if (document.survey() != nullptr) return document.nothing_shown();
+  return dock == "top_slice" ? "Open a survey (Ctrl+O), or drop a folder of raw files here." : "";
+}
+
 }  // namespace sonar

@@ -68,4 +68,7 @@ class Desk {
   [[nodiscard]] Rows* rows(const std::string& id);
 };
 
+/// What stands in a picture's dock while there is no picture and nothing wrong with it.
+[[nodiscard]] std::string idle_text(const Desk& desk, const std::string& dock);
+
 }  // namespace sonar

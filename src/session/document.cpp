@@ -47,9 +47,11 @@ void Document::run(std::function<void(Work&, const Wanted&)> job) {
                            changes_.tell(DocumentChange::progress);
                          });
     };
-    work->set_progress([show](std::string_view stage, std::int64_t done, std::int64_t total) {
-      show({std::string(stage), done, total});
-    });
+    work->set_progress(
+        [show, give_way = GivesWay(way_)](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
+          show({std::string(stage), done, total});
+          give_way();
+        });
     if (const auto done = within_memory([&] { job(*work, wanted); }); !done) {
       post(wanted, [this, line = to_line(done.error())] { tell(line); });
     }
@@ -90,6 +92,7 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
 void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place) {
   choices_thread_.reset();
   chosen_on_.clear();
+  unreadable_.clear();
   unreplayed_.clear();
   undetected_.clear();
   open_.clear();
@@ -118,8 +121,7 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   const auto& all = survey_->observations;
   const auto first = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); });
   if (first == all.end()) {
-    tell(all.empty() ? "there are no pings in what was opened" : "no observation has a grid of fans and beams");
-    return;
+    return tell(nothing_shown());
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].grid && asks_for_detection(lines, datagram_times(*survey_, all[i]))) undetected_.push_back(i);
@@ -153,12 +155,12 @@ void Document::replay_journal() {
 
 Result<void> Document::show(std::size_t observation) {
   if (!survey_ || observation >= survey_->observations.size()) return fail(ErrorCode::usage, "no such observation");
-  if (!survey_->observations[observation].grid) {
-    return fail(ErrorCode::usage, survey_->observations[observation].name + " has no grid of fans and beams");
-  }
+  const ObservationFiles& files = survey_->observations[observation];
+  if (!files.grid) return fail(ErrorCode::usage, why_no_grid(files));
   // One observation is looked at, and one has its pings in memory.
   if (shown_ && shown_->index() != observation) shown_->cache().rest();
   staged_.reset();
+  unreadable_.clear();
   shown_ = opened(observation);
   propagating_.clear();
   ping_ = 0;
@@ -178,6 +180,7 @@ void Document::open_all() {
 void Document::look_at(std::int64_t ping_index) {
   if (!shown_) return;
   ping_ = std::clamp<std::int64_t>(ping_index, 0, shown_->pings() - 1);
+  unreadable_.clear();
   if (auto held = shown_->cache().held(ping_)) {
     staged_ = std::move(held);
     changes_.tell(DocumentChange::ping);
@@ -185,21 +188,27 @@ void Document::look_at(std::int64_t ping_index) {
     replay_journal();
     return;
   }
+  // Until it arrives, what nobody waits for rests.
+  const auto way = std::make_shared<std::shared_ptr<const void>>(way_.take());
   // Weak: what runs on the cache's own thread must not be the last to hold the observation.
-  const auto arrived = [this, alive = std::weak_ptr<bool>(alive_), of = std::weak_ptr(shown_),
+  const auto arrived = [this, way, alive = std::weak_ptr<bool>(alive_), of = std::weak_ptr(shown_),
                         wanted = ping_](const Result<StagedPingPtr>& staged) {
+    way->reset();  // its neighbours are made next, and nobody waits for them
     queue_.post_latest("document ping", [this, alive, of, wanted, staged] {
       if (alive.expired() || of.lock() != shown_ || wanted != ping_) return;
       if (staged) {
         staged_ = *staged;
         changes_.tell(DocumentChange::ping);
       } else {
-        tell(to_line(staged.error()));
+        unreadable_ = to_line(staged.error());
+        tell(unreadable_);
+        if (!staged_) changes_.tell(DocumentChange::ping);  // views say so instead of showing nothing
       }
       replay_journal();
     });
   };
   shown_->cache().look_at(ping_, arrived);
+  changes_.tell(DocumentChange::looking);
 }
 
 void Document::act(std::int64_t ping_index, Command command) {

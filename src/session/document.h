@@ -22,6 +22,7 @@
 #include "session/choices.h"
 #include "session/listeners.h"
 #include "session/open_observation.h"
+#include "session/right_of_way.h"
 
 namespace sonar {
 
@@ -42,6 +43,7 @@ struct DocumentOptions {
 enum class DocumentChange : std::uint8_t {
   survey,       ///< another survey is open, or none
   observation,  ///< another observation is looked at, or one more is open
+  looking,      ///< another ping is looked at and on its way
   ping,         ///< the ping that is looked at has arrived
   state,        ///< human choices, schools and masks
   propagating,  ///< a running propagation reached one more ping, or ended
@@ -55,6 +57,10 @@ struct Progress {
   std::int64_t done = 0;
   std::int64_t total = 0;
 };
+
+/// "obs-0002 cannot be shown: the beams make no product grid: ...".
+/// observation  has no grid
+[[nodiscard]] std::string why_no_grid(const ObservationFiles& observation);
 
 using ProductPtr = std::shared_ptr<const ObservationProduct>;
 
@@ -77,6 +83,10 @@ class Document {
   /// Ends what runs in the background; what was there before stays.
   void cancel();
   [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
+  /// The same, for whoever needs it beyond its end here.
+  [[nodiscard]] const std::shared_ptr<const SurveyFiles>& survey_files() const { return survey_; }
+  /// Why nothing of the survey is shown, in a line; empty where something is, or no survey is open.
+  [[nodiscard]] std::string nothing_shown() const;
   [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
   [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_path_; }
   /// What choices stand on.
@@ -94,6 +104,8 @@ class Document {
   void run(std::function<void(Work&, const Wanted&)> job);
   /// Runs something short behind the window, beside what else runs there. It must not touch the document.
   void run_beside(std::function<void(const Wanted&)> job) { (void)beside_.post(std::move(job)); }
+  /// Taken by what a user waits for; what else runs behind the window gives way.
+  [[nodiscard]] RightOfWay& right_of_way() { return way_; }
   /// Brings a change from such a job into the window's turn, unless another job has followed it.
   void post(const Wanted& wanted, std::function<void()> change);
 
@@ -178,6 +190,8 @@ class Document {
   OpenObservationPtr shown_;
   std::int64_t ping_ = 0;
   StagedPingPtr staged_;
+  std::string unreadable_;  ///< why the ping that is looked at did not arrive; empty = it did, or may
+  RightOfWay way_;
   ChoicesShown choices_;
   std::map<std::int64_t, PingMask> propagating_;
   std::set<std::size_t> detected_;

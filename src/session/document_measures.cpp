@@ -27,6 +27,7 @@ void Document::measure(std::size_t index) {
   if (++measures_begun_ > 1) changes_.tell(DocumentChange::progress);
   const auto lines = choices_.lines;
   const auto work = std::make_shared<Work>(1);
+  work->set_progress([give_way = GivesWay(way_)](std::string_view, std::int64_t, std::int64_t) mutable { give_way(); });
   const Wanted posted =
       measures_.post([this, observation, state, lines, work, kept = measured_[index]](const Wanted& wanted) {
         if (wanted()) measure_behind(observation, *state, *lines, *kept, wanted, *work);
@@ -40,8 +41,10 @@ void Document::measure(std::size_t index) {
 void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                               const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted,
                               Work& work) {
+  GivesWay give_way(way_);
   for (const auto& school : state.schools) {
     for (const auto& there : school->masks.pings) {
+      give_way();
       if (!wanted()) return;
       observation->estimate_background(there.ping_index);
     }

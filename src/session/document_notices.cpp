@@ -30,6 +30,26 @@ std::vector<std::int64_t> gone(const JournalState& before, const JournalState& a
 
 }  // namespace
 
+std::string why_no_grid(const ObservationFiles& observation) {
+  for (const Diagnostic& note : observation.diagnostics) {
+    if (note.code == DiagnosticCode::no_grid || note.code == DiagnosticCode::no_common_range) {
+      return fmt::format("{} cannot be shown: {}", observation.name, note.text);
+    }
+  }
+  return observation.name + " cannot be shown: it has no grid of fans and beams";
+}
+
+std::string Document::nothing_shown() const {
+  if (!survey_) return {};
+  if (shown_) return staged_ ? std::string{} : unreadable_;
+  const auto& all = survey_->observations;
+  if (all.empty()) return "there are no pings in what was opened";
+  if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); })) return {};
+  std::string why = why_no_grid(all.front());
+  if (all.size() > 1) why += fmt::format("; nor can {} more observations", all.size() - 1);
+  return why;
+}
+
 void Document::tell_unseen(const ChoicesShown& before) {
   const JournalLine* line = done_line(choices_);
   if (line == nullptr) return;

@@ -36,6 +36,33 @@ TEST_F(Timeline, AClickGoesToItsPingAndADragFollowsThePointer) {
   EXPECT_EQ(document().ping(), 2) << "a pointer that holds nothing moves nothing";
 }
 
+TEST_F(Timeline, AJumpTakesEveryViewWithItAsStepsDo) {
+  const auto pictures = [this] {
+    std::vector<Image> all;
+    for (const char* id : {"top_slice", "side_slice", "volume", "observation_map"})
+      all.push_back(desk_->picture(id)->image());
+    return all;
+  };
+  // Step by step first, for what each view shows of a ping.
+  for (int i = 0; i < 9; ++i) key(Qt::Key_Right);
+  ASSERT_EQ(document().ping(), 9);
+  const auto at_nine = pictures();
+  for (int i = 0; i < 7; ++i) key(Qt::Key_Left);
+  const auto at_two = pictures();
+  click(kDock, place_of(9));
+  const auto jumped = pictures();
+  for (std::size_t i = 0; i < jumped.size(); ++i) {
+    EXPECT_EQ(jumped[i], at_nine[i]) << i;
+    EXPECT_NE(jumped[i], at_two[i]) << i;
+  }
+  raise("survey_timeline");
+  auto& survey = dynamic_cast<TimelineModel&>(*desk_->picture("survey_timeline"));
+  const PixelRect& plot = survey.places()->plot.place;
+  click("survey_timeline", {survey.places()->x_of(time_of(2)), plot.y + 0.5 * plot.height});
+  EXPECT_EQ(document().staged()->ping_index, 2);
+  EXPECT_EQ(pictures(), at_two);
+}
+
 TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {
   std::string asked;
   desk_->asking.text = [&](const std::string& title, const std::string&, const std::string&) {

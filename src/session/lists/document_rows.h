@@ -19,7 +19,8 @@ class DocumentRows : public Rows {
       for (const DocumentChange one : shown_) {
         if (one == change) return refresh();
       }
-      if (change == DocumentChange::ping || change == DocumentChange::observation) moved().tell();
+      if (change == DocumentChange::ping || change == DocumentChange::looking || change == DocumentChange::observation)
+        moved().tell();
     });
     school_ = workspace.school.changed().add([this] { school_selected(); });
   }

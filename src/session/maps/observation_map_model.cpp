@@ -78,6 +78,7 @@ void ObservationMapModel::hear(DocumentChange change) {
     case DocumentChange::propagating:
       keep_running(running_, workspace_.document.propagating());
       return update();
+    case DocumentChange::looking:
     case DocumentChange::ping:
     case DocumentChange::state:
     case DocumentChange::measures:

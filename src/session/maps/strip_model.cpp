@@ -42,6 +42,7 @@ void StripModel::hear(DocumentChange change) {
       places_.reset();
       follow();
       return update();
+    case DocumentChange::looking:
     case DocumentChange::ping:
       follow();
       return update();

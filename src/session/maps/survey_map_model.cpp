@@ -20,7 +20,9 @@ constexpr double kRing_px = 9.0;
 /// Opens the observation where needed.
 void look_at_ping(Document& document, std::size_t observation, std::int64_t ping) {
   const auto& shown = document.shown();
-  if ((!shown || shown->index() != observation) && !document.show(observation)) return;
+  if (!shown || shown->index() != observation) {
+    if (const auto done = document.show(observation); !done) return document.tell(done.error().text);
+  }
   document.look_at(ping);
 }
 
@@ -67,7 +69,8 @@ void SurveyMapModel::hear(DocumentChange change) {
     gesture_.reset();
     places_.reset();
   }
-  if (change == DocumentChange::ping) return changed().tell();  // the ship is an overlay
+  if (change == DocumentChange::ping || change == DocumentChange::looking)
+    return changed().tell();  // the ship is an overlay
   if (change == DocumentChange::survey || change == DocumentChange::observation || change == DocumentChange::measures) {
     update();
   }
@@ -75,9 +78,11 @@ void SurveyMapModel::hear(DocumentChange change) {
 
 LivePicture::Build SurveyMapModel::build() {
   const Document& document = workspace_.document;
-  if (!document.shown()) return {};
+  // Where no observation can be looked at, their tracks are what there is to see.
+  if (!document.shown() && document.nothing_shown().empty()) return {};
+  if (document.survey()->observations.empty()) return {};
   SurveyMapWish wish;
-  wish.survey = {document.shown(), &document.shown()->survey()};
+  wish.survey = document.survey_files();
   for (std::size_t i = 0; i < wish.survey->observations.size(); ++i) wish.products.push_back(document.product(i));
   wish.depth_raster = workspace_.depth_raster();
   wish.style.zoom = gesture_.zoom();
@@ -151,9 +156,8 @@ std::vector<Overlay> SurveyMapModel::overlays() const {
 }
 
 std::string SurveyMapModel::hint(PixelPoint at) const {
-  const auto& shown = workspace_.document.shown();
-  if (!places_ || !places_->map || !shown) return {};
-  const auto& observations = shown->survey().observations;
+  if (!places_ || !places_->map || workspace_.document.survey() == nullptr) return {};
+  const auto& observations = workspace_.document.survey()->observations;
   std::string text;
   if (const auto* school = places_->school_at(at); school != nullptr) {
     text = fmt::format("{}, school {}\n", observations[school->name.observation].name, school->name.number);

@@ -159,7 +159,7 @@ void Echograms::go_on() {
 
 void Echograms::read(const std::shared_ptr<Filling>& filling) {
   reading_ = true;
-  background_.post([this, filling](const Wanted& wanted) {
+  background_.post([this, filling, give_way = GivesWay(document_.right_of_way())](const Wanted& wanted) mutable {
     if (!filling->begun) filling->begin();
     EchogramPtr picture = filling->done;
     if (!picture) {
@@ -168,6 +168,7 @@ void Echograms::read(const std::shared_ptr<Filling>& filling) {
       for (std::int64_t i = 0; i < kAtOnce && wanted(); ++i) {
         const auto have = static_cast<std::int64_t>(filling->echogram->pings());
         if (have >= pings) break;
+        give_way();
         filling->add_next();
         if ((have + 1) % step == 0) picture = filling->fine_enough(*filling->echogram);
       }

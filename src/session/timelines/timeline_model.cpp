@@ -75,6 +75,7 @@ void TimelineModel::hear(DocumentChange change) {
       return update();
     case DocumentChange::observation:
       return observation_changed();
+    case DocumentChange::looking:
     case DocumentChange::ping:
       follow_ping();
       return changed().tell();  // the playhead is an overlay

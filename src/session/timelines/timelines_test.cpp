@@ -68,6 +68,41 @@ TEST(TimelineModel, TheEchogramIsThatOfEveryPingReadAtOnce) {
   EXPECT_TRUE(maps.echograms->complete(1));
 }
 
+TEST(TimelineModel, AClickMovesPlayheadsMapAndStripBeforeThePingHasArrived) {
+  TestMaps maps;
+  for (LivePicture* picture :
+       std::vector<LivePicture*>{&maps.map, &maps.strip, &maps.timeline, &maps.survey_timeline}) {
+    maps.see(*picture, {600, 300});
+  }
+  const Document& document = maps.workspace.document;
+  for (const bool whole_survey : {false, true}) {
+    const std::int64_t ping = whole_survey ? 4 : 9;
+    TimelineModel& clicked = whole_survey ? maps.survey_timeline : maps.timeline;
+    ASSERT_FALSE(document.shown()->cache().held(ping));
+    int playheads = 0;
+    const int one = maps.timeline.changed().add([&] { ++playheads; });
+    const int other = maps.survey_timeline.changed().add([&] { ++playheads; });
+    const Image map = maps.map.image();
+    const Image strip = maps.strip.image();
+    TestMaps::click(clicked, place_of(clicked, document, 0, ping));
+    // Nothing has been drained yet: this is what a window shows while the ping is read.
+    EXPECT_EQ(document.ping(), ping);
+    EXPECT_GE(playheads, 2);
+    for (TimelineModel* timeline : {&maps.timeline, &maps.survey_timeline}) {
+      timeline->changed().remove(timeline == &maps.timeline ? one : other);
+      ASSERT_FALSE(timeline->overlays().empty());
+      EXPECT_NEAR(timeline->overlays()[0].line[0].x, place_of(*timeline, document, 0, ping).x, 1e-9);
+    }
+    maps.map.wait();
+    maps.strip.wait();
+    maps.queue.drain();
+    EXPECT_NE(maps.map.image(), map) << "the map marks the ping that is looked at";
+    EXPECT_NE(maps.strip.image(), strip);
+    maps.settle();
+    EXPECT_EQ(document.staged()->ping_index, ping);
+  }
+}
+
 TEST(TimelineModel, ShiftAndDraggingMarksAnInterval) {
   TestMaps maps;
   maps.see(maps.timeline);

@@ -79,8 +79,7 @@ void SeedTool::show_place() {
   const Document& document = workspace_.document;
   if (workspace_.tool() != ToolName::seed || !place_ || !document.shown() || !document.staged()) return;
   if (const auto under = school_under(place_->voxel); under && !place_->shift && !place_->control) {
-    return say(fmt::format("school {}: a click selects it, a double click follows it through time",
-                           document.state().schools[*under]->number));
+    return say(fmt::format("school {}: click selects, double click follows", document.state().schools[*under]->number));
   }
   auto command = command_at(*place_);
   if (!command) return say(command.error().text);
@@ -173,6 +172,8 @@ void SeedTool::hear(DocumentChange change) {
       return;
     case DocumentChange::state:
       return take_state();
+    case DocumentChange::looking:
+      return finish_growing_anew();  // while the ping that it was made for is still on show
     case DocumentChange::ping:
       finish_growing_anew();
       if (workspace_.tool() != ToolName::seed) return;

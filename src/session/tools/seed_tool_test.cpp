@@ -167,7 +167,7 @@ TEST_F(SeedToolAtWork, APressUponASchoolSelectsItAndGrowsNothing) {
   desk_.settle();
   workspace().school.set(std::nullopt);
   tool().hover(bright(), false, false);
-  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("school 1: a click selects it"));
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("school 1: click selects"));
   press();
   desk_.settle();
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));

@@ -86,9 +86,11 @@ LivePicture::Build VolumeModel::build() {
   auto input = volume_input(workspace_, workspace_.camera(), units(), scale());
   if (!input) return {};
   better_ = std::make_shared<Work>(workspace_.document.options().threads);
-  return [live = live_, better = better_, scale = scale(), input = std::move(*input)](
+  const auto way = std::make_shared<std::shared_ptr<const void>>(workspace_.document.right_of_way().take());
+  return [live = live_, better = better_, way, scale = scale(), input = std::move(*input)](
              PixelSize /*size*/, const Wanted& wanted, const Show& show) {
     return live->draw(input, wanted, *better, [&](LiveVolume::Picture picture) {
+      way->reset();  // finer ones may take their time
       show({std::move(picture.frame), std::nullopt, std::move(picture.shown), scale});
     });
   };
@@ -253,7 +255,13 @@ std::vector<Overlay> VolumeModel::overlays() const {
 
 std::string VolumeModel::hint(PixelPoint at) const {
   const auto voxel = voxel_at(in_frame(at));
-  return voxel ? read_out(workspace_, *voxel).line() : std::string{};
+  if (!voxel) return {};
+  // The line below the views has the rest.
+  const ReadOut text = read_out(workspace_, *voxel);
+  std::string hint = text.sv + ", " + text.range + ", " + text.depth;
+  if (!text.flags.empty()) hint += "\nremoved: " + text.flags;
+  if (!text.school.empty()) hint += "\n" + text.school;
+  return hint;
 }
 
 }  // namespace sonar
