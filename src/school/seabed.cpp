@@ -58,8 +58,9 @@ class SeabedFinder {
     seabed.slope_y = plane->slope_y;
     seabed.confidence = seen;
     bounds(*plane, seabed);
+    const double strength = strength_db(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, row);
+      seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, strength, row);
     }
     return seabed;
   }
@@ -232,10 +233,15 @@ class SeabedFinder {
     }
   }
 
-  /// Range at which a beam sees the plane loudest: flat beams by their lower flank, where it is nearer and steeper.
-  [[nodiscard]] double loudest_m(const Plane& plane, int row, double width_rad) const {
-    constexpr int kSteps = 12;
-    double best_m = plane.range(axis(row));
+  /// Where along a beam the plane is expected: flat beams see it loudest by their lower flank, where it is nearer and
+  /// steeper.
+  struct Expected {
+    double loudest_m = std::numeric_limits<double>::infinity();
+    double first_m = std::numeric_limits<double>::infinity();  ///< as loud as the onset
+  };
+  [[nodiscard]] Expected expected(const Plane& plane, double strength_db, int row, double width_rad) const {
+    constexpr int kSteps = 24;
+    Expected out;
     double best_db = -std::numeric_limits<double>::infinity();
     for (int k = 0; k <= kSteps; ++k) {
       const double off_rad = params_.edge_widths * width_rad * k / kSteps;
@@ -243,18 +249,20 @@ class SeabedFinder {
       const double range_m = plane.range(u);
       if (!std::isfinite(range_m)) continue;
       const double off_widths = off_rad / width_rad;
-      const double level_db = lambert_db(plane, u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
+      const double level_db =
+          strength_db + lambert_db(plane, u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
       if (level_db > best_db) {
         best_db = level_db;
-        best_m = range_m;
+        out.loudest_m = range_m;
       }
+      if (level_db >= params_.onset_db) out.first_m = range_m;  // later ones are nearer
     }
-    return best_m;
+    return out;
   }
 
   /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
   /// beam's lower flank could see it, and the margin before that.
-  [[nodiscard]] int onset(const Plane& plane, int row) const {
+  [[nodiscard]] int onset(const Plane& plane, double strength_db, int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int samples = sv_.shape().samples;
     const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : kUnknownWidth_rad;
@@ -263,7 +271,8 @@ class SeabedFinder {
     const double on_axis_m = plane.range(axis(row));
     if (!(nearest_m <= axis_m.range_m(samples - 1))) return samples;
     const double last_m = axis_m.range_m(samples - 1);
-    const int from = static_cast<int>(axis_m.sample_at(std::min(loudest_m(plane, row, width), last_m)));
+    const Expected expect = expected(plane, strength_db, row, width);
+    const int from = static_cast<int>(axis_m.sample_at(std::min(expect.loudest_m, last_m)));
     const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
     const auto counts = sv_.row(row);
     const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
@@ -274,6 +283,8 @@ class SeabedFinder {
       if (loud) first = s;
       quiet = loud ? 0 : quiet + 1;
     }
+    // speckle hides parts of the flank, and schools must not be made of the rest
+    if (expect.first_m <= last_m) first = std::min(first, static_cast<int>(axis_m.sample_at(expect.first_m)));
     if (first >= samples) return samples;
     return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
   }
