@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/map_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -20,13 +21,29 @@ void each_ring(OGRGeometry& geometry, const F& f) {
   }
 }
 
-/// Keeps the polygons of whatever a union gave.
-void collect(const OGRGeometry& from, OGRMultiPolygon& into) {
+/// Keeps the polygons (or the lines, into lines) of whatever GEOS gave.
+void collect(const OGRGeometry& from, OGRGeometryCollection& into) {
   const OGRwkbGeometryType type = wkbFlatten(from.getGeometryType());
-  if (type == wkbPolygon) {
-    if (!from.IsEmpty()) into.addGeometry(&from);
-  } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
     for (const OGRGeometry* part : *from.toGeometryCollection()) collect(*part, into);
+  } else if (OGR_GT_GetCollection(type) == wkbFlatten(into.getGeometryType())) {
+    if (!from.IsEmpty()) into.addGeometry(&from);
+  }
+}
+
+/// Longitudes less so many turns; what rounding leaves beyond the line goes onto it.
+void turn_back(OGRGeometry& geometry, int turns) {
+  const auto turned = [&](double longitude_deg) { return std::clamp(longitude_deg - turns * 360.0, -180.0, 180.0); };
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type == wkbPoint) {
+    geometry.toPoint()->setX(turned(geometry.toPoint()->getX()));
+  } else if (type == wkbLineString) {
+    OGRSimpleCurve* line = geometry.toSimpleCurve();
+    for (int i = 0; i < line->getNumPoints(); ++i) line->setPoint(i, turned(line->getX(i)), line->getY(i));
+  } else if (type == wkbPolygon) {
+    for (OGRLinearRing* ring : *geometry.toPolygon()) turn_back(*ring, turns);
+  } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+    for (OGRGeometry* part : *geometry.toGeometryCollection()) turn_back(*part, turns);
   }
 }
 
@@ -77,6 +94,34 @@ void update_links(std::vector<Link>& links, const std::vector<bool>& done,
 }
 
 }  // namespace
+
+std::unique_ptr<OGRGeometry> cut_at_date_line(const OGRGeometry& geometry) {
+  OGREnvelope box;
+  geometry.getEnvelope(&box);
+  const int first_turn = static_cast<int>(std::floor((box.MinX + 180.0) / 360.0));
+  const int last_turn = static_cast<int>(std::ceil((box.MaxX - 180.0) / 360.0));
+  std::unique_ptr<OGRGeometry> whole(geometry.clone());
+  if (last_turn <= first_turn) {
+    // A point on the line itself may stay.
+    if (last_turn != 0) turn_back(*whole, last_turn);
+    return whole;
+  }
+  std::unique_ptr<OGRGeometryCollection> parts;
+  if (geometry.getDimension() == 1) {
+    parts = std::make_unique<OGRMultiLineString>();
+  } else {
+    parts = std::make_unique<OGRMultiPolygon>();
+  }
+  for (int turn = first_turn; turn <= last_turn; ++turn) {
+    const double west = turn * 360.0 - 180.0;
+    const Ring world = {{west, -90.0}, {west + 360.0, -90.0}, {west + 360.0, 90.0}, {west, 90.0}};
+    const std::unique_ptr<OGRGeometry> part(geometry.Intersection(polygon_of(world).get()));
+    if (!part) continue;
+    turn_back(*part, turn);
+    collect(*part, *parts);
+  }
+  return parts;
+}
 
 double near_longitude(double longitude_deg, double reference_deg) {
   return reference_deg + wrap_180(longitude_deg - reference_deg);

@@ -30,6 +30,10 @@ class ToDegrees {
 /// The longitude that lies within half a turn of the reference.
 [[nodiscard]] double near_longitude(double longitude_deg, double reference_deg);
 
+/// The same place with longitudes in [-180, 180]: moved by whole turns, and cut where it crosses the date line, which
+/// makes a LineString or Polygon a MultiLineString or MultiPolygon. Points, lines, polygons and collections of them.
+[[nodiscard]] std::unique_ptr<OGRGeometry> cut_at_date_line(const OGRGeometry& geometry);
+
 /// Union of rings, in their plane; empty where GEOS gives none.
 [[nodiscard]] std::unique_ptr<OGRMultiPolygon> united(const std::vector<Ring>& rings);
 [[nodiscard]] std::unique_ptr<OGRMultiPolygon> united(const std::vector<std::unique_ptr<OGRMultiPolygon>>& parts);

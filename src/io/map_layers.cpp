@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/library_gate.h"
+#include "io/map_geometry.h"
 
 namespace sonar {
 namespace {
@@ -70,7 +71,7 @@ MapLayers::MapLayers(std::filesystem::path target, MapFormat format, TimeNs last
 
 MapLayers::~MapLayers() {
   const QuietGdal quiet(date_);
-  datasets_.clear();
+  dataset_.reset();
 }
 
 tl::unexpected<Error> MapLayers::refused(std::string_view what) const {
@@ -82,44 +83,40 @@ Result<std::unique_ptr<MapLayers>> MapLayers::create(const std::filesystem::path
   register_drivers();
   std::unique_ptr<MapLayers> layers(new MapLayers(target, format, last_ping_time));
   if (format == MapFormat::geopackage) {
-    const auto opened = layers->open(target);
+    const auto opened = layers->open_geopackage();
     if (!opened) return pass_on(opened);
   }
   return layers;
 }
 
-Result<GDALDataset*> MapLayers::open(const std::filesystem::path& target) {
+Result<void> MapLayers::open_geopackage() {
   const QuietGdal quiet(date_);
-  auto file = AtomicFile::create(target);
+  auto file = AtomicFile::create(target_);
   if (!file) return pass_on(file);
-  const char* name = format_ == MapFormat::geopackage ? "GPKG" : "GeoJSON";
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(name);
-  if (driver == nullptr) return fail(ErrorCode::unsupported, fmt::format("GDAL was built without {}", name));
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  if (driver == nullptr) return fail(ErrorCode::unsupported, "GDAL was built without GPKG");
   // GDAL wants to make the file itself.
   std::filesystem::remove(file->temporary());
-  Dataset dataset(driver->Create(file->temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset) return refused("cannot create the map");
-  if (format_ == MapFormat::geopackage && dataset->StartTransaction() != OGRERR_NONE) return refused("SQLite");
-  files_.push_back(std::move(*file));
-  datasets_.push_back(std::move(dataset));
-  return datasets_.back().get();
+  geopackage_ = std::move(*file);
+  dataset_.reset(driver->Create(geopackage_->temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset_) return refused("cannot create the map");
+  if (dataset_->StartTransaction() != OGRERR_NONE) return refused("SQLite");
+  return {};
 }
 
 Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType type,
                                   const std::vector<TableColumn>& columns) {
-  GDALDataset* dataset = format_ == MapFormat::geopackage ? datasets_.front().get() : nullptr;
-  if (dataset == nullptr) {
-    const auto opened = open(target_ / (name + ".geojson"));
-    if (!opened) return pass_on(opened);
-    dataset = *opened;
+  if (format_ == MapFormat::geojson) {
+    auto file = GeoJsonFile::create(target_ / (name + ".geojson"), name);
+    if (!file) return pass_on(file);
+    json_files_.emplace(name, std::move(*file));
+    return {};
   }
   const QuietGdal quiet(date_);
   OGRSpatialReference wgs84;
   wgs84.importFromEPSG(4326);
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  CPLStringList options;
-  if (format_ == MapFormat::geojson) options.SetNameValue("COORDINATE_PRECISION", "8");
-  OGRLayer* layer = dataset->CreateLayer(name.c_str(), &wgs84, type, options.List());
+  OGRLayer* layer = dataset_->CreateLayer(name.c_str(), &wgs84, type, nullptr);
   if (layer == nullptr) return refused("cannot create layer " + name);
   for (const TableColumn& column : columns) {
     OGRFieldDefn field(column.name.c_str(), field_type(column));
@@ -132,29 +129,34 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
 Result<void> MapLayers::add(const std::string& layer_name, const OGRGeometry* geometry,
                             const std::vector<TableColumn>& columns, std::size_t row) {
   const QuietGdal quiet(date_);
+  const bool there = geometry != nullptr && !geometry->IsEmpty();
+  const std::unique_ptr<OGRGeometry> cut = there ? cut_at_date_line(*geometry) : nullptr;
+  if (format_ == MapFormat::geojson) return json_files_.at(layer_name).add(cut.get(), columns, row);
   OGRLayer* layer = layers_.at(layer_name);
   OGRFeature feature(layer->GetLayerDefn());
   for (std::size_t i = 0; i < columns.size(); ++i) set(feature, static_cast<int>(i), columns[i], row);
-  if (geometry != nullptr && !geometry->IsEmpty()) feature.SetGeometry(geometry);
+  if (cut && !cut->IsEmpty()) feature.SetGeometry(cut.get());
   if (layer->CreateFeature(&feature) != OGRERR_NONE) return refused("cannot write to layer " + layer_name);
   return {};
 }
 
 Result<void> MapLayers::commit() {
+  for (auto& [layer, file] : json_files_) {
+    if (auto closed = file.close(); !closed) return closed;
+  }
+  for (auto& [layer, file] : json_files_) {
+    if (auto committed = file.commit(); !committed) return committed;
+  }
+  if (!geopackage_) return {};
   {
     const QuietGdal quiet(date_);
     CPLErrorReset();
-    if (format_ == MapFormat::geopackage && datasets_.front()->CommitTransaction() != OGRERR_NONE) {
-      return refused("SQLite");
-    }
+    if (dataset_->CommitTransaction() != OGRERR_NONE) return refused("SQLite");
     layers_.clear();
-    datasets_.clear();
+    dataset_.reset();
     if (CPLGetLastErrorType() >= CE_Failure) return refused("cannot finish the map");
   }
-  for (AtomicFile& file : files_) {
-    if (auto committed = file.commit(); !committed) return committed;
-  }
-  return {};
+  return geopackage_->commit();
 }
 
 }  // namespace sonar

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "io/columns.h"
+#include "io/geojson_file.h"
 #include "io/survey_map.h"
 
 namespace sonar {
@@ -27,7 +29,8 @@ class MapLayers {
 
   /// columns  names and types of the attributes
   Result<void> add_layer(const std::string& name, OGRwkbGeometryType type, const std::vector<TableColumn>& columns);
-  /// Adds one feature with the values of one row; an empty or null geometry is left out.
+  /// Adds one feature with the values of one row; an empty or null geometry is left out, one that crosses the date line
+  /// is cut there.
   Result<void> add(const std::string& layer, const OGRGeometry* geometry, const std::vector<TableColumn>& columns,
                    std::size_t row);
   Result<void> commit();
@@ -38,15 +41,16 @@ class MapLayers {
   };
   using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
   MapLayers(std::filesystem::path target, MapFormat format, TimeNs last_ping_time);
-  Result<GDALDataset*> open(const std::filesystem::path& target);
+  Result<void> open_geopackage();
   [[nodiscard]] tl::unexpected<Error> refused(std::string_view what) const;
 
   std::filesystem::path target_;
   MapFormat format_;
   std::string date_;
-  std::vector<AtomicFile> files_;
-  std::vector<Dataset> datasets_;
-  std::map<std::string, OGRLayer*> layers_;
+  std::optional<AtomicFile> geopackage_;
+  Dataset dataset_;
+  std::map<std::string, OGRLayer*> layers_;        ///< of the GeoPackage
+  std::map<std::string, GeoJsonFile> json_files_;  ///< by layer
 };
 
 }  // namespace sonar

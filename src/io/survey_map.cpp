@@ -2,6 +2,7 @@
 #include "io/survey_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -14,6 +15,9 @@
 
 namespace sonar {
 namespace {
+
+/// Farther than a sonar sees, up to 89 degrees of latitude.
+constexpr double kDateLineMargin_deg = 1.0;
 
 /// Attributes of the layers that show an observation.
 struct ObservationRow {
@@ -88,7 +92,7 @@ struct SurveyMapWriter::State {
   std::unique_ptr<MapLayers> layers;
   std::optional<double> reference_deg;  ///< longitude of the survey's first position
 
-  Result<void> make_layers();
+  Result<void> make_layers(bool near_date_line);
   Result<void> add_observation(const ObservationProduct& product);
   Result<void> add_schools(const ObservationProduct& product, const Sector* sector);
   Result<void> add_centres(const ObservationProduct& product);
@@ -97,13 +101,17 @@ struct SurveyMapWriter::State {
   }
 };
 
-Result<void> SurveyMapWriter::State::make_layers() {
+Result<void> SurveyMapWriter::State::make_layers(bool near_date_line) {
+  // A feature in two parts is no Polygon any more, and a layer holds only what it says it holds.
+  const auto declared = [&](OGRwkbGeometryType type) {
+    return near_date_line && (type == wkbLineString || type == wkbPolygon) ? wkbUnknown : type;
+  };
   for (const auto& [name, type] : kObservationLayers) {
-    auto made = layers->add_layer(name, type, columns_of(std::vector<ObservationRow>{}));
+    auto made = layers->add_layer(name, declared(type), columns_of(std::vector<ObservationRow>{}));
     if (!made) return made;
   }
   auto made = layers->add_layer("schools", wkbMultiPolygon, columns_of(std::vector<SchoolRow>{}));
-  if (made) made = layers->add_layer("school_outlines", wkbPolygon, columns_of(std::vector<OutlineRow>{}));
+  if (made) made = layers->add_layer("school_outlines", declared(wkbPolygon), columns_of(std::vector<OutlineRow>{}));
   if (made) made = layers->add_layer("school_centres", wkbPoint, columns_of(std::vector<SchoolPingRow>{}));
   return made;
 }
@@ -194,12 +202,20 @@ SurveyMapWriter& SurveyMapWriter::operator=(SurveyMapWriter&&) noexcept = defaul
 SurveyMapWriter::~SurveyMapWriter() = default;
 
 Result<SurveyMapWriter> SurveyMapWriter::create(const std::filesystem::path& target, MapFormat format,
-                                                TimeNs last_ping_time) {
+                                                std::span<const ObservationProduct> observations) {
+  TimeNs last_ping_time = 0;
+  bool near_date_line = false;
+  for (const ObservationProduct& product : observations) {
+    for (const PingNavigation& ping : product.pings) {
+      last_ping_time = std::max(last_ping_time, ping.time);
+      near_date_line = near_date_line || std::abs(ping.transducer.longitude_deg) > 180.0 - kDateLineMargin_deg;
+    }
+  }
   auto layers = MapLayers::create(target, format, last_ping_time);
   if (!layers) return pass_on(layers);
   auto state = std::make_unique<State>();
   state->layers = std::move(*layers);
-  if (auto made = state->make_layers(); !made) return pass_on(made);
+  if (auto made = state->make_layers(near_date_line); !made) return pass_on(made);
   return SurveyMapWriter(std::move(state));
 }
 

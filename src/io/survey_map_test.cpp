@@ -9,8 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 
+#include "base/test_full_disk.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
 #include "io/product_example.h"
@@ -45,7 +47,7 @@ class Map : public testing::Test {
 
   [[nodiscard]] fs::path write(const ObservationProduct& p, const std::string& name,
                                MapFormat format = MapFormat::geopackage) const {
-    auto writer = SurveyMapWriter::create(folder_ / name, format, p.pings.back().time);
+    auto writer = SurveyMapWriter::create(folder_ / name, format, {&p, 1});
     EXPECT_TRUE(writer);
     EXPECT_TRUE(writer->add(p));
     EXPECT_TRUE(writer->finish());
@@ -131,14 +133,65 @@ TEST_F(Map, equal_products_give_equal_bytes) {
   EXPECT_EQ(*a, *b);
 }
 
-TEST_F(Map, hangs_together_across_180_degrees) {
+/// Every feature's geometry of a layer, one by one.
+template <class F>
+void each_geometry(OGRLayer* layer, const F& f) {
+  for (const auto& feature : *layer) {
+    if (feature->GetGeometryRef() != nullptr) f(*feature->GetGeometryRef());
+  }
+}
+
+const std::vector<const char*> kLayers = {"vessel_track", "observations",    "swept",         "observation_starts",
+                                          "schools",      "school_outlines", "school_centres"};
+
+// Law: a survey at the date line is the same survey as elsewhere, in as many features and of the same areas; where it
+// crosses the line, its parts end there.
+TEST_F(Map, is_cut_where_it_crosses_the_date_line) {
+  const auto elsewhere = open(write(sample(), "elsewhere.gpkg"));
+  for (const double longitude : {-179.9995, -179.9999, 179.9999}) {
+    // Ten pings to the north; the sonar looks 118 m to the west, over the line from the first two places.
+    ObservationProduct p = sample({60.0, longitude});
+    // The ship's way crosses as well.
+    p.pings.back().transducer.longitude_deg = longitude > 0 ? -179.9999 : 179.9999;
+    const auto data = open(write(p, "survey.gpkg"));
+    const fs::path json = write(p, "json", MapFormat::geojson);
+    for (const char* name : kLayers) {
+      const auto as_json = open(json / (std::string(name) + ".geojson"));
+      OGRLayer* layer = data->GetLayerByName(name);
+      EXPECT_EQ(layer->GetFeatureCount(), elsewhere->GetLayerByName(name)->GetFeatureCount()) << name;
+      const OGRwkbGeometryType declared = layer->GetGeomType();
+      const auto inside = [&](const OGRGeometry& g) {
+        OGREnvelope box;
+        g.getEnvelope(&box);
+        EXPECT_GE(box.MinX, -180.0) << name;
+        EXPECT_LE(box.MaxX, 180.0) << name;
+        EXPECT_TRUE(g.IsValid()) << name;
+        if (OGR_GT_IsSubClassOf(g.getGeometryType(), wkbGeometryCollection) == 0) return;
+        for (const OGRGeometry* part : *g.toGeometryCollection()) {
+          part->getEnvelope(&box);
+          EXPECT_LT(box.MaxX - box.MinX, 0.01) << name;
+        }
+      };
+      each_geometry(layer, [&](const OGRGeometry& g) {
+        inside(g);
+        EXPECT_TRUE(declared == wkbUnknown || declared == g.getGeometryType()) << name;
+      });
+      each_geometry(as_json->GetLayer(0), inside);
+    }
+    const auto track = first_of(data->GetLayerByName("vessel_track"));
+    EXPECT_EQ(track->GetGeometryRef()->getGeometryType(), wkbMultiLineString);
+  }
   const auto data = open(write(sample({60.0, -179.9995}), "survey.gpkg"));
-  OGREnvelope box;
-  ASSERT_EQ(data->GetLayerByName("observations")->GetExtent(&box), OGRERR_NONE);
-  EXPECT_NEAR(box.MaxX - box.MinX, 118.0 * std::cos(rad_from_deg(10.0)) / 55800.0, 1e-6);
-  EXPECT_LT(box.MinX, -180.0);
-  ASSERT_EQ(data->GetLayerByName("school_centres")->GetExtent(&box), OGRERR_NONE);
-  EXPECT_NEAR(box.MinX, -179.9995 - 60.0 / 55800.0, 1e-5);
+  for (const char* name : {"observations", "schools", "school_outlines"}) {
+    EXPECT_NEAR(square_metres(first_of(data->GetLayerByName(name))->GetGeometryRef()),
+                square_metres(first_of(elsewhere->GetLayerByName(name))->GetGeometryRef()), 0.5)
+        << name;
+  }
+  EXPECT_EQ(first_of(data->GetLayerByName("observations"))->GetGeometryRef()->getGeometryType(), wkbMultiPolygon);
+  // The ship itself stays on one side, and away from the line nothing is cut.
+  EXPECT_EQ(first_of(data->GetLayerByName("vessel_track"))->GetGeometryRef()->getGeometryType(), wkbLineString);
+  const auto away = open(write(sample({60.0, -179.99}), "away.gpkg"));
+  EXPECT_EQ(first_of(away->GetLayerByName("observations"))->GetGeometryRef()->getGeometryType(), wkbPolygon);
 }
 
 TEST_F(Map, schools_without_place_keep_their_row) {
@@ -162,10 +215,81 @@ TEST_F(Map, geojson_has_a_file_for_each_layer) {
   EXPECT_EQ(first_of(data->GetLayer(0))->GetFieldAsString("first_time_utc"), std::string("2023/11/14 22:13:24.123+00"));
 }
 
+TEST_F(Map, geojson_says_null_and_iso_times) {
+  ObservationProduct p = sample();
+  p.schools[0].comment = "a \"b\"\\\n";
+  p.schools[0].first_time_utc = 1'578'470'400'350'000'000;  // 2020-01-08 08:00:00.350
+  p.schools[1].first_time_utc = 0;
+  const fs::path folder = write(p, "geojson", MapFormat::geojson);
+  const std::string schools = *read_file(folder / "schools.geojson");
+  EXPECT_NE(schools.find(R"("first_time_utc": "2020-01-08T08:00:00.350Z")"), std::string::npos) << schools;
+  EXPECT_NE(schools.find(R"("first_time_utc": null)"), std::string::npos) << schools;
+  EXPECT_NE(schools.find(R"("speed_mps": null)"), std::string::npos) << schools;
+  EXPECT_NE(schools.find(R"("comment": "a \"b\"\\\u000a")"), std::string::npos) << schools;
+  // Every feature has every property, and another program reads the same from it.
+  for (const char* name : kLayers) {
+    const std::string text = *read_file(folder / (std::string(name) + ".geojson"));
+    std::size_t features = 0;
+    std::size_t named = 0;
+    for (std::size_t at = text.find("\"Feature\""); at != std::string::npos; at = text.find("\"Feature\"", at + 1)) {
+      ++features;
+    }
+    for (std::size_t at = text.find("\"observation\":"); at != std::string::npos;
+         at = text.find("\"observation\":", at + 1)) {
+      ++named;
+    }
+    EXPECT_EQ(named, features) << name;
+    const auto data = open(folder / (std::string(name) + ".geojson"));
+    ASSERT_TRUE(data) << name;
+    EXPECT_EQ(static_cast<std::size_t>(data->GetLayer(0)->GetFeatureCount()), features) << name;
+  }
+  const auto packed = open(write(p, "survey.gpkg"));
+  OGRLayer* layer = packed->GetLayerByName("schools");
+  const int time = layer->GetLayerDefn()->GetFieldIndex("first_time_utc");
+  EXPECT_EQ(layer->GetLayerDefn()->GetFieldDefn(time)->GetType(), OFTDateTime);
+  const auto first = first_of(layer);
+  EXPECT_STREQ(first->GetFieldAsString(time), "2020/01/08 08:00:00.350+00");
+  const OGRFeatureUniquePtr second(layer->GetNextFeature());
+  EXPECT_FALSE(second->IsFieldSetAndNotNull(time));
+}
+
+// Whatever part of the files the disk has no room for: one line, the old files stay, nothing else lies there.
+TEST_F(Map, a_full_disk_leaves_the_files_that_were_there) {
+  for (const MapFormat format : {MapFormat::geojson, MapFormat::geopackage}) {
+    const std::string name = format == MapFormat::geojson ? "geojson" : "survey.gpkg";
+    ObservationProduct p = sample();
+    const fs::path target = write(p, name, format);
+    const auto contents = [&] {
+      std::map<fs::path, std::string> files;
+      for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+        if (entry.is_regular_file()) files[entry.path()] = *read_file(entry.path());
+      }
+      return files;
+    };
+    const auto before = contents();
+    std::size_t largest = 0;
+    for (const auto& [path, text] : before) largest = std::max(largest, text.size());
+    p.observation = "obs-0002";
+    for (std::size_t room = 0; room < largest; room += largest / 17) {
+      const auto written = [&]() -> Result<void> {
+        const FullDisk disk(room);
+        auto writer = SurveyMapWriter::create(target, format, {&p, 1});
+        if (!writer) return pass_on(writer);
+        if (auto added = writer->add(p); !added) return added;
+        return writer->finish();
+      }();
+      ASSERT_FALSE(written) << name << " " << room;
+      EXPECT_EQ(to_line(written.error()).find('\n'), std::string::npos);
+      EXPECT_TRUE(contents() == before) << name << " " << room;
+    }
+    fs::remove_all(target);
+  }
+}
+
 TEST_F(Map, nothing_appears_before_finish) {
   const ObservationProduct p = sample();
   {
-    auto writer = SurveyMapWriter::create(folder_ / "survey.gpkg", MapFormat::geopackage, p.pings.back().time);
+    auto writer = SurveyMapWriter::create(folder_ / "survey.gpkg", MapFormat::geopackage, {&p, 1});
     ASSERT_TRUE(writer);
     ASSERT_TRUE(writer->add(p));
   }

@@ -94,12 +94,8 @@ Result<Files> export_masks(const Source& source, const fs::path& dest, Work& wor
 }
 
 Result<Files> export_map(const Source& source, const fs::path& dest, MapFormat format, Work& work) {
-  TimeNs last = 0;
-  for (const ObservationProduct& product : source.survey.observations) {
-    if (!product.pings.empty()) last = std::max(last, product.pings.back().time);
-  }
   const fs::path target = format == MapFormat::geopackage ? dest / "survey.gpkg" : dest;
-  auto map = SurveyMapWriter::create(target, format, last);
+  auto map = SurveyMapWriter::create(target, format, source.survey.observations);
   if (!map) return pass_on(map);
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");

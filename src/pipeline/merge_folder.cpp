@@ -144,11 +144,7 @@ Result<void> hold_against_plan(const fs::path& out, const std::optional<std::str
 }
 
 Result<void> write_map(const fs::path& out, const Survey& survey, const std::vector<fs::path>& files, Work& work) {
-  TimeNs last = 0;
-  for (const ObservationProduct& product : survey.observations) {
-    if (!product.pings.empty()) last = std::max(last, product.pings.back().time);
-  }
-  auto map = SurveyMapWriter::create(out / "survey.gpkg", MapFormat::geopackage, last);
+  auto map = SurveyMapWriter::create(out / "survey.gpkg", MapFormat::geopackage, survey.observations);
   if (!map) return pass_on(map);
   for (std::size_t i = 0; i < survey.observations.size(); ++i) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");

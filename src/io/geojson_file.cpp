@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/geojson_file.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <ogr_api.h>
+
+#include <cerrno>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "base/number_text.h"
+
+namespace sonar {
+namespace {
+
+std::string json_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string value_text(const TableColumn& column, std::size_t row) {
+  if (const auto* numbers = std::get_if<std::vector<double>>(&column.values)) {
+    const double value = (*numbers)[row];
+    if (!std::isfinite(value)) return "null";
+    return column.is_degrees ? degrees_text(value) : shortest(value);
+  }
+  if (const auto* wholes = std::get_if<std::vector<std::int64_t>>(&column.values)) {
+    return std::to_string((*wholes)[row]);
+  }
+  const std::string& text = std::get<std::vector<std::string>>(column.values)[row];
+  return text.empty() ? "null" : json_text(text);
+}
+
+std::string geometry_text(const OGRGeometry* geometry) {
+  if (geometry == nullptr || geometry->IsEmpty()) return "null";
+  CPLStringList options;
+  options.SetNameValue("COORDINATE_PRECISION", "8");
+  // The library's interface for C takes no const, and changes nothing.
+  OGRGeometryH handle = OGRGeometry::ToHandle(const_cast<OGRGeometry*>(geometry));
+  const std::unique_ptr<char, decltype([](char* text) { CPLFree(text); })> text(
+      OGR_G_ExportToJsonEx(handle, options.List()));
+  return text ? text.get() : "null";
+}
+
+}  // namespace
+
+GeoJsonFile::GeoJsonFile(std::filesystem::path target, AtomicFile file, Stream stream)
+    : target_(std::move(target)), file_(std::move(file)), stream_(std::move(stream)) {}
+
+Result<GeoJsonFile> GeoJsonFile::create(const std::filesystem::path& target, std::string_view layer) {
+  auto file = AtomicFile::create(target);
+  if (!file) return pass_on(file);
+  Stream stream(std::fopen(file->temporary().c_str(), "wb"));
+  if (!stream) return refused_write("cannot write", errno, target.string());
+  GeoJsonFile made(target, std::move(*file), std::move(stream));
+  auto begun =
+      made.write(fmt::format("{{\n\"type\": \"FeatureCollection\",\n\"name\": {},\n\"crs\": {{ \"type\": \"name\", "
+                             "\"properties\": {{ \"name\": \"urn:ogc:def:crs:OGC:1.3:CRS84\" }} }},\n"
+                             "\"features\": [",
+                             json_text(layer)));
+  if (!begun) return pass_on(begun);
+  return made;
+}
+
+Result<void> GeoJsonFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) == text.size()) return {};
+  return refused_write("cannot write", errno, target_.string());
+}
+
+Result<void> GeoJsonFile::add(const OGRGeometry* geometry, const std::vector<TableColumn>& columns, std::size_t row) {
+  std::string text =
+      empty_ ? "\n{ \"type\": \"Feature\", \"properties\": {" : ",\n{ \"type\": \"Feature\", \"properties\": {";
+  empty_ = false;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    text += fmt::format("{} {}: {}", i == 0 ? "" : ",", json_text(columns[i].name), value_text(columns[i], row));
+  }
+  text += " }, \"geometry\": " + geometry_text(geometry) + " }";
+  return write(text);
+}
+
+Result<void> GeoJsonFile::close() {
+  if (auto ended = write("\n]\n}\n"); !ended) return ended;
+  // What is still buffered meets the disk here.
+  if (std::fclose(stream_.release()) != 0) return refused_write("cannot write", errno, target_.string());
+  return {};
+}
+
+}  // namespace sonar
