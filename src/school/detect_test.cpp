@@ -250,6 +250,12 @@ TEST(Edges, CropsAreBorders) {
   end.runs = {{10 * 25 + 10, 90, 6}};
   end.confidence.assign(6, 255);
   EXPECT_EQ(mask_edges(end, flags.view(), sector).flags, kEdgeFar);
+  // A channel that was lost altogether has no end: beside it, and in it, lie faulty samples, wherever that is.
+  for (int s = 0; s < 100; ++s) flags(10, 14, s) = SampleFlags::lost;
+  PingMask lost{{{10 * 25 + 14, 50, 4}}, {255, 255, 255, 255}};
+  EXPECT_EQ(mask_edges(lost, flags.view(), sector).flags, kEdgeFlagged);
+  lost.runs[0].row = 10 * 25 + 13;
+  EXPECT_EQ(mask_edges(lost, flags.view(), sector).flags, kEdgeFlagged);
   PingMask beside;
   beside.runs = {{5 * 25 + 5, 60, 1}};
   beside.confidence.assign(1, 255);

@@ -43,7 +43,11 @@ class FaceCount {
     if (sample < 0 || sample >= shape_.samples) return add(border, 1);
     const auto flags = flags_.row(row);
     const SampleFlags beyond = flags[static_cast<std::size_t>(sample)];
-    if (border == kEdgeFar && any(beyond & SampleFlags::lost) && sample >= recorded_end(flags)) return add(kEdgeFar, 1);
+    if (border == kEdgeFar && any(beyond & SampleFlags::lost)) {
+      // A beam without any sample has no end: it is a fault, wherever the mask lies in it.
+      const int end = recorded_end(flags);
+      if (end > 0 && sample >= end) return add(kEdgeFar, 1);
+    }
     classify(beyond, 0);
   }
 
