@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "base/units.h"
 #include "geo/geodesic.h"
 
 namespace sonar {
@@ -19,6 +20,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // straight.
 constexpr TimeNs kLongBaseline = 10 * kSecondNs;
 constexpr TimeNs kShortBaseline = 2 * kSecondNs;
+// Sentences are stamped when they arrive, often several at once: nothing is told by shorter times.
+constexpr TimeNs kLeastStep = kSecondNs;
+constexpr double kMetresPerDegree = 111'320.0;
 
 /// Order of preference among kinds of sentence: for headings it comes before frequency, a magnetic compass never
 /// outvotes a gyro; else it settles equal counts.
@@ -77,7 +81,56 @@ Geographic onward(const std::vector<NavSample>& s, std::size_t i, TimeNs time, T
   return along(s[other], s[i], fraction);
 }
 
+/// Near enough for a limit that is itself a guess, and much quicker than a geodesic.
+double rough_distance_m(const NavSample& a, const NavSample& b) {
+  const double north = b.first - a.first;
+  const double east = wrap_180(b.second - a.second) * std::cos(rad_from_deg((a.first + b.first) / 2.0));
+  return std::hypot(north, east) * kMetresPerDegree;
+}
+
 }  // namespace
+
+std::vector<NavSample> drop_jumps(NavTrack& track, double max_speed_mps, TimeNs longest) {
+  const std::vector<NavSample>& s = track.samples;
+  const auto reached = [&](std::size_t from, std::size_t to) {
+    const TimeNs apart = std::max(s[to].time - s[from].time, kLeastStep);
+    return rough_distance_m(s[from], s[to]) <= max_speed_mps * static_cast<double>(apart) * 1e-9;
+  };
+  std::vector<std::size_t> begins{0};  // of stretches without a jump inside
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    if (!reached(i - 1, i)) begins.push_back(i);
+  }
+  if (begins.size() < 3) return {};
+  begins.push_back(s.size());
+  const auto count = [&](std::size_t stretch) { return begins[stretch + 1] - begins[stretch]; };
+  NavTrack kept{track.talker, track.sentence, {}};
+  std::vector<NavSample> dropped;
+  const auto move = [&](std::size_t stretch, std::vector<NavSample>& to) {
+    to.insert(to.end(), s.begin() + static_cast<std::ptrdiff_t>(begins[stretch]),
+              s.begin() + static_cast<std::ptrdiff_t>(begins[stretch + 1]));
+  };
+  std::size_t fixes_before = 0;  // of the stretch kept last, with what it goes on as
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    // The stretch after k .. m - 1 that the ship reaches from the last fix kept, if there is one.
+    std::size_t back = 0;
+    for (std::size_t m = k + 1; !kept.samples.empty() && m + 1 < begins.size() && back == 0; ++m) {
+      const std::size_t fixes = begins[m] - begins[k];
+      if (fixes > 1 && s[begins[m]].time - s[begins[k] - 1].time > longest) break;
+      if (reached(begins[k] - 1, begins[m]) && fixes < fixes_before + count(m)) back = m;
+    }
+    if (back == 0) {
+      move(k, kept.samples);
+      fixes_before = count(k);
+      continue;
+    }
+    for (std::size_t m = k; m < back; ++m) move(m, dropped);
+    move(back, kept.samples);
+    fixes_before += count(back);
+    k = back;
+  }
+  track = std::move(kept);
+  return dropped;
+}
 
 NavTrack choose_track(std::span<const NavSeries* const> series, NavQuantity quantity, std::string_view wanted_talker) {
   struct Talker {

@@ -20,6 +20,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Speed is worked out of positions this far before and after.
 constexpr TimeNs kHalfBaseline = 10 * kSecondNs;
 constexpr double kLargestArm_m = 500.0;
+// A ship that makes less way than this lies as it likes.
+constexpr double kLeastWay_mps = 1.0;
 
 TimeNs ns_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
 
@@ -105,8 +107,8 @@ void move_to_transducer(PingNavigation& ping, const Point<Vessel>& arm) {
   ping.transducer = to_geographic(to_enu(level_arm, rad_from_deg(ping.heading_deg)), ping.transducer);
 }
 
-PingNavigation place(const PingMotion& motion, const Tracks& tracks, const Point<Vessel>& arm,
-                     const NavigationParams& params) {
+/// Where the antenna was and how the ship lay.
+PingNavigation place(const PingMotion& motion, const Tracks& tracks, const NavigationParams& params) {
   const TimeNs limit = ns_of(params.fix_limit_s);
   PingNavigation ping;
   ping.time = motion.time + ns_of(params.time_offset_s);
@@ -126,8 +128,63 @@ PingNavigation place(const PingMotion& motion, const Tracks& tracks, const Point
   }
   ping.distance_nmi = value_at(tracks.log, motion.time, ns_of(params.log_limit_s));
   ping.gps_minus_clock_s = value_at(tracks.clock, motion.time, limit);
-  move_to_transducer(ping, arm);
   return ping;
+}
+
+/// Course for heading where the ship makes way; over the shorter arc between two such pings no farther apart than twice
+/// the limit. True where any ping got one.
+bool head_by_course(std::vector<PingNavigation>& pings, TimeNs limit, Diagnostics& notes) {
+  const auto makes_way = [](const PingNavigation& p) {
+    return p.speed_mps > kLeastWay_mps && !std::isnan(p.course_deg);
+  };
+  std::size_t headed = 0;
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (!makes_way(pings[i])) continue;
+    pings[i].heading_deg = wrap_360(pings[i].course_deg);
+    ++headed;
+    const TimeNs apart = last ? pings[i].time - pings[*last].time : 0;
+    if (last && apart <= 2 * limit) {
+      const double from = pings[*last].heading_deg;
+      const double turn = wrap_180(pings[i].heading_deg - from);
+      for (std::size_t j = *last + 1; j < i; ++j) {
+        const auto since = static_cast<double>(pings[j].time - pings[*last].time);
+        pings[j].heading_deg = wrap_360(from + turn * since / static_cast<double>(apart));
+        ++headed;
+      }
+    }
+    last = i;
+  }
+  if (!last) return false;
+  const auto first = std::find_if(pings.begin(), pings.end(), makes_way) - pings.begin();
+  notes.push_back({DiagnosticCode::heading_from_course, "", -1, first,
+                   fmt::format("nobody gives a heading; course over ground stands for it in {} of {} pings", headed,
+                               pings.size())});
+  return true;
+}
+
+/// Fixes left out as jumps, as far as they concern these pings.
+void note_jumps(std::span<const NavSample> jumps, std::span<const NavSeries* const> series,
+                std::span<const PingMotion> pings, const NavigationParams& params, Navigation& result) {
+  if (pings.empty()) return;
+  const TimeNs limit = ns_of(params.fix_limit_s);
+  const auto concerns = [&](const NavSample& jump) {
+    return jump.time >= pings.front().time - limit && jump.time <= pings.back().time + limit;
+  };
+  const auto count = std::count_if(jumps.begin(), jumps.end(), concerns);
+  if (count == 0) return;
+  const NavSample& jump = *std::find_if(jumps.begin(), jumps.end(), concerns);
+  for (std::size_t i = 0; i < series.size() && !result.first_jump; ++i) {
+    const auto& samples = series[i]->samples;
+    const bool here = series[i]->quantity == NavQuantity::position &&
+                      std::find(samples.begin(), samples.end(), jump) != samples.end();
+    if (here) result.first_jump = i;
+  }
+  const auto after = std::find_if(pings.begin(), pings.end(), [&](const PingMotion& p) { return p.time >= jump.time; });
+  result.diagnostics.push_back(
+      {DiagnosticCode::position_jump, "", -1, after == pings.end() ? std::ssize(pings) - 1 : after - pings.begin(),
+       fmt::format("{} fixes left out, the first of {}: faster than {:g} m/s from those before and to those after",
+                   count, iso_time(jump.time), params.max_speed_mps)});
 }
 
 double median_of(const NavTrack& track) {
@@ -178,7 +235,9 @@ PingMotion ping_attitude(const PingEntry& entry) {
 
 Navigation navigate(std::span<const NavSeries* const> series, std::span<const PingMotion> pings,
                     const SounderConfig& config, const NavigationParams& params) {
-  const Tracks tracks = choose(series, params);
+  Tracks tracks = choose(series, params);
+  const TimeNs limit = ns_of(params.fix_limit_s);
+  const auto jumps = drop_jumps(tracks.position, params.max_speed_mps, 2 * limit);
   Navigation result;
   const auto arm = lever_arm(config, params);
   if (!arm) {
@@ -186,10 +245,15 @@ Navigation navigate(std::span<const NavSeries* const> series, std::span<const Pi
                                   fmt::format("an offset of CON0 is farther than {} m", kLargestArm_m)});
   }
   result.pings.reserve(pings.size());
-  for (const PingMotion& ping : pings) {
-    result.pings.push_back(place(ping, tracks, arm.value_or(Point<Vessel>{}), params));
-  }
+  for (const PingMotion& ping : pings) result.pings.push_back(place(ping, tracks, params));
   result.talkers = talkers_of(tracks, result.pings);
+  // Sources are never mixed: where a heading is known of any ping, none is made up.
+  if (params.heading_from_course && result.talkers.count("heading") == 0 &&
+      head_by_course(result.pings, limit, result.diagnostics)) {
+    result.talkers["heading"] = "course";
+  }
+  for (PingNavigation& ping : result.pings) move_to_transducer(ping, arm.value_or(Point<Vessel>{}));
+  note_jumps(jumps, series, pings, params, result);
   result.gps_minus_clock_s = median_of(tracks.clock);
   note_lack(
       result.pings, [](const PingNavigation& p) { return !p.has_position(); }, DiagnosticCode::no_position, "position",

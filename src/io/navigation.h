@@ -35,6 +35,8 @@ struct NavigationParams {
   bool beams_stabilised = true;
   double fix_limit_s = 30.0;
   double log_limit_s = 900.0;
+  double max_speed_mps = 25.0;
+  bool heading_from_course = true;
   std::string position_talker;
   std::string heading_talker;
   std::string speed_talker;
@@ -76,6 +78,14 @@ void describe(Visitor& v, NavigationParams& p) {
       {.unit = "s", .min = 0, .max = 3600, .text = "A ping farther than this from any sentence has no such value."});
   v.field("log_limit_s", p.log_limit_s,
           {.unit = "s", .min = 0, .max = 86400, .text = "The same for the vessel's log, which comes seldom."});
+  v.field("max_speed_mps", p.max_speed_mps,
+          {.unit = "m/s",
+           .min = 1,
+           .max = 1000,
+           .text = "Fixes that a ship of this speed reaches neither from those before nor from there those after are "
+                   "left out."});
+  v.field("heading_from_course", p.heading_from_course,
+          {.text = "Where nobody gives a heading, course over ground stands for it above 1 m/s."});
   v.field("position_talker", p.position_talker, {.text = "Talker of positions, e.g. GP; empty: the most frequent."});
   v.field("heading_talker", p.heading_talker, {.text = "Talker of headings; empty: the most frequent."});
   v.field("speed_talker", p.speed_talker, {.text = "Talker of speed and course; empty: the most frequent."});
@@ -84,7 +94,7 @@ void describe(Visitor& v, NavigationParams& p) {
 }
 
 /// {"position": "GP", "heading": "IN", "speed": "GP", "log": "SD", "clock": "GP"}; what nobody said is absent. Heading
-/// may be "RAW0" (the sample data's own), speed may be "positions" (worked out of them).
+/// may be "RAW0" (the sample data's own) or "course" (course over ground), speed may be "positions" (worked out of them).
 using Talkers = std::map<std::string, std::string>;
 
 /// A ping to be placed: its datagram time and what its first channel says of the ship.
@@ -101,8 +111,10 @@ struct PingMotion {
 struct Navigation {
   std::vector<PingNavigation> pings;  ///< as given
   Talkers talkers;
-  double gps_minus_clock_s = 0.0;  ///< median over all sentences of the chosen talker; NaN = none
-  Diagnostics diagnostics;         ///< no_position, no_heading, bad_lever_arm, no_talker; ping_index of the first
+  double gps_minus_clock_s = 0.0;         ///< median over all sentences of the chosen talker; NaN = none
+  std::optional<std::size_t> first_jump;  ///< which series holds the first fix that was left out as a jump
+  Diagnostics diagnostics;  ///< no_position, no_heading, bad_lever_arm, no_talker, position_jump, heading_from_course;
+                            ///< ping_index of the first
 };
 
 /// Places every ping. One talker is chosen per quantity, the most frequent valid one over all the series given, and in
@@ -110,7 +122,9 @@ struct Navigation {
 /// never mixed.
 /// Position is interpolated along the geodesic between two fixes, log and speed linearly, heading and course over the
 /// shorter arc; beyond the first and last sentence, and in gaps, values hold up to fix_limit_s (positions go on at
-/// the speed of the last two fixes). Heading falls back to the ping's own.
+/// the speed of the last two fixes). Fixes that jump away and back (drop_jumps) are left out.
+/// Heading falls back to the pings' own; where no ping has one, to the course over ground of pings that make more than
+/// 1 m/s, and to the shorter arc between such pings where they lie round a slower one.
 /// `time` of a result is the ping's plus time_offset_s, gps_minus_clock_s is without it.
 /// series   of all files concerned, in the order of the files
 /// threads  pure

@@ -172,6 +172,115 @@ TEST(Navigation, LogIsInterpolated) {
   EXPECT_TRUE(std::isnan(n.pings[1].distance_nmi));
 }
 
+/// North at 5 m/s from 60 N, a fix each 3 s; 1 degree of latitude there is 111412.9 m.
+NavSeries northwards(int fixes) {
+  std::vector<NavSample> samples;
+  for (int i = 0; i < fixes; ++i) samples.push_back({at(3.0 * i), 60.0 + 15.0 * i / 111412.9, 5.0});
+  return series(NavQuantity::position, "GP", "GGA", std::move(samples));
+}
+
+std::int64_t notes_of(const Navigation& n, DiagnosticCode code) {
+  return std::count_if(n.diagnostics.begin(), n.diagnostics.end(), [&](const Diagnostic& d) { return d.code == code; });
+}
+
+// A law: with the wild fixes the places are those without them.
+TEST(Navigation, FixesThatJumpAwayAndBackAreLeftOut) {
+  std::vector<PingMotion> pings;
+  for (int i = 0; i < 40; ++i) pings.push_back({.time = at(3.0 * i + 1.0), .heading_deg = 10.0});
+  const Navigation sound = run({northwards(40)}, pings);
+  EXPECT_EQ(notes_of(sound, DiagnosticCode::position_jump), 0);
+  // 300 m for one fix, for three fixes, and for two fixes that lie apart from each other as well.
+  const std::vector<std::vector<std::size_t>> places{{13}, {20, 21, 22}, {7, 8}, {5, 30}};
+  for (const auto& wild : places) {
+    NavSeries bad = northwards(40);
+    double offset_m = 300.0;
+    for (const std::size_t i : wild) {
+      bad.samples[i].first += offset_m / 111412.9;
+      if (wild.size() == 2) offset_m = -offset_m;
+    }
+    const Navigation n = run({northwards(0), bad}, pings);
+    for (std::size_t i = 0; i < pings.size(); ++i) {
+      EXPECT_NEAR(n.pings[i].transducer.latitude_deg, sound.pings[i].transducer.latitude_deg, 1e-9) << i;
+      EXPECT_NEAR(n.pings[i].speed_mps, 5.0, 0.01) << i;
+    }
+    ASSERT_EQ(notes_of(n, DiagnosticCode::position_jump), 1);
+    for (const Diagnostic& d : n.diagnostics) {
+      if (d.code != DiagnosticCode::position_jump) continue;
+      EXPECT_EQ(d.text.find(std::to_string(wild.size()) + " fixes"), 0U) << d.text;
+      EXPECT_EQ(d.ping_index, static_cast<std::int64_t>(wild.front()));
+    }
+    EXPECT_EQ(n.first_jump, 1U);
+    NavigationParams fast;
+    fast.max_speed_mps = 1000.0;
+    EXPECT_EQ(notes_of(run({bad}, pings, fast), DiagnosticCode::position_jump), 0);
+  }
+}
+
+TEST(Navigation, AShipThatWasMovedKeepsItsFixes) {
+  // 40 fixes, then 10 s of nothing and 40 more 5 km away; and back again after two minutes.
+  NavSeries moved = northwards(120);
+  for (std::size_t i = 40; i < 80; ++i) moved.samples[i].second = 5.09;
+  for (std::size_t i = 0; i < moved.samples.size(); ++i) {
+    moved.samples[i].time += static_cast<TimeNs>(i / 40) * 10 * kSecondNs;
+  }
+  std::vector<PingMotion> pings;
+  for (const NavSample& fix : moved.samples) pings.push_back({.time = fix.time, .heading_deg = 10.0});
+  const Navigation n = run({moved}, pings);
+  EXPECT_EQ(notes_of(n, DiagnosticCode::position_jump), 0);
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    EXPECT_NEAR(n.pings[i].transducer.latitude_deg, moved.samples[i].first, 1e-12) << i;
+    EXPECT_NEAR(n.pings[i].transducer.longitude_deg, moved.samples[i].second, 1e-12) << i;
+  }
+  // A wild first fix has one neighbour only: the others stay whatever it says.
+  NavSeries begin = northwards(40);
+  begin.samples[0].first += 300.0 / 111412.9;
+  begin.samples[20].first += 300.0 / 111412.9;
+  const Navigation b = run({begin}, pings);
+  ASSERT_EQ(notes_of(b, DiagnosticCode::position_jump), 1);
+  EXPECT_NEAR(b.pings[10].transducer.latitude_deg, begin.samples[10].first, 1e-12);
+  EXPECT_NEAR(b.pings[20].transducer.latitude_deg, northwards(40).samples[20].first, 1e-9);
+}
+
+TEST(Navigation, CourseStandsForAHeadingThatNobodyGives) {
+  // 5 m/s on course 350, drifting with a senseless course from 20 to 40 s, then 5 m/s on course 10.
+  const auto rmc = series(NavQuantity::velocity, "GP", "RMC",
+                          {{at(0), 5.0, 350.0},
+                           {at(10), 5.0, 350.0},
+                           {at(20), 0.2, 120.0},
+                           {at(30), 0.1, 200.0},
+                           {at(40), 5.0, 10.0},
+                           {at(50), 0.3, 90.0}});
+  const auto fixes = series(NavQuantity::position, "GP", "RMC", {{at(0), 60.0, 5.0}, {at(50), 60.001, 5.0}});
+  const std::vector<PingMotion> pings{{.time = at(0)},  {.time = at(10)}, {.time = at(20)},
+                                      {.time = at(30)}, {.time = at(40)}, {.time = at(50)}};
+  NavigationParams params;
+  params.lever_arm = LeverArmSource::settings;
+  params.lever_arm_x_m = 10.0;
+  const Navigation n = run({fixes, rmc}, pings, params);
+  const std::vector<double> wanted{350.0, 350.0, 350.0 + 20.0 / 3.0, 350.0 + 40.0 / 3.0 - 360.0, 10.0};
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(n.pings[i].heading_deg, wanted[i], 1e-9) << i;
+  EXPECT_TRUE(std::isnan(n.pings[5].heading_deg));  // a drifting ship's last ping lies nobody knows how
+  EXPECT_EQ(n.talkers.at("heading"), "course");
+  ASSERT_EQ(notes_of(n, DiagnosticCode::heading_from_course), 1);
+  EXPECT_EQ(notes_of(n, DiagnosticCode::no_heading), 2);  // of the last ping, and of its lever arm
+  // The lever arm turns with it: 10 m on course 350 are 9.848 m to the north.
+  EXPECT_NEAR((n.pings[0].transducer.latitude_deg - 60.0) * 111412.9, 10.0 * std::cos(rad_from_deg(10.0)), 0.01);
+
+  NavigationParams off;
+  off.heading_from_course = false;
+  EXPECT_TRUE(std::isnan(run({fixes, rmc}, pings, off).pings[0].heading_deg));
+  EXPECT_EQ(notes_of(run({fixes, rmc}, pings, off), DiagnosticCode::heading_from_course), 0);
+  // Sources are not mixed: a compass, or one ping's own heading, is all there is.
+  const auto hdt = series(NavQuantity::heading, "IN", "HDT", {{at(0), 77.0, 0}});
+  EXPECT_EQ(run({fixes, rmc, hdt}, pings).pings[0].heading_deg, 77.0);
+  EXPECT_EQ(notes_of(run({fixes, rmc, hdt}, pings), DiagnosticCode::heading_from_course), 0);
+  auto one = pings;
+  one[0].heading_deg = 33.0;
+  EXPECT_TRUE(std::isnan(run({fixes, rmc}, one).pings[1].heading_deg));
+  // Without any speed, the way between the fixes tells it: 111 m to the north in 50 s.
+  EXPECT_NEAR(run({fixes}, pings).pings[2].heading_deg, 0.0, 1e-6);
+}
+
 TEST(NavSeriesTable, EachSentenceGoesWhereItBelongs) {
   std::vector<NavSeries> all;
   for (const char* text : {"$GPRMC,000010,A,6000.0,N,00500.0,E,5.0,45.0,010120,,", "$GPRMC,000010,V,,,,,,,010120,,",

@@ -329,6 +329,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
 
   std::vector<PingMotion> motions;
   std::vector<const NavSeries*> series;
+  std::vector<std::uint32_t> file_of_series;
   for (const SurveyPing& ping : observation.pings) {
     motions.push_back(ping_attitude(survey.entry(ping)));
     auto& files = observation.files;
@@ -338,6 +339,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   }
   for (const std::uint32_t file : observation.files) {
     for (const NavSeries& s : survey.files[file].index.navigation) series.push_back(&s);
+    file_of_series.resize(series.size(), file);
   }
   Navigation placed = navigate(series, motions, observation.config, navigation);
   observation.navigation = std::move(placed.pings);
@@ -345,7 +347,12 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   if (navigation.beams_stabilised) note_unused_attitude(observation);
   observation.talkers = std::move(placed.talkers);
   observation.gps_minus_clock_s = placed.gps_minus_clock_s;
-  for (Diagnostic& note : placed.diagnostics) observation.diagnostics.push_back(std::move(note));
+  for (Diagnostic& note : placed.diagnostics) {
+    if (note.code == DiagnosticCode::position_jump && placed.first_jump) {
+      note.file = survey.files[file_of_series[*placed.first_jump]].index.name;
+    }
+    observation.diagnostics.push_back(std::move(note));
+  }
 }
 
 }  // namespace sonar
