@@ -26,9 +26,9 @@ struct VolumeFigure {
   PingNavigation navigation;
   std::string title;
   std::string title_line;               ///< of the picture; the title with the ping
-  bool outlined = false;                ///< masks are lines over the data, not a tint
   bool samples = true;                  ///< false: the masks alone are known
   std::optional<SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
+  bool outlined = false;                ///< masks are lines over the data, not a tint
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };

@@ -22,7 +22,7 @@ void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, cons
   const auto add = [&](const std::string& words, double size, Rgba8 colour) -> TextItem& {
     frame.items.emplace_back(
         text_item({middle, y}, elided(words, size, place.width + 0.5 * em), size, colour, TextAnchor::centre));
-    y -= 1.25 * em;
+    y -= 1.3 * em;
     return std::get<TextItem>(frame.items.back());
   };
   if (panel.time != 0) {
@@ -30,7 +30,7 @@ void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, cons
     add(clock.substr(11) + (style.dates ? " UTC" : ""), 0.9 * em, theme.muted);
     if (style.dates) add(clock.substr(0, 10), 0.9 * em, theme.muted);
   } else {
-    y -= (style.dates ? 2.5 : 1.25) * em;
+    y -= (style.dates ? 2.6 : 1.3) * em;
   }
   add(fmt::format("ping {}", panel.ping_index), em, theme.text).bold = panel.current;
 }
