@@ -7,6 +7,8 @@
 namespace sonar {
 namespace {
 
+constexpr int kLowWindow_px = 1000;
+
 QDockWidget* dock(const QMainWindow& window, const char* name) { return window.findChild<QDockWidget*>(name); }
 
 QDockWidget* put(QMainWindow& window, Qt::DockWidgetArea area, const char* name) {
@@ -75,8 +77,11 @@ void lay_out_docks(QMainWindow& window) {
   share(window, Qt::Horizontal, {{left, width / 6}, {top, width * 3 / 10}, {side, width * 3 / 10}, {right, width / 5}});
   share(window, Qt::Horizontal, {{time, width * 3 / 10}, {tables, width * 3 / 10}});
   share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
-  share(window, Qt::Vertical, {{top, height * 3 / 8}, {maps, height * 3 / 8}, {time, height / 4}});
-  share(window, Qt::Vertical, {{side, height * 3 / 8}, {volume, height * 3 / 8}, {tables, height / 4}});
+  // In a low window a quarter is too little for a strip of masks with its titles.
+  const int below = height < kLowWindow_px ? height * 32 / 100 : height / 4;
+  const int above = (height - below) / 2;
+  share(window, Qt::Vertical, {{top, above}, {maps, above}, {time, below}});
+  share(window, Qt::Vertical, {{side, above}, {volume, above}, {tables, below}});
 }
 
 }  // namespace sonar

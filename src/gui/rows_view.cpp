@@ -76,6 +76,9 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   list_->header()->setStretchLastSection(true);
   order_.sort(-1);  // as the rows come, until somebody clicks a title
   list_->header()->setSortIndicator(-1, Qt::AscendingOrder);
+  connect(list_->header(), &QHeaderView::sortIndicatorChanged, this, [this](int by) {
+    if (by >= 0 && fitted_) list_->setColumnWidth(by, std::max(list_->columnWidth(by), title_width(by)));
+  });
   list_->installEventFilter(this);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
     if (following_ || !now.isValid()) return;
@@ -110,7 +113,8 @@ RowsView::~RowsView() {
 void RowsView::add_filter_line() {
   auto* line = new QLineEdit(this);
   line->setObjectName("filter");
-  line->setPlaceholderText("Filter: words, or a title's beginning and a limit, as in depth>80");
+  line->setPlaceholderText("Filter: words, or depth>80");
+  line->setToolTip("Words that a row has, or a title's beginning and a limit: depth>80");
   line->setClearButtonEnabled(true);
   keep_own_keys(*line);
   layout()->addWidget(line);
@@ -169,9 +173,19 @@ void RowsView::fit_columns() {
   fitted_ = true;
   list_->header()->setResizeContentsPrecision(kRowsThatFit);
   for (int c = 0; c < model_.columnCount(); ++c) {
-    list_->resizeColumnToContents(c);
-    if (list_->columnWidth(c) > kWidestColumn_px) list_->setColumnWidth(c, kWidestColumn_px);
+    const int cells = static_cast<const QAbstractItemView*>(list_)->sizeHintForColumn(c);
+    list_->setColumnWidth(c, std::max(title_width(c), std::min(cells, kWidestColumn_px)));
   }
+}
+
+/// Qt leaves room for the mark of the order beside every title; here only the title that has it does.
+int RowsView::title_width(int column) const {
+  const QHeaderView& header = *list_->header();
+  const QString title = order_.headerData(column, Qt::Horizontal).toString();
+  const int margin = header.style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, &header);
+  const int mark = header.style()->pixelMetric(QStyle::PM_HeaderMarkSize, nullptr, &header) + margin;
+  return header.fontMetrics().horizontalAdvance(title) + 4 * margin +
+         (header.sortIndicatorSection() == column ? mark : 0);
 }
 
 std::vector<std::size_t> RowsView::chosen_rows() const {

@@ -56,6 +56,7 @@ class RowsView : public QWidget {
   void show_selected();
   void go_to(std::size_t row);
   void fit_columns();
+  [[nodiscard]] int title_width(int column) const;
   /// Rows that are marked, in no order; and marking them again.
   [[nodiscard]] std::vector<std::size_t> chosen_rows() const;
   void choose(const std::vector<std::size_t>& rows);

@@ -11,6 +11,7 @@
 #include <QTimer>
 #include <QToolBar>
 #include <array>
+#include <utility>
 
 #include "gui/action_menus.h"
 
@@ -47,12 +48,19 @@ constexpr std::array<Button, 22> kButtons{{{"file.open_folder", QStyle::SP_DirOp
                                            {"review.accept", QStyle::SP_DialogApplyButton},
                                            {"review.reject", QStyle::SP_DialogCancelButton}}};
 
-QIcon tinted(const QIcon& icon, const QColor& colour) {
-  QPixmap shape = icon.pixmap(QSize(kIcon_px, kIcon_px));
-  QPainter painter(&shape);
-  painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
-  painter.fillRect(shape.rect(), colour);
-  return QIcon(shape);
+/// In the colours of text, and of text that is greyed.
+QIcon tinted(const QIcon& icon) {
+  QIcon both;
+  for (const auto& [mode, group] :
+       {std::pair(QIcon::Normal, QPalette::Active), {QIcon::Disabled, QPalette::Disabled}}) {
+    QPixmap shape = icon.pixmap(QSize(kIcon_px, kIcon_px));
+    QPainter painter(&shape);
+    painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
+    painter.fillRect(shape.rect(), QApplication::palette().color(group, QPalette::ButtonText));
+    painter.end();
+    both.addPixmap(shape, mode);
+  }
+  return both;
 }
 
 /// Greys the buttons that cannot act now. Their actions stay alive: a greyed action's key is dead.
@@ -108,7 +116,7 @@ void tint_tool_bar(QMainWindow& window) {
     if (action == nullptr || button.icon == QStyle::SP_CustomBase) continue;
     const QIcon icon = window.style()->standardIcon(button.icon);
     const bool black = button.icon >= QStyle::SP_MediaPlay && button.icon <= QStyle::SP_MediaSeekBackward;
-    action->setIcon(black ? tinted(icon, QApplication::palette().color(QPalette::ButtonText)) : icon);
+    action->setIcon(black ? tinted(icon) : icon);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 std::string in_db(const Workspace& workspace, double confidence) {
   const SelectParams& select = workspace.select.values();
   if (select.mode == GrowMode::paper) return "in units of opacity: 1 = as opaque as the seed";
-  return fmt::format("{:.1f} dB below the reference level", db_below_reference(confidence, select.tolerance_db));
+  return fmt::format("{:.1f} dB below the reference", db_below_reference(confidence, select.tolerance_db));
 }
 
 }  // namespace

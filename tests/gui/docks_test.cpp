@@ -105,6 +105,21 @@ TEST_F(Docks, ClosingADockIsSwitchingItsViewOff) {
   EXPECT_TRUE(desk_->picture("side_slice")->seen());
 }
 
+TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
+  for (const QSize size : {QSize(1280, 800), QSize(1366, 768)}) {
+    window_->resize(size);
+    settle();
+    desk_->asking.reset_layout();
+    settle();
+    ASSERT_EQ(window_->size(), size) << "no dock asks for more";
+    for (const PictureDock& one : desk_->pictures) {
+      raise(one.id);
+      EXPECT_EQ(one.picture->problem(), "") << one.id << " at " << size.width();
+      EXPECT_EQ(one.picture->image().size.width, view(one.id)->width()) << one.id;
+    }
+  }
+}
+
 TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {
   window_->resize(1400, 900);
   settle();

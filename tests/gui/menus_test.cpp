@@ -6,6 +6,7 @@
 #include <QAction>
 #include <QClipboard>
 #include <QMenu>
+#include <QToolBar>
 #include <QTreeView>
 
 #include "gui/action_menus.h"
@@ -41,6 +42,30 @@ class Menus : public WindowAtWork {
     EXPECT_FALSE(menu.isVisible());
   }
 };
+
+TEST_F(Menus, ButtonsThatCannotActAreGreyAndTheirKeysLive) {
+  const auto* bar = window_->findChild<QToolBar*>("tools");
+  ASSERT_NE(bar, nullptr);
+  const auto can = [&](const char* id) { return bar->widgetForAction(find_action(*window_, id))->isEnabled(); };
+  EXPECT_FALSE(can("edit.undo"));
+  EXPECT_FALSE(can("ping.previous"));
+  EXPECT_FALSE(can("review.accept"));
+  EXPECT_FALSE(can("review.next")) << "no school is known";
+  EXPECT_TRUE(can("ping.next"));
+  EXPECT_TRUE(can("schools.detect"));
+  key(Qt::Key_Right);
+  EXPECT_TRUE(can("ping.previous"));
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  for (const char* id : {"edit.undo", "review.accept", "review.next", "school.propagate"}) EXPECT_TRUE(can(id)) << id;
+  EXPECT_FALSE(can("edit.redo"));
+  EXPECT_TRUE(find_action(*window_, "edit.redo")->isEnabled()) << "a greyed action's key would be dead";
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(can("edit.undo"));
+  EXPECT_TRUE(can("edit.redo"));
+  key(Qt::Key_Y, Qt::ControlModifier);
+  EXPECT_EQ(document().state().schools.size(), 1U);
+}
 
 TEST_F(Menus, ASchoolUnderARightClickIsWhatTheMenuIsAbout) {
   const Target target = look_at_school();

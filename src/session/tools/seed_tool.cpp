@@ -78,8 +78,8 @@ Result<GrowCommand> SeedTool::command_at(const Place& place) const {
 void SeedTool::show_place() {
   const Document& document = workspace_.document;
   if (workspace_.tool() != ToolName::seed || !place_ || !document.shown() || !document.staged()) return;
-  if (const auto under = school_under(place_->voxel); under && !place_->shift && !place_->control) {
-    return say(fmt::format("school {}: click selects, double click follows", document.state().schools[*under]->number));
+  if (!place_->shift && !place_->control && school_under(place_->voxel)) {
+    return say("click selects, double click follows");  // the read-out beside it names the school
   }
   auto command = command_at(*place_);
   if (!command) return say(command.error().text);

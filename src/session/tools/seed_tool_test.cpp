@@ -167,7 +167,7 @@ TEST_F(SeedToolAtWork, APressUponASchoolSelectsItAndGrowsNothing) {
   desk_.settle();
   workspace().school.set(std::nullopt);
   tool().hover(bright(), false, false);
-  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("school 1: click selects"));
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("click selects, double click follows"));
   press();
   desk_.settle();
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
