@@ -19,6 +19,7 @@ namespace sonar {
 namespace {
 
 constexpr int kIcon_px = 16;
+constexpr float kGreyed = 0.4F;
 
 struct Button {
   const char* id = "";                                  ///< empty = a separator
@@ -56,7 +57,9 @@ QIcon tinted(const QIcon& icon) {
     QPixmap shape = icon.pixmap(QSize(kIcon_px, kIcon_px));
     QPainter painter(&shape);
     painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
-    painter.fillRect(shape.rect(), QApplication::palette().color(group, QPalette::ButtonText));
+    QColor colour = QApplication::palette().color(group, QPalette::ButtonText);
+    if (mode == QIcon::Disabled) colour.setAlphaF(kGreyed);  // a filled shape looks darker than a word
+    painter.fillRect(shape.rect(), colour);
     painter.end();
     both.addPixmap(shape, mode);
   }
