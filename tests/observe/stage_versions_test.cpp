@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 3, "ccc44b9443e584e22db20886484d607b"},
     {"track", 4, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 5, "a70c5b9693951765117e228f1e01832a"},
+    {"measure", 6, "a70c5b9693951765117e228f1e01832a"},
     {"summarise", 1, "98e2f839d24ac8e06a54a9584da060c4"},
 }};
 
