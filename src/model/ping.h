@@ -20,6 +20,19 @@ struct ReducedRow {
   friend bool operator==(const ReducedRow&, const ReducedRow&) = default;
 };
 
+/// The seabed's plane in the whole ping and where it was seen, as room school's Seabed has it; behind the record of a
+/// reduced ping's first channel.
+struct ReducedSeabed {
+  double offset_m = 0.0;
+  double slope_x = 0.0;
+  double slope_y = 0.0;
+  double min_x = 0.0;  ///< m
+  double max_x = 0.0;
+  double min_y = 0.0;
+  double max_y = 0.0;
+  friend bool operator==(const ReducedSeabed&, const ReducedSeabed&) = default;
+};
+
 /// One channel of one ping: RAW0's header and a view of its power counts.
 struct ChannelPing {
   int channel = 0;  ///< 0-based
@@ -37,10 +50,11 @@ struct ChannelPing {
   double temperature_c = 0.0;
   double heading_deg = 0.0;  ///< 0 = absent
   int mode = 0;
-  int transmit_mode = 0;                      ///< 0 active, 1 passive, 2 test, -1 unknown
-  int offset = 0;                             ///< index of the first stored sample
-  std::span<const std::int16_t> power_count;  ///< [stored sample], 10 log10(2)/256 dB re 1 W; little-endian as stored
-  std::optional<ReducedRow> reduced;          ///< only in reduced files
+  int transmit_mode = 0;                        ///< 0 active, 1 passive, 2 test, -1 unknown
+  int offset = 0;                               ///< index of the first stored sample
+  std::span<const std::int16_t> power_count;    ///< [stored sample], 10 log10(2)/256 dB re 1 W; little-endian as stored
+  std::optional<ReducedRow> reduced;            ///< only in reduced files
+  std::optional<ReducedSeabed> reduced_seabed;  ///< only beside `reduced`
 };
 
 /// Whether the channel listened only, or to a test signal: what it holds is no echo.

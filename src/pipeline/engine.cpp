@@ -212,6 +212,7 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.background_db.push_back(static_cast<double>(level_db));
   }
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
+    ping.seabed = reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->counts.shape().samples);
     flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->flags.view());
   } else if (recipe_.seabed.enabled) {
     ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), ping.background(), sector_,

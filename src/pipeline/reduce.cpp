@@ -154,8 +154,10 @@ class FileReducer {
     }
     if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
     const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
-    // A ping's first channel tells of roll, heave and heading: it stays in any case.
-    return append_channel(bytes_, datagram.time, raw.head, std::as_const(ping_rows_.counts).view().row(row),
+    // A ping's first channel tells of roll, heave, heading and the seabed: it stays in any case.
+    ChannelPing head = raw.head;
+    head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
+    return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
                           ping_rows_.record[static_cast<std::size_t>(row)], is_first);
   }
 

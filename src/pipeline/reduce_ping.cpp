@@ -182,6 +182,10 @@ void keep_coarse(const Array3<std::int16_t>& counts, int group, Array3<std::int1
 
 void fill_record(const PowerVolume& whole, const Seabed& seabed, const std::vector<float>& background_db,
                  ReducedPing& out) {
+  if (seabed.found) {
+    out.seabed = ReducedSeabed{seabed.offset_m, seabed.slope_x, seabed.slope_y, seabed.min_x,
+                               seabed.max_x,    seabed.min_y,   seabed.max_y};
+  }
   out.record.resize(whole.volume.counts.shape().rows());
   for (std::size_t row = 0; row < out.record.size(); ++row) {
     ReducedRow& record = out.record[row];

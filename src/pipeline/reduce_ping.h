@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/array.h"
@@ -17,6 +18,7 @@ namespace sonar {
 struct ReducedPing {
   Array3<std::int16_t> counts;     ///< power counts; kNoData = left out, kReducedFault = was faulty
   std::vector<ReducedRow> record;  ///< [row]
+  std::optional<ReducedSeabed> seabed;
 };
 
 /// Picks the samples that decide about the masks of one ping.

@@ -63,6 +63,28 @@ std::vector<float> reduced_background_db(std::span<const ChannelPing> heads, std
   return levels;
 }
 
+Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, int samples) {
+  Seabed seabed;
+  for (const ChannelPing& head : heads) {
+    if (!head.reduced_seabed) continue;
+    const ReducedSeabed& plane = *head.reduced_seabed;
+    seabed.found = true;
+    seabed.offset_m = plane.offset_m;
+    seabed.slope_x = plane.slope_x;
+    seabed.slope_y = plane.slope_y;
+    seabed.min_x = plane.min_x;
+    seabed.max_x = plane.max_x;
+    seabed.min_y = plane.min_y;
+    seabed.max_y = plane.max_y;
+    break;
+  }
+  seabed.first_sample.assign(row_of_channel.size(), samples);
+  for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    seabed.first_sample[static_cast<std::size_t>(row)] = std::min(record.seabed_sample, samples);
+  });
+  return seabed;
+}
+
 void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                          View3<SampleFlags> flags) {
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {

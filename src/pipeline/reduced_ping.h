@@ -34,7 +34,13 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
                                                        std::span<const int> row_of_channel);
 
-/// Flags seabed from where it began in the whole ping on. (The plane itself is not known any more.)
+/// The seabed of the whole ping: its plane where the file has it (files written before it was kept have none: then it
+/// counts as not found), and where each row's began. A row without record has none.
+/// samples  of the ping's rows
+[[nodiscard]] Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
+                                    int samples);
+
+/// Flags seabed from where it began in the whole ping on, plane or not.
 void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                          View3<SampleFlags> flags);
 

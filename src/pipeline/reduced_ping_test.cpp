@@ -35,6 +35,24 @@ TEST(ReducedPing, record_survives_the_file) {
   EXPECT_EQ(back.head.reduced, p.reduced);
   EXPECT_EQ(back.count(), 3);
   EXPECT_EQ(back.head.offset, 77);
+  EXPECT_FALSE(back.head.reduced_seabed);
+  p.reduced_seabed = ReducedSeabed{151.0625, 0.015, -0.1, -80.0, 90.0, -400.25, -30.0};
+  bytes.clear();
+  ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
+  const simrad::Raw0 with_plane = simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20));
+  EXPECT_EQ(with_plane.head.reduced, p.reduced);
+  EXPECT_EQ(with_plane.head.reduced_seabed, p.reduced_seabed);
+  const Seabed seabed = reduced_seabed(std::vector{p}, std::vector{5, 4, 3, 2, 1, 0}, 1400);
+  EXPECT_TRUE(seabed.found);
+  EXPECT_EQ(seabed.offset_m, 151.0625);
+  EXPECT_EQ(seabed.slope_y, -0.1);
+  EXPECT_EQ(seabed.min_y, -400.25);
+  EXPECT_EQ(seabed.first_sample, (std::vector<std::int32_t>{1400, 700, 1400, 1400, 1400, 1400}));
+  // A plane that makes no sense is none.
+  p.reduced_seabed->slope_x = std::numeric_limits<double>::quiet_NaN();
+  bytes.clear();
+  ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
+  EXPECT_FALSE(simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20)).head.reduced_seabed);
   p.reduced.reset();
   bytes.clear();
   ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));

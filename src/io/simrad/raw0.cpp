@@ -2,6 +2,7 @@
 #include "io/simrad/raw0.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -25,6 +26,9 @@ Raw0 unusable(Raw0 raw, const char* problem, DiagnosticCode code) {
   return raw;
 }
 
+/// No sea is so deep and no sonar sees so far.
+constexpr double kLargestSeabed_m = 1e6;
+
 /// Bytes that mode and count promise after the header.
 std::int64_t promised_bytes(int mode, std::int64_t count) {
   std::int64_t bytes = 0;
@@ -44,6 +48,20 @@ std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
   row.seabed_sample = std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples);
   row.recorded_samples = std::clamp(number_at<std::int32_t>(rest, 12), 0, kMaxSamples);
   return row;
+}
+
+/// The plane behind it, where there is one that makes sense.
+std::optional<ReducedSeabed> parse_reduced_seabed(std::span<const std::byte> rest) {
+  if (rest.size() < kReducedBytes + kReducedSeabedBytes) return std::nullopt;
+  rest = rest.subspan(kReducedBytes);
+  const std::span mark = std::as_bytes(std::span(kReducedSeabedMark));
+  if (!std::equal(mark.begin(), mark.end(), rest.begin())) return std::nullopt;
+  std::array<double, 7> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = number_at<double>(rest, 4 + 8 * i);
+    if (!(std::abs(values[i]) < kLargestSeabed_m)) return std::nullopt;
+  }
+  return ReducedSeabed{values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
 }  // namespace
@@ -98,8 +116,9 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
   }
   if ((head.mode & 1) == 0) return unusable(raw, "no power samples in this mode", DiagnosticCode::no_power);
   raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
-  head.reduced =
-      parse_reduced(body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count))));
+  const auto behind = body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count)));
+  head.reduced = parse_reduced(behind);
+  if (head.reduced) head.reduced_seabed = parse_reduced_seabed(behind);
   return raw;
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 template <class T>
 void put(RawBytes& out, T value) {
-  using Bits = std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint32_t>;
+  using Words = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
+  using Bits = std::conditional_t<sizeof(T) == 2, std::uint16_t, Words>;
   static_assert(sizeof(T) == sizeof(Bits));
   const auto bits = std::bit_cast<Bits>(value);
   for (std::size_t i = 0; i < sizeof(T); ++i) out.push_back(static_cast<std::byte>((bits >> (8 * i)) & 0xFFU));
@@ -150,6 +151,12 @@ Result<void> append_raw0(RawBytes& out, TimeNs time, const ChannelPing& p) {
     put_f32(out, p.reduced->background_db);
     put(out, p.reduced->seabed_sample);
     put(out, p.reduced->recorded_samples);
+    if (p.reduced_seabed) {
+      const std::span plane_mark = std::as_bytes(std::span(simrad::kReducedSeabedMark));
+      out.insert(out.end(), plane_mark.begin(), plane_mark.end());
+      const ReducedSeabed& s = *p.reduced_seabed;
+      for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
+    }
   }
   close(out, start);
   return {};
