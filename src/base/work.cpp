@@ -8,6 +8,7 @@
 #include <vector>
 
 #ifndef SONAR_PLAIN_THREADS
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -18,7 +19,8 @@ struct Work::Pool {
   std::mutex progress_mutex;
   ProgressSink sink;
 #ifndef SONAR_PLAIN_THREADS
-  explicit Pool(int threads) : arena(threads) {}
+  // An arena of more threads than there are gets no more of them, only a warning on standard error.
+  explicit Pool(int threads) : arena(std::min(threads, tbb::info::default_concurrency())) {}
   tbb::task_arena arena;
 #else
   explicit Pool(int) {}

@@ -11,6 +11,7 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/number_range.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "cli/whole_numbers.h"
@@ -243,10 +244,10 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
   verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
   verb->add_option("--seed", arguments->seeds, "PING,FAN,BEAM,SAMPLE from 0; several are joined")->required();
-  auto* in_db = verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference")
-                    ->check(CLI::Range(0.01, 60.0));
+  auto* in_db =
+      verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference")->check(within(0.01, 60.0));
   auto* in_opacity = verb->add_option("--tolerance-opacity", arguments->tolerance_opacity, "difference of opacity")
-                         ->check(CLI::Range(0.0001, 1.0));
+                         ->check(within(0.0001, 1.0));
   in_db->excludes(in_opacity);
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
       ->check(CLI::IsMember({"tracked", "paper"}));

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +26,9 @@
 namespace sonar {
 namespace {
 
+/// Far beyond a plan's size; a larger number is a slip.
+constexpr int kMostTasks = 10'000'000;
+
 struct RunArguments {
   std::vector<std::string> survey;
   std::string out;
@@ -32,7 +38,7 @@ struct RunArguments {
   std::string plan;
   std::string only;
   std::string pings;
-  std::size_t task = 0;
+  std::int64_t task = 0;
   bool has_task = false;
   bool remeasure = false;
   int jobs = 0;
@@ -157,6 +163,15 @@ void print_failures(const SurveyFiles& survey, const RunReport& report) {
   }
 }
 
+/// Whether a run could find any school at all: by itself, or by a choice of the session.
+bool looks_for_schools(const Opened& opened) {
+  if (opened.plan.recipe.automatic) return true;
+  constexpr std::array<std::string_view, 4> kSelects{"propagate", "grow", "brush", "detect"};
+  return std::any_of(opened.journal.begin(), opened.journal.end(), [&](const JournalLine& line) {
+    return std::find(kSelects.begin(), kSelects.end(), line.command) != kSelects.end();
+  });
+}
+
 int finish(const Opened& opened, const RunOptions& options, RunReport report, Work& work) {
   if (options.task) {
     clear_progress();
@@ -171,6 +186,10 @@ int finish(const Opened& opened, const RunOptions& options, RunReport report, Wo
   if (!merged) return sonar::report(merged.error());
   for (const std::string& line : note_lines(*merged)) fmt::print(stderr, "{}\n", line);
   fmt::print("{}", merge_text(*merged, options.out));
+  if (!looks_for_schools(opened)) {
+    fmt::print(stderr,
+               "note: no schools were looked for: the recipe says \"automatic\": false, and no session selects one\n");
+  }
   if (report.failures.empty()) return kExitDone;
   return report.done.empty() && report.skipped.empty() ? kExitFailed : kExitPartly;
 }
@@ -188,7 +207,7 @@ int run_verb(const RunArguments& arguments) {
   options.out = arguments.plan.empty() ? std::filesystem::path(arguments.out)
                                        : std::filesystem::absolute(arguments.plan).parent_path();
   if (!arguments.only.empty()) options.only = arguments.only;
-  if (arguments.has_task) options.task = arguments.task;
+  if (arguments.has_task) options.task = static_cast<std::size_t>(arguments.task);
   options.pings = *pings;
   options.remeasure = arguments.remeasure;
   options.program_version = SONAR_VERSION;
@@ -223,7 +242,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
   auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
   auto* task =
-      verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(CLI::NonNegativeNumber);
+      verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(CLI::Range(0, kMostTasks));
   for (const char* own : {"--recipe", "--calibration", "--session", "--only", "--pings", "--remeasure"}) {
     plan->excludes(verb->get_option(own));  // the plan says these
   }

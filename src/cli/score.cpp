@@ -23,9 +23,18 @@ int run_score(const ScoreOptions& options) {
   if (!found) return report(found.error());
   const auto truth = read_truth_side(options.truth);
   if (!truth) return report(truth.error());
+  if (!share_pings(*found, *truth)) {
+    return report(
+        {ErrorCode::mismatch, fmt::format("has no ping at the time of any ping of {}", options.truth), {options.out}});
+  }
   const Score result = score(*found, *truth);
   fmt::print("{}", options.json ? score_json(result) : score_text(result));
-  return kExitDone;
+  for (const std::string& observation : truth->missing) {
+    report({ErrorCode::not_found,
+            fmt::format("{}.nc is missing though the tables name it; its schools take no part", observation),
+            {options.truth}});
+  }
+  return truth->missing.empty() ? kExitDone : kExitPartly;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "cli/verb.h"
 #include "pipeline/json_file.h"
 #include "pipeline/json_parameters.h"
+#include "pipeline/survey.h"
 
 namespace sonar {
 namespace {
@@ -110,6 +111,7 @@ int simulate(const SimulateOptions& o) {
   }
   if (o.out.empty())
     return report({ErrorCode::usage, "OUT is required: the folder to write into; see sonarx simulate --help", {}});
+  if (auto clear = require_not_beneath_raw(o.out); !clear) return report(clear.error());
   Work work(o.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);

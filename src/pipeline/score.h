@@ -47,6 +47,7 @@ struct BodyKey {
 struct ScoreSide {
   std::vector<ObservationProduct> observations;
   std::map<BodyKey, BodyInPing> bodies;  ///< truth only
+  std::vector<std::string> missing;      ///< observations that the tables name and no product holds
 };
 
 /// How one true school was found. NaN = cannot be told. Errors compare means over the unclipped pings that both have.
@@ -105,6 +106,9 @@ struct Score {
 /// Holds a result against the truth. Pings match by time (within 1 ms), whatever the observations are called; schools
 /// marked as rejected are not there.
 [[nodiscard]] Score score(const ScoreSide& found, const ScoreSide& truth);
+
+/// Whether any ping of one side is the other's as well; else there is nothing to compare.
+[[nodiscard]] bool share_pings(const ScoreSide& found, const ScoreSide& truth);
 
 /// The object of INTERFACES section 7, with `fragments` and `merged` beside. `summary` has, over the schools that count: counted, found, found_fraction,
 /// mean_dice, and the members `median`, `p90` (of the error's size) and `bias` (median with its sign) of each error.

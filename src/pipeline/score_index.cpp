@@ -66,6 +66,16 @@ std::optional<std::pair<std::size_t, std::int64_t>> ping_at(const Indexed& side,
   return found->second;
 }
 
+bool share_pings(const ScoreSide& found, const ScoreSide& truth) {
+  const Indexed there = index_side(found);
+  for (const ObservationProduct& product : truth.observations) {
+    for (const PingNavigation& ping : product.pings) {
+      if (ping_at(there, ping.time)) return true;
+    }
+  }
+  return false;
+}
+
 std::map<SchoolKey, TrackLikeness> look_back(const Indexed& found, const ScoreSide& found_side, const Indexed& truth) {
   std::map<SchoolKey, TrackLikeness> out;
   for (const auto& [key, mask] : found.masks) {

@@ -42,17 +42,21 @@ double sum_known(double a, double b) {
 
 /// Rows of a table go to the observation of their name; those of products stay where there is no table.
 template <class Row>
-Result<void> take_table(const fs::path& path, std::vector<ObservationProduct>& products,
-                        std::vector<Row> ObservationProduct::*member) {
+Result<void> take_table(const fs::path& path, ScoreSide& side, std::vector<Row> ObservationProduct::*member) {
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   auto rows = read_csv_rows<Row>(path);
   if (!rows) return pass_on(rows);
+  std::vector<ObservationProduct>& products = side.observations;
   for (ObservationProduct& product : products) (product.*member).clear();
   for (Row& row : *rows) {
     const auto product =
         std::find_if(products.begin(), products.end(), [&](const auto& p) { return p.observation == row.observation; });
-    if (product != products.end()) (*product.*member).push_back(std::move(row));
+    if (product != products.end()) {
+      (*product.*member).push_back(std::move(row));
+    } else if (std::find(side.missing.begin(), side.missing.end(), row.observation) == side.missing.end()) {
+      side.missing.push_back(row.observation);
+    }
   }
   return {};
 }
@@ -67,11 +71,10 @@ Result<ScoreSide> read_side(const fs::path& folder) {
     product->background_db = {};
     side.observations.push_back(std::move(*product));
   }
-  if (auto taken = take_table(folder / "schools.csv", side.observations, &ObservationProduct::schools); !taken) {
+  if (auto taken = take_table(folder / "schools.csv", side, &ObservationProduct::schools); !taken) {
     return pass_on(taken);
   }
-  if (auto taken = take_table(folder / "school_pings.csv", side.observations, &ObservationProduct::school_pings);
-      !taken) {
+  if (auto taken = take_table(folder / "school_pings.csv", side, &ObservationProduct::school_pings); !taken) {
     return pass_on(taken);
   }
   return side;

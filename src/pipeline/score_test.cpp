@@ -59,6 +59,15 @@ TEST(Score, truth_scores_itself_one) {
   EXPECT_EQ(summary["mean_dice"], 1.0);
 }
 
+TEST(Score, sides_without_a_common_ping_are_told) {
+  EXPECT_TRUE(share_pings(truth(), truth()));
+  ScoreSide other = truth();
+  for (PingNavigation& ping : other.observations[0].pings) ping.time += 500'000'000;
+  EXPECT_FALSE(share_pings(other, truth()));
+  other.observations[0].pings[7].time = truth().observations[0].pings[7].time;
+  EXPECT_TRUE(share_pings(other, truth()));
+}
+
 TEST(Score, empty_and_all_sea_score_zero) {
   ScoreSide none;
   none.observations = {example::empty("obs-0001", 10)};

@@ -170,4 +170,23 @@ Result<void> require_outside_raw(const SurveyFiles& survey, const std::filesyste
   return require_outside_raw(paths, folder);
 }
 
+Result<void> require_not_beneath_raw(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path above = fs::weakly_canonical(fs::absolute(folder, error), error).parent_path();
+  for (;; above = above.parent_path()) {
+    for (fs::directory_iterator it(above, error), end; !error && it != end; it.increment(error)) {
+      if (!has_extension(it->path(), ".raw")) continue;
+      const auto source = open_file(it->path());
+      const auto format = source ? simrad::detect_format(**source) : Result<RawFormat>(RawFormat::unknown);
+      if (!format || *format == RawFormat::unknown) continue;
+      return fail(ErrorCode::usage,
+                  fmt::format("lies beneath the raw files of {}, where nothing is ever written", above.string()),
+                  {folder.string()});
+    }
+    error.clear();
+    if (above == above.root_path() || above.empty()) return {};
+  }
+}
+
 }  // namespace sonar

@@ -147,6 +147,11 @@ struct SurveyFiles {
 [[nodiscard]] Result<void> require_outside_raw(std::span<const std::filesystem::path> raw,
                                                const std::filesystem::path& folder);
 
+/// The same for a folder whose survey nobody named: refuses one that lies beneath a folder with raw files in it, known by
+/// their names and first bytes. The folder itself may hold some.
+/// errors  usage, naming the folder
+[[nodiscard]] Result<void> require_not_beneath_raw(const std::filesystem::path& folder);
+
 /// The second half of open_survey: from indexed files to observations. Pure.
 [[nodiscard]] SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& survey,
                                          const NavigationParams& navigation);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/survey.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -307,6 +308,50 @@ TEST(Survey, NothingIsWrittenBesideTheFiles) {
   const std::vector<fs::path> paths{folder.path()};
   ASSERT_TRUE(open_survey(paths, {}, {}, IndexCache{elsewhere.path()}, work));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+// One note for an observation, however many fixes are wild, with the file that holds the first.
+TEST(Survey, AnObservationNamesTheFileOfItsFirstWildFix) {
+  const test::TemporaryFolder folder;
+  for (int file = 0; file < 2; ++file) {
+    Bytes bytes = test::con0(test::small_ms70());
+    for (int i = 8 * file; i < 8 * file + 8; ++i) {
+      const TimeNs time = kStart + i * 2 * kSecondNs;
+      const double wild = i == 10 || i == 13 ? 0.2 : 0.0;  // minutes of latitude: 370 m
+      bytes.add(test::nme0(time, test::with_checksum(fmt::format(
+                                     "GPGGA,000000,60{:07.4f},N,00500.0000,E,1,8,1,0,M,0,M,,", 0.005 * i + wild))));
+      bytes.add(test::small_ping(time));
+    }
+    folder.write(file == 0 ? "a.raw" : "b.raw", bytes);
+  }
+  const SurveyFiles survey = opened(folder);
+  ASSERT_EQ(survey.observations.size(), 1U);
+  const ObservationFiles& observation = survey.observations[0];
+  ASSERT_EQ(count(observation.diagnostics, DiagnosticCode::position_jump), 1);
+  for (const Diagnostic& note : observation.diagnostics) {
+    if (note.code != DiagnosticCode::position_jump) continue;
+    EXPECT_TRUE(note.file.ends_with("/b.raw")) << note.file;
+    EXPECT_EQ(note.ping_index, 10);
+    EXPECT_EQ(note.text.find("2 fixes"), 0U) << note.text;
+  }
+  EXPECT_NEAR(observation.navigation[10].transducer.latitude_deg, 60.0 + 0.05 / 60.0, 1e-8);
+}
+
+TEST(Survey, NothingIsMadeBeneathRawFiles) {
+  const test::TemporaryFolder folder;
+  EXPECT_TRUE(require_not_beneath_raw(folder.path() / "new" / "survey"));
+  folder.write("photograph.raw", Bytes().zeros(400));
+  EXPECT_TRUE(require_not_beneath_raw(folder.path() / "new"));
+  folder.write("a.RAW", test::small_file(1));
+  EXPECT_TRUE(require_not_beneath_raw(folder.path()));  // that folder's own affair
+  for (const char* inner : {"new", "new/survey", "new/../other"}) {
+    const auto refused = require_not_beneath_raw(folder.path() / inner);
+    ASSERT_FALSE(refused) << inner;
+    EXPECT_EQ(refused.error().code, ErrorCode::usage);
+  }
+  fs::create_directory_symlink(folder.path(), folder.path().string() + "-link");
+  EXPECT_FALSE(require_not_beneath_raw(folder.path().string() + "-link/new"));
+  fs::remove(folder.path().string() + "-link");
 }
 
 TEST(Survey, OutsideParametersAreRefused) {

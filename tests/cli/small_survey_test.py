@@ -3,6 +3,7 @@
 import json
 import resource
 import shutil
+import subprocess
 
 import sonarx
 from sonarx import OUT, SCHOOL_PINGS, SCHOOLS, SURVEY, TRUTH, WORK, Case
@@ -76,6 +77,66 @@ class SmallSurvey(Case):
         self.assertIn("found_fraction", score["summary"])
         self.assertIn("mean_dice", score["summary"])
         self.assertTrue(self.sonarx("score", OUT, "--truth", TRUTH).strip())
+
+    def test_score_names_what_of_the_truth_is_missing(self):
+        folder = self.fresh("torn-truth")
+        shutil.copytree(TRUTH, folder / "truth")
+        (folder / "truth" / "obs-0002.nc").unlink()
+        code, out, err = sonarx.run("score", OUT, "--truth", folder / "truth", "--json")
+        self.assertEqual(code, 3)
+        self.assertEqual(len(err.splitlines()), 1)
+        self.assertIn("obs-0002.nc is missing", err)
+        self.assertEqual({s["truth_id"].split("/")[0] for s in json.loads(out)["schools"]}, {"obs-0001"})
+
+    def test_score_refuses_a_truth_of_other_pings(self):
+        folder = self.fresh("other-truth")
+        self.sonarx("simulate", folder / "survey", "--preset", "easy", "--seed", "9", "--observations", "1", "--pings", "3",
+                    "--schools", "1")
+        self.sonarx("run", folder / "survey", "--out", folder / "out")
+        truth = folder / "first" / "truth"
+        shutil.copytree(TRUTH, truth)
+        (truth / "obs-0001.nc").unlink()  # begins when the other survey does; the second observation is another day's
+        (truth / "obs-0002.nc").rename(truth / "obs-0001.nc")
+        self.one_line_error("score", folder / "out", "--truth", truth, code=1, names=folder / "out")
+
+    def test_nothing_is_simulated_beneath_raw_files(self):
+        before = sonarx.snapshot(SURVEY)
+        for inner in (SURVEY / "inner", SURVEY / "a" / "b"):
+            self.one_line_error("simulate", inner, "--preset", "easy", code=2, names=inner)
+        self.assertEqual(sonarx.snapshot(SURVEY), before)
+
+    def test_a_run_that_looks_for_nothing_says_so(self):
+        folder = self.fresh("nothing")
+        recipe = json.loads(self.sonarx("recipe"))
+        recipe["automatic"] = False
+        (folder / "r.json").write_text(json.dumps(recipe))
+        code, _, err = sonarx.run("run", SURVEY, "--out", folder / "out", "--recipe", folder / "r.json", "--only", "obs-0001")
+        self.assertEqual(code, 0, err)
+        self.assertIn("no schools were looked for", err)
+
+    def test_geojson_holds_the_tables_values(self):
+        folder = self.fresh("geojson")
+        self.sonarx("export", OUT, "--to", "geojson", "--dest", folder / "map")
+        features = json.loads((folder / "map" / "school_centres.geojson").read_text())["features"]
+        rows = sonarx.read_csv(OUT / "school_pings.csv")
+        self.assertEqual(len(features), len(rows))
+        for feature, row in zip(features, rows):
+            self.assertEqual(list(feature["properties"]), SCHOOL_PINGS)
+            for name, value in feature["properties"].items():
+                if value is None or isinstance(value, str):
+                    self.assertEqual(value or "", row[name])
+                else:
+                    self.assertEqual(value, float(row[name]))
+
+    def test_an_export_that_finds_the_disk_full_leaves_nothing(self):
+        folder = self.fresh("full")
+        # No file may grow beyond 2 kB: what a full disk does, half way.
+        limited = f"trap '' XFSZ; ulimit -f 4; exec {sonarx.PROGRAM} export {OUT} --to geojson --dest {folder / 'map'}"
+        done = subprocess.run(["sh", "-c", limited], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        self.assertIn("File too large", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertEqual([p for p in folder.rglob("*") if p.is_file()], [])
 
     def test_a_second_run_does_nothing_again(self):
         before = sonarx.snapshot(OUT / "products")

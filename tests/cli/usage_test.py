@@ -39,13 +39,23 @@ class Usage(Case):
                                 (("simulate", "x", "--pings", "-3"), "--pings: -3 is outside 1 .. 100000"),
                                 (("simulate", "x", "--speed-knots", "-1"), "--speed-knots: -1 is outside "),
                                 (("simulate", "x", "--noise", "-1"), "--noise: -1 is outside "),
+                                (("simulate", "x", "--noise", "nan"), "--noise: nan is outside "),
                                 (("simulate", "x", "--jobs", "-3"), "--jobs: "),
+                                (("run", "--plan", "plan.json", "--task", "-1"), "--task: Value -1 not in range"),
+                                (("propagate", "x", "--observation", "obs-0001", "--seed", "0,0,0,0", "--out", "y",
+                                  "--tolerance-db", "nan"), "--tolerance-db: nan is outside 0.01 .. 60"),
                                 (("info", "--no-such-flag"), "see sonarx info --help")]:
             with self.subTest(arguments):
                 code, _, err = run(*arguments)
                 self.assertEqual(code, 2)
                 self.assertIn(said, err)
+                self.assertLess(len(err), 200)
                 self.assertEqual(err, "\n".join(line.rstrip() for line in err.splitlines()) + "\n")
+
+    def test_more_jobs_than_cores_are_no_matter_of_the_user(self):
+        code, _, err = run("simulate", sonarx.WORK / "many-jobs", "--preset", "easy", "--pings", "2", "--observations",
+                           "1", "--schools", "1", "--force", "--jobs", "500")
+        self.assertEqual((code, err), (0, ""))
 
     def test_what_is_not_there_fails_in_one_line(self):
         gone = sonarx.WORK / "not-there"
