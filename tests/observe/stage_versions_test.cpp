@@ -38,12 +38,12 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
-    {"seabed", 2, "302f9abf849dafe0eb44d37e3f0e2527"},
+    {"seabed", 2, "aae837000c9ff6f0127446493cea9c4a"},
     {"detect", 3, "ccc44b9443e584e22db20886484d607b"},
     {"track", 4, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 6, "a70c5b9693951765117e228f1e01832a"},
-    {"summarise", 1, "98e2f839d24ac8e06a54a9584da060c4"},
+    {"measure", 6, "938a8b04b0308211ab8a2cd302ed5325"},
+    {"summarise", 1, "acfd5b7b9c28702d26ac87931fdd168b"},
 }};
 
 constexpr int kFans = 8;
