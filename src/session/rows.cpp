@@ -110,7 +110,10 @@ std::string tab_separated(const Rows& rows, const std::vector<std::size_t>& whic
   }
   text += '\n';
   for (const std::size_t row : which) {
-    for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : "\t") + plain(rows.cell(row, c).text);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      text += c == 0 ? "" : "\t";
+      text += plain(rows.cell(row, c).text);
+    }
     text += '\n';
   }
   return text;
