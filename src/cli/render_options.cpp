@@ -99,6 +99,11 @@ Result<void> take_plane(const RenderArguments& arguments, PlaneChoice& plane) {
     if (!normal) return pass_on(normal);
     plane.oblique = {(*point)[0], (*point)[1], (*point)[2], (*normal)[0], (*normal)[1], (*normal)[2]};
   }
+  const int planes = int{plane.depth_m.has_value()} + int{plane.bearing_deg.has_value()} +
+                     int{plane.through.has_value()} + int{plane.oblique.has_value()};
+  if (planes > 1) {
+    return fail(ErrorCode::usage, "one plane at a time: --depth-m, --bearing-deg, --through, or --point with --normal");
+  }
   return {};
 }
 
@@ -170,7 +175,8 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
       ->group(group);
   verb.add_option("--through", a.plane_through, "slice-plane: vertical through X,Y,X,Y (m towards bow and starboard)")
       ->group(group);
-  verb.add_option("--point", a.plane_point, "slice-plane: oblique, through X,Y,Z (m towards bow, starboard, down)")
+  verb.add_option("--point", a.plane_point,
+                  "slice-plane: oblique, through X,Y,Z (m from the transducer towards bow, starboard, down)")
       ->group(group);
   verb.add_option("--normal", a.plane_normal, "slice-plane: its normal X,Y,Z, towards the viewer")->group(group);
   verb.add_option("--removed", a.removed, "Unfiltered, how samples look that noise removal takes out; the key says so")
@@ -289,6 +295,12 @@ Result<PictureOptions> picture_options(const RenderArguments& arguments) {
   PictureOptions out = arguments.picture;
   const auto size = size_of(arguments.size, arguments.scale);
   if (!size) return pass_on(size);
+  if (out.mask_style.fuzzy_above > out.mask_style.core_at) {
+    return fail(ErrorCode::usage,
+                fmt::format("--fuzzy {} lies above --core {}", out.mask_style.fuzzy_above, out.mask_style.core_at));
+  }
+  // "As recorded" means all of it, what would be taken for noise, surface or seabed too.
+  if (arguments.unfiltered) out.left_out = SampleFlags::none;
   out.scale.low_db = arguments.low_db.value_or(out.scale.low_db);
   out.scale.span_db = arguments.span_db.value_or(out.scale.span_db);
   if (arguments.filtered || arguments.unfiltered) out.filtered = arguments.filtered;

@@ -28,6 +28,22 @@ std::vector<std::int64_t> gone(const JournalState& before, const JournalState& a
   return numbers;
 }
 
+/// Whether two states choose the same; a state that was built anew shares nothing with the one before.
+bool same_choices(const JournalState& a, const JournalState& b) {
+  const auto same_school = [](const auto& one, const auto& other) {
+    if (one == other) return true;
+    const SchoolRow& x = one->masks.decided;
+    const SchoolRow& y = other->masks.decided;
+    const auto same_ping = [](const auto& p, const auto& q) {
+      return p.ping_index == q.ping_index && p.mask == q.mask;
+    };
+    return one->number == other->number && x.status == y.status && x.species == y.species && x.comment == y.comment &&
+           std::ranges::equal(one->masks.pings, other->masks.pings, same_ping);
+  };
+  return std::ranges::equal(a.schools, b.schools, same_school) && a.events == b.events && a.bad_pings == b.bad_pings &&
+         (a.calibration == nullptr) == (b.calibration == nullptr);
+}
+
 }  // namespace
 
 std::string why_no_grid(const ObservationFiles& observation) {
@@ -58,7 +74,7 @@ void Document::tell_unseen(const ChoicesShown& before) {
   if (!turned && !takes_over) return;
   for (const auto& [index, now] : choices_.states) {
     const auto old = before.states.find(index);
-    if (old == before.states.end() || !old->second || !now || old->second == now) continue;
+    if (old == before.states.end() || !old->second || !now || same_choices(*old->second, *now)) continue;
     const std::string& name = survey_->observations[index].name;
     if (takes_over) {
       const auto numbers = gone(*old->second, *now);

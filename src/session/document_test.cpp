@@ -259,6 +259,20 @@ TEST_F(DocumentAtWork, AnUndoThatNobodySeesIsTold) {
   EXPECT_THAT(document_->notices().back(), testing::HasSubstr("taken back in obs-0001: grow school 1"));
 }
 
+// States of all observations may be built anew by an undo; only what changed is worth a word.
+TEST_F(DocumentAtWork, AnUndoIsToldOfNoObservationThatItLeavesAsItWas) {
+  grow(bright());
+  document_->settle();
+  const std::size_t told = document_->notices().size();
+  document_->undo();
+  document_->settle();
+  document_->redo();
+  document_->settle();
+  for (std::size_t i = told; i < document_->notices().size(); ++i) {
+    EXPECT_THAT(document_->notices()[i], testing::Not(testing::HasSubstr(" in obs-")));
+  }
+}
+
 TEST_F(DocumentAtWork, LookingLeavesNothingBehindAndTheFirstChoiceMakesTheFolder) {
   journal_ /= "not/yet/there";
   reopen();

@@ -388,7 +388,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   std::string line = time_span_text(laid->zero, laid->last);
   if (laid->raw_gone && style.raw_there) line += " · echograms are being read";
   if (laid->raw_gone && !style.raw_there) {
-    line += laid->any_echogram ? " · schools only where raw data are gone" : " · raw data are gone: schools only";
+    line += laid->any_echogram ? " · schools only where there are no raw data" : " · no raw data: schools only";
   }
   add_title(frame, laid->layout, theme, {frame.title, line});
   return frame;

@@ -63,7 +63,7 @@ struct TimelineMark {
 /// One observation of a timeline.
 struct TimelineObservation {
   const ObservationProduct* product = nullptr;
-  const EchogramPyramid* echogram = nullptr;  ///< nullptr: raw data are gone, schools only
+  const EchogramPyramid* echogram = nullptr;  ///< nullptr: no raw data, schools only
   std::vector<TimelineMark> marks = {};
   std::vector<TimelineInterval> bad = {};     ///< pings that take no part in measures
   std::optional<std::int64_t> selected = {};  ///< school_id that stands out

@@ -234,7 +234,7 @@ TEST(Timeline, WithoutRawThereAreTheSchoolsAndANote) {
   TimelineStyle style;
   auto frame = timeline(std::span(&one, 1), style, kSize, light_theme(kSize));
   ASSERT_TRUE(frame) << to_line(frame.error());
-  EXPECT_TRUE(says(*frame, "raw data are gone: schools only"));
+  EXPECT_TRUE(says(*frame, "no raw data: schools only"));
   EXPECT_TRUE(says(*frame, "9"));
   EXPECT_TRUE(says(*frame, "obs-0001"));
   EXPECT_TRUE(says(*frame, "12:27"));

@@ -150,6 +150,29 @@ class Files(unittest.TestCase):
         self.assertEqual(render("propagation", sonarx.OUT, *SIZE, "--scale", "2", "--out", file)[0], 0)
         self.assertEqual(struct.unpack(">II", file.read_bytes()[16:24]), (1280, 960))
 
+    def test_what_contradicts_itself_is_refused(self):
+        empty = sonarx.WORK / "empty-tf.json"
+        empty.write_text('{"points": []}')
+        for arguments, said in [(("slice-plane", *BOTH, "--depth-m", "50", "--bearing-deg", "3"), "one plane at a time"),
+                                (("volume", *BOTH, "--core", "0.1", "--fuzzy", "0.9"), "--fuzzy 0.9 lies above --core 0.1"),
+                                (("slice-top", *BOTH, "--transfer-function", empty), "needs at least one point")]:
+            with self.subTest(arguments):
+                code, _, error = render(*arguments, *SIZE, "--out", sonarx.WORK / "x.png")
+                self.assertNotEqual(code, 0)
+                self.assertIn(said, error)
+                self.assertEqual(error.count("\n"), 1, error)
+
+    def test_an_unfiltered_volume_shows_what_filtering_takes_out(self):
+        """The seabed is in the recording; a picture "as recorded" has it."""
+        pictures = [sonarx.WORK / f"as-recorded-{i}.png" for i in range(2)]
+        for extra, picture in zip(([], ["--unfiltered"]), pictures):
+            self.assertEqual(render("volume", *BOTH, "--ping", "10", "--frames", "0", "--no-masks", "--mode", "maximum",
+                                    *extra, *SIZE, "--out", picture)[0], 0)
+        code, out, _ = render("volume", *BOTH, "--ping", "10", "--frames", "0", "--no-masks", "--mode", "maximum", *SIZE,
+                              "--unfiltered", "--reference", pictures[0], "--largest-difference", 64,
+                              "--mean-difference", 1)
+        self.assertEqual(code, 1, out)
+
     def test_only_schools_that_were_asked_for(self):
         ids = {row["school_id"] for row in sonarx.read_csv(sonarx.OUT / "schools.csv") if row["observation"] == "obs-0001"}
         code, _, error = render("observation-map", sonarx.OUT, "--schools", "999", "--out", sonarx.WORK / "x.png")
