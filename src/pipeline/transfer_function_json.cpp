@@ -46,7 +46,7 @@ Result<TransferPoint> point_from_json(const nlohmann::json& json, std::size_t in
 Result<TransferFunction> transfer_function_from_json(const nlohmann::json& json) {
   if (!json.is_object()) return fail(ErrorCode::format, "a transfer function is a JSON object");
   const auto given = json.find("points");
-  if (json.empty() || (given != json.end() && given->is_array() && given->empty())) {
+  if (!json.contains("tf_version") && given != json.end() && given->is_array() && given->empty()) {
     return fail(ErrorCode::bad_parameter, "a transfer function needs at least one point");
   }
   if (auto version = check_version(json, "tf_version", kTransferFunctionVersion); !version) return pass_on(version);
