@@ -36,7 +36,7 @@ class GeoJsonFile {
 
  private:
   struct Closer {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
+    void operator()(std::FILE* stream) const { std::fclose(stream); }  // NOLINT(cppcoreguidelines-owning-memory)
   };
   using Stream = std::unique_ptr<std::FILE, Closer>;
   GeoJsonFile(std::filesystem::path target, AtomicFile file, Stream stream);

@@ -30,6 +30,8 @@ class SurveyMapWriter {
   /// errors        io
   static Result<SurveyMapWriter> create(const std::filesystem::path& target, MapFormat format,
                                         std::span<const ObservationProduct> observations);
+  SurveyMapWriter(const SurveyMapWriter&) = delete;
+  SurveyMapWriter& operator=(const SurveyMapWriter&) = delete;
   SurveyMapWriter(SurveyMapWriter&&) noexcept;
   SurveyMapWriter& operator=(SurveyMapWriter&&) noexcept;
   ~SurveyMapWriter();

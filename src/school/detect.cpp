@@ -279,7 +279,8 @@ class PingDetector {
     for (const Run& run : mask.runs) {
       if (run.row / sector_.beams() != lowest_fan) continue;
       const auto beam = static_cast<std::size_t>(run.row % sector_.beams());
-      sum[beam] += run.count * sector_.range().range_m(run.first_sample + run.count / 2);
+      const int middle = run.first_sample + run.count / 2;
+      sum[beam] += run.count * sector_.range().range_m(middle);
       count[beam] += run.count;
     }
     std::vector<double> ranges_m;

@@ -16,6 +16,8 @@ class RawFileWriter {
  public:
   /// errors  io: the file cannot be made (the folder must exist)
   static Result<RawFileWriter> create(std::filesystem::path path);
+  RawFileWriter(const RawFileWriter&) = delete;
+  RawFileWriter& operator=(const RawFileWriter&) = delete;
   RawFileWriter(RawFileWriter&& other) noexcept;
   RawFileWriter& operator=(RawFileWriter&& other) noexcept;
   ~RawFileWriter();
