@@ -145,6 +145,10 @@ Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, 
   return {};
 }
 
+void Engine::give_background(std::int64_t ping_index, std::vector<float> background_db) {
+  given_[static_cast<std::size_t>(ping_index)] = std::move(background_db);
+}
+
 std::vector<float> Engine::background_db(std::int64_t ping_index) const {
   if (!recipe_.background_window.enabled) return {};
   if (const auto& given = given_[static_cast<std::size_t>(ping_index)]; !given.empty()) return given;
@@ -210,6 +214,9 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
   median_into(ping.sv.counts.view(), ping.sv.flags.view(), box, ping.filtered->counts.view());
   for (const float level_db : background_db(ping_index)) {
     ping.background_db.push_back(static_cast<double>(level_db));
+  }
+  if (is_reduced((*loaded)->heads)) {
+    ping.water_counts = reduced_water_counts((*loaded)->heads, ping.filtered->counts.shape().samples);
   }
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
     ping.seabed = reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->counts.shape().samples);

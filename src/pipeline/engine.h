@@ -30,8 +30,10 @@ struct StagedPing {
   Seabed seabed;
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
+  std::vector<std::int16_t>
+      water_counts;  ///< [sample] the water's own level, where a reduced file brings it; else empty
 
-  [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
+  [[nodiscard]] Background background() const { return {background_db, calibration->view(), water_counts}; }
 };
 
 /// "Stage S of ping i, please" for one observation under one recipe. Nothing is kept but what neighbouring pings share
@@ -64,6 +66,9 @@ class Engine {
   /// Estimates the background of pings first .. last (inclusive) and their neighbours; other calls need it.
   /// A ping that cannot be read has none. errors: cancelled
   [[nodiscard]] Result<void> estimate_background(std::int64_t first, std::int64_t last, Work& work);
+  /// Takes the background of a ping from a product of the same observation and recipe instead of estimating it.
+  /// background_db  by row, dB re 1 W
+  void give_background(std::int64_t ping_index, std::vector<float> background_db);
   /// Background of a ping by row, dB re 1 W, rounded to float as it is stored; empty where it is not subtracted.
   [[nodiscard]] std::vector<float> background_db(std::int64_t ping_index) const;
 
@@ -91,7 +96,8 @@ class Engine {
   CalibrationTables tables_;
   DeadReckoning reckoned_;
   std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
-  std::vector<std::vector<float>> given_;       ///< [ping] background that a reduced file brings along; else empty
+  std::vector<std::vector<float>>
+      given_;  ///< [ping] background that a reduced file or a product brings along; else empty
   std::mutex mutex_;
   std::size_t power_limit_;
   std::vector<std::int64_t> power_order_;

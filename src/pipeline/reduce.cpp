@@ -143,10 +143,11 @@ class FileReducer {
     const bool is_first = ping_ != kept->second;
     if (is_first) {
       const KeptPing& ping = *kept->second;
-      const std::vector<float> none;
+      const auto index = static_cast<std::int64_t>(ping.ping_index);
+      // Detection and the seabed stood on the background that the product holds.
       const auto& levels = observation.product->background_db;
-      auto reduced = reduce_ping(*observation.engine, static_cast<std::int64_t>(ping.ping_index), ping.masks,
-                                 levels.empty() ? none : levels[ping.ping_index], ping.keeps_ends, params_);
+      if (!levels.empty()) observation.engine->give_background(index, levels[ping.ping_index]);
+      auto reduced = reduce_ping(*observation.engine, index, ping.masks, ping.keeps_ends, params_);
       if (!reduced) return pass_on(reduced);
       ping_rows_ = std::move(*reduced);
       row_of_channel_ = observation.files->grid->row_of_channel();
@@ -154,9 +155,11 @@ class FileReducer {
     }
     if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
     const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
-    // A ping's first channel tells of roll, heave, heading and the seabed: it stays in any case.
+    if (row < 0) return {};
+    // A ping's first channel tells of roll, heave, heading, seabed and water: it stays in any case.
     ChannelPing head = raw.head;
     head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
+    head.reduced_water = is_first ? ping_rows_.water : std::vector<std::int16_t>{};
     return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
                           ping_rows_.record[static_cast<std::size_t>(row)], is_first);
   }

@@ -38,13 +38,20 @@ IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
   return box.enlarged(by.fans, by.beams, by.samples).clipped(shape);
 }
 
+/// The water's own level, [sample] Sv counts.
+std::vector<std::int16_t> water_of(const StagedPing& ping, const DetectParams& params) {
+  const auto& filtered = std::as_const(*ping.filtered);
+  return water_counts(filtered.counts.view(), filtered.flags.view(), ping.background(), params);
+}
+
 /// Boxes in which detection looked for what it found, round each candidate of the ping.
-std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams& params) {
+std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const std::vector<std::int16_t>& water,
+                                      const DetectParams& params) {
   const Shape3 shape = ping.filtered->counts.shape();
   const Background background = ping.background();
   const auto sv = std::as_const(*ping.filtered).counts.view();
   const auto flags = std::as_const(*ping.filtered).flags.view();
-  const Thresholder thresholder(sv, flags, background, water_counts(sv, flags, background, params), nullptr);
+  const Thresholder thresholder(sv, flags, background, water, nullptr);
   const std::vector<Run> runs =
       thresholder.candidates(params.floor_db - kCandidateSlack_db, params.background_margin_db - kCandidateSlack_db);
   const Components parts = label_runs(runs, shape, params.connectivity);
@@ -64,10 +71,10 @@ std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const DetectParams
 }
 
 /// The boxes that meet a mask, and those that meet one of these: stronger neighbours take their voxels first.
-std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const DetectParams& params,
-                                     const std::vector<const PingMask*>& masks) {
+std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const std::vector<std::int16_t>& water,
+                                     const DetectParams& params, const std::vector<const PingMask*>& masks) {
   const Shape3 shape = ping.filtered->counts.shape();
-  const std::vector<IndexBox> all = candidate_boxes(ping, params);
+  const std::vector<IndexBox> all = candidate_boxes(ping, water, params);
   std::vector<IndexBox> of_masks;
   for (const PingMask* mask : masks) {
     of_masks.push_back(enlarged(box_of(*mask, shape.beams), detection_reach(params), shape));
@@ -198,33 +205,31 @@ void fill_record(const PowerVolume& whole, const Seabed& seabed, const std::vect
 }  // namespace
 
 Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const std::vector<const PingMask*>& masks,
-                                const std::vector<float>& background_db, bool keeps_ends, const ReduceParams& params) {
+                                bool keeps_ends, const ReduceParams& params) {
   const auto whole = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(ping_index));
   if (!whole) return pass_on(whole);
   ReducedPing out;
   out.counts = Array3<std::int16_t>(whole->volume.counts.shape(), kNoData);
   Seabed seabed;
   if (!masks.empty()) {
-    auto staged = engine.staged(ping_index);
+    const auto staged = engine.staged(ping_index);
     if (!staged) return pass_on(staged);
-    staged->background_db.clear();
-    for (const float level_db : background_db) {
-      staged->background_db.push_back(static_cast<double>(level_db));
-    }
     seabed = staged->seabed;
     const Recipe& recipe = engine.recipe();
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,
                       recipe.median.kernel_beams / 2 + params.margin_beams,
                       recipe.median.kernel_samples / 2 + params.margin_samples};
     Keeper keeper(*whole, *staged, out);
-    for (const IndexBox& box : deciding_boxes(*staged, recipe.detect, masks)) {
+    out.water = water_of(*staged, recipe.detect);
+    for (const IndexBox& box : deciding_boxes(*staged, out.water, recipe.detect, masks)) {
       keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
     }
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
   }
+  while (!out.water.empty() && out.water.back() == kMinCount) out.water.pop_back();
   if (keeps_ends) keep_last_samples(whole->volume.counts, out.counts);
   if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
-  fill_record(*whole, seabed, background_db, out);
+  fill_record(*whole, seabed, engine.background_db(ping_index), out);
   return out;
 }
 

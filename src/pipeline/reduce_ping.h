@@ -19,15 +19,15 @@ struct ReducedPing {
   Array3<std::int16_t> counts;     ///< power counts; kNoData = left out, kReducedFault = was faulty
   std::vector<ReducedRow> record;  ///< [row]
   std::optional<ReducedSeabed> seabed;
+  std::vector<std::int16_t> water;  ///< as ChannelPing::reduced_water
 };
 
 /// Picks the samples that decide about the masks of one ping.
-/// background_db  of the product, by row; empty = none
+/// engine         knows the ping's background
 /// keeps_ends     keep the last sample of each fan's longest beam, which tells how far the beams reached
 /// errors         as load_volume()
 [[nodiscard]] Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index,
-                                              const std::vector<const PingMask*>& masks,
-                                              const std::vector<float>& background_db, bool keeps_ends,
+                                              const std::vector<const PingMask*>& masks, bool keeps_ends,
                                               const ReduceParams& params);
 
 }  // namespace sonar

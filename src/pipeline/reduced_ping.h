@@ -13,7 +13,7 @@
 namespace sonar {
 
 // A reduced raw file holds what decides about its schools, and for each stored beam what was worked out from the whole
-// ping: background, seabed, recorded length (ReducedRow). What of a beam was left out counts as water without echo,
+// ping: background, seabed, recorded length (ReducedRow), the water's own level. What of a beam was left out counts as water without echo,
 // never as faulty; a sample that was faulty in the whole ping holds kReducedFault.
 
 /// Power count of a sample that was flagged as faulty before the file was reduced.
@@ -33,6 +33,10 @@ void fill_reduced(Volume& volume);
 /// Background of the whole ping by row; NaN where the ping has no such beam.
 [[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
                                                        std::span<const int> row_of_channel);
+
+/// The water's own level in the whole ping, [sample] Sv counts as filtered; kMinCount = nothing loud. Files written
+/// before it was kept have nothing loud.
+[[nodiscard]] std::vector<std::int16_t> reduced_water_counts(std::span<const ChannelPing> heads, int samples);
 
 /// The seabed of the whole ping: its plane where the file has it (files written before it was kept have none: then it
 /// counts as not found), and where each row's began. A row without record has none.

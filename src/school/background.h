@@ -11,10 +11,12 @@
 
 namespace sonar {
 
-/// Background noise as a level for each beam and the table that turns power into Sv; borrowed.
+/// Background of a ping: noise as a level for each beam with the table that turns power into Sv, and the water; borrowed.
 struct Background {
   std::span<const double> power_db;       ///< [row] mean (not median) power, dB re 1 W; NaN or empty = none known
   View3<const std::int16_t> calibration;  ///< [fan][beam][sample]: Sv counts = power counts + this; kNoData = none
+  /// [sample] the water's own level where it is known already, as reverberation_counts() gives it; empty = to be found.
+  std::span<const std::int16_t> water_counts{};
 
   [[nodiscard]] bool known(int row) const {
     return static_cast<std::size_t>(row) < power_db.size() && calibration.data() != nullptr &&

@@ -317,6 +317,9 @@ std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFl
 
 std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
                                        const Background& noise, const DetectParams& params) {
+  if (params.water_share > 0.0 && !noise.water_counts.empty()) {
+    return {noise.water_counts.begin(), noise.water_counts.end()};
+  }
   // Quieter water changes nothing: candidates lie above the floor anyhow.
   const double least_db = params.floor_db - params.background_margin_db + kMedianOfMean_db;
   return reverberation_counts(sv, flags, noise, params.water_share, static_cast<int>(counts_from_db(least_db)));

@@ -159,7 +159,8 @@ struct Detection {
                                             const Sector& sector, const Background& background,
                                             const DetectParams& params, const PingMask* taken = nullptr);
 
-/// The water's level by range that detection takes for background: reverberation_counts().
+/// The water's level by range that detection takes for background: the noise's own record of it, or else
+/// reverberation_counts().
 [[nodiscard]] std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
                                                      const Background& noise, const DetectParams& params);
 

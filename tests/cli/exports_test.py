@@ -79,6 +79,23 @@ class Exports(Case):
         masks = lambda folder: sorted([[r[k] for k in KEYS[2:]] for r in sonarx.read_csv(folder / "school_pings.csv")])
         self.assertEqual(masks(again), masks(OUT))
 
+    def test_reduced_raw_of_loud_water_and_reduced_once_more(self):
+        """In water louder than -68 dB its level is background, which only the whole ping tells."""
+        params = self.fresh("loud-params") / "params.json"
+        params.write_text(json.dumps({"water": {"reverberation_sv_db": -62.0}, "schools": 2, "pings": 24,
+                                      "observations": 1, "sv_min_db": -45.0}))
+        survey, out = self.fresh("loud-survey"), self.fresh("loud-out")
+        self.sonarx("simulate", survey, "--params", params, "--seed", "5")
+        self.sonarx("run", survey, "--out", out)
+        masks = lambda folder: [[r[k] for k in r if k != "ping_index"] for r in sonarx.read_csv(folder / "school_pings.csv")]
+        self.assertGreater(len(masks(out)), 10)
+        for step in ("once", "twice"):
+            dest, again = self.fresh(f"loud-{step}"), self.fresh(f"loud-{step}-out")
+            self.sonarx("export", out, "--to", "raw-reduced", "--survey", survey, "--dest", dest)
+            self.sonarx("run", dest, "--out", again)
+            self.assertEqual(masks(again), masks(out), step)
+            survey, out = dest, again
+
     def test_reduced_raw_needs_the_survey(self):
         code, _, err = sonarx.run("export", OUT, "--to", "raw-reduced", "--dest", self.fresh("export-none"))
         self.assertEqual(code, 2, err)

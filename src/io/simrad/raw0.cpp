@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <string_view>
 
 #include "io/simrad/fields.h"
 
@@ -38,11 +39,14 @@ std::int64_t promised_bytes(int mode, std::int64_t count) {
   return bytes;
 }
 
+bool begins_with(std::span<const std::byte> bytes, std::string_view mark) {
+  const std::span wanted = std::as_bytes(std::span(mark));
+  return bytes.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), bytes.begin());
+}
+
 /// The extension of reduced files, where there is one.
 std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
-  if (rest.size() < kReducedBytes) return std::nullopt;
-  const std::span mark = std::as_bytes(std::span(kReducedMark));
-  if (!std::equal(mark.begin(), mark.end(), rest.begin())) return std::nullopt;
+  if (rest.size() < kReducedBytes || !begins_with(rest, kReducedMark)) return std::nullopt;
   ReducedRow row;
   row.background_db = number_at<float>(rest, 4);
   row.seabed_sample = std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples);
@@ -50,18 +54,36 @@ std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
   return row;
 }
 
-/// The plane behind it, where there is one that makes sense.
+/// The water's level, as far as it is there.
+std::vector<std::int16_t> parse_reduced_water(std::span<const std::byte> rest) {
+  if (rest.size() < kReducedWaterHeadBytes || !begins_with(rest, kReducedWaterMark)) return {};
+  const auto there = (rest.size() - kReducedWaterHeadBytes) / 2;
+  const auto told = static_cast<std::size_t>(std::clamp(number_at<std::int32_t>(rest, 4), 0, kMaxSamples));
+  std::vector<std::int16_t> counts(std::min(told, there));
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    counts[i] = number_at<std::int16_t>(rest, kReducedWaterHeadBytes + 2 * i);
+  }
+  return counts;
+}
+
+/// The plane, where it makes sense.
 std::optional<ReducedSeabed> parse_reduced_seabed(std::span<const std::byte> rest) {
-  if (rest.size() < kReducedBytes + kReducedSeabedBytes) return std::nullopt;
-  rest = rest.subspan(kReducedBytes);
-  const std::span mark = std::as_bytes(std::span(kReducedSeabedMark));
-  if (!std::equal(mark.begin(), mark.end(), rest.begin())) return std::nullopt;
+  if (rest.size() < kReducedSeabedBytes || !begins_with(rest, kReducedSeabedMark)) return std::nullopt;
   std::array<double, 7> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = number_at<double>(rest, 4 + 8 * i);
     if (!(std::abs(values[i]) < kLargestSeabed_m)) return std::nullopt;
   }
   return ReducedSeabed{values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
+}
+
+/// What one channel of a reduced ping says of the whole ping.
+void parse_reduced_ping(std::span<const std::byte> rest, ChannelPing& head) {
+  if (begins_with(rest, kReducedSeabedMark)) {
+    head.reduced_seabed = parse_reduced_seabed(rest);
+    rest = rest.subspan(std::min(rest.size(), kReducedSeabedBytes));
+  }
+  head.reduced_water = parse_reduced_water(rest);
 }
 
 }  // namespace
@@ -118,7 +140,7 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
   raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
   const auto behind = body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count)));
   head.reduced = parse_reduced(behind);
-  if (head.reduced) head.reduced_seabed = parse_reduced_seabed(behind);
+  if (head.reduced) parse_reduced_ping(behind.subspan(kReducedBytes), head);
   return raw;
 }
 

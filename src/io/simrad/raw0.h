@@ -17,9 +17,13 @@ inline constexpr int kMaxSamples = 1 << 20;
 /// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's three members, little-endian.
 inline constexpr std::string_view kReducedMark = "SXR1";
 inline constexpr std::size_t kReducedBytes = 16;
-/// Behind that, in one channel of a ping: this mark, then ReducedSeabed's seven members, little-endian.
+/// Behind that, in one channel of a ping, what there is of these two in this order:
+/// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
 inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
+/// this mark, a 4-byte number, then so many 2-byte counts of ChannelPing::reduced_water.
+inline constexpr std::string_view kReducedWaterMark = "SXW1";
+inline constexpr std::size_t kReducedWaterHeadBytes = 8;
 
 struct Raw0 {
   ChannelPing head;                  ///< power_count is left empty: the bytes need not be aligned

@@ -83,6 +83,27 @@ void put_beam(RawBytes& out, const BeamConfig& beam) {
   zeros(out, 28);
 }
 
+void put_mark(RawBytes& out, std::string_view mark) {
+  for (const char c : mark) out.push_back(static_cast<std::byte>(c));
+}
+
+/// What reduced files hold behind a channel's samples.
+void put_reduced(RawBytes& out, const ChannelPing& p) {
+  put_mark(out, simrad::kReducedMark);
+  put_f32(out, p.reduced->background_db);
+  put(out, p.reduced->seabed_sample);
+  put(out, p.reduced->recorded_samples);
+  if (p.reduced_seabed) {
+    put_mark(out, simrad::kReducedSeabedMark);
+    const ReducedSeabed& s = *p.reduced_seabed;
+    for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
+  }
+  if (p.reduced_water.empty()) return;
+  put_mark(out, simrad::kReducedWaterMark);
+  put(out, static_cast<std::int32_t>(p.reduced_water.size()));
+  for (const std::int16_t count : p.reduced_water) put(out, count);
+}
+
 }  // namespace
 
 Result<void> append_datagram(RawBytes& out, TimeNs time, std::string_view type, std::span<const std::byte> body) {
@@ -145,19 +166,7 @@ Result<void> append_raw0(RawBytes& out, TimeNs time, const ChannelPing& p) {
     out.resize(samples);
     for (const std::int16_t count : p.power_count) put(out, count);
   }
-  if (p.reduced) {
-    const std::span mark = std::as_bytes(std::span(simrad::kReducedMark));
-    out.insert(out.end(), mark.begin(), mark.end());
-    put_f32(out, p.reduced->background_db);
-    put(out, p.reduced->seabed_sample);
-    put(out, p.reduced->recorded_samples);
-    if (p.reduced_seabed) {
-      const std::span plane_mark = std::as_bytes(std::span(simrad::kReducedSeabedMark));
-      out.insert(out.end(), plane_mark.begin(), plane_mark.end());
-      const ReducedSeabed& s = *p.reduced_seabed;
-      for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
-    }
-  }
+  if (p.reduced) put_reduced(out, p);
   close(out, start);
   return {};
 }
