@@ -2,19 +2,16 @@
 #include "school/track.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "base/check.h"
 #include "school/assign.h"
 #include "school/detection_owners.h"
 #include "school/divide.h"
-#include "school/motion.h"
 #include "school/moved_mask.h"
-#include "school/runs.h"
+#include "school/open_track.h"
 
 namespace sonar {
 namespace {
@@ -25,26 +22,6 @@ constexpr double kForbidden = 1e6;
 double seconds_between(TimeNs from, TimeNs to) {
   return static_cast<double>(to - from) / static_cast<double>(kSecondNs);
 }
-
-struct OpenTrack {
-  int number = 0;  ///< order of birth
-  Motion motion;
-  std::vector<TrackedDetection> pings;
-  std::size_t last_ping = 0;  ///< position in the list of pings
-  double volume_m3 = 0.0;
-  double reference_db = 0.0;
-  int pieces_streak = 0;  ///< pings in a row with more than one detection
-  bool merged = false;
-  int own_pings = 0;    ///< in which it shared its detection with no other school
-  Covariance3 shape{};  ///< east, north, up, m^2; when last alone
-};
-
-struct RawEvent {
-  TrackEventKind kind;
-  std::int64_t ping_index;
-  int track;
-  int other;  ///< -1 = none
-};
 
 class Tracker {
  public:
@@ -58,7 +35,7 @@ class Tracker {
     for (std::size_t p = 0; p < pings_.size(); ++p) step(p);
     for (OpenTrack& track : open_) close(std::move(track));
     open_.clear();
-    return publish();
+    return number_tracks(closed_, events_, pings_, channel_, params_);
   }
 
  private:
@@ -72,6 +49,7 @@ class Tracker {
     for (OpenTrack& track : open_) {
       const double dt = seconds_between(pings_[p - 1].time, ping.time);
       track.motion.predict(dt, params_.acceleration_mps2);
+      if (track.apart) track.apart->predict(dt, params_.acceleration_mps2);
       moved_m3.push_back(0.0);
       shared.push_back(overlaps(track, p, owners, moved_m3.back()));
       cost.emplace_back();
@@ -79,6 +57,7 @@ class Tracker {
         cost.back().push_back(price(track, p, ping.detections[d], shared.back()[d]));
       }
     }
+    part_again(p, cost);
     const std::vector<int> choice = assign(cost, alone());
     std::vector<int> taken_by(ping.detections.size(), -1);
     for (std::size_t t = 0; t < open_.size(); ++t) {
@@ -89,6 +68,7 @@ class Tracker {
     if (params_.divide_joined) divide_joined(p, taken_by, shared, moved_m3);
     note_merges(p, taken_by, shared, moved_m3);
     const std::vector<std::vector<int>> pieces = gather_pieces(p, taken_by, shared);
+    settle_parted(p, taken_by);
     for (std::size_t d = 0; d < taken_by.size(); ++d) {
       if (taken_by[d] >= 0)
         extend(open_[static_cast<std::size_t>(taken_by[d])], p, static_cast<int>(d),
@@ -160,10 +140,67 @@ class Tracker {
     // a cut coordinate lets everything through the gate: then only touching or a near centre will do
     if (shared_m3 <= 0.0 && !(track.motion.distance2(place, spread(p, d, false)) <= gate)) return kForbidden;
     const double overlap = std::min(1.0, shared_m3 / std::max(1e-9, std::min(track.volume_m3, d.volume_m3)));
+    return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) + unlikeness(track, p, d);
+  }
+
+  [[nodiscard]] double unlikeness(const OpenTrack& track, std::size_t p, const Detection& d) const {
     const double missed = static_cast<double>(pings_[p].ping_index - pings_[track.last_ping].ping_index - 1);
-    return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) +
-           params_.size_weight * std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
+    return params_.size_weight * std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
            params_.level_weight * std::abs(d.reference_db - track.reference_db) + params_.lost_cost * missed;
+  }
+
+  /// Schools that shared a detection and now find several: who is who tell their motions from before they met.
+  void part_again(std::size_t p, std::vector<std::vector<double>>& cost) const {
+    for (std::size_t t = 0; t < open_.size(); ++t) {
+      if (!open_[t].apart) continue;
+      std::vector<std::size_t> group;
+      for (std::size_t u = 0; u < open_.size(); ++u) {
+        if (open_[u].apart && open_[u].last_ping == open_[t].last_ping &&
+            open_[u].pings.back().detections.front() == open_[t].pings.back().detections.front())
+          group.push_back(u);
+      }
+      if (group.front() != t) continue;  // seen to already
+      std::vector<std::size_t> found;
+      for (std::size_t d = 0; d < pings_[p].detections.size(); ++d) {
+        if (std::any_of(group.begin(), group.end(), [&](std::size_t u) { return cost[u][d] < alone(); }))
+          found.push_back(d);
+      }
+      if (found.size() > 1) price_by_past(p, group, found, cost);
+    }
+  }
+
+  /// Schools that were together and have each a detection of their own again: their way while they were together is known
+  /// now, and their motion from before goes on.
+  void settle_parted(std::size_t p, const std::vector<int>& taken_by) {
+    std::vector<std::size_t> parted;
+    std::vector<Point<Enu>> now;
+    for (std::size_t d = 0; d < taken_by.size(); ++d) {
+      if (taken_by[d] < 0) continue;
+      OpenTrack& track = open_[static_cast<std::size_t>(taken_by[d])];
+      if (!track.apart) continue;
+      const Detection& detection = pings_[p].detections[d];
+      const Point<Enu> place = frames_[p].to_world(detection.centre);
+      const bool went_on =
+          track.apart->distance2(place, spread(p, detection, true)) <= params_.gate_sigmas * params_.gate_sigmas;
+      if (went_on) track.motion = *track.apart;
+      track.apart.reset();
+      parted.push_back(static_cast<std::size_t>(taken_by[d]));
+      now.push_back(place);
+    }
+    if (parted.size() > 1) divide_again(open_, parted, now, p, pings_, frames_, sector_, params_.min_position_m);
+  }
+
+  void price_by_past(std::size_t p, const std::vector<std::size_t>& group, const std::vector<std::size_t>& found,
+                     std::vector<std::vector<double>>& cost) const {
+    for (const std::size_t t : group) {
+      for (const std::size_t d : found) {
+        const Detection& detection = pings_[p].detections[d];
+        const double distance2 =
+            open_[t].apart->distance2(frames_[p].to_world(detection.centre), spread(p, detection, true));
+        const bool within = distance2 <= params_.gate_sigmas * params_.gate_sigmas;
+        cost[t][d] = within ? distance2 / 2.0 + unlikeness(open_[t], p, detection) : kForbidden;
+      }
+    }
   }
 
   /// Schools that go for one detection, after each was seen alone for some time, share it: their echoes have met.
@@ -175,12 +212,22 @@ class Tracker {
       for (std::size_t t = 0; t < shared.size(); ++t) {
         const bool owns = taken_by[d] == static_cast<int>(t);
         const bool lost = std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) == 0;
-        const bool inside = shared[t][d] > params_.fragment_overlap * moved_m3[t];
-        if (open_[t].own_pings < params_.divide_own_pings || open_[t].merged) continue;
-        if (owns || (lost && open_[t].last_ping != p && inside)) claimants.push_back(t);
+        if (open_[t].merged) continue;
+        const double inside = shared[t][d] / std::max(moved_m3[t], 1e-9);
+        const bool well_known = open_[t].own_pings >= params_.divide_own_pings || open_[t].shares();
+        const bool enters = (well_known && inside > params_.fragment_overlap) ||
+                            (inside > params_.divide_least_share && holds_both(p, d, taken_by[d], open_[t]));
+        if ((owns && open_[t].own_pings > 1) || (lost && open_[t].last_ping != p && enters)) claimants.push_back(t);
       }
       if (claimants.size() > 1 && share_out(p, d, claimants)) taken_by[d] = -3;
     }
+  }
+
+  /// Whether a detection is about as large as its owner and another school were that was seen more than once.
+  [[nodiscard]] bool holds_both(std::size_t p, std::size_t d, int owner, const OpenTrack& other) const {
+    if (owner < 0 || other.own_pings < 2) return false;
+    const double both_m3 = open_[static_cast<std::size_t>(owner)].volume_m3 + other.volume_m3;
+    return pings_[p].detections[d].volume_m3 > params_.divide_both_share * both_m3;
   }
 
   bool share_out(std::size_t p, std::size_t d, const std::vector<std::size_t>& claimants) {
@@ -191,14 +238,17 @@ class Tracker {
     std::vector<MaskShape> shapes;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       shapes.push_back(shape_of(parts[i], sector_));
-      if (shapes[i].volume_m3 < params_.divide_least_share * open_[claimants[i]].volume_m3) return false;
       if (!(shapes[i].weight > 0.0)) return false;
+      const OpenTrack& track = open_[claimants[i]];
+      // once they share they may pass through each other, where hardly anything is left for one
+      if (!track.shares() && shapes[i].volume_m3 < params_.divide_least_share * track.volume_m3) return false;
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
       OpenTrack& track = open_[claimants[i]];
       const Covariance3 spread =
           centre_covariance(shapes[i].centre, shapes[i].covariance, frames_[p].heading_rad(), params_.position_share,
                             params_.min_position_m, params_.censored_m, ping.detections[d].edge_flags);
+      if (!track.apart) track.apart = track.motion;
       track.motion.update(frames_[p].to_world(shapes[i].centre), spread);
       track.last_ping = p;
       track.pings.push_back({ping.ping_index, {static_cast<int>(d)}, std::move(parts[i])});
@@ -265,7 +315,10 @@ class Tracker {
       centre = centre + piece.centre * piece.volume_m3;
     }
     if (volume > 0.0) centre = centre * (1.0 / volume);
-    track.motion.update(frames_[p].to_world(volume > 0.0 ? centre : d.centre), spread(p, d, true));
+    const Point<Enu> place = frames_[p].to_world(volume > 0.0 ? centre : d.centre);
+    track.motion.update(place, spread(p, d, true));
+    track.alone_at = place;
+    track.alone_ping = p;
     track.volume_m3 = volume;
     track.reference_db = d.reference_db;
     track.last_ping = p;
@@ -286,61 +339,12 @@ class Tracker {
                     0,
                     false,
                     1,
-                    turned(d.covariance, frames_[p].heading_rad())};
+                    turned(d.covariance, frames_[p].heading_rad()),
+                    std::nullopt,
+                    frames_[p].to_world(d.centre),
+                    p};
     open_.push_back(std::move(track));
     events_.push_back({TrackEventKind::birth, pings_[p].ping_index, open_.back().number, -1});
-  }
-
-  [[nodiscard]] bool confirmed(const OpenTrack& track) const {
-    const auto wanted = static_cast<std::size_t>(params_.confirm_pings);
-    for (std::size_t i = 0; i + wanted <= track.pings.size(); ++i) {
-      if (track.pings[i + wanted - 1].ping_index - track.pings[i].ping_index < params_.confirm_window) return true;
-    }
-    return false;
-  }
-
-  /// (first ping, channel, sample) of the first mask's first voxel.
-  [[nodiscard]] std::array<std::int64_t, 3> order_key(const OpenTrack& track) const {
-    const auto at = std::lower_bound(pings_.begin(), pings_.end(), track.pings.front().ping_index,
-                                     [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
-    std::array<std::int64_t, 3> key{track.pings.front().ping_index, INT64_MAX, INT64_MAX};
-    for (const int d : track.pings.front().detections) {
-      for (const Run& run : at->detections[static_cast<std::size_t>(d)].mask.runs) {
-        const auto row = static_cast<std::size_t>(run.row);
-        const std::int64_t channel = row < channel_.size() ? channel_[row] : run.row;
-        if (std::pair(channel, std::int64_t{run.first_sample}) < std::pair(key[1], key[2])) {
-          key[1] = channel;
-          key[2] = run.first_sample;
-        }
-      }
-    }
-    return key;
-  }
-
-  Tracks publish() {
-    std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
-    for (const OpenTrack& track : closed_) {
-      if (confirmed(track)) order.emplace_back(order_key(track), &track);
-    }
-    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    Tracks tracks;
-    std::vector<std::int64_t> id_of(static_cast<std::size_t>(next_number_), 0);
-    for (const auto& [key, track] : order) {
-      const auto id = static_cast<std::int64_t>(tracks.schools.size()) + 1;
-      id_of[static_cast<std::size_t>(track->number)] = id;
-      tracks.schools.push_back({id, track->pings});
-    }
-    for (const RawEvent& raw : events_) {
-      const std::int64_t id = id_of[static_cast<std::size_t>(raw.track)];
-      const std::int64_t other = raw.other >= 0 ? id_of[static_cast<std::size_t>(raw.other)] : 0;
-      if (id == 0 || (raw.other >= 0 && other == 0)) continue;
-      tracks.events.push_back({raw.kind, raw.ping_index, id, other});
-    }
-    std::sort(tracks.events.begin(), tracks.events.end(), [](const TrackEvent& a, const TrackEvent& b) {
-      return std::tuple(a.ping_index, static_cast<int>(a.kind), a.school_id, a.other_id) <
-             std::tuple(b.ping_index, static_cast<int>(b.kind), b.school_id, b.other_id);
-    });
-    return tracks;
   }
 
   std::span<const DetectedPing> pings_;

@@ -260,10 +260,61 @@ TEST(Track, SchoolsThatMeetShareTheirDetection) {
   }
 }
 
+TEST(Track, TwoPingsAloneAreEnoughWhereTheDetectionIsAsLargeAsBoth) {
+  Voyage voyage;
+  std::vector<std::array<PingMask, 2>> truth;
+  const Tracks tracks = meeting(voyage, 2, {}, truth);
+  ASSERT_EQ(tracks.schools.size(), 2U);
+  EXPECT_FALSE(tracks.schools[0].pings[2].part.empty());
+  Voyage smaller;
+  TrackParams params;
+  params.divide_both_share = 1.5;
+  const Tracks undivided = meeting(smaller, 2, params, truth);
+  EXPECT_TRUE(undivided.schools[0].pings[2].part.empty());
+}
+
+TEST(Track, SchoolsThatSwimThroughEachOtherKeepTheirWays) {
+  Voyage voyage;
+  const Geographic start{60.0, 4.0};
+  const Ball to_north{{-200.0, 0.0, -50.0}, {0.1, 1.2, 0.0}};
+  const Ball to_south{{-195.0, 115.0, -50.0}, {0.0, -0.7, 0.0}};
+  std::vector<std::array<PingMask, 2>> truth;
+  for (int p = 0; p < 26; ++p) {
+    DetectedPing ping{p, p * 5 * kSecondNs, ship_at(p, 0.5), {}};
+    const auto mask = [&](const Ball& ball) {
+      return ball_mask(ball, voyage.sector, ping.placement, start, p * kInterval_s);
+    };
+    truth.push_back({mask(to_north), mask(to_south)});
+    const auto& [a, b] = truth.back();
+    const bool meet = std::abs(to_north.start.y - to_south.start.y + 1.9 * p * kInterval_s) < 30.0;
+    for (const PingMask& seen : meet ? std::vector{unite(a, b)} : std::vector{a, b}) {
+      if (!seen.empty()) ping.detections.push_back(describe_mask(seen, voyage.flags.view(), voyage.sector));
+    }
+    voyage.pings_.push_back(std::move(ping));
+  }
+  const Tracks tracks = track(voyage.pings_, voyage.sector, test::grid().channel, {});
+  ASSERT_EQ(tracks.schools.size(), 2U);
+  for (const SchoolTrack& school : tracks.schools) {
+    const PingMask first =
+        mask_of(school.pings[0], voyage.pings_[static_cast<std::size_t>(school.pings[0].ping_index)]);
+    const std::size_t own = dice(first, truth[static_cast<std::size_t>(school.pings[0].ping_index)][0]) > 0.5 ? 0 : 1;
+    int shared = 0;
+    for (const TrackedDetection& seen : school.pings) {
+      const auto p = static_cast<std::size_t>(seen.ping_index);
+      const PingMask mask = mask_of(seen, voyage.pings_[p]);
+      shared += seen.part.empty() ? 0 : 1;
+      // Where one lies inside the other, half of the water is all that a part can be.
+      const bool side_by_side = dice(truth[p][0], truth[p][1]) < 0.3;
+      EXPECT_GT(dice(mask, truth[p][own]), side_by_side ? 0.75 : 0.4) << own << " in ping " << p;
+    }
+    EXPECT_GT(shared, 4);
+  }
+}
+
 TEST(Track, OneSchoolIsNotDividedWithoutAHistory) {
   Voyage voyage;
   std::vector<std::array<PingMask, 2>> truth;
-  for (const SchoolTrack& school : meeting(voyage, 2, {}, truth).schools) {
+  for (const SchoolTrack& school : meeting(voyage, 1, {}, truth).schools) {
     for (const TrackedDetection& seen : school.pings) EXPECT_TRUE(seen.part.empty());
   }
   Voyage switched_off;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "school/open_track.h"
+#include "school/runs.h"
+
+namespace sonar {
+namespace {
+
+bool confirmed(const OpenTrack& track, const TrackParams& params) {
+  const auto wanted = static_cast<std::size_t>(params.confirm_pings);
+  for (std::size_t i = 0; i + wanted <= track.pings.size(); ++i) {
+    if (track.pings[i + wanted - 1].ping_index - track.pings[i].ping_index < params.confirm_window) return true;
+  }
+  return false;
+}
+
+/// (first ping, channel, sample) of the first mask's first voxel.
+std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const DetectedPing> pings,
+                                      std::span<const int> channel_of_row) {
+  const auto at = std::lower_bound(pings.begin(), pings.end(), track.pings.front().ping_index,
+                                   [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
+  std::array<std::int64_t, 3> key{track.pings.front().ping_index, INT64_MAX, INT64_MAX};
+  for (const int d : track.pings.front().detections) {
+    for (const Run& run : at->detections[static_cast<std::size_t>(d)].mask.runs) {
+      const auto row = static_cast<std::size_t>(run.row);
+      const std::int64_t channel = row < channel_of_row.size() ? channel_of_row[row] : run.row;
+      if (std::pair(channel, std::int64_t{run.first_sample}) < std::pair(key[1], key[2])) {
+        key[1] = channel;
+        key[2] = run.first_sample;
+      }
+    }
+  }
+  return key;
+}
+
+}  // namespace
+
+Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent> events,
+                     std::span<const DetectedPing> pings, std::span<const int> channel, const TrackParams& params) {
+  std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
+  for (const OpenTrack& track : closed) {
+    if (confirmed(track, params)) order.emplace_back(order_key(track, pings, channel), &track);
+  }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Tracks tracks;
+  int numbers = 0;
+  for (const OpenTrack& track : closed) numbers = std::max(numbers, track.number + 1);
+  std::vector<std::int64_t> id_of(static_cast<std::size_t>(numbers), 0);
+  for (const auto& [key, track] : order) {
+    const auto id = static_cast<std::int64_t>(tracks.schools.size()) + 1;
+    id_of[static_cast<std::size_t>(track->number)] = id;
+    tracks.schools.push_back({id, track->pings});
+  }
+  for (const RawEvent& raw : events) {
+    const std::int64_t id = id_of[static_cast<std::size_t>(raw.track)];
+    const std::int64_t other = raw.other >= 0 ? id_of[static_cast<std::size_t>(raw.other)] : 0;
+    if (id == 0 || (raw.other >= 0 && other == 0)) continue;
+    tracks.events.push_back({raw.kind, raw.ping_index, id, other});
+  }
+  std::sort(tracks.events.begin(), tracks.events.end(), [](const TrackEvent& a, const TrackEvent& b) {
+    return std::tuple(a.ping_index, static_cast<int>(a.kind), a.school_id, a.other_id) <
+           std::tuple(b.ping_index, static_cast<int>(b.kind), b.school_id, b.other_id);
+  });
+  return tracks;
+}
+
+}  // namespace sonar
