@@ -111,7 +111,7 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
   if (command.grow.connectivity == Connectivity::all) {
     command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
   }
-  for (auto valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
+  for (const auto& valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
     if (!valid) return pass_on(valid);
   }
   return command;

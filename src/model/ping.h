@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/time.h"
+#include "model/water_levels.h"
 
 namespace sonar {
 
@@ -55,9 +56,7 @@ struct ChannelPing {
   std::span<const std::int16_t> power_count;    ///< [stored sample], 10 log10(2)/256 dB re 1 W; little-endian as stored
   std::optional<ReducedRow> reduced;            ///< only in reduced files
   std::optional<ReducedSeabed> reduced_seabed;  ///< only beside `reduced`
-  /// [sample] what the water itself returned in the whole ping, Sv counts as filtered; kMinCount = nothing loud; ends
-  /// with the last that is loud. Only beside `reduced`.
-  std::vector<std::int16_t> reduced_water;
+  std::optional<WaterLevels> reduced_water;     ///< of the whole ping; only beside `reduced`
 };
 
 /// Whether the channel listened only, or to a test signal: what it holds is no echo.

@@ -216,7 +216,7 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.background_db.push_back(static_cast<double>(level_db));
   }
   if (is_reduced((*loaded)->heads)) {
-    ping.water_counts = reduced_water_counts((*loaded)->heads, ping.filtered->counts.shape().samples);
+    ping.water = reduced_water((*loaded)->heads);
   }
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
     ping.seabed = reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->counts.shape().samples);

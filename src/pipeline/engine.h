@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -30,10 +31,11 @@ struct StagedPing {
   Seabed seabed;
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
-  std::vector<std::int16_t>
-      water_counts;  ///< [sample] the water's own level, where a reduced file brings it; else empty
+  std::optional<WaterLevels> water;   ///< where a reduced file brings them; else to be found
 
-  [[nodiscard]] Background background() const { return {background_db, calibration->view(), water_counts}; }
+  [[nodiscard]] Background background() const {
+    return {background_db, calibration->view(), water ? &*water : nullptr};
+  }
 };
 
 /// "Stage S of ping i, please" for one observation under one recipe. Nothing is kept but what neighbouring pings share

@@ -159,7 +159,7 @@ class FileReducer {
     // A ping's first channel tells of roll, heave, heading, seabed and water: it stays in any case.
     ChannelPing head = raw.head;
     head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
-    head.reduced_water = is_first ? ping_rows_.water : std::vector<std::int16_t>{};
+    head.reduced_water = is_first ? ping_rows_.water : std::nullopt;
     return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
                           ping_rows_.record[static_cast<std::size_t>(row)], is_first);
   }

@@ -38,15 +38,16 @@ IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
   return box.enlarged(by.fans, by.beams, by.samples).clipped(shape);
 }
 
-/// The water's own level, [sample] Sv counts.
-std::vector<std::int16_t> water_of(const StagedPing& ping, const DetectParams& params) {
+WaterLevels water_of(const StagedPing& ping, const DetectParams& params) {
   const auto& filtered = std::as_const(*ping.filtered);
-  return water_counts(filtered.counts.view(), filtered.flags.view(), ping.background(), params);
+  WaterLevels water = water_levels(filtered.counts.view(), filtered.flags.view(), ping.background(), params);
+  auto& loud = water.reverberation;
+  while (!loud.empty() && loud.back() == kMinCount) loud.pop_back();  // as the file keeps it
+  return water;
 }
 
 /// Boxes in which detection looked for what it found, round each candidate of the ping.
-std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const std::vector<std::int16_t>& water,
-                                      const DetectParams& params) {
+std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const WaterLevels& water, const DetectParams& params) {
   const Shape3 shape = ping.filtered->counts.shape();
   const Background background = ping.background();
   const auto sv = std::as_const(*ping.filtered).counts.view();
@@ -71,8 +72,8 @@ std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const std::vector<
 }
 
 /// The boxes that meet a mask, and those that meet one of these: stronger neighbours take their voxels first.
-std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const std::vector<std::int16_t>& water,
-                                     const DetectParams& params, const std::vector<const PingMask*>& masks) {
+std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const WaterLevels& water, const DetectParams& params,
+                                     const std::vector<const PingMask*>& masks) {
   const Shape3 shape = ping.filtered->counts.shape();
   const std::vector<IndexBox> all = candidate_boxes(ping, water, params);
   std::vector<IndexBox> of_masks;
@@ -221,12 +222,11 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
                       recipe.median.kernel_samples / 2 + params.margin_samples};
     Keeper keeper(*whole, *staged, out);
     out.water = water_of(*staged, recipe.detect);
-    for (const IndexBox& box : deciding_boxes(*staged, out.water, recipe.detect, masks)) {
+    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, masks)) {
       keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
     }
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
   }
-  while (!out.water.empty() && out.water.back() == kMinCount) out.water.pop_back();
   if (keeps_ends) keep_last_samples(whole->volume.counts, out.counts);
   if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
   fill_record(*whole, seabed, engine.background_db(ping_index), out);

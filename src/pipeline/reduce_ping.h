@@ -19,7 +19,7 @@ struct ReducedPing {
   Array3<std::int16_t> counts;     ///< power counts; kNoData = left out, kReducedFault = was faulty
   std::vector<ReducedRow> record;  ///< [row]
   std::optional<ReducedSeabed> seabed;
-  std::vector<std::int16_t> water;  ///< as ChannelPing::reduced_water
+  std::optional<WaterLevels> water;
 };
 
 /// Picks the samples that decide about the masks of one ping.

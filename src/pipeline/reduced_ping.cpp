@@ -63,14 +63,10 @@ std::vector<float> reduced_background_db(std::span<const ChannelPing> heads, std
   return levels;
 }
 
-std::vector<std::int16_t> reduced_water_counts(std::span<const ChannelPing> heads, int samples) {
-  std::vector<std::int16_t> water(static_cast<std::size_t>(samples), kMinCount);
+WaterLevels reduced_water(std::span<const ChannelPing> heads) {
   const auto teller =
-      std::find_if(heads.begin(), heads.end(), [](const ChannelPing& head) { return !head.reduced_water.empty(); });
-  if (teller == heads.end()) return water;
-  const auto told = std::min(water.size(), teller->reduced_water.size());
-  std::copy_n(teller->reduced_water.begin(), told, water.begin());
-  return water;
+      std::find_if(heads.begin(), heads.end(), [](const ChannelPing& head) { return head.reduced_water.has_value(); });
+  return teller == heads.end() ? WaterLevels{} : *teller->reduced_water;
 }
 
 Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, int samples) {

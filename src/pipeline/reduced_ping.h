@@ -34,9 +34,8 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
                                                        std::span<const int> row_of_channel);
 
-/// The water's own level in the whole ping, [sample] Sv counts as filtered; kMinCount = nothing loud. Files written
-/// before it was kept have nothing loud.
-[[nodiscard]] std::vector<std::int16_t> reduced_water_counts(std::span<const ChannelPing> heads, int samples);
+/// The water's levels in the whole ping; quiet where the file does not tell.
+[[nodiscard]] WaterLevels reduced_water(std::span<const ChannelPing> heads);
 
 /// The seabed of the whole ping: its plane where the file has it (files written before it was kept have none: then it
 /// counts as not found), and where each row's began. A row without record has none.

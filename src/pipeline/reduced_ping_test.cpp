@@ -48,9 +48,9 @@ TEST(ReducedPing, record_survives_the_file) {
   EXPECT_EQ(seabed.slope_y, -0.1);
   EXPECT_EQ(seabed.min_y, -400.25);
   EXPECT_EQ(seabed.first_sample, (std::vector<std::int32_t>{1400, 700, 1400, 1400, 1400, 1400}));
-  EXPECT_TRUE(with_plane.head.reduced_water.empty());
+  EXPECT_FALSE(with_plane.head.reduced_water);
   // The water stands behind the plane, or alone.
-  p.reduced_water = {kMinCount, kMinCount, -2711, -2800};
+  p.reduced_water = WaterLevels{{kMinCount, kMinCount, -2711, -2800}, 700};
   for (const bool plane : {true, false}) {
     ChannelPing told = p;
     if (!plane) told.reduced_seabed.reset();
@@ -59,13 +59,12 @@ TEST(ReducedPing, record_survives_the_file) {
     const simrad::Raw0 with_water = simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20));
     EXPECT_EQ(with_water.head.reduced_seabed, told.reduced_seabed);
     EXPECT_EQ(with_water.head.reduced_water, told.reduced_water);
-    EXPECT_EQ(reduced_water_counts(std::vector{with_water.head}, 6),
-              (std::vector<std::int16_t>{kMinCount, kMinCount, -2711, -2800, kMinCount, kMinCount}));
+    EXPECT_EQ(reduced_water(std::vector{head(1, {}), with_water.head}), *told.reduced_water);
     // Cut short, it is what is there.
     const simrad::Raw0 cut = simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20 - 3));
-    EXPECT_EQ(cut.head.reduced_water, (std::vector<std::int16_t>{kMinCount, kMinCount}));
+    EXPECT_EQ(cut.head.reduced_water, (WaterLevels{{kMinCount, kMinCount}, 700}));
   }
-  EXPECT_EQ(reduced_water_counts(std::vector<ChannelPing>{}, 2), (std::vector<std::int16_t>{kMinCount, kMinCount}));
+  EXPECT_EQ(reduced_water(std::vector<ChannelPing>{}), WaterLevels{});
   // A plane that makes no sense is none.
   p.reduced_seabed->slope_x = std::numeric_limits<double>::quiet_NaN();
   bytes.clear();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "view/school_look.h"
 
@@ -73,12 +74,14 @@ std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks,
   double sample = 0.0;
   double count = 0.0;
   for (const Run& run : largest->mask->runs) {
-    fan += static_cast<double>(run.row / beams) * run.count;
-    beam += static_cast<double>(run.row % beams) * run.count;
+    const int fan_of_row = run.row / beams;
+    const int beam_of_row = run.row % beams;
+    fan += 1.0 * fan_of_row * run.count;
+    beam += 1.0 * beam_of_row * run.count;
     sample += (run.first_sample + 0.5 * (run.count - 1)) * run.count;
     count += run.count;
   }
-  const auto nearest = [count](double sum) { return static_cast<int>(sum / count + 0.5); };
+  const auto nearest = [count](double sum) { return static_cast<int>(std::lround(sum / count)); };
   return MaskMiddle{nearest(fan), nearest(beam), nearest(sample)};
 }
 

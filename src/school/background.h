@@ -8,6 +8,7 @@
 
 #include "base/array.h"
 #include "base/units.h"
+#include "model/water_levels.h"
 
 namespace sonar {
 
@@ -15,8 +16,7 @@ namespace sonar {
 struct Background {
   std::span<const double> power_db;       ///< [row] mean (not median) power, dB re 1 W; NaN or empty = none known
   View3<const std::int16_t> calibration;  ///< [fan][beam][sample]: Sv counts = power counts + this; kNoData = none
-  /// [sample] the water's own level where it is known already, as reverberation_counts() gives it; empty = to be found.
-  std::span<const std::int16_t> water_counts{};
+  const WaterLevels* water = nullptr;     ///< where they are known already; null = to be found
 
   [[nodiscard]] bool known(int row) const {
     return static_cast<std::size_t>(row) < power_db.size() && calibration.data() != nullptr &&

@@ -47,8 +47,9 @@ int median_of_mean_counts() {
 }  // namespace
 
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
-                         std::vector<std::int16_t> water, const PingMask* taken)
+                         WaterLevels water, const PingMask* taken)
     : sv_(sv), flags_(flags), background_(background), water_(std::move(water)), taken_(taken) {
+  water_.reverberation.resize(static_cast<std::size_t>(sv.shape().samples), kMinCount);
   if (taken_ != nullptr) taken_rows_ = index_rows(taken_->runs, sv.shape().rows());
 }
 
@@ -71,14 +72,15 @@ std::vector<Run> Thresholder::candidates(double floor_db, double margin_db) cons
   std::vector<Run> runs;
   // The water's level is a median of many as the filtered samples are; the margin counts from means.
   const int above_water = rounded_counts(counts_from_db(margin_db)) - median_of_mean_counts();
-  std::vector<int> quiet_limit(water_.size());
-  std::transform(water_.begin(), water_.end(), quiet_limit.begin(),
+  const double above_noise = std::max(counts_from_db(margin_db), static_cast<double>(water_.noise_reach));
+  std::vector<int> quiet_limit(water_.reverberation.size());
+  std::transform(water_.reverberation.begin(), water_.reverberation.end(), quiet_limit.begin(),
                  [&](int water) { return std::max(floor, water + above_water); });
   for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
     const std::int16_t* counts = sv_.row(row).data();
     const SampleFlags* flags = flags_.row(row).data();
     const bool known = background_.known(row);
-    const int level = known ? rounded_counts(background_.power_counts(row) + counts_from_db(margin_db)) : 0;
+    const int level = known ? rounded_counts(background_.power_counts(row) + above_noise) : 0;
     const std::int16_t* table = known ? background_.calibration.row(row).data() : nullptr;
     const auto limit = [&](int s) {
       const int quiet = quiet_limit[static_cast<std::size_t>(s)];
@@ -118,7 +120,7 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
       const bool known = background_.known(row);
       const int mean = known ? rounded_counts(background_.power_counts(row)) : 0;
       const auto limit = [&](std::size_t s) {
-        int median = water_[s];
+        int median = water_.reverberation[s];
         if (known) median = std::max(median, mean + median_of_mean_counts() + background_.calibration.row(row)[s]);
         return std::max(level_sum(level, median), median - median_of_mean_counts() + rest);
       };

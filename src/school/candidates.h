@@ -16,12 +16,12 @@ namespace sonar {
 /// Thresholds a ping's filtered Sv row by row, with the background of each beam taken into account.
 class Thresholder {
  public:
-  /// water  [sample] level that most beams show, Sv counts as filtered: reverberation_counts()
+  /// water  of the ping: water_levels()
   Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
-              std::vector<std::int16_t> water, const PingMask* taken);
+              WaterLevels water, const PingMask* taken);
 
   /// Runs of the whole ping with Sv >= max(floor, background + margin), where the background is the beam's noise or the
-  /// water at that range, whichever is louder.
+  /// water at that range, whichever is louder. Noise that reaches higher than the margin counts as noise up to there.
   [[nodiscard]] std::vector<Run> candidates(double floor_db, double margin_db) const;
 
   /// Runs inside a box where the echo without its background reaches level_db, and the whole stands rest_db above the
@@ -34,7 +34,7 @@ class Thresholder {
   View3<const std::int16_t> sv_;
   View3<const SampleFlags> flags_;
   const Background& background_;
-  std::vector<std::int16_t> water_;
+  WaterLevels water_;
   const PingMask* taken_;
   std::vector<int> taken_rows_;
 };

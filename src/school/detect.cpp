@@ -11,10 +11,14 @@
 #include "model/school.h"
 #include "school/candidates.h"
 #include "school/edges.h"
+#include "school/noise_reach.h"
 #include "school/reverberation.h"
 
 namespace sonar {
 namespace {
+
+/// Noise that fluctuates by more is no noise, or was not filtered.
+constexpr double kMostRise_db = 6.0;
 
 using Runs = std::vector<Run>;
 
@@ -44,7 +48,7 @@ class PingDetector {
         flags_(flags),
         sector_(sector),
         params_(params),
-        thresholder_(sv, flags, background, water_counts(sv, flags, background, params), taken),
+        thresholder_(sv, flags, background, water_levels(sv, flags, background, params), taken),
         claimed_(sv.shape()) {}
 
   std::vector<Detection> run() {
@@ -315,14 +319,19 @@ std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFl
   return PingDetector(sv, flags, sector, background, params, taken).run();
 }
 
-std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                       const Background& noise, const DetectParams& params) {
-  if (params.water_share > 0.0 && !noise.water_counts.empty()) {
-    return {noise.water_counts.begin(), noise.water_counts.end()};
-  }
+WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
+                         const DetectParams& params) {
+  if (noise.water != nullptr) return *noise.water;
   // Quieter water changes nothing: candidates lie above the floor anyhow.
   const double least_db = params.floor_db - params.background_margin_db + kMedianOfMean_db;
-  return reverberation_counts(sv, flags, noise, params.water_share, static_cast<int>(counts_from_db(least_db)));
+  const auto least = static_cast<int>(counts_from_db(least_db));
+  WaterLevels water;
+  water.reverberation = reverberation_counts(sv, flags, noise, params.water_share, least);
+  if (params.noise_sigmas > 0.0) {
+    const auto most = static_cast<int>(counts_from_db(params.background_margin_db + kMostRise_db));
+    water.noise_reach = noise_reach(sv, flags, noise, water.reverberation, params.noise_sigmas, least, most);
+  }
+  return water;
 }
 
 Detection describe_mask(PingMask mask, View3<const SampleFlags> flags, const Sector& sector) {

@@ -21,6 +21,7 @@ struct DetectParams {
   double floor_db = -60.0;
   double background_margin_db = 8.0;
   double water_share = 0.3;
+  double noise_sigmas = 4.5;
   double reference_percentile = 90.0;
   double tolerance_db = 10.0;
   double link_db = 3.0;
@@ -61,6 +62,11 @@ void describe(Visitor& v, DetectParams& p) {
        .min = 0,
        .max = 1,
        .text = "the water's own level at a range is background too: above this share of the beams; 0 = not looked at"});
+  v.field("noise_sigmas", p.noise_sigmas,
+          {.unit = "1",
+           .min = 0,
+           .max = 20,
+           .text = "noise that fluctuates more raises the margin: so many of its own spreads above its median"});
   v.field("reference_percentile", p.reference_percentile,
           {.unit = "%", .min = 1, .max = 100, .text = "a school's reference: this share of the candidate lies below"});
   v.field("tolerance_db", p.tolerance_db,
@@ -159,10 +165,10 @@ struct Detection {
                                             const Sector& sector, const Background& background,
                                             const DetectParams& params, const PingMask* taken = nullptr);
 
-/// The water's level by range that detection takes for background: the noise's own record of it, or else
-/// reverberation_counts().
-[[nodiscard]] std::vector<std::int16_t> water_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                                     const Background& noise, const DetectParams& params);
+/// What detection takes for background beside the mean noise: the noise's own record of it, or else
+/// reverberation_counts() and noise_reach().
+[[nodiscard]] WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
+                                       const Background& noise, const DetectParams& params);
 
 /// Fills in what a mask alone tells (box, centre, covariance, volume, edges): for masks that a human or a propagation
 /// made, so that they can be tracked like detections.

@@ -88,6 +88,29 @@ TEST(Detect, FindsNothingInNoise) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) EXPECT_TRUE(Scene().look(seed).empty());
 }
 
+// Gusts: the mean of each patch of water varies, so that the filter leaves more of the noise than of plain fading.
+TEST(Detect, NoiseOfHeavyTailsHoldsNoSchoolAndHidesNone) {
+  for (const bool with_school : {false, true}) {
+    Scene scene;
+    if (with_school) scene.add(180.0, -18.0, 268.0, -38.0);
+    for (int row = 0; row < 500; ++row) {
+      for (int s = 0; s < 900; ++s) {
+        const int patch = ((row / 25 / 3) * 25 + row % 25 / 3) * 900 + s / 20;
+        const double gust = -std::log(test::uniform(977 + static_cast<std::uint64_t>(patch)));
+        scene.expected.view().row(row)[static_cast<std::size_t>(s)] += linear_from_db(-65.0) * gust;
+      }
+    }
+    std::fill(scene.flat.power_db.begin(), scene.flat.power_db.end(), -67.0);
+    DetectParams params;
+    params.water_share = 0.0;
+    const std::vector<Detection> found = scene.look(8, params);
+    ASSERT_EQ(found.size(), with_school ? 1U : 0U);
+    for (const Detection& school : found) EXPECT_GT(dice(school.mask, scene.truths[0]), 0.75);
+    params.noise_sigmas = 0.0;
+    EXPECT_GT(scene.look(8, params).size(), 1U);
+  }
+}
+
 // Reverberation is background too, at whatever range it is loud: alone it holds no school, and a school in it is found
 // as large as the school is.
 TEST(Detect, ReverberationIsNoSchoolAndHidesNone) {

@@ -54,16 +54,18 @@ std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
   return row;
 }
 
-/// The water's level, as far as it is there.
-std::vector<std::int16_t> parse_reduced_water(std::span<const std::byte> rest) {
-  if (rest.size() < kReducedWaterHeadBytes || !begins_with(rest, kReducedWaterMark)) return {};
+/// The water's levels, as far as they are there.
+std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) {
+  if (rest.size() < kReducedWaterHeadBytes || !begins_with(rest, kReducedWaterMark)) return std::nullopt;
+  WaterLevels water;
+  water.noise_reach = number_at<std::int16_t>(rest, 4);
   const auto there = (rest.size() - kReducedWaterHeadBytes) / 2;
-  const auto told = static_cast<std::size_t>(std::clamp(number_at<std::int32_t>(rest, 4), 0, kMaxSamples));
-  std::vector<std::int16_t> counts(std::min(told, there));
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    counts[i] = number_at<std::int16_t>(rest, kReducedWaterHeadBytes + 2 * i);
+  const auto told = static_cast<std::size_t>(std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples));
+  water.reverberation.resize(std::min(told, there));
+  for (std::size_t i = 0; i < water.reverberation.size(); ++i) {
+    water.reverberation[i] = number_at<std::int16_t>(rest, kReducedWaterHeadBytes + 2 * i);
   }
-  return counts;
+  return water;
 }
 
 /// The plane, where it makes sense.

@@ -21,9 +21,10 @@ inline constexpr std::size_t kReducedBytes = 16;
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
 inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
-/// this mark, a 4-byte number, then so many 2-byte counts of ChannelPing::reduced_water.
+/// this mark, 2 bytes of WaterLevels::noise_reach, 2 of padding, a 4-byte number and so many 2-byte counts of
+/// WaterLevels::reverberation.
 inline constexpr std::string_view kReducedWaterMark = "SXW1";
-inline constexpr std::size_t kReducedWaterHeadBytes = 8;
+inline constexpr std::size_t kReducedWaterHeadBytes = 12;
 
 struct Raw0 {
   ChannelPing head;                  ///< power_count is left empty: the bytes need not be aligned

@@ -98,10 +98,12 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
     const ReducedSeabed& s = *p.reduced_seabed;
     for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
   }
-  if (p.reduced_water.empty()) return;
+  if (!p.reduced_water) return;
   put_mark(out, simrad::kReducedWaterMark);
-  put(out, static_cast<std::int32_t>(p.reduced_water.size()));
-  for (const std::int16_t count : p.reduced_water) put(out, count);
+  put(out, p.reduced_water->noise_reach);
+  put(out, std::int16_t{0});
+  put(out, static_cast<std::int32_t>(p.reduced_water->reverberation.size()));
+  for (const std::int16_t count : p.reduced_water->reverberation) put(out, count);
 }
 
 }  // namespace
