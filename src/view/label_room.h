@@ -17,6 +17,8 @@ class LabelRoom {
 
   /// A line that labels rather keep off.
   void add_line(PixelPoint a, PixelPoint b) { lines_.push_back({a, b}); }
+  /// What else no label may lie on: a symbol, a box of words.
+  void take(const PixelRect& place) { taken_.push_back(place); }
 
   /// The label at the first of `places` (its anchor) where it lies inside, on no label and on no line; else at the first
   /// where it lies inside and on no label; empty where there is none. Room that was given stays taken.

@@ -78,6 +78,14 @@ TEST(ObservationMap, TheTitleTellsOfTheSchoolsThatItIsGiven) {
   EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}, 1), "1 school "));
 }
 
+TEST(ObservationMap, ThatNobodyLookedForSchoolsIsSaid) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_TRUE(base);
+  base->searched = false;
+  EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}), "schools not looked for"));
+}
+
 TEST(ObservationMap, TheShipNeverFillsItAndLeavesTheStartSeen) {
   ObservationProduct p = map_example::product("obs-0001", 3);
   p.grid.reset();  // no footprints: 40 m of track
@@ -131,6 +139,58 @@ TEST(ObservationMap, SchoolsHavePathsInTheirColoursAndNumbers) {
   EXPECT_EQ(strokes(theme.muted), muted + 1);
   EXPECT_TRUE(says(frame, "12"));
   EXPECT_TRUE(says(frame, "13"));
+}
+
+// Ten schools in one place: each has its number, none on another, and those that stand apart have a line.
+TEST(ObservationMap, TouchingSchoolsAllHaveTheirNumbers) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const Theme theme = light_theme(kSize);
+  const auto base = observation_map_base(p, kSize, theme);
+  ASSERT_TRUE(base);
+  FrameDescription frame;
+  frame.size = kSize;
+  std::vector<MapSchool> schools;
+  for (int i = 1; i <= 10; ++i) {
+    schools.push_back({i, "accepted", i == 7, {destination(p.pings[9].transducer, 60.0 + i, 270.0)}});
+  }
+  add_map_schools(frame, *base, schools);
+  std::vector<PixelRect> boxes;
+  for (const auto& item : frame.items) {
+    const auto* t = std::get_if<TextItem>(&item);
+    if (t == nullptr) continue;
+    const PixelRect box = LabelRoom::box_of(*t);
+    for (const PixelRect& other : boxes) {
+      EXPECT_TRUE(box.x >= other.x + other.width || other.x >= box.x + box.width || box.y >= other.y + other.height ||
+                  other.y >= box.y + box.height)
+          << t->text;
+    }
+    boxes.push_back(box);
+  }
+  EXPECT_EQ(boxes.size(), 10U);
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_TRUE(std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+      const auto* t = std::get_if<TextItem>(&item);
+      return t != nullptr && t->text == std::to_string(i);
+    })) << i;
+  }
+}
+
+// No room for hundreds of numbers on one spot: what is left out is said, with how many.
+TEST(ObservationMap, NumbersWithoutRoomAreNamed) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const auto base = observation_map_base(p, kSize, light_theme(kSize));
+  ASSERT_TRUE(base);
+  FrameDescription frame;
+  frame.size = kSize;
+  std::vector<MapSchool> schools;
+  for (int i = 1; i <= 400; ++i) schools.push_back({i, "accepted", false, {p.pings[9].transducer}});
+  add_map_schools(frame, *base, schools);
+  const auto numbers = std::count_if(frame.items.begin(), frame.items.end(), [](const auto& item) {
+    return std::holds_alternative<TextItem>(item) && std::get<TextItem>(item).bold;
+  });
+  EXPECT_GT(numbers, 20);
+  EXPECT_TRUE(says(frame, "numbers left out: "));
+  EXPECT_TRUE(says(frame, "and " + std::to_string(400 - 6 - numbers) + " more"));
 }
 
 // Each line and colour of the map is named once, of the schools' statuses those that there are; nothing is cut.
@@ -224,8 +284,9 @@ TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
   p.pings[2].bad = true;
   const PropagationStyle style;
   const auto panels = propagation_panels(p, 3, style);
-  ASSERT_EQ(panels.size(), 4U);  // there is no ping 5
+  ASSERT_EQ(panels.size(), 5U);
   EXPECT_TRUE(panels[2].current);
+  EXPECT_TRUE(panels[4].absent);  // there is no ping 5
   const Sector sector = p.grid->grid.sector(p.grid->range);
   const auto frame = propagation_view(sector, panels, style, {1200, 500}, light_theme({1200, 500}), "SYNTHETIC");
   ASSERT_TRUE(frame) << to_line(frame.error());
@@ -233,11 +294,43 @@ TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
   EXPECT_TRUE(says(*frame, "12:26:55"));  // ping 3, 15 s after 12:26:40
   EXPECT_TRUE(says(*frame, "no school"));
   EXPECT_TRUE(says(*frame, "bad ping"));
+  EXPECT_TRUE(says(*frame, "after the last ping"));
+  EXPECT_FALSE(says(*frame, "ping 5"));
   EXPECT_TRUE(std::any_of(frame->items.begin(), frame->items.end(), [](const auto& item) {
     const auto* t = std::get_if<TextItem>(&item);
     return t != nullptr && t->text == "417";
   }));
   EXPECT_EQ(image_of(*frame, 1), nullptr);  // only one ping has a mask
+}
+
+// The current ping keeps the middle at both ends; where all pings are seen nothing is missing.
+TEST(PropagationView, AtTheEndsTheMissingPingsKeepTheirPlaces) {
+  const ObservationProduct p = map_example::product("obs-0001", 8);
+  PropagationStyle style;
+  for (const std::int64_t current : {0, 7}) {
+    const auto panels = propagation_panels(p, current, style);
+    ASSERT_EQ(panels.size(), 5U);
+    EXPECT_TRUE(panels[2].current);
+    EXPECT_EQ(std::count_if(panels.begin(), panels.end(), [](const auto& one) { return one.absent; }), 2);
+    const auto frame =
+        propagation_view(p.grid->grid.sector(p.grid->range), panels, style, {900, 400}, light_theme({900, 400}));
+    ASSERT_TRUE(frame);
+    EXPECT_TRUE(says(*frame, current == 0 ? "before the first ping" : "after the last ping"));
+  }
+  style.before = style.after = 10;
+  EXPECT_EQ(propagation_panels(p, 3, style).size(), 8U);
+}
+
+TEST(PropagationView, ThatNobodyLookedForSchoolsIsSaid) {
+  const ObservationProduct p = map_example::product("obs-0001", 8);
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  for (const bool searched : {false, true}) {
+    const auto frame =
+        propagation_view(sector, propagation_panels(p, 4, {}, searched), {}, {1200, 500}, light_theme({1200, 500}));
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(says(*frame, "not looked for"), !searched);
+    EXPECT_EQ(says(*frame, "no school"), searched);
+  }
 }
 
 // The example's ship starts at 2020-09-13 12:26:40 and pings every 5 s.
