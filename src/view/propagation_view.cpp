@@ -290,9 +290,18 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
       right -= 2.2 * em;
     }
   }
-  std::string words = fmt::format("{:g} m", length_m);
-  words += style.aspect == MaskAspect::above ? " · from above, bow up"
-                                             : " · from the side, ship to the left; depths below the surface";
+  // The most that there is room for.
+  const auto words_of = [&]() -> std::string {
+    const bool above = style.aspect == MaskAspect::above;
+    const std::string scale_words = fmt::format("{:g} m", length_m);
+    for (const char* more :
+         {above ? " · from above, bow up" : " · from the side, ship to the left; depths below the surface",
+          above ? " · from above" : " · from the side, ship to the left", above ? " · above" : " · from the side"}) {
+      if (text_width_px((scale_words + more).c_str(), em) < right - end - 0.6 * em) return scale_words + more;
+    }
+    return scale_words;
+  };
+  const std::string words = words_of();
   frame.items.emplace_back(text_item({end + 0.6 * em, y}, elided(words, em, right - end - 0.6 * em), em, theme.muted));
 }
 
