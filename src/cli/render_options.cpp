@@ -143,7 +143,8 @@ void add_colours(CLI::App& verb, RenderArguments& a) {
   std::vector<std::string> maps;
   for (const std::string_view name : colour_map_names()) maps.emplace_back(name);
   verb.add_option("--map", a.map, "Colour map")->check(CLI::IsMember(maps))->capture_default_str()->group("Colours");
-  verb.add_option("--low-db", a.low_db, "Display limit: the first colour begins here; default -60, timeline -75")
+  verb.add_option("--low-db", a.low_db,
+                  "Display limit: the first colour begins here; default -60, timeline of means -75")
       ->check(between(-190.0, 100.0))
       ->group("Colours");
   verb.add_option("--span-db", a.span_db, "From the first colour to the last; default 36")
@@ -219,6 +220,8 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->group(group);
   verb.add_option("--zoom", a.picture.zoom, "Above 1: nearer")->check(between(0.01, 100.0))->group(group);
   verb.add_flag("--masks-alone{false}", a.picture.mask_style.data_too, "Schools' masks without the data")->group(group);
+  verb.add_flag("--mask-outline", a.picture.mask_outline, "Outline schools in volumes: the data keeps its colours")
+      ->group(group);
   verb.add_option("--core", a.picture.mask_style.core_at, "Confidence from which a voxel is core")
       ->check(between(0.0, 1.0))
       ->capture_default_str()

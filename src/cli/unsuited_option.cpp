@@ -21,7 +21,7 @@ struct Suits {
 };
 constexpr std::string_view kOfPing = "slice- volume propagation observation-map";
 constexpr std::string_view kOfSv = "slice- volume timeline";
-constexpr std::array<Suits, 45> kSuits{{
+constexpr std::array<Suits, 46> kSuits{{
     {"--observation", "slice- volume propagation observation-map timeline"},
     {"--ping", kOfPing},
     {"--filtered", kOfSv},
@@ -53,6 +53,7 @@ constexpr std::array<Suits, 45> kSuits{{
     {"--rise-deg", "volume"},
     {"--zoom", "volume"},
     {"--masks-alone", "volume"},
+    {"--mask-outline", "volume"},
     {"--core", kOfPing},
     {"--fuzzy", "volume"},
     {"--table-entries", "volume"},
@@ -95,6 +96,13 @@ std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const std::s
   if (kind == "timeline" && verb.get_option("--whole-survey")->count() > 0 &&
       verb.get_option("--observation")->count() > 0) {
     return UnsuitedOption{"--observation", "not together with --whole-survey, which draws all of them"};
+  }
+  const auto given = [&](const char* option) { return verb.get_option(option)->count() > 0; };
+  if (given("--masks-alone") && given("--no-masks")) {
+    return UnsuitedOption{"--masks-alone", "not together with --no-masks, which leaves nothing to draw"};
+  }
+  if (given("--mask-outline") && (given("--no-masks") || given("--masks-alone"))) {
+    return UnsuitedOption{"--mask-outline", "not together with --no-masks or --masks-alone: it is drawn round both"};
   }
   return std::nullopt;
 }

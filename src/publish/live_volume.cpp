@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "publish/mask_outlines.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
@@ -72,6 +73,7 @@ struct LiveVolume::State {
   std::shared_ptr<const VolumeData> volume;
   std::shared_ptr<const OpticalTable> table;
   bool masks_set = false;
+  bool masks_outlined = false;  ///< the renderer has none of them: they are laid over its rays
   std::optional<ContextKey> context_key;
   ContextPicture context;
 
@@ -88,7 +90,7 @@ struct LiveVolume::State {
   }
 
   Result<void> begin(RendererChoice wanted);
-  Result<void> set(const LiveVolumeInput& input);
+  Result<void> set(const LiveVolumeInput& input, bool outlined);
   Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const Wanted& wanted, Work& better,
                     const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
@@ -112,7 +114,7 @@ Result<void> LiveVolume::State::begin(RendererChoice wanted) {
 }
 
 /// Hands the renderer what it has not yet.
-Result<void> LiveVolume::State::set(const LiveVolumeInput& input) {
+Result<void> LiveVolume::State::set(const LiveVolumeInput& input, bool outlined) {
   VolumeRenderer& renderer = *offscreen->renderer;
   const PictureOptions& options = input.options;
   const double depth_m = input.navigation.transducer_depth_m;
@@ -128,9 +130,11 @@ Result<void> LiveVolume::State::set(const LiveVolumeInput& input) {
     table = std::make_shared<const OpticalTable>(std::move(*made));
     if (auto done = renderer.set_transfer(*table); !done) return done;
   }
-  if (!masks_set || !same_masks(drawn.masks, input.masks)) {
-    if (auto done = renderer.set_masks(input.masks); !done) return done;
+  if (!masks_set || masks_outlined != outlined || !same_masks(drawn.masks, input.masks)) {
+    const std::vector<MaskLayer> none;
+    if (auto done = renderer.set_masks(outlined ? none : input.masks); !done) return done;
     masks_set = true;
+    masks_outlined = outlined;
   }
   drawn = input;
   if (!refinement || budget_s != input.moving_budget_s || frames != options.frames) {
@@ -163,13 +167,15 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
                                      Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
   if (other_sector) context_key.reset();
-  if (auto done = set(input); !done) {
+  VolumeFigure figure{volume, input.masks, input.legend, input.navigation, input.title, input.title_line, true};
+  figure.outlined = wants_outlines(figure, input.options);
+  if (auto done = set(input, figure.outlined); !done) {
     // What the renderer holds now is not known.
     volume.reset();
     table.reset();
     return done;
   }
-  const VolumeFigure figure{volume, input.masks, input.legend, input.navigation, input.title, input.title_line, true};
+  figure.volume = volume;
   const Camera camera = volume_camera(*input.sector, input.options, place.rays);
   draw_context(figure, input, place, camera);
   const VolumeView view = volume_view(figure, input.options, place, camera, context);
@@ -178,9 +184,23 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
   PictureOptions labelled = input.options;
   if (input.scale_bar) labelled.transfer.reset();
   refinement->restart(view);
+  std::optional<std::vector<MaskSilhouette>> silhouettes;
   for (Work* work = &first;; work = &better) {
     auto frame = refinement->next(*work);
     if (!frame) return pass_on(frame);
+    if (figure.outlined && frame->quality.divisor == 1 && (work != &first || frame->done)) {
+      // While something moves the data comes first.
+      if (!silhouettes) {
+        auto seen = mask_silhouettes(*offscreen->renderer, figure.masks, view, *work);
+        masks_set = false;
+        if (!seen) return pass_on(seen);
+        if (auto set = offscreen->renderer->set_masks({}); !set) return set;
+        masks_set = true;
+        silhouettes = std::move(*seen);
+      }
+      lay_outlines(frame->image, figure.masks, *silhouettes,
+                   static_cast<int>(std::lround(1.5 * place.theme.line_px * place.scale)), place.theme.text);
+    }
     if (work == &first || worth_showing(*frame)) {
       auto shown = std::make_shared<LiveVolumeShown>(
           LiveVolumeShown{volume, table, met, view, place.rect, input.staged->ping_index, frame->quality.divisor,

@@ -36,8 +36,9 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const auto ping = chosen_ping(observation, options);
   if (!ping) return pass_on(ping);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
-  const auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
+  auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
   if (!base) return pass_on(base);
+  base->searched = observation.has_product();
   FrameDescription frame = observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping),
                                            palette_of(product, options));
   add_map_schools(frame, *base, map_schools(product));
@@ -56,7 +57,7 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   style.before = style.after = options.neighbours;
   style.aspect = options.side_view ? MaskAspect::side : MaskAspect::above;
   style.palette.core_at = static_cast<double>(options.mask_style.core_at);
-  const auto panels = propagation_panels(product, *ping, style);
+  const auto panels = propagation_panels(product, *ping, style, observation.has_product());
   return propagation_view(*sector, panels, style, options.size, theme_of(options), observation.title());
 }
 
@@ -80,6 +81,8 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   SurveyMapStyle style;
   style.sv_low_db = options.scale.low_db;
   style.sv_high_db = options.scale.high_db();
+  style.unsearched = static_cast<int>(std::count_if(observations.begin(), observations.end(),
+                                                    [](const DrawnObservation& o) { return !o.has_product(); }));
   std::optional<DepthGrid> depths;
   if (!options.depth_raster.empty()) {
     const auto surveyed = survey_extent(products, outlines, style.margin);

@@ -90,6 +90,7 @@ struct PictureOptions {
   double first_hit_db = -50.0;
   bool lighting = false;
   MaskStyle mask_style;
+  bool mask_outline = false;  ///< schools as outlines, not as a tint; maximum and first hit always have outlines
   int table_entries = kMostTableEntries;
   int frames = 8;        ///< jittered frames that are averaged; 0 = one plain frame
   double seconds = 0.0;  ///< no new frame is begun after this time; 0 = no limit

@@ -30,8 +30,9 @@ SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
   SliceKey key;
   key.filtered = ping.staged != nullptr && options.filtered.value_or(false);
   key.weak_below_db = options.weak_below_db;
+  // Keys and masks are in one order.
   for (const SchoolKey& school : school_keys(ping, options)) {
-    key.schools.push_back({school.colour, status_line(school.status), school.name});
+    key.schools.push_back({school.colour, status_line(school.status), school.name, key.schools.size()});
   }
   return key;
 }
@@ -132,6 +133,11 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   SliceStyle style;
   style.colours = colours_of(options);
   style.flags = options.flags;
+  if (ping->staged && options.filtered.value_or(false)) {
+    // The median passes over flagged samples and keeps what they held: taken out means not drawn, as in volumes.
+    const auto taken_out = static_cast<unsigned>(options.left_out & kNotFiltered);
+    style.flags.hidden |= static_cast<SampleFlags>(taken_out & ~static_cast<unsigned>(options.put_back));
+  }
   style.masks.core_at = static_cast<double>(options.mask_style.core_at);
   style.grid = options.grid_lines;
   style.north_up = options.north_up;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -91,11 +92,16 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
   style.value = options.maximum ? EchogramValue::maximum : EchogramValue::mean;
   style.axis = options.along_log ? TimelineAxis::log : TimelineAxis::time;
   style.schools = options.masks;
+  style.filtered = options.filtered.value_or(false);
+  style.searched =
+      std::any_of(observations.begin(), observations.end(), [](const DrawnObservation* o) { return o->has_product(); });
   // Means over all beams are weaker than a beam's own Sv: the timeline has limits of its own unless some were chosen.
   if (options.transfer) {
     style.scale = sv_scale(*options.transfer, options.scale.map);
   } else if (options.limits_given) {
     style.scale = options.scale;
+  } else if (options.maximum) {
+    style.scale = SvScale{};  // a beam's own Sv, as in slices
   }
   style.scale.map = options.scale.map;
   style.scale.threshold_db = options.scale.threshold_db;

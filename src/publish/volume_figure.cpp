@@ -22,8 +22,22 @@ int known_percent(const SeabedPatch& bed) {
   return static_cast<int>(100 * known / std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(bed.depth_m.size())));
 }
 
+/// What the seabed's lines are and how its relief is lit.
+std::string seabed_words(const SeabedPatch& bed, double room_px, double text_px) {
+  const double step = seabed_line_step_m(bed);
+  if (!(step > 0.0)) return {};
+  const double times = relief_exaggeration(bed);
+  const std::string lines = fmt::format("; seabed lines every {:g} m", step);
+  std::string relief;
+  if (times > 1.5) relief = fmt::format(", lit as if {:.0f} times as steep", times);
+  if (text_width_px((lines + relief).c_str(), text_px) < room_px) return lines + relief;
+  return text_width_px(lines.c_str(), text_px) < room_px ? lines : std::string();
+}
+
 /// How the picture was made and what its bearings start from, for its second line.
-std::string view_line(const VolumeFigure& figure, const PictureOptions& options, bool data_too) {
+/// place  whose title has to hold it
+std::string view_line(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
+                      bool data_too) {
   std::string line = "masks of schools";
   if (data_too) {
     line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
@@ -35,8 +49,14 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
   if (figure.seabed && known_percent(*figure.seabed) < 100) {
     line += fmt::format("; depths known of {} % of the seabed", known_percent(*figure.seabed));
   }
-  if (!options.context) return line;
-  return line + (std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings");
+  if (options.context) {
+    line += std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings";
+  }
+  if (figure.seabed) {
+    const double text_px = place.theme.text_px;
+    line += seabed_words(*figure.seabed, place.layout.title.width - text_width_px(line.c_str(), text_px), text_px);
+  }
+  return line;
 }
 
 /// Sv above, the seabed's depths below it; where only one is drawn it takes all the room.
@@ -123,6 +143,11 @@ std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const Stage
     flag_weak(staged, *options.weak_below_db, shown.flags.view());
   }
   return std::make_shared<const VolumeData>(volume_data(sector, shown, options.left_out, transducer_depth_m));
+}
+
+bool wants_outlines(const VolumeFigure& figure, const PictureOptions& options) {
+  return (options.mode != RayMode::accumulate || options.mask_outline) && options.mask_style.data_too &&
+         figure.samples && !figure.masks.empty();
 }
 
 bool same_volume(const PictureOptions& a, const PictureOptions& b) {
@@ -221,8 +246,14 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
     }
   }
   add_school_legend(frame, figure, options, place.rect, theme);
+  if (!view.masks.data_too && figure.masks.empty()) {
+    const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
+    const char* words = !figure.searched ? "no masks: schools not looked for" : "no masks: no school in this ping";
+    frame.items.emplace_back(
+        TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
+  }
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
-  add_title(frame, place.layout, theme, {figure.title_line, view_line(figure, options, view.masks.data_too)},
+  add_title(frame, place.layout, theme, {figure.title_line, view_line(figure, options, place, view.masks.data_too)},
             time_text(figure.navigation.time));
   return frame;
 }

@@ -29,6 +29,7 @@ struct VolumeFigure {
   bool samples = true;                  ///< false: the masks alone are known
   std::optional<SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
   bool outlined = false;                ///< masks are lines over the data, not a tint
+  bool searched = true;                 ///< schools were looked for
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };
@@ -38,6 +39,9 @@ struct VolumeFigure {
                                                              const PictureOptions& options, double transducer_depth_m);
 /// Whether drawn_volume() is the same for both.
 [[nodiscard]] bool same_volume(const PictureOptions& a, const PictureOptions& b);
+
+/// Whether masks are to be outlined: where a ray's colour tells one Sv a tint would make it another, or hide it.
+[[nodiscard]] bool wants_outlines(const VolumeFigure& figure, const PictureOptions& options);
 
 /// Where a volume lies in its picture.
 struct VolumePlace {

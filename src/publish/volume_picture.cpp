@@ -36,6 +36,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   }
   out.navigation = ping->navigation;
   out.samples = ping->staged != nullptr;
+  out.searched = observation.has_product();
   out.title = observation.title();
   out.title_line =
       fmt::format("{}{}   ping {}", out.title, out.samples ? "" : " (masks alone: no raw files)", ping->ping_index);
@@ -78,11 +79,6 @@ Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     work.progress("drawing", frame->averaged, options.frames);
   }
-}
-
-/// Where a ray's colour tells one Sv, masks are outlined: a tint would make it another Sv, or hide it.
-bool outlines(const VolumeFigure& figure, const PictureOptions& options) {
-  return options.mode != RayMode::accumulate && options.mask_style.data_too && figure.samples && !figure.masks.empty();
 }
 
 Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
@@ -132,7 +128,7 @@ Result<FrameDescription> volume_frame(DrawnObservation& observation, const Pictu
   auto patch = seabed(*figure, options);
   if (!patch) return pass_on(patch);
   figure->seabed = std::move(*patch);
-  figure->outlined = outlines(*figure, options);
+  figure->outlined = wants_outlines(*figure, options);
   const Camera camera = volume_camera(figure->sector(), options, place->rays);
   const ContextPicture context = volume_context(*figure, options, *place, camera, work);
   const VolumeView view = volume_view(*figure, options, *place, camera, context);

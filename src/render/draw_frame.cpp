@@ -17,6 +17,7 @@
 #include "render/frame_drawing.h"
 #include "render/picture_file.h"
 #include "render/svg_names.h"
+#include "render/svg_text.h"
 
 namespace sonar {
 namespace {
@@ -73,7 +74,7 @@ Result<std::string> svg_of(const FrameDescription& frame, PixelSize size, double
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   auto svg = drawn(std::move(surface), frame, scale, bytes);
   if (!svg) return svg;
-  const std::string named = titled_svg(renumbered_svg(*svg), frame.title);
+  const std::string named = searchable_svg(titled_svg(renumbered_svg(*svg), frame.title), frame, scale);
   return any_smooth(frame) ? named : pixelated_svg(named);
 }
 

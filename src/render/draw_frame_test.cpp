@@ -254,6 +254,31 @@ TEST_F(DrawFrame, SvgIsWellFormedAndEqualEachTime) {
   EXPECT_FALSE(std::filesystem::exists(file("a.svg.part")));
 }
 
+// Letters are outlines; the words lie over them, not seen, as text that can be found. A text outside its clip is none.
+TEST_F(DrawFrame, SvgWordsCanBeFound) {
+  FrameDescription frame{{200, 120}, {255, 255, 255, 255}, "t", {}};
+  TextItem word;
+  word.at = {100.0, 50.0};
+  word.text = "Sv < -50 & \xFF dB";
+  word.size_px = 10.0;
+  word.anchor = TextAnchor::right;
+  word.turned_deg = -90.0;
+  frame.items.emplace_back(word);
+  frame.items.emplace_back(ClipItem{{0.0, 0.0, 20.0, 20.0}});
+  word.text = "cut away";
+  frame.items.emplace_back(word);
+  frame.items.emplace_back(ClipItem{});
+  ASSERT_TRUE(write_frame(frame, file("words.svg"), 2.0).has_value());
+  const std::string svg = bytes("words.svg");
+  EXPECT_TRUE(well_formed(svg));
+  EXPECT_NE(svg.find("<g transform=\"scale(2)\" fill-opacity=\"0\""), std::string::npos);
+  EXPECT_NE(svg.find(">Sv &lt; -50 &amp; \uFFFD dB</text>"), std::string::npos);
+  // Its base line is half of a capital, 0.3645 of its size, below the anchor; it turns about the anchor.
+  EXPECT_NE(svg.find("x=\"100\" y=\"53.645\" font-size=\"10\" text-anchor=\"end\" transform=\"rotate(-90 100 50)\""),
+            std::string::npos);
+  EXPECT_EQ(svg.find("cut away"), std::string::npos);
+}
+
 TEST_F(DrawFrame, PdfIsSoundAndEqualEachTime) {
   ASSERT_TRUE(write_frame(example(), file("a.pdf")).has_value());
   ASSERT_TRUE(write_frame(example(), file("b.pdf")).has_value());

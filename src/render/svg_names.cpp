@@ -30,7 +30,9 @@ std::map<std::string, std::string, std::less<>> new_names(const std::string& svg
   return names;
 }
 
-std::string escaped(const std::string& text) {
+}  // namespace
+
+std::string escaped_xml(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&') {
@@ -45,8 +47,6 @@ std::string escaped(const std::string& text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string renumbered_svg(const std::string& svg) {
   const auto names = new_names(svg);
@@ -74,7 +74,7 @@ std::string titled_svg(const std::string& svg, const std::string& title) {
   const std::size_t root = svg.find("<svg");
   const std::size_t end = root == std::string::npos ? root : svg.find('>', root);
   if (title.empty() || end == std::string::npos) return svg;
-  return svg.substr(0, end + 1) + "\n<title>" + escaped(title) + "</title>" + svg.substr(end + 1);
+  return svg.substr(0, end + 1) + "\n<title>" + escaped_xml(title) + "</title>" + svg.substr(end + 1);
 }
 
 std::string pixelated_svg(const std::string& svg) {

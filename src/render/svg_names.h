@@ -9,6 +9,9 @@ namespace sonar {
 /// that equal pictures are equal files.
 [[nodiscard]] std::string renumbered_svg(const std::string& svg);
 
+/// A text as XML holds it.
+[[nodiscard]] std::string escaped_xml(const std::string& text);
+
 /// With a <title> as the first child of <svg>.
 [[nodiscard]] std::string titled_svg(const std::string& svg, const std::string& title);
 

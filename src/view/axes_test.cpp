@@ -161,6 +161,8 @@ TEST(Title, NothingLeavesANarrowPictureAndSyntheticStays) {
   const std::vector<std::string> lines{"obs-0001 of SYNTHETIC survey of herring in the north",
                                        "Top: fan 4, elevation -30.0, 75.0 kHz"};
   const std::string time = "2026-11-21 19:57:26.123 UTC";
+  // Whole, or without its day.
+  const auto of_time = [&](const TextItem& t) { return t.text == time || t.text == "19:57:26.123 UTC"; };
   for (int width = 160; width <= 1200; width += 40) {
     SCOPED_TRACE(width);
     double left_end = 0.0;
@@ -171,12 +173,12 @@ TEST(Title, NothingLeavesANarrowPictureAndSyntheticStays) {
       const double begin = text.anchor == TextAnchor::right ? text.at.x - wide : text.at.x;
       EXPECT_GE(begin, 0.0) << text.text;
       EXPECT_LE(begin + wide, width) << text.text;
-      if (text.text == time) right_begin = begin;
+      if (of_time(text)) right_begin = begin;
     }
     for (const TextItem& text : texts) {
-      if (text.text == time || right_begin > 1e8) continue;
-      const auto of_time = std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.text == time; });
-      if (text.at.y == of_time->at.y) left_end = text.at.x + text_width_px(text.text.c_str(), text.size_px);
+      if (of_time(text) || right_begin > 1e8) continue;
+      const auto right = std::find_if(texts.begin(), texts.end(), of_time);
+      if (text.at.y == right->at.y) left_end = text.at.x + text_width_px(text.text.c_str(), text.size_px);
     }
     EXPECT_LT(left_end, right_begin);
     EXPECT_THAT(texts[0].text, ::testing::HasSubstr("SYN"));
@@ -185,6 +187,23 @@ TEST(Title, NothingLeavesANarrowPictureAndSyntheticStays) {
     }
   }
   EXPECT_EQ(title_in({1600, 900}, lines, time)[0].text, lines[0]);
+}
+
+// What says least goes first where there is no room: the day beside a ping, the words before a survey's name.
+TEST(Title, ANarrowPictureLosesWhatSaysLeast) {
+  const auto said = [](const std::vector<TextItem>& texts, const std::string& words) {
+    return std::any_of(texts.begin(), texts.end(), [&](const TextItem& t) { return t.text == words; });
+  };
+  const std::string slice = "Top: fan 17, elevation -4.7\u00B0, 79.6 kHz; bearings from the bow";
+  const std::vector<std::string> lines{"obs-0001 SYNTHETIC   ping 10", slice};
+  const std::string time = "2020-01-04 08:00:50.350 UTC";
+  EXPECT_TRUE(said(title_in({1200, 900}, lines, time), time));
+  const auto narrow = title_in({320, 240}, lines, time);
+  EXPECT_TRUE(said(narrow, "08:00:50.350 UTC"));
+  EXPECT_TRUE(said(narrow, slice)) << "whole";
+  const std::string survey = "Fish schools of SYNTHETIC survey, made by somebody";
+  EXPECT_TRUE(said(title_in({1200, 900}, {survey}, ""), survey));
+  EXPECT_TRUE(said(title_in({260, 240}, {survey}, ""), "SYNTHETIC survey, made by somebody"));
 }
 
 }  // namespace

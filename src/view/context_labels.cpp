@@ -35,6 +35,8 @@ PixelPoint away(PixelPoint at, PixelPoint along, PixelPoint out) {
   return reach > 1e-6 ? PixelPoint{side.x / reach, side.y / reach} : PixelPoint{0.0, -1.0};
 }
 
+constexpr double kSmall_em = 40.0;  ///< width of a picture that has room for every second label
+
 /// Puts labels into a frame, each beside its place.
 class ContextLabels {
  public:
@@ -53,6 +55,8 @@ class ContextLabels {
     }
   }
 
+  /// Whether the picture is so small that labels would cover what they name.
+  [[nodiscard]] bool small() const { return frame_->size.width < kSmall_em * theme_->text_px; }
   /// Whether there was room.
   bool add(const Labelled& place, std::string text) {
     const auto at = camera_->project(place.at);
@@ -72,7 +76,7 @@ class ContextLabels {
       const double reach = kGaps[i] * em + std::copysign(half, kGaps[i]);
       places[i] = {at->pixel.x + d.x * reach, at->pixel.y + d.y * reach};
     }
-    auto placed = room_.place(std::move(label), places);
+    auto placed = room_.place(std::move(label), places, !small());
     if (!placed) return false;
     frame_->items.emplace_back(std::move(*placed));
     return true;
@@ -105,7 +109,10 @@ class ContextLabels {
 
 void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z) {
   const double edge = grid.first_azimuth_rad;
-  for (const double radius : grid.radii_m) {
+  // Every second one in a small picture, the farthest among them.
+  const std::size_t step = labels.small() ? 2 : 1;
+  for (std::size_t i = (grid.radii_m.size() - 1) % step; i < grid.radii_m.size(); i += step) {
+    const double radius = grid.radii_m[i];
     labels.add({on_surface(radius, edge, z), on_surface(0.9 * radius, edge, z), on_surface(radius, edge - 0.05, z)},
                fmt::format("{:g} m", radius));
   }
@@ -124,7 +131,9 @@ void label_depths(ContextLabels& labels, const DepthAxis& axis, double far_m, do
 
 void label_bearings(ContextLabels& labels, const SurfaceGrid& grid, const ContextParams& params, double z) {
   const double edge = grid.edge_m;
-  for (const double azimuth : grid.azimuths_rad) {
+  const std::size_t step = labels.small() ? 2 : 1;
+  for (std::size_t i = 0; i < grid.azimuths_rad.size(); i += step) {
+    const double azimuth = grid.azimuths_rad[i];
     labels.add({on_surface(edge, azimuth, z), on_surface(edge, azimuth + 0.02, z), on_surface(1.05 * edge, azimuth, z)},
                bearing_text(azimuth, params));
   }

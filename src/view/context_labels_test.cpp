@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "view/colour_map.h"
 #include "view/context_layout.h"
 #include "view/context_scene.h"
 #include "view/label_room.h"
@@ -55,6 +56,37 @@ TEST(LabelRoom, ALineIsAvoidedWhereThereIsAChoice) {
   const std::array<PixelPoint, 1> only_on{{{50, 50}}};
   EXPECT_EQ(room.place(label, only_on)->at, only_on[0]);
   EXPECT_FALSE(room.place(label, only_on)) << "taken";
+  const std::array<PixelPoint, 1> crossed{{{20, 20}}};
+  EXPECT_FALSE(room.place(label, crossed, false)) << "rather none than on a line";
+  EXPECT_TRUE(room.place(label, crossed)) << "nothing was taken";
+}
+
+// A small picture has fewer labels, and what is left crosses no line.
+TEST(ContextLabels, ASmallPictureHasFewer) {
+  const Sector sector = slice_example::sectors()[0].sector;
+  const ContextParams params;
+  const auto count = [&](PixelSize size) { return labels_of(sector, params, overview(sector, size), size).size(); };
+  const std::size_t large = count({900, 700});
+  const std::size_t small = count({250, 200});
+  EXPECT_GE(small, 3U);
+  EXPECT_LE(small, 2 * large / 3);
+  constexpr PixelSize kSmall{250, 200};
+  const CameraBasis camera = basis(overview(sector, kSmall), kSmall);
+  ContextParams lines = params;
+  lines.ship = lines.sea_surface = false;
+  for (const TextItem& label : labels_of(sector, params, overview(sector, kSmall), kSmall)) {
+    const PixelRect box = LabelRoom::box_of(label);
+    for (const SceneLine& line : context_scene(sector, lines, light_theme(kSmall)).lines) {
+      const auto a = camera.project(line.from);
+      const auto b = camera.project(line.to);
+      if (!a || !b) continue;
+      for (int i = 0; i <= 200; ++i) {
+        const PixelPoint p{a->pixel.x + i / 200.0 * (b->pixel.x - a->pixel.x),
+                           a->pixel.y + i / 200.0 * (b->pixel.y - a->pixel.y)};
+        ASSERT_FALSE(p.x > box.x && p.x < box.x + box.width && p.y > box.y && p.y < box.y + box.height) << label.text;
+      }
+    }
+  }
 }
 
 // Law: for every sector and from everywhere, labels leave each other room and stay in the picture.
@@ -176,6 +208,53 @@ TEST(SeabedColours, SpanWhatLiesBelowTheSea) {
   EXPECT_EQ(depth_span({2, 2, 0, 0, 1, {none, -30.0F, 120.0F, 300.0F}}), (std::pair{120.0, 300.0}));
   EXPECT_EQ(depth_span({2, 1, 0, 0, 1, {200.0F, 200.0F}}), (std::pair{199.5, 200.5}));
   EXPECT_FALSE(depth_span({2, 1, 0, 0, 1, {none, -1.0F}}));
+}
+
+// A ridge one metre high on a hundred: its flanks have the same depths, and the light tells one from the other.
+TEST(SeabedRelief, AGentleRidgeIsSeenAndItsPlacesAreTrue) {
+  SeabedPatch bed{21, 3, -100.0, -10.0, 10.0, {}};
+  for (int iy = 0; iy < 3; ++iy) {
+    for (int ix = 0; ix < 21; ++ix) bed.depth_m.push_back(static_cast<float>(100.0 + 0.01 * std::abs(ix - 10) * 10.0));
+  }
+  EXPECT_NEAR(relief_exaggeration(bed), 60.0, 0.1);  // the light makes a slope of 0.6 of one of 0.01
+  ContextParams params;
+  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis = false;
+  const ContextScene scene = context_scene(slice_example::hand_sector(), params, light_theme({640, 480}), bed);
+  double least = 1e9;
+  for (const SceneTriangle& a : scene.opaque) {
+    for (const Point<Sonar>& corner : a.corners) {
+      EXPECT_NEAR(corner.z + params.transducer_depth_m, 100.0 + 0.01 * std::abs(corner.x), 1e-4);
+    }
+    const double x = (a.corners[0].x + a.corners[1].x + a.corners[2].x) / 3.0;
+    for (const SceneTriangle& b : scene.opaque) {
+      const double other = (b.corners[0].x + b.corners[1].x + b.corners[2].x) / 3.0;
+      if (x < 0.0 && std::abs(x + other) < 1.0)
+        least = std::min(least, std::abs(lightness(a.colour) - lightness(b.colour)));
+    }
+  }
+  EXPECT_GT(least, 5.0);
+  EXPECT_EQ(relief_exaggeration({3, 3, 0.0, 0.0, 10.0, std::vector<float>(9, 50.0F)}), 1.0) << "level";
+}
+
+// Lines of equal depth lie at round depths, on the seabed.
+TEST(SeabedRelief, ContoursLieAtTheirDepths) {
+  SeabedPatch bed{5, 5, 0.0, 0.0, 10.0, {}};
+  for (int iy = 0; iy < 5; ++iy) {
+    for (int ix = 0; ix < 5; ++ix) bed.depth_m.push_back(static_cast<float>(101.3 + 2.0 * ix));
+  }
+  EXPECT_EQ(seabed_line_step_m(bed), 1.0);
+  ContextParams params;
+  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis = false;
+  const ContextScene scene = context_scene(slice_example::hand_sector(), params, light_theme({640, 480}), bed);
+  int level = 0;
+  for (const SceneLine& line : scene.lines) {
+    const double depth = line.from.z + params.transducer_depth_m;
+    EXPECT_NEAR(depth, 101.3 + 0.2 * line.from.x, 1e-3);
+    if (std::abs(line.from.x - line.to.x) > 1e-6 || line.colour.a < 100) continue;
+    EXPECT_NEAR(depth, std::round(depth), 1e-6);
+    ++level;
+  }
+  EXPECT_EQ(level, 8 * 4);  // 102 to 109 m, four cells each
 }
 
 // A level seabed has the colours of its scale.

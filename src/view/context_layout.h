@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,11 @@ struct DepthAxis {
   std::vector<double> depths_m;  ///< of the ticks, below the sea surface
 };
 [[nodiscard]] DepthAxis depth_axis(const Sector& sector, const ContextParams& params);
+
+/// One light from above and ahead of port, as on a chart; both sides of a face are lit alike.
+[[nodiscard]] Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& corners);
+
+/// Faces lit as a relief, lines of equal depth, and a grid ahead and across.
+void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_depth_m, const Theme& theme);
 
 }  // namespace sonar

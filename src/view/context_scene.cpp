@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "view/colour_map.h"
 #include "view/context_layout.h"
 
 namespace sonar {
@@ -13,17 +12,6 @@ namespace {
 
 Point<Sonar> cross(const Point<Sonar>& a, const Point<Sonar>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-/// One light from above and ahead of port, as on a chart; both sides of a face are lit alike.
-Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& c) {
-  const Point<Sonar> normal = cross(c[1] - c[0], c[2] - c[0]);
-  const double length = norm(normal);
-  if (length <= 0.0) return colour;
-  const double cosine = std::abs(normal.x * 0.4 - normal.y * 0.35 - normal.z * 0.85) / length;
-  const double k = 0.45 + 0.55 * std::min(1.0, cosine);
-  const auto scaled = [k](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v * k)); };
-  return {scaled(colour.r), scaled(colour.g), scaled(colour.b), colour.a};
 }
 
 void add_polyline(ContextScene& scene, const std::vector<Point<Sonar>>& points, Rgba8 colour, double width_px) {
@@ -92,35 +80,6 @@ void add_depth_axis(ContextScene& scene, const Sector& sector, const ContextPara
   }
 }
 
-/// Neither white nor black, so that light and shade still show; 0 = shallowest.
-Rgba8 seabed_colour(double share) {
-  return colour_map(ColourMapName::deep).at(0.15 + 0.6 * std::clamp(share, 0.0, 1.0));
-}
-
-void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_depth_m) {
-  const auto span = depth_span(bed);
-  if (!span) return;
-  const auto [low, high] = *span;
-  const auto node = [&](int ix, int iy) {
-    const float depth =
-        bed.depth_m[static_cast<std::size_t>(iy) * static_cast<std::size_t>(bed.nx) + static_cast<std::size_t>(ix)];
-    return Point<Sonar>{bed.first_x_m + ix * bed.spacing_m, bed.first_y_m + iy * bed.spacing_m,
-                        depth - transducer_depth_m};
-  };
-  const auto add = [&](const std::array<Point<Sonar>, 3>& c) {
-    const double mean_depth = (c[0].z + c[1].z + c[2].z) / 3.0 + transducer_depth_m;
-    // Land would hide the water that it stands beside.
-    if (!(mean_depth > 0.0)) return;
-    scene.opaque.push_back({c, lit(seabed_colour((mean_depth - low) / (high - low)), c)});
-  };
-  for (int iy = 0; iy + 1 < bed.ny; ++iy) {
-    for (int ix = 0; ix + 1 < bed.nx; ++ix) {
-      add({node(ix, iy), node(ix + 1, iy), node(ix, iy + 1)});
-      add({node(ix + 1, iy), node(ix + 1, iy + 1), node(ix, iy + 1)});
-    }
-  }
-}
-
 void add_ship(ContextScene& scene, const ContextParams& params) {
   // The transducer sits in the hull, a little ahead of amidships on most ships; amidships is near enough here.
   for (SceneTriangle triangle : ship_mesh(params.ship_length_m)) {
@@ -132,12 +91,14 @@ void add_ship(ContextScene& scene, const ContextParams& params) {
 
 }  // namespace
 
-ColourMap seabed_colours() {
-  constexpr int kKnots = 33;
-  const std::array<Point<Sonar>, 3> level{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
-  ColourMap out;
-  for (int i = 0; i < kKnots; ++i) out.knots.push_back(lit(seabed_colour(i / (kKnots - 1.0)), level));
-  return out;
+Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& c) {
+  const Point<Sonar> normal = cross(c[1] - c[0], c[2] - c[0]);
+  const double length = norm(normal);
+  if (length <= 0.0) return colour;
+  const double cosine = std::abs(normal.x * 0.4 - normal.y * 0.35 - normal.z * 0.85) / length;
+  const double k = 0.45 + 0.55 * std::min(1.0, cosine);
+  const auto scaled = [k](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v * k)); };
+  return {scaled(colour.r), scaled(colour.g), scaled(colour.b), colour.a};
 }
 
 ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
@@ -148,7 +109,7 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (params.sector_frame) add_sector_frame(scene, sector, theme);
   if (params.depth_axis) add_depth_axis(scene, sector, params, theme);
   if (params.ship) add_ship(scene, params);
-  if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m);
+  if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
   return scene;
 }
 

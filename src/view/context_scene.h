@@ -71,6 +71,12 @@ struct ContextParams {
 /// Smallest and largest depth of what lies below the sea, m, at least 1 m apart; empty where nothing does.
 [[nodiscard]] std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed);
 
+/// Metres of depth between a seabed's lines; 0 where nothing is known.
+[[nodiscard]] double seabed_line_step_m(const SeabedPatch& bed);
+/// How many times as steep as it is a seabed is lit, 1 to 100, so that gentle slopes are seen: charts do the same. Its
+/// places are true.
+[[nodiscard]] double relief_exaggeration(const SeabedPatch& bed);
+
 /// Where opaque things end rays: [height][width], metres along each pixel's ray; empty = nothing does.
 struct OpaqueView {
   PixelSize size;

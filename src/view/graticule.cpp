@@ -194,16 +194,29 @@ ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool na
   return bar;
 }
 
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
-  const double em = theme.text_px;
+namespace {
+
+std::array<ScaleBar, 2> scale_bars(const MapFrame& map, double em) {
   const double most_px = std::min(14.0 * em, 0.3 * map.place.width);
   const double x = map.place.x + 1.2 * em;
   const double y = map.place.y + map.place.height - 2.0 * em;
-  const std::array<ScaleBar, 2> bars{scale_bar(map, {x, y}, most_px, true),
-                                     scale_bar(map, {x, y + 0.9 * em}, most_px, false)};
-  const double longest = std::max(bars[0].to.x, bars[1].to.x) - x;
-  frame.items.emplace_back(rectangle_item({x - 0.6 * em, y - 0.9 * em, longest + 5.4 * em, 2.7 * em}, theme.halo,
-                                          theme.grid, theme.line_px));
+  return {scale_bar(map, {x, y}, most_px, true), scale_bar(map, {x, y + 0.9 * em}, most_px, false)};
+}
+
+}  // namespace
+
+PixelRect scale_bars_place(const MapFrame& map, const Theme& theme) {
+  const double em = theme.text_px;
+  const auto bars = scale_bars(map, em);
+  const PixelPoint from = bars[0].from;
+  const double longest = std::max(bars[0].to.x, bars[1].to.x) - from.x;
+  return {from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
+}
+
+void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+  const double em = theme.text_px;
+  const auto bars = scale_bars(map, em);
+  frame.items.emplace_back(rectangle_item(scale_bars_place(map, theme), theme.halo, theme.grid, theme.line_px));
   for (const ScaleBar& bar : bars) {
     const double tick = 0.3 * em;
     PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},

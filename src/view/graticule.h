@@ -43,5 +43,7 @@ struct ScaleBar {
 /// Both bars in the map's lower left corner; where north is not up (over 1 degree off somewhere), an arrow in its upper
 /// right corner.
 void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme);
+/// What the bars cover of the map.
+[[nodiscard]] PixelRect scale_bars_place(const MapFrame& map, const Theme& theme);
 
 }  // namespace sonar

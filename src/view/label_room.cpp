@@ -60,7 +60,7 @@ bool LabelRoom::crossed(const PixelRect& box) const {
   return std::any_of(lines_.begin(), lines_.end(), [&](const Line& l) { return meets(l.a, l.b, box); });
 }
 
-std::optional<TextItem> LabelRoom::place(TextItem label, std::span<const PixelPoint> places) {
+std::optional<TextItem> LabelRoom::place(TextItem label, std::span<const PixelPoint> places, bool on_lines) {
   std::optional<PixelPoint> second_best;
   for (const PixelPoint& at : places) {
     label.at = at;
@@ -72,7 +72,7 @@ std::optional<TextItem> LabelRoom::place(TextItem label, std::span<const PixelPo
     }
     if (!second_best) second_best = at;
   }
-  if (!second_best) return std::nullopt;
+  if (!second_best || !on_lines) return std::nullopt;
   label.at = *second_best;
   taken_.push_back(box_of(label));
   return label;

@@ -17,10 +17,13 @@ class LabelRoom {
 
   /// A line that labels rather keep off.
   void add_line(PixelPoint a, PixelPoint b) { lines_.push_back({a, b}); }
+  /// What else no label may lie on: a symbol, a box of words.
+  void take(const PixelRect& place) { taken_.push_back(place); }
 
   /// The label at the first of `places` (its anchor) where it lies inside, on no label and on no line; else at the first
   /// where it lies inside and on no label; empty where there is none. Room that was given stays taken.
-  [[nodiscard]] std::optional<TextItem> place(TextItem label, std::span<const PixelPoint> places);
+  /// on_lines  false: rather none than one that crosses a line
+  [[nodiscard]] std::optional<TextItem> place(TextItem label, std::span<const PixelPoint> places, bool on_lines = true);
 
   /// What a level text covers, pixels; a little wide, since no font is asked.
   [[nodiscard]] static PixelRect box_of(const TextItem& label);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,7 +27,7 @@ Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
               std::max(8.0, std::round(size.height - top - bottom))};
   out.title = {out.plot.x, pad, std::max(8.0, size.width - out.plot.x - pad), title_height};
   if (needs.foot_lines > 0)
-    out.foot = {pad, size.height - 0.5 * pad - foot, std::max(8.0, size.width - 2.0 * pad), foot};
+    out.foot = {out.plot.x, size.height - 0.5 * pad - foot, std::max(8.0, size.width - out.plot.x - pad), foot};
   if (needs.colour_bar) {
     const double height = std::round(std::min(out.plot.height - 3.0 * em, std::max(10.0 * em, 0.86 * out.plot.height)));
     out.colour_bar = {out.plot.x + out.plot.width + std::round(1.5 * em), out.plot.y + std::round(0.5 * em),
@@ -41,17 +42,40 @@ constexpr double kBold = 1.1;      ///< bold letters, of the width of plain ones
 constexpr double kSmaller = 0.85;  ///< of the text that stands at a title's right
 
 /// A title shortened to a width; data that nobody has recorded must still be known by it.
-std::string shortened_title(const std::string& title, double size_px, double width_px) {
+std::string shortened_title(std::string title, double size_px, double width_px) {
   constexpr const char* kMark = "SYNTHETIC";
+  constexpr std::string_view kSaysLittle = "Fish schools of ";
+  if (title.starts_with(kSaysLittle) && text_width_px(title.c_str(), kBold * size_px) > width_px) {
+    title.erase(0, kSaysLittle.size());
+  }
   std::string out = elided(title, kBold * size_px, width_px);
   const bool lost = title.find(kMark) != std::string::npos && out.find(kMark) == std::string::npos;
   return lost ? elided(std::string(kMark) + " " + title, kBold * size_px, width_px) : out;
 }
 
+/// "2020-01-04 08:00:50 UTC" without its day; other texts as they are.
+std::string without_day(const std::string& text) {
+  constexpr std::size_t kDay = 11;
+  const bool day = text.size() > kDay && text[4] == '-' && text[7] == '-' && text[10] == ' ';
+  return day ? text.substr(kDay) : text;
+}
+
+/// The right-hand text with its day, where the title or else the second line leaves room for it.
+std::string right_text(const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
+                       const std::string& right) {
+  if (right.empty() || lines.empty()) return right;
+  const double words = text_width_px(right.c_str(), kSmaller * theme.text_px) + theme.text_px;
+  const double below = text_width_px(right.c_str(), theme.text_px) + theme.text_px;
+  const bool beside = text_width_px(lines[0].c_str(), kBold * theme.title_px) + words < layout.title.width;
+  const bool second = lines.size() > 1 && text_width_px(lines[1].c_str(), theme.text_px) + below < layout.title.width;
+  return beside || second ? right : without_day(right);
+}
+
 }  // namespace
 
 void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
-               const std::string& right) {
+               const std::string& whole_right) {
+  const std::string right = right_text(layout, theme, lines, whole_right);
   // The plot's width is no limit, the picture's is.
   const double width = std::max(layout.title.width, frame.size.width - layout.title.x - 0.5 * theme.text_px);
   const auto width_at = [&](double size) {

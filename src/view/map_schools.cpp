@@ -5,8 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "view/graticule.h"
+#include "view/label_room.h"
 #include "view/observation_map.h"
 #include "view/school_look.h"
+#include "view/school_numbers.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -48,8 +51,8 @@ std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64
 void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools) {
   const Theme& theme = base.theme;
   const double em = theme.text_px;
-  std::vector<TextItem> numbers;
-  std::vector<PixelPoint> taken;
+  LabelRoom room(base.map.place);
+  room.take(scale_bars_place(base.map, theme));
   frame.items.emplace_back(ClipItem{base.map.place});
   // The selected school lies over the others, and its number is the first to find room.
   std::vector<const MapSchool*> order;
@@ -63,6 +66,7 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
     PathItem::Part part = path_of(base.map, *school);
     middles.push_back(part.points.empty() ? PixelPoint{-1e9, -1e9} : part.points[part.points.size() / 2]);
     if (part.points.empty()) continue;
+    for (std::size_t i = 1; i < part.points.size(); ++i) room.add_line(part.points[i - 1], part.points[i]);
     if (part.points.size() == 1) part.points.push_back({part.points[0].x + 1.0, part.points[0].y});
     const bool rejected = school->status == "rejected";
     const Rgba8 colour = rejected ? theme.muted : school_colour(static_cast<int>(school->number));
@@ -75,24 +79,19 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
       frame.items.emplace_back(std::move(item));
     }
   }
+  std::vector<NumberedPlace> places;
   for (std::size_t i = order.size(); i-- > 0;) {
     if (!inside(base.map.place, middles[i])) continue;
-    const std::string words = fmt::format("{}", order[i]->number);
-    const double width = text_width_px(words.c_str(), em);
-    PixelPoint at{middles[i].x + 0.6 * em, middles[i].y - 0.8 * em};
-    at.x = std::min(at.x, base.map.place.x + base.map.place.width - width - 0.2 * em);
-    at.y = std::max(at.y, base.map.place.y + 0.7 * em);
-    const bool free = std::none_of(taken.begin(), taken.end(), [&](const PixelPoint& p) {
-      return std::abs(p.x - at.x) < width + 0.4 * em && std::abs(p.y - at.y) < 1.2 * em;
-    });
-    if (!free) continue;
-    taken.push_back(at);
-    TextItem number = text_item(at, words, em, order[i]->selected ? theme.accent : theme.text);
-    number.bold = true;
-    number.halo = theme.halo;
-    numbers.push_back(std::move(number));
+    places.push_back({middles[i], fmt::format("{}", order[i]->number), 0.25 * em, order[i]->selected});
   }
-  for (TextItem& number : numbers) frame.items.emplace_back(std::move(number));
+  const auto left_out = add_school_numbers(frame, room, places, theme);
+  if (!left_out.empty()) {
+    const PixelPoint corner{base.map.place.x + base.map.place.width - 0.5 * em, base.map.place.y + 0.9 * em};
+    TextItem note = text_item(corner, elided(left_out_text(left_out), 0.9 * em, base.map.place.width - em), 0.9 * em,
+                              theme.text, TextAnchor::right);
+    note.halo = theme.halo;
+    frame.items.emplace_back(std::move(note));
+  }
   frame.items.emplace_back(ClipItem{});
 }
 

@@ -10,6 +10,7 @@
 #include "model/navigation.h"
 #include "view/map_frame.h"
 #include "view/mask_plan.h"
+#include "view/theme.h"
 
 namespace sonar {
 
@@ -30,8 +31,9 @@ class MaskMosaic {
   [[nodiscard]] static std::uint8_t confidence(Cell c) { return static_cast<std::uint8_t>(c >> 8U); }
   [[nodiscard]] static int school(Cell c) { return c & 0xFFU; }
 
-  /// Schools are kept modulo this: a whole number of rounds of school_colour()'s seven colours.
+  /// Schools are kept modulo this: a whole number of rounds of school_colour().
   static constexpr int kSchools = 252;
+  static_assert(kSchools % kSchoolColours == 0);
 
   /// map      where the raster lies; it covers `map.place`
   /// pings    of the observation

@@ -183,7 +183,9 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   add_key(frame, base.key_place, base.key, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
-  const std::string count = fmt::format("{} pings, {} school{}", product.pings.size(), told, told == 1 ? "" : "s");
+  const std::string schools_told =
+      base.searched || told > 0 ? fmt::format("{} school{}", told, told == 1 ? "" : "s") : "schools not looked for";
+  const std::string count = fmt::format("{} pings, {}", product.pings.size(), schools_told);
   std::string ping;
   if (current && *current < product.pings.size()) {
     ping = fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));

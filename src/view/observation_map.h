@@ -30,6 +30,7 @@ struct ObservationMapBase {
   std::string title;
   std::vector<KeyEntry> key{};  ///< below the map; may be empty
   PixelRect key_place{};
+  bool searched = true;  ///< schools were looked for; else the title says that they were not
 };
 
 /// key     with room for a key of lines and colours below the map
@@ -67,7 +68,8 @@ struct MapSchool {
 /// rejected  those that were rejected, too
 [[nodiscard]] std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64_t selected = 0,
                                                  bool rejected = true);
-/// Paths of schools in their colours, rejected ones grey, with their numbers where there is room; over an observation map.
+/// Paths of schools in their colours, rejected ones grey, with their numbers beside them, or with a line to them; numbers
+/// that find no room are named in a corner. Over an observation map.
 void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools);
 
 }  // namespace sonar

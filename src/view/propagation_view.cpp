@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "view/axes.h"
+#include "view/map_items.h"
 #include "view/propagation_labels.h"
 #include "view/shapes.h"
 
@@ -191,10 +192,12 @@ std::shared_ptr<const Image> mask_image(const Sector& sector, const PropagationP
 }
 
 std::string state_of(const PropagationPanel& panel) {
+  if (panel.absent) return panel.ping_index < 0 ? "before the first ping" : "after the last ping";
   if (panel.bad) return "bad ping";
   const bool empty = std::all_of(panel.masks.begin(), panel.masks.end(),
                                  [](const MosaicMask& m) { return m.mask == nullptr || m.mask->empty(); });
-  return empty ? "no school" : "";
+  if (!empty) return {};
+  return panel.searched ? "no school" : "schools not looked for";
 }
 
 /// Schools' numbers to the right of their masks, to the left where there is no room.
@@ -219,11 +222,28 @@ void add_numbers(FrameDescription& frame, const Sector& sector, const Propagatio
   }
 }
 
+/// In the middle of a panel, in as many lines as it takes.
+void add_state(FrameDescription& frame, const std::string& state, const PixelRect& place, const Theme& theme) {
+  const double em = theme.text_px;
+  const auto lines = wrapped(state, place.width - 0.5 * em, em);
+  double y = place.y + place.height / 2.0 - 0.65 * em * (static_cast<double>(lines.size()) - 1.0);
+  for (const std::string& line : lines) {
+    TextItem text = text_item({place.x + place.width / 2.0, y}, line, em, theme.muted, TextAnchor::centre);
+    text.halo = theme.halo;
+    frame.items.emplace_back(std::move(text));
+    y += 1.3 * em;
+  }
+}
+
 void add_panel(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
                const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
-  const double em = theme.text_px;
   const std::string state = state_of(panel);
   frame.items.emplace_back(rectangle_item(place, !panel.bad ? theme.plot : theme.no_data));
+  if (panel.absent) {
+    frame.items.emplace_back(rectangle_item(place, {0, 0, 0, 0}, theme.grid, theme.line_px));
+    add_state(frame, state, place, theme);
+    return;
+  }
   frame.items.emplace_back(ClipItem{place});
   std::vector<PixelPoint> outline;
   for (const PlanePoint& p : sector_outline(sector, style.aspect)) outline.push_back(scale.at(p, place));
@@ -243,12 +263,7 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
   frame.items.emplace_back(ClipItem{});
   frame.items.emplace_back(rectangle_item(place, {0, 0, 0, 0}, panel.current ? theme.accent : theme.axis,
                                           (panel.current ? 2.5 : 1.0) * theme.line_px));
-  if (!state.empty()) {
-    TextItem text = text_item({place.x + place.width / 2.0, place.y + place.height / 2.0}, state, em, theme.muted,
-                              TextAnchor::centre);
-    text.halo = theme.halo;
-    frame.items.emplace_back(std::move(text));
-  }
+  if (!state.empty()) add_state(frame, state, place, theme);
   add_panel_note(frame, panel.note, place, theme);
   add_ping_label(frame, panel, style, place, theme);
 }
@@ -275,22 +290,37 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
       right -= 2.2 * em;
     }
   }
-  std::string words = fmt::format("{:g} m", length_m);
-  words += style.aspect == MaskAspect::above ? " · from above, bow up"
-                                             : " · from the side, ship to the left; depths below the surface";
+  // The most that there is room for.
+  const auto words_of = [&]() -> std::string {
+    const bool above = style.aspect == MaskAspect::above;
+    const std::string scale_words = fmt::format("{:g} m", length_m);
+    for (const char* more :
+         {above ? " · from above, bow up" : " · from the side, ship to the left; depths below the surface",
+          above ? " · from above" : " · from the side, ship to the left", above ? " · above" : " · from the side"}) {
+      if (text_width_px((scale_words + more).c_str(), em) < right - end - 0.6 * em) return scale_words + more;
+    }
+    return scale_words;
+  };
+  const std::string words = words_of();
   frame.items.emplace_back(text_item({end + 0.6 * em, y}, elided(words, em, right - end - 0.6 * em), em, theme.muted));
 }
 
 }  // namespace
 
 std::vector<PropagationPanel> propagation_panels(const ObservationProduct& product, std::int64_t current,
-                                                 const PropagationStyle& style) {
+                                                 const PropagationStyle& style, bool searched) {
   std::vector<PropagationPanel> panels;
+  const auto count = static_cast<std::int64_t>(product.pings.size());
+  const bool all_shown = current - style.before <= 0 && current + style.after >= count - 1;
   for (std::int64_t i = current - style.before; i <= current + style.after; ++i) {
-    if (i < 0 || i >= static_cast<std::int64_t>(product.pings.size())) continue;
+    const bool absent = i < 0 || i >= count;
+    if (absent && all_shown) continue;
     PropagationPanel& panel = panels.emplace_back();
     panel.ping_index = i;
     panel.current = i == current;
+    panel.absent = absent;
+    panel.searched = searched;
+    if (absent) continue;
     const PingNavigation& n = product.pings[static_cast<std::size_t>(i)];
     panel.time = n.time;
     panel.transducer_depth_m = n.transducer_depth_m;

@@ -52,7 +52,9 @@ void describe(Visitor& v, PropagationStyle& p) {
 /// One ping of the view.
 struct PropagationPanel {
   std::int64_t ping_index = 0;
-  bool bad = false;  ///< the ping was not used
+  bool bad = false;      ///< the ping was not used
+  bool absent = false;   ///< there is no such ping: before the first or after the last
+  bool searched = true;  ///< schools were looked for; else that there is none says nothing
   bool current = false;
   TimeNs time = 0;
   double transducer_depth_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN = no scale of depths from the side
@@ -60,9 +62,11 @@ struct PropagationPanel {
   std::vector<std::int64_t> school_ids;  ///< of `masks`, written beside them; may be empty
   std::string note;                      ///< along the lower edge: why a propagation ended here; may be empty
 };
-/// The current ping of a product and its neighbours, as far as there are such pings.
+/// The current ping of a product and its neighbours. At an observation's ends the places of pings that there are not stay
+/// empty and say so, so that the current one keeps its place; not where all pings are shown anyway.
+/// searched  schools were looked for
 [[nodiscard]] std::vector<PropagationPanel> propagation_panels(const ObservationProduct& product, std::int64_t current,
-                                                               const PropagationStyle& style);
+                                                               const PropagationStyle& style, bool searched = true);
 
 /// Where propagation_view() draws each panel. errors: as there
 [[nodiscard]] Result<std::vector<PixelRect>> propagation_places(const Sector& sector,

@@ -45,6 +45,11 @@ void add_patch(FrameDescription& frame, const PixelRect& place, Look look, const
   frame.items.emplace_back(rectangle_item(drawn, {0, 0, 0, 0}, theme.axis, 0.5 * theme.line_px));
 }
 
+/// What a slice hides beside what noise removal takes out, which has words of its own.
+SampleFlags unfiltered_hidden(const SliceStyle& style) {
+  return style.key->filtered ? without(style.flags.hidden, kNotFiltered) : style.flags.hidden;
+}
+
 }  // namespace
 
 Rgba8 faded_colour(Rgba8 colour, const Theme& theme) { return mixed(colour, theme.water, kFade); }
@@ -54,7 +59,30 @@ bool on_hatch(int x, int y, const Theme& theme) {
   return ((x + y) / stripe) % 6 == 0;
 }
 
-std::vector<KeyEntry> slice_key(const SliceStyle& style, const Theme& theme) {
+std::vector<bool> cut_masks(const SliceMap& map, const std::vector<MaskLayer>& masks) {
+  std::vector<bool> out(masks.size(), false);
+  if (masks.empty()) return out;
+  const Sector& sector = map.sector();
+  const auto samples = static_cast<std::size_t>(sector.range().count);
+  std::vector<bool> shown(static_cast<std::size_t>(sector.fans()) * static_cast<std::size_t>(sector.beams()) * samples);
+  for (const std::int32_t voxel : map.voxels()) {
+    if (voxel >= 0) shown[static_cast<std::size_t>(voxel)] = true;
+  }
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    if (masks[i].mask == nullptr) continue;
+    out[i] = std::any_of(masks[i].mask->runs.begin(), masks[i].mask->runs.end(), [&](const Run& run) {
+      const std::size_t row = static_cast<std::size_t>(run.row) * samples;
+      for (int s = std::max(0, run.first_sample); s < run.end(); ++s) {
+        const std::size_t voxel = row + static_cast<std::size_t>(s);
+        if (voxel < shown.size() && shown[voxel]) return true;
+      }
+      return false;
+    });
+  }
+  return out;
+}
+
+std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>& cut, const Theme& theme) {
   std::vector<KeyEntry> out;
   if (!style.key) return out;
   const auto explain = [&](Look look, std::string text) {
@@ -72,7 +100,7 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const Theme& theme) {
   const SampleFlags hidden = style.flags.hidden;
   const std::array<Looking, 3> looks{{{Look::hatched, "hatched", without(style.flags.hatched, hidden)},
                                       {Look::faded, "faded", without(style.flags.faded, hidden)},
-                                      {Look::hidden, "not drawn", hidden}}};
+                                      {Look::hidden, "not drawn", unfiltered_hidden(style)}}};
   for (const auto& [look, word, flags] : looks) {
     const SampleFlags named = without(flags, SampleFlags::low_snr);
     if (any(named)) explain(look, fmt::format("{}: {}", word, flag_text(named)));
@@ -80,8 +108,14 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const Theme& theme) {
       explain(look, fmt::format("{}: below {:g} dB signal-to-noise", word, *style.key->weak_below_db));
     }
   }
-  if (style.key->filtered) explain(Look::hidden, "taken out: noise removed");
+  if (style.key->filtered) {
+    const SampleFlags bounds = hidden & kNeverMember;
+    explain(Look::hidden, any(bounds) ? "taken out: noise, " + flag_text(bounds) : "taken out: noise removed");
+  }
+  bool areas = false;
   for (const SliceKey::School& school : style.key->schools) {
+    if (school.mask && (*school.mask >= cut.size() || !cut[*school.mask])) continue;
+    areas = true;
     out.push_back(
         {school.name, [school, theme](FrameDescription& frame, const PixelRect& at) {
            const double middle = at.y + 0.5 * at.height;
@@ -90,6 +124,16 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const Theme& theme) {
            frame.items.emplace_back(std::move(line));
          }});
   }
+  if (!areas) return out;
+  // Any colour may be a school's: the key shows how much of it covers the data.
+  const auto area = [&](double strength, std::string text) {
+    const Rgba8 colour = mixed(theme.water, theme.text, static_cast<int>(std::lround(255.0 * strength)));
+    out.push_back({std::move(text), [colour, theme](FrameDescription& frame, const PixelRect& at) {
+                     frame.items.emplace_back(rectangle_item(at, colour, theme.axis, 0.5 * theme.line_px));
+                   }});
+  };
+  area(style.masks.core_strength, fmt::format("core, confidence {:g} and more", style.masks.core_at));
+  area(style.masks.fuzzy_strength, "fuzzy area, below that");
   return out;
 }
 

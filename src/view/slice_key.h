@@ -13,7 +13,12 @@ namespace sonar {
 /// Whether a stripe of the hatch runs through a pixel.
 [[nodiscard]] bool on_hatch(int x, int y, const Theme& theme);
 
+/// Which masks have a voxel in the slice: [mask].
+[[nodiscard]] std::vector<bool> cut_masks(const SliceMap& map, const std::vector<MaskLayer>& masks);
+
 /// What the style's key has to explain, in order; none without a key, and for a slice that is plain and without schools.
-[[nodiscard]] std::vector<KeyEntry> slice_key(const SliceStyle& style, const Theme& theme);
+/// cut  as cut_masks()
+[[nodiscard]] std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>& cut,
+                                              const Theme& theme);
 
 }  // namespace sonar

@@ -25,6 +25,22 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   return plot;
 }
 
+struct MappedPlot {
+  PlotFrame plot;
+  std::shared_ptr<const SliceMap> map;
+};
+
+/// The slice in a rectangle of the picture; empty where it does not meet the sector.
+std::optional<MappedPlot> whole_slice(const Sector& sector, const SliceView& view, const PixelRect& place) {
+  const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
+  if (!extent) return std::nullopt;
+  MappedPlot out{slice_axes(place, *extent), nullptr};
+  const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
+  const PixelSize pixels{static_cast<int>(place.width), static_cast<int>(place.height)};
+  out.map = std::make_shared<const SliceMap>(sector, view, shown, pixels);
+  return out;
+}
+
 void label_from_above(PlotFrame& plot, bool north_up, double up_rad) {
   const char* upwards = north_up ? "north (m)" : up_rad == 0.0 ? "ahead (m)" : "up (m)";
   plot.y = {-plot.y.first, -plot.y.last, upwards, false};
@@ -108,7 +124,13 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
   std::vector<KeyEntry> key;
   if (style.decorations) {
-    key = slice_key(style, theme);
+    std::vector<bool> cut;
+    if (style.key && !style.key->schools.empty()) {
+      // Of the slice without a key: how much room the key leaves depends on what the slice cuts.
+      const auto bare = whole_slice(sector, view, lay_out(size, theme).plot);
+      if (bare) cut = cut_masks(*bare->map, data.masks);
+    }
+    key = slice_key(style, cut, theme);
     const double width = lay_out(size, theme, {.foot_lines = 1}).foot.width;
     layout = lay_out(size, theme, {.foot_lines = key_lines(key, width, theme)});
   }
@@ -119,11 +141,10 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     out.plot = {layout.plot, {e.x0, e.x1, "", false}, {e.y0, e.y1, "", false}};
     out.map = std::move(earlier);
   } else {
-    const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
-    if (!extent) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
-    out.plot = slice_axes(layout.plot, *extent);
-    const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
-    out.map = std::make_shared<const SliceMap>(sector, view, shown, pixels);
+    auto whole = whole_slice(sector, view, layout.plot);
+    if (!whole) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
+    out.plot = std::move(whole->plot);
+    out.map = std::move(whole->map);
   }
   label_axes(out.plot, view, ping, style.north_up);
   auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);

@@ -71,6 +71,7 @@ struct SliceKey {
     Rgba8 colour;
     OutlineLine line = OutlineLine::solid;
     std::string name;
+    std::optional<std::size_t> mask{};  ///< in SliceData::masks: named where the slice cuts it; empty = always
   };
   bool filtered = false;                  ///< noise removal took samples out, which are drawn as no data
   std::optional<double> weak_below_db{};  ///< of the samples that carry low_snr

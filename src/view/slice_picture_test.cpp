@@ -311,46 +311,6 @@ TEST(SlicePicture, TitlesSayWhatBearingsStartFrom) {
             "Vertical plane, true bearing 290.0\u00B0 to the right");
 }
 
-// What is not drawn as recorded is said below the slice, in the flags' own words; a plain slice has no key.
-TEST(SlicePicture, AKeySaysWhatIsNotDrawnAsRecorded) {
-  const Sector sector = hand_sector();
-  const LitVolume volume(sector, kLit, -30.0, -90.0);
-  const auto words = [&](const SliceStyle& style, PixelSize size) {
-    const auto picture = slice_picture(sector, volume.data(), {}, kTop, style, light_theme(size), size);
-    for (const auto& item : picture->frame.items) {
-      if (const auto* text = std::get_if<TextItem>(&item)) {
-        EXPECT_LE(
-            text->at.x + (text->anchor == TextAnchor::left ? text_width_px(text->text.c_str(), text->size_px) : 0),
-            size.width)
-            << text->text;
-        EXPECT_LE(text->at.y + 0.5 * text->size_px, size.height) << text->text;
-      }
-    }
-    return std::pair(texts_of(*picture), picture->plot.place);
-  };
-  const auto said = [](const auto& picture, const std::string& text) {
-    return std::ranges::count(picture.first, text) == 1;
-  };
-  for (const PixelSize size : {PixelSize{800, 600}, PixelSize{320, 240}}) {
-    SliceStyle style;
-    const auto bare = words(style, size);
-    style.key = SliceKey{};
-    const auto plain = words(style, size);
-    EXPECT_EQ(plain, bare) << "nothing to explain";
-    style.flags = {.hidden = SampleFlags::seabed,
-                   .hatched = SampleFlags::wall | SampleFlags::seabed,
-                   .faded = SampleFlags::near_field | SampleFlags::low_snr};
-    style.key->weak_below_db = 3.0;
-    style.key->schools.push_back({{255, 0, 0, 255}, OutlineLine::dashed, "school 7, unreviewed"});
-    const auto explained = words(style, size);
-    for (const char* expected : {"hatched: wall", "faded: near field", "faded: below 3 dB signal-to-noise",
-                                 "not drawn: seabed", "school 7, unreviewed"}) {
-      EXPECT_TRUE(said(explained, expected)) << expected << " at " << size.width;
-    }
-    EXPECT_LT(explained.second.height, plain.second.height) << "the key takes its own room";
-  }
-}
-
 // Words lie over lines, never under them.
 TEST(SlicePicture, LabelsOfRingsAndBearingsAreDrawnOverTheirLines) {
   const Sector sector = hand_sector();

@@ -13,9 +13,11 @@
 #include "view/axes.h"
 #include "view/depth_layer.h"
 #include "view/graticule.h"
+#include "view/label_room.h"
 #include "view/map_frame.h"
 #include "view/map_items.h"
 #include "view/school_look.h"
+#include "view/school_numbers.h"
 #include "view/shapes.h"
 #include "view/survey_map_legend.h"
 
@@ -25,6 +27,7 @@ namespace {
 constexpr double kLegend_em = 17.0;
 constexpr double kLeastMargin_m = 150.0;
 constexpr int kMostNames = 60;
+constexpr double kSpeck_em = 1.2;  ///< side of the largest hole in a search volume that the picture has no use for
 
 struct Places {
   PixelRect title;
@@ -61,16 +64,30 @@ const ObservationOutlines* outlines_of(std::span<const ObservationOutlines> outl
   return found != outlines.end() ? &*found : nullptr;
 }
 
+/// Positive or negative as it turns.
+double area_px2(const PathItem::Part& part) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const PixelPoint& a = part.points[i];
+    const PixelPoint& b = part.points[(i + 1) % part.points.size()];
+    sum += (a.x * b.y - b.x * a.y) / 2.0;
+  }
+  return sum;
+}
+
 double area_px2(const PathItem& item) {
   double sum = 0.0;
-  for (const PathItem::Part& part : item.parts) {
-    for (std::size_t i = 0; i < part.points.size(); ++i) {
-      const PixelPoint& a = part.points[i];
-      const PixelPoint& b = part.points[(i + 1) % part.points.size()];
-      sum += (a.x * b.y - b.x * a.y) / 2.0;
-    }
-  }
+  for (const PathItem::Part& part : item.parts) sum += area_px2(part);
   return std::abs(sum);
+}
+
+/// Between the footprints of pings made far apart there are slits and specks of a few pixels along the edge, which look
+/// like a perforation and say nothing at the map's scale.
+void drop_specks(PathItem& area, double most_px2) {
+  const bool all_small = std::all_of(area.parts.begin(), area.parts.end(),
+                                     [&](const PathItem::Part& part) { return std::abs(area_px2(part)) < most_px2; });
+  if (all_small) return;
+  std::erase_if(area.parts, [&](const PathItem::Part& part) { return std::abs(area_px2(part)) < most_px2; });
 }
 
 void add_school(const SurveyMapDrawing& d, const SchoolRow& school, const ObservationOutlines* outlines) {
@@ -95,11 +112,14 @@ void add_school(const SurveyMapDrawing& d, const SchoolRow& school, const Observ
                                          {d.theme.text, 0.8 * d.theme.line_px, {}}));
 }
 
-void add_start(const SurveyMapDrawing& d, const ObservationProduct& product) {
+std::optional<PixelPoint> start_of(const SurveyMapDrawing& d, const ObservationProduct& product) {
   const auto first =
       std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
-  if (first == product.pings.end()) return;
-  const auto at = d.map.at(first->transducer);
+  return first == product.pings.end() ? std::nullopt : d.map.at(first->transducer);
+}
+
+void add_start(const SurveyMapDrawing& d, const ObservationProduct& product) {
+  const auto at = start_of(d, product);
   if (!at) return;
   d.frame.items.emplace_back(circle_item(*at, 0.5 * d.em, kStartColour, {d.theme.text, d.theme.line_px, {}}));
 }
@@ -146,23 +166,82 @@ std::optional<TextItem> start_name(const SurveyMapDrawing& d, const ObservationP
   return name;
 }
 
-void add_ship(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations) {
+/// Where it was drawn.
+std::optional<PixelPoint> add_ship(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations) {
   const PingNavigation* last = nullptr;
   for (const ObservationProduct& product : observations) {
     for (const PingNavigation& n : product.pings) {
       if (n.has_position() && (last == nullptr || n.time >= last->time)) last = &n;
     }
   }
-  if (last == nullptr) return;
+  if (last == nullptr) return std::nullopt;
   const auto at = d.map.at(last->transducer);
-  if (!at) return;
+  if (!at) return std::nullopt;
   const double heading = std::isfinite(last->heading_deg) ? last->heading_deg : last->course_deg;
   const double turned =
       (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + d.map.projection.north_rad(last->transducer);
   d.frame.items.emplace_back(ship_item(*at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
+  return at;
 }
 
-std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look) {
+/// Schools of one observation whose markers lie on each other share one number, from the first of them on.
+std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
+                                            std::span<const ObservationProduct> observations) {
+  struct Marker {
+    PixelPoint at;
+    double radius_px = 0.0;
+    double backscatter_m2 = 0.0;
+    std::vector<std::int64_t> numbers;
+  };
+  std::vector<Marker> markers;
+  for (const ObservationProduct& product : observations) {
+    const std::size_t first = markers.size();
+    for (const SchoolRow& school : product.schools) {
+      if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
+      const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
+      if (!centre) continue;
+      const double radius = d.look.radius_px(school.backscatter_m2);
+      const auto shared = std::find_if(
+          markers.begin() + static_cast<std::ptrdiff_t>(first), markers.end(),
+          [&](const Marker& m) { return std::hypot(m.at.x - centre->x, m.at.y - centre->y) < 0.8 * d.em; });
+      Marker& marker = shared != markers.end() ? *shared : markers.emplace_back(Marker{*centre, 0.0, 0.0, {}});
+      marker.radius_px = std::max(marker.radius_px, radius);
+      marker.backscatter_m2 += std::isfinite(school.backscatter_m2) ? school.backscatter_m2 : 0.0;
+      marker.numbers.push_back(school.school_id);
+    }
+  }
+  // The strongest find room first.
+  std::stable_sort(markers.begin(), markers.end(),
+                   [](const Marker& a, const Marker& b) { return a.backscatter_m2 > b.backscatter_m2; });
+  std::vector<NumberedPlace> out;
+  for (Marker& marker : markers) {
+    std::sort(marker.numbers.begin(), marker.numbers.end());
+    const PixelRect& r = d.map.place;
+    if (marker.at.x < r.x || marker.at.y < r.y || marker.at.x > r.x + r.width || marker.at.y > r.y + r.height) continue;
+    out.push_back({marker.at, numbers_text(marker.numbers), marker.radius_px, false});
+  }
+  return out;
+}
+
+/// Numbers keep off the observations' names and starts, the ship and the scale.
+std::vector<std::string> add_numbers(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations,
+                                     std::span<const TextItem> names, const std::optional<PixelPoint>& ship) {
+  LabelRoom room(d.map.place);
+  room.take(scale_bars_place(d.map, d.theme));
+  for (const TextItem& name : names) room.take(LabelRoom::box_of(name));
+  if (ship) room.take({ship->x - d.em, ship->y - d.em, 2.0 * d.em, 2.0 * d.em});
+  for (const ObservationProduct& product : observations) {
+    if (const auto at = start_of(d, product)) room.take({at->x - 0.5 * d.em, at->y - 0.5 * d.em, d.em, d.em});
+  }
+  const auto places = numbered_schools(d, observations);
+  for (const NumberedPlace& place : places) {
+    const double half = 0.7 * place.radius_px;
+    room.take({place.at.x - half, place.at.y - half, 2.0 * half, 2.0 * half});
+  }
+  return add_school_numbers(d.frame, room, places, d.theme);
+}
+
+std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look, int unsearched) {
   TimeNs first = 0;
   TimeNs last = 0;
   std::int64_t schools = 0;
@@ -173,8 +252,14 @@ std::string second_line(std::span<const ObservationProduct> observations, const 
     first = first == 0 ? product.pings.front().time : std::min(first, product.pings.front().time);
     last = std::max(last, product.pings.back().time);
   }
-  return fmt::format("{} observation{}, {} school{} · {}", observations.size(), observations.size() == 1 ? "" : "s",
-                     schools, schools == 1 ? "" : "s", time_span_text(first, last));
+  const auto all = static_cast<std::int64_t>(observations.size());
+  std::string told = fmt::format("{} school{}", schools, schools == 1 ? "" : "s");
+  if (unsearched >= all && schools == 0) {
+    told = "schools not looked for";
+  } else if (unsearched > 0) {
+    told += fmt::format(" (not looked for in {} of them)", unsearched);
+  }
+  return fmt::format("{} observation{}, {} · {}", all, all == 1 ? "" : "s", told, time_span_text(first, last));
 }
 
 }  // namespace
@@ -254,30 +339,34 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   bool schools = false;
   for (const ObservationProduct& product : observations) {
     const ObservationOutlines* o = outlines_of(outlines, product.observation);
-    if (style.swept && o != nullptr)
-      frame.items.emplace_back(area_item(map, o->swept, kSweptColour, {{0, 0, 0, 0}, 0.0, {}}));
+    if (style.swept && o != nullptr) {
+      PathItem swept = area_item(map, o->swept, kSweptColour, {{0, 0, 0, 0}, 0.0, {}});
+      drop_specks(swept, kSpeck_em * kSpeck_em * d.em * d.em);
+      frame.items.emplace_back(std::move(swept));
+    }
     schools = schools || !product.schools.empty();
   }
   for (const ObservationProduct& product : observations) {
     frame.items.emplace_back(track_item(map, product.pings, {theme.track, 1.6 * theme.line_px, {}}));
   }
+  // A school may lie where the ship ended: it is what the map is for, and stays seen.
+  const auto ship = add_ship(d, observations);
   for (const ObservationProduct& product : observations) {
     const ObservationOutlines* o = outlines_of(outlines, product.observation);
     for (const SchoolRow& school : product.schools) {
       if (look.shown(school)) add_school(d, school, o);
     }
   }
-  // A start may lie below the ship: it stays seen.
-  add_ship(d, observations);
   for (const ObservationProduct& product : observations) add_start(d, product);
+  const auto left_out = add_numbers(d, observations, names, ship);
   for (TextItem& name : names) frame.items.emplace_back(std::move(name));
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);
-  if (style.legend) add_survey_legend(d, p.legend, bands, style, depths, schools, note);
+  if (style.legend) add_survey_legend(d, p.legend, bands, style, depths, schools, {left_out_text(left_out), note});
   Layout layout;
   layout.title = p.title;
-  add_title(frame, layout, theme, {frame.title, second_line(observations, look)});
+  add_title(frame, layout, theme, {frame.title, second_line(observations, look, style.unsearched)});
   return frame;
 }
 

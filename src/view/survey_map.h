@@ -36,6 +36,7 @@ struct SurveyMapStyle {
   double margin = 0.06;   ///< of the survey's size, on every side
   bool legend = true;     ///< beside the map; a small window has no room for it
   MapZoom zoom;           ///< of the map that shows the whole survey
+  int unsearched = 0;     ///< observations whose schools nobody looked for: that they show none says nothing
   friend bool operator==(const SurveyMapStyle&, const SurveyMapStyle&) = default;
 };
 

@@ -93,7 +93,8 @@ void add_symbols(const SurveyMapDrawing& d, Legend& legend, const SurveyMapStyle
 }  // namespace
 
 void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const DepthBands& bands,
-                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools, const std::string& note) {
+                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools,
+                       const std::vector<std::string>& notes) {
   const double em = d.em;
   const double height = std::clamp(0.3 * place.height, 6.0 * em, 15.0 * em);
   double x = place.x + 0.4 * em;
@@ -121,7 +122,9 @@ void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const 
   add_sizes(d, legend);
   legend.gap();
   // An empty circle alone would be a school without echo.
-  if (schools) legend.small("Circles have their school's colour, and are empty where its outline is seen.");
+  if (schools) {
+    legend.small("Circles have their school's colour, empty where its outline is seen; numbers are its observation's.");
+  }
   legend.small(d.map.projection.name());
   if (depths != nullptr) {
     legend.small("Depths: " + brief_source(depths->source));
@@ -130,7 +133,9 @@ void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const 
   } else {
     legend.small("No depth raster: plain sea.");
   }
-  if (!note.empty()) legend.small(note);
+  for (const std::string& note : notes) {
+    if (!note.empty()) legend.small(note);
+  }
 }
 
 }  // namespace sonar

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/depth_grid.h"
 #include "view/depth_layer.h"
@@ -24,8 +25,9 @@ inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
 
 /// Colour bars, symbols, circles and notes beside the map, as far as there is room for them.
 /// schools  there are some
-/// note     one more line; may be empty
+/// notes    more lines; empty ones are passed over
 void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const DepthBands& bands,
-                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools, const std::string& note);
+                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools,
+                       const std::vector<std::string>& notes);
 
 }  // namespace sonar

@@ -124,7 +124,7 @@ TEST(SurveyMap, TheLegendExplainsCirclesAsTheMapDrawsThem) {
   const auto frame = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
   ASSERT_TRUE(frame);
   EXPECT_TRUE(says(*frame, "Circles have"));
-  EXPECT_TRUE(says(*frame, "seen."));
+  EXPECT_TRUE(says(*frame, "seen;"));
   double legend_x = 0.0;
   for (const auto& item : frame->items) {
     const auto* t = std::get_if<TextItem>(&item);
@@ -254,6 +254,75 @@ TEST(SurveyMap, NamesStandInsideTheMap) {
     }
     EXPECT_TRUE(seen);
   }
+}
+
+TEST(SurveyMap, ThatNobodyLookedForSchoolsIsSaid) {
+  const std::vector<ObservationProduct> all{map_example::product("obs-0001", 60),
+                                            map_example::product("obs-0002", 60, {60.1, 5.0})};
+  SurveyMapStyle style;
+  const auto second = [&](int unsearched) {
+    style.unsearched = unsearched;
+    return survey_map(all, {}, nullptr, style, kSize, light_theme(kSize));
+  };
+  EXPECT_TRUE(says(*second(0), "2 observations, 0 schools ·"));
+  EXPECT_TRUE(says(*second(1), "0 schools (not looked for in 1 of them)"));
+  EXPECT_TRUE(says(*second(2), "2 observations, schools not looked for ·"));
+}
+
+// Markers on each other share a number text; one apart has its own.
+TEST(SurveyMap, SchoolsHaveTheirNumbers) {
+  auto all = survey({60.0, 5.0});
+  const Geographic near = destination(all[0].pings[30].transducer, 62.0, 270.0);
+  for (const int id : {2, 3, 5}) map_example::add_school(all[0], id, near, 30, 31, map_example::block(2, 1, 2, 25, 5));
+  map_example::add_school(all[0], 9, destination(near, 150.0, 90.0), 30, 31, map_example::block(2, 1, 2, 25, 5));
+  const auto frame = survey_map(all, {}, nullptr, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(says(*frame, "4 schools"));
+  const auto words = texts(*frame);
+  EXPECT_EQ(std::count_if(words.begin(), words.end(), [](const TextItem& t) { return t.text == "9"; }), 1);
+}
+
+TEST(SurveyMap, AShipNeverHidesASchool) {
+  auto all = survey({60.0, 5.0});
+  map_example::add_school(all[1], 1, all[1].pings.back().transducer, 30, 31, map_example::block(2, 1, 2, 25, 5));
+  const Theme theme = light_theme(kSize);
+  const auto frame = survey_map(all, {}, nullptr, {}, kSize, theme);
+  ASSERT_TRUE(frame);
+  std::ptrdiff_t ship = -1;
+  std::ptrdiff_t last_circle = -1;
+  for (std::size_t i = 0; i < frame->items.size(); ++i) {
+    const auto* path = std::get_if<PathItem>(&frame->items[i]);
+    if (path == nullptr || path->parts.empty()) continue;
+    // The legend shows a ship, too, after the map's.
+    if (path->fill == theme.ship && ship < 0) ship = static_cast<std::ptrdiff_t>(i);
+    if (path->parts[0].points.size() == 32 && path->fill.a == 215) last_circle = static_cast<std::ptrdiff_t>(i);
+  }
+  ASSERT_GE(ship, 0);
+  EXPECT_GT(last_circle, ship);
+}
+
+// A hole of a pixel or two between footprints is no hole on a map; the area itself stays.
+TEST(SurveyMap, TheSearchVolumesEdgeIsNotPerforated) {
+  const auto all = survey({60.0, 5.0});
+  ObservationOutlines o;
+  o.observation = "obs-0001";
+  const Geographic corner = all[0].pings[0].transducer;
+  const auto square = [&](double east_m, double size_m) {
+    std::vector<Geographic> ring;
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+      ring.push_back(to_geographic(Point<Enu>{east_m + x * size_m, 100.0 + y * size_m, 0.0}, corner));
+    }
+    return ring;
+  };
+  o.swept.rings = {square(-400.0, 400.0), square(-300.0, 3.0), square(-200.0, 5.0)};
+  const auto frame = survey_map(all, std::span(&o, 1), nullptr, {}, kSize, light_theme(kSize));
+  ASSERT_TRUE(frame);
+  const auto swept = std::find_if(frame->items.begin(), frame->items.end(), [](const auto& item) {
+    const auto* path = std::get_if<PathItem>(&item);
+    return path != nullptr && path->fill == Rgba8{110, 110, 110, 95};
+  });
+  ASSERT_NE(swept, frame->items.end());
+  EXPECT_EQ(std::get<PathItem>(*swept).parts.size(), 1U);
 }
 
 TEST(SurveyMap, RejectedSchoolsAreLeftOutUnlessAskedFor) {

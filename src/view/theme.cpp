@@ -75,13 +75,20 @@ Theme dark_theme(PixelSize size) {
 }
 
 Rgba8 school_colour(int number) {
-  static constexpr std::array<Rgba8, 7> kColours = {{{230, 159, 0, 255},
-                                                     {86, 180, 233, 255},
-                                                     {0, 158, 115, 255},
-                                                     {204, 121, 167, 255},
-                                                     {213, 94, 0, 255},
-                                                     {0, 114, 178, 255},
-                                                     {240, 228, 66, 255}}};
+  // Okabe and Ito's seven and five more, each as far as may be from the others as all kinds of eyes see them, from the
+  // backgrounds and from EK500's colours; in the order that sets numbers one and two apart farthest from each other.
+  static constexpr std::array<Rgba8, kSchoolColours> kColours = {{{230, 159, 0, 255},
+                                                                  {86, 180, 233, 255},
+                                                                  {0, 158, 115, 255},
+                                                                  {187, 34, 255, 255},
+                                                                  {119, 0, 136, 255},
+                                                                  {213, 94, 0, 255},
+                                                                  {0, 114, 178, 255},
+                                                                  {240, 228, 66, 255},
+                                                                  {136, 0, 51, 255},
+                                                                  {204, 121, 167, 255},
+                                                                  {51, 0, 204, 255},
+                                                                  {153, 68, 119, 255}}};
   const int n = static_cast<int>(kColours.size());
   return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "view/colour_bar.h"
+#include "view/key_rows.h"
 #include "view/map_items.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
@@ -107,63 +108,6 @@ void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axi
   }
   frame.items.emplace_back(text_item({plot.place.x + plot.place.width / 2.0, bottom + 2.5 * em}, plot.x.label, em,
                                      theme.muted, TextAnchor::centre));
-}
-
-Rgba8 look_of(const SchoolRow& school, const TimelineStyle& style, const Theme& theme) {
-  if (!style.by_school || school.status == "rejected") return status_colour(school.status, theme);
-  return school_colour(static_cast<int>(school.school_id));
-}
-
-/// School tracks; a number stands at the first ping where there is room.
-void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
-                const Theme& theme, std::vector<PixelPoint>& numbered) {
-  const double em = theme.text_px;
-  const ObservationProduct& product = *strip.observation->product;
-  for (const SchoolRow& school : product.schools) {
-    std::vector<PathItem::Part> parts;
-    std::size_t last = 0;
-    for (const SchoolPingRow& row : product.school_pings) {
-      const auto i = static_cast<std::size_t>(std::max<std::int64_t>(0, row.ping_index));
-      if (row.school_id != school.school_id || row.ping_index < 0 || i >= strip.along.x.size()) continue;
-      if (!std::isfinite(row.range_m)) continue;
-      if (parts.empty() || strip.along.gap_between(last, i)) parts.emplace_back();
-      parts.back().points.push_back(plot.at(strip.along.x[i], row.range_m));
-      last = i;
-    }
-    if (parts.empty()) continue;
-    const bool selected = strip.observation->selected == school.school_id;
-    const Rgba8 colour = look_of(school, style, theme);
-    std::vector<PixelPoint> points;
-    for (PathItem::Part& part : parts) {
-      points.insert(points.end(), part.points.begin(), part.points.end());
-      if (part.points.size() == 1) part.points.push_back({part.points[0].x + 1.0, part.points[0].y});
-    }
-    // A dark line below a bright one is seen on every colour.
-    const double wide = (style.by_school ? 3.0 : 1.8) + (selected ? 1.5 : 0.0);
-    for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.8), std::pair(colour, wide)}) {
-      PathItem item;
-      item.parts = parts;
-      item.stroke = {line, width * theme.line_px,
-                     width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
-      frame.items.emplace_back(std::move(item));
-    }
-    // Where a part of the axis is shown, the number stands at the first ping in it.
-    const auto seen = std::find_if(points.begin(), points.end(), [&](const PixelPoint& p) {
-      return p.x >= plot.place.x - 0.5 && p.x <= plot.place.x + plot.place.width + 0.5;
-    });
-    if (seen == points.end()) continue;
-    const PixelPoint at{seen->x, seen->y - 0.9 * em};
-    const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
-      return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
-    });
-    if (!free) continue;
-    numbered.push_back(at);
-    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em,
-                                selected ? theme.accent : theme.text, TextAnchor::left);
-    number.bold = true;
-    number.halo = theme.halo;
-    frame.items.emplace_back(std::move(number));
-  }
 }
 
 double reach_m(std::span<const Strip> strips) {
@@ -276,6 +220,7 @@ struct LaidOut {
   bool raw_gone = false;
   bool any_echogram = false;
   std::vector<Strip> strips;
+  std::vector<KeyEntry> key;
   Layout layout;
   PlotFrame plot;
 };
@@ -305,9 +250,14 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.title = heads.size() == 1 ? observation_title(heads.front()) : survey_title(heads);
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
-  out.layout = lay_out(
-      size, theme,
-      {.title_lines = style.brief ? 0 : 3, .colour_bar = out.any_echogram && !style.brief, .y_label_characters = 4});
+  LayoutNeeds needs{
+      .title_lines = style.brief ? 0 : 3, .colour_bar = out.any_echogram && !style.brief, .y_label_characters = 4};
+  if (!style.brief) out.key = timeline_key(out.strips, style, theme);
+  if (!out.key.empty()) {
+    needs.foot_lines = 1;
+    needs.foot_lines = key_lines(out.key, lay_out(size, theme, needs).foot.width, theme);
+  }
+  out.layout = lay_out(size, theme, needs);
   PlotFrame& plot = out.plot;
   plot.place = out.layout.plot;
   const double names = (style.brief ? 1.2 : 0.6) * em;
@@ -372,6 +322,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   const SvColours colours = sv_colours(style.scale);
   frame.items.emplace_back(ClipItem{plot.place});
   for (const Strip& s : laid->strips) add_echogram(frame, s, plot, style, colours, theme);
+  for (const Strip& s : laid->strips) add_silent(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_bad(frame, s, plot, theme);
   std::vector<PixelPoint> numbered;
   for (const Strip& s : laid->strips) {
@@ -384,8 +335,11 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_y_axis(frame, plot, theme);
   add_x_axis(frame, plot, style.axis, laid->zero, theme);
   if (style.brief) return frame;
+  add_key(frame, laid->layout.foot, laid->key, theme);
   if (laid->any_echogram) add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value));
   std::string line = time_span_text(laid->zero, laid->last);
+  if (laid->any_echogram) line += style.filtered ? " · noise removed" : " · not filtered";
+  if (!style.searched) line += " · schools not looked for";
   if (laid->raw_gone && style.raw_there) line += " · echograms are being read";
   if (laid->raw_gone && !style.raw_there) {
     line += laid->any_echogram ? " · schools only where there are no raw data" : " · no raw data: schools only";

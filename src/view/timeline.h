@@ -39,6 +39,8 @@ struct TimelineStyle {
   bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
   bool brief = false;      ///< no title and no colour bar: a window has its own
   bool raw_there = false;  ///< the raw data are there: an echogram that is missing is being read
+  bool filtered = false;   ///< echograms are of data without noise, and the title says so
+  bool searched = true;    ///< schools were looked for; else the title says that they were not
   std::optional<TimelineInterval> shown = {};  ///< part of the time axis; empty = all of it
   friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
 };
@@ -51,6 +53,8 @@ void describe(Visitor& v, TimelineStyle& p) {
   v.field("schools", p.schools, {.text = "draw school tracks in"});
   v.field("by_school", p.by_school, {.text = "each school in a colour of its own; off = status tells the colour"});
   v.field("raw_there", p.raw_there, {.text = "a missing echogram is being read, not gone"});
+  v.field("filtered", p.filtered, {.text = "the echograms are of data whose noise was removed"});
+  v.field("searched", p.searched, {.text = "schools were looked for"});
   v.field("brief", p.brief, {.text = "no title and no colour bar"});
 }
 
@@ -81,7 +85,8 @@ struct EchogramImage {
                                            const PlotFrame& plot, EchogramValue value, const SvColours& colours);
 
 /// Range against time (or log) for an observation or a whole survey: Sv of all beams, school tracks with their numbers
-/// in the line style of their status, observations named above, gaps left empty.
+/// in the line style of their status, observations named above, gaps left empty, pings without data grey and hatched; a
+/// key below says what is not plain.
 /// observations  in time order
 /// errors        bad_parameter: a parameter out of range, or too small a picture; not_found: no pings; usage: no log
 [[nodiscard]] Result<FrameDescription> timeline(std::span<const TimelineObservation> observations,

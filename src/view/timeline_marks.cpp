@@ -38,18 +38,61 @@ void add_bad(FrameDescription& frame, const Strip& s, const PlotFrame& plot, con
     const double to = std::max(from + 2.0, plot.at(end, 0.0).x);
     frame.items.emplace_back(
         rectangle_item({from, plot.place.y, to - from, plot.place.height}, with_alpha(theme.no_data, 190)));
-    PathItem lines;
-    lines.stroke = {theme.hatch, 0.8 * theme.line_px, {}};
-    const double high = plot.place.height;
-    for (double x = from - high; x < to; x += 0.9 * theme.text_px) {
-      // A diagonal, cut to the interval.
-      const double a = std::max(from, x);
-      const double b = std::min(to, x + high);
-      if (b <= a) continue;
-      const double bottom = plot.place.y + high;
-      lines.parts.push_back({{{a, bottom - (a - x)}, {b, bottom - (b - x)}}, false});
-    }
-    frame.items.emplace_back(std::move(lines));
+    frame.items.emplace_back(hatch_item({from, plot.place.y, to - from, plot.place.height}, -1.0, theme));
+  }
+}
+
+PathItem hatch_item(const PixelRect& r, double slope, const Theme& theme) {
+  PathItem lines;
+  lines.stroke = {theme.hatch, 0.8 * theme.line_px, {}};
+  const double right = r.x + r.width;
+  for (double x = r.x - r.height; x < right; x += 0.9 * theme.text_px) {
+    // A diagonal, cut to the rectangle.
+    const double a = std::max(r.x, x);
+    const double b = std::min(right, x + r.height);
+    if (b <= a) continue;
+    const double from = slope < 0.0 ? r.y + r.height : r.y;
+    const double way = slope < 0.0 ? -1.0 : 1.0;
+    lines.parts.push_back({{{a, from + way * (a - x)}, {b, from + way * (b - x)}}, false});
+  }
+  return lines;
+}
+
+namespace {
+
+bool silent(const EchogramPyramid& echogram, std::size_t column) {
+  for (int bin = 0; bin < echogram.bins(0); ++bin) {
+    if (!echogram.cell(0, column, bin).empty()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool any_silent(const Strip& s) {
+  const EchogramPyramid* echogram = s.observation->echogram;
+  if (echogram == nullptr || echogram->levels() == 0) return false;
+  for (std::size_t c = 0; c < echogram->columns(0); ++c) {
+    if (silent(*echogram, c)) return true;
+  }
+  return false;
+}
+
+void add_silent(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
+  const EchogramPyramid* echogram = s.observation->echogram;
+  if (echogram == nullptr || echogram->levels() == 0) return;
+  const auto per_column = static_cast<std::size_t>(echogram->pings_per_column());
+  const std::size_t pings = std::min(s.along.x.size(), echogram->pings());
+  for (std::size_t c = 0; c < echogram->columns(0) && c * per_column < pings; ++c) {
+    if (!silent(*echogram, c)) continue;
+    const std::size_t first = c * per_column;
+    while (c + 1 < echogram->columns(0) && (c + 1) * per_column < pings && silent(*echogram, c + 1)) ++c;
+    const std::size_t last = std::min(pings, (c + 1) * per_column) - 1;
+    const double from = plot.at(s.along.x[first], 0.0).x;
+    const double to = std::max(from + 1.0, plot.at(filled_until(s.along.x, s.along.gap, last), 0.0).x);
+    const PixelRect place{from, plot.place.y, to - from, plot.place.height};
+    frame.items.emplace_back(rectangle_item(place, theme.no_data));
+    frame.items.emplace_back(hatch_item(place, 1.0, theme));
   }
 }
 

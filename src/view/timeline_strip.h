@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "view/key_rows.h"
 #include "view/timeline.h"
 
 namespace sonar {
@@ -46,6 +47,18 @@ struct Strip {
 
 /// Bad pings, shaded and hatched.
 void add_bad(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
+/// Stripes over a rectangle, rising (slope -1) or falling (1) to the right.
+[[nodiscard]] PathItem hatch_item(const PixelRect& place, double slope, const Theme& theme);
+/// Pings whose columns hold no data at all: neither a gap nor quiet water.
+[[nodiscard]] bool any_silent(const Strip& strip);
+void add_silent(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
+/// School tracks; a number stands at the first ping where there is room.
+/// numbered  where numbers stand
+void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
+                const Theme& theme, std::vector<PixelPoint>& numbered);
+/// What the lines and the shades of a timeline are.
+[[nodiscard]] std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style,
+                                                 const Theme& theme);
 /// Events: a line with a flag, and its text where there is room.
 void add_marks(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme);
 /// Observations named above the plot.

@@ -187,7 +187,9 @@ TEST(Timeline, AGapAlongTheLogIsEmpty) {
         EXPECT_TRUE(point.x < gap_from + 0.5 || point.x > gap_to - 0.5) << point.x;
       }
     }
-    if (const auto* path = std::get_if<PathItem>(&item); path != nullptr && path->stroke.colour == track) {
+    if (const auto* path = std::get_if<PathItem>(&item);
+        path != nullptr && path->stroke.colour == track &&
+        path->parts[0].points[0].y < plot->plot.place.y + plot->plot.place.height) {
       EXPECT_EQ(path->parts.size(), 2U) << "a track does not cross the gap";
     }
     if (const auto* image = std::get_if<ImageItem>(&item); image != nullptr && image->place.x == plot->plot.place.x) {
@@ -249,6 +251,62 @@ TEST(Timeline, WithoutRawThereAreTheSchoolsAndANote) {
   EXPECT_EQ(none.error().text, "the data have no log (distance run); draw the timeline along time");
   p.pings.clear();
   EXPECT_FALSE(timeline(std::span(&one, 1), TimelineStyle{}, kSize, light_theme(kSize)));
+}
+
+// Ping 12 has an empty column: grey and hatched from its own time to the next ping's, and the key says what that is.
+TEST(Timeline, APingWithoutDataIsNeitherAGapNorQuietWater) {
+  const ObservationProduct p = map_example::product("obs-0001", 40);
+  EchogramPyramid pyramid(EchogramRange{0.0, 1.0, 100});
+  const std::vector<EchogramCell> column(100, cell(1e-4, 1.0));
+  for (std::size_t i = 0; i < p.pings.size(); ++i) {
+    pyramid.add_ping(p.pings[i].time, i == 12 ? std::span<const EchogramCell>() : std::span(column));
+  }
+  const TimelineObservation one{&p, &pyramid};
+  constexpr PixelSize kWide{900, 500};
+  const Theme theme = light_theme(kWide);
+  TimelineStyle style;
+  const auto frame = timeline(std::span(&one, 1), style, kWide, theme);
+  const auto plot = timeline_plot(std::span(&one, 1), style, kWide, theme);
+  ASSERT_TRUE(frame && plot);
+  EXPECT_TRUE(says(*frame, "ping without data"));
+  int patches = 0;
+  for (const auto& item : frame->items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr || path->fill != theme.no_data) continue;
+    if (path->parts[0].points[0].y > plot->plot.place.y + 1.0) continue;  // the key's
+    ++patches;
+    EXPECT_NEAR(path->parts[0].points[0].x, plot->plot.at(60.0, 0.0).x, 1e-6);
+    EXPECT_NEAR(path->parts[0].points[1].x, plot->plot.at(65.0, 0.0).x, 1e-6);
+  }
+  EXPECT_EQ(patches, 1);
+  EXPECT_GE(frame->size.height, plot->plot.place.y + plot->plot.place.height);
+  style.brief = true;
+  EXPECT_FALSE(says(*timeline(std::span(&one, 1), style, kWide, theme), "ping without data"));
+}
+
+TEST(Timeline, AKeyNamesItsTracksAndTheTitleHowItWasMade) {
+  ObservationProduct p = map_example::product("obs-0001", 40);
+  map_example::add_school(p, 9, p.pings[0].transducer, 5, 15, map_example::block(2, 1, 2, 24, 3));
+  map_example::add_school(p, 10, p.pings[0].transducer, 5, 15, map_example::block(2, 1, 2, 24, 3));
+  p.schools[1].status = "accepted";
+  EchogramPyramid pyramid(EchogramRange{0.0, 1.0, 100});
+  for (const PingNavigation& n : p.pings) pyramid.add_ping(n.time, std::vector<EchogramCell>(100, cell(1e-4, 1.0)));
+  const TimelineObservation one{&p, &pyramid};
+  constexpr PixelSize kWide{900, 500};
+  TimelineStyle style;
+  const auto drawn = [&] { return *timeline(std::span(&one, 1), style, kWide, light_theme(kWide)); };
+  EXPECT_TRUE(says(drawn(), "track of a school, unreviewed"));
+  EXPECT_TRUE(says(drawn(), "track of a school, accepted"));
+  EXPECT_FALSE(says(drawn(), "rejected"));
+  EXPECT_FALSE(says(drawn(), "ping without data"));
+  EXPECT_TRUE(says(drawn(), "not filtered"));
+  EXPECT_FALSE(says(drawn(), "not looked for"));
+  style.filtered = true;
+  style.schools = false;
+  style.searched = false;
+  EXPECT_TRUE(says(drawn(), "noise removed"));
+  EXPECT_FALSE(says(drawn(), "track of a school"));
+  EXPECT_TRUE(says(drawn(), "schools not looked for"));
 }
 
 TEST(Timeline, MarksStandAtTheirTimesAndTellWhatHappened) {

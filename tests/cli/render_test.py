@@ -3,8 +3,10 @@
 
     render_test.py --look FOLDER     writes all pictures there, to be looked at before they become golden
 """
+import html
 import json
 import os
+import re
 import shutil
 import struct
 import sys
@@ -47,6 +49,9 @@ PICTURES = {
     "volume-first-hit-masks": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--ping", "9", *NEAR], TRACED),
     "volume-maximum-masks": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--ping", "9", *NEAR, "--dark"], TRACED),
     "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone", "--lighting"], TRACED),
+    "volume-mask-outline": (["volume", *BOTH, "--frames", "2", "--mask-outline", "--ping", "9", *NEAR], TRACED),
+    "propagation-raw-alone": (["propagation", sonarx.SURVEY, "--ping", "0"], DRAWN),
+    "survey-map-raw-alone": (["survey-map", sonarx.SURVEY], DRAWN),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
     "propagation-side": (["propagation", sonarx.OUT, "--ping", "3", "--side", "--neighbours", "1"], DRAWN),
     "observation-map": (["observation-map", sonarx.OUT], DRAWN),
@@ -143,6 +148,42 @@ class Files(unittest.TestCase):
         for options, code in ((["--removed", "shown", "--weak", "shown", "--unfiltered"], 0), (["--removed", "hatched"], 1),
                               (["--removed", "transparent"], 1), (["--weak", "hatched"], 1), (["--filtered"], 1)):
             self.assertEqual(render("slice-side", *BOTH, *SIZE, *options, "--reference", plain,
+                                    "--largest-difference", 0, "--mean-difference", 0)[0], code, options)
+
+    def words(self, *arguments):
+        """What stands in a picture: an SVG's words can be searched."""
+        file = sonarx.WORK / "words.svg"
+        code, out, error = render(*arguments, "--out", file)
+        self.assertEqual((code, error), (0, ""), out)
+        return [html.unescape(text) for text in re.findall(r"<text [^>]*>([^<]*)</text>", file.read_text(encoding="utf-8"))]
+
+    def test_raw_files_alone_do_not_look_like_a_survey_without_schools(self):
+        for kind in ("propagation", "survey-map", "observation-map", "timeline"):
+            said = " ".join(self.words(kind, sonarx.SURVEY))
+            self.assertIn("schools not looked for", said, kind)
+            self.assertNotIn("0 schools", said, kind)
+            self.assertNotIn("not looked for", " ".join(self.words(kind, *BOTH)), kind)
+        self.assertIn("no masks: schools not looked for",
+                      self.words("volume", sonarx.SURVEY, "--masks-alone", "--frames", "0"))
+
+    def test_the_first_ping_keeps_its_place_among_five(self):
+        said = self.words("propagation", sonarx.OUT, "--ping", "0")
+        self.assertEqual(said.count("before the first ping"), 2)
+        self.assertEqual(sum(text.startswith("ping ") for text in said), 3)
+
+    def test_what_filtering_takes_out_is_not_drawn(self):
+        """The seabed, too: a key that says it was taken out lies nowhere on what is still drawn."""
+        hidden = sonarx.WORK / "hidden.png"
+        self.assertEqual(render("slice-side", *BOTH, *SIZE, "--filtered", "--removed", "transparent", "--out", hidden)[0], 0)
+        self.assertEqual(render("slice-side", *BOTH, *SIZE, "--filtered", "--reference", hidden,
+                                "--largest-difference", 0, "--mean-difference", 0)[0], 0)
+
+    def test_the_largest_over_beams_has_limits_of_its_own(self):
+        """A beam's own Sv, as in slices; the mean over all of them is weaker."""
+        same = sonarx.WORK / "limits.png"
+        self.assertEqual(render("timeline", *BOTH, *SIZE, "--maximum", "--low-db", "-60", "--out", same)[0], 0)
+        for options, code in ((["--maximum"], 0), (["--maximum", "--low-db", "-75"], 1), ([], 1)):
+            self.assertEqual(render("timeline", *BOTH, *SIZE, *options, "--reference", same,
                                     "--largest-difference", 0, "--mean-difference", 0)[0], code, options)
 
     def test_scale_gives_more_pixels(self):
@@ -375,6 +416,7 @@ class BadInput(unittest.TestCase):
             (["--core", "0.5"], "survey-map", "slice-plane"),
             (["--fuzzy", "0.1"], "slice-top", "volume"),
             (["--masks-alone"], "slice-top", "volume"),
+            (["--mask-outline"], "slice-top", "volume"),
             (["--no-context"], "slice-top", "volume"),
             (["--ship-length-m", "40"], "observation-map", "volume"),
             (["--depth-raster", str(DEPTHS)], "observation-map", "survey-map"),
@@ -387,6 +429,8 @@ class BadInput(unittest.TestCase):
             with self.subTest(option=option[0], kind=kind):
                 self.refused(kind, *BOTH, *option, "--out", sonarx.WORK / "bad.png", code=2,
                              says=[option[0], f"no option of {kind}", suits])
+        for options in (["--masks-alone", "--no-masks"], ["--mask-outline", "--no-masks"], ["--mask-outline", "--masks-alone"]):
+            self.refused("volume", *BOTH, *options, "--out", sonarx.WORK / "bad.png", code=2, says=[*options, "together"])
         self.refused("timeline", *BOTH, "--whole-survey", "--observation", "obs-0001", "--out", sonarx.WORK / "bad.png",
                      code=2, says=["--observation", "--whole-survey"])
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/live_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/task_thread.h"
+#include "publish/renderer_choice.h"
+#include "view/slice_example.h"
+
+namespace sonar {
+namespace {
+
+/// A block of strong echo, and a school's mask over it and a little more.
+LiveVolumeInput block_of_echo() {
+  const Sector sector = slice_example::hand_sector();
+  const Shape3 shape{sector.fans(), sector.beams(), sector.range().count};
+  auto staged = std::make_shared<StagedPing>();
+  staged->filtered =
+      std::make_shared<Volume>(Volume{Array3<std::int16_t>(shape, kMinCount), Array3<SampleFlags>(shape)});
+  auto mask = std::make_shared<PingMask>();
+  for (int fan = 3; fan < 6; ++fan) {
+    for (int beam = 2; beam < 5; ++beam) {
+      for (int s = 15; s < 25; ++s) staged->filtered->counts(fan, beam, s) = slice_example::LitVolume::counts(-30.0);
+      mask->runs.push_back({fan * sector.beams() + beam, 13, 14});
+      mask->confidence.insert(mask->confidence.end(), 14, 200);
+    }
+  }
+  staged->sv = *staged->filtered;
+  LiveVolumeInput input;
+  input.staged = std::move(staged);
+  input.sector = std::make_shared<const Sector>(sector);
+  input.masks = {{std::move(mask), {1.0F, 0.0F, 1.0F}}};
+  input.legend = {{{255, 0, 255, 255}, "school 1"}};
+  input.options.size = {400, 300};
+  input.options.frames = 2;
+  input.options.context = false;
+  input.options.renderer = RendererChoice::cpu;
+  return input;
+}
+
+/// The last and best picture's raster.
+Image settled(LiveVolume& live, const LiveVolumeInput& input) {
+  Work work(1);
+  Image out;
+  const auto done = live.draw(input, Wanted{}, work, [&](const LiveVolume::Picture& picture) {
+    for (const auto& item : picture.frame.items) {
+      if (const auto* image = std::get_if<ImageItem>(&item)) {
+        out = *image->image;
+        break;
+      }
+    }
+  });
+  EXPECT_TRUE(done);
+  return out;
+}
+
+// In a maximum and a first hit each pixel's colour is one Sv: with the school it is the picture without it, and lines.
+TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
+  LiveVolume live;
+  const LiveVolumeInput input = block_of_echo();
+  const Rgba8 rim = theme_of(input.options).text;
+  for (const RayMode mode : {RayMode::maximum, RayMode::first_hit}) {
+    LiveVolumeInput with = input;
+    with.options.mode = mode;
+    LiveVolumeInput without = with;
+    without.masks.clear();
+    without.legend.clear();
+    const Image bare = settled(live, without);
+    const Image lined = settled(live, with);
+    ASSERT_EQ(bare.size, lined.size);
+    int lines = 0;
+    for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+      if (bare.pixels[i] == lined.pixels[i]) continue;
+      ++lines;
+      ASSERT_TRUE(lined.pixels[i] == (Rgba8{255, 0, 255, 255}) || lined.pixels[i] == rim) << i;
+    }
+    EXPECT_GT(lines, 100);
+    EXPECT_LT(lines, static_cast<int>(bare.pixels.size()) / 10);
+    EXPECT_EQ(settled(live, with), lined) << "the same again";
+  }
+  // Accumulated, schools are a tint unless lines are asked for.
+  LiveVolumeInput tinted = input;
+  const Image tint = settled(live, tinted);
+  tinted.options.mask_outline = true;
+  EXPECT_NE(settled(live, tinted), tint);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/school_numbers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "view/shapes.h"
+
+namespace sonar {
+namespace {
+
+/// Gaps between a place and its number, em of the text; from the second on a line leads there.
+constexpr std::array<double, 7> kGaps_em{0.35, 1.6, 2.8, 4.2, 6.0, 8.0, 10.5};
+constexpr int kNearDirections = 8;
+constexpr int kFarDirections = 16;
+
+/// Where a number's middle may stand: round its place, to the upper right first, at one distance.
+std::vector<PixelPoint> round_about(const NumberedPlace& place, const PixelRect& box, double gap_px, int directions) {
+  std::vector<PixelPoint> out;
+  for (int i = 0; i < directions; ++i) {
+    // Right and left by turns, so that what is near the first choice comes before what lies opposite.
+    const int turn = (i % 2 == 0 ? 1 : -1) * ((i + 1) / 2);
+    const double angle = -std::numbers::pi / 4 + 2.0 * std::numbers::pi * turn / directions;
+    const double x = std::cos(angle);
+    const double y = std::sin(angle);
+    const double reach = place.radius_px + gap_px;
+    out.push_back({place.at.x + x * (reach + box.width / 2), place.at.y + y * (reach + 0.4 * box.height)});
+  }
+  return out;
+}
+
+/// From the number's edge towards its place.
+PixelPoint nearest(const PixelRect& box, PixelPoint at) {
+  return {std::clamp(at.x, box.x, box.x + box.width), std::clamp(at.y, box.y, box.y + box.height)};
+}
+
+}  // namespace
+
+std::vector<std::string> add_school_numbers(FrameDescription& frame, LabelRoom& room,
+                                            std::span<const NumberedPlace> places, const Theme& theme) {
+  std::vector<std::string> left_out;
+  std::vector<TextItem> numbers;
+  const double em = theme.text_px;
+  for (const NumberedPlace& place : places) {
+    TextItem number =
+        text_item(place.at, place.text, em, place.selected ? theme.accent : theme.text, TextAnchor::centre);
+    number.bold = true;
+    number.halo = theme.halo;
+    const PixelRect box = LabelRoom::box_of(number);
+    std::optional<TextItem> placed;
+    for (std::size_t i = 0; i < kGaps_em.size() && !placed; ++i) {
+      const auto where = round_about(place, box, kGaps_em[i] * em, i == 0 ? kNearDirections : kFarDirections);
+      placed = room.place(number, where);
+      if (!placed || i == 0) continue;
+      const PixelPoint end = nearest(LabelRoom::box_of(*placed), place.at);
+      const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
+      const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
+      const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
+      for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
+        frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
+      }
+      room.add_line(from, end);
+    }
+    if (placed) {
+      numbers.push_back(std::move(*placed));
+    } else {
+      left_out.push_back(place.text);
+    }
+  }
+  for (TextItem& number : numbers) frame.items.emplace_back(std::move(number));
+  return left_out;
+}
+
+std::string left_out_text(std::span<const std::string> numbers) {
+  constexpr std::size_t kNamed = 6;
+  if (numbers.empty()) return {};
+  const std::size_t named = std::min(numbers.size(), kNamed);
+  std::string out = fmt::format("numbers left out: {}", fmt::join(numbers.first(named), ", "));
+  if (named < numbers.size()) out += fmt::format(" and {} more", numbers.size() - named);
+  return out;
+}
+
+std::string numbers_text(std::span<const std::int64_t> numbers) {
+  const auto count = static_cast<std::int64_t>(numbers.size());
+  if (count > 2 && numbers.back() - numbers.front() + 1 == count) {
+    return fmt::format("{}\u2013{}", numbers.front(), numbers.back());
+  }
+  if (count > 3) return fmt::format("{} schools", count);
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+}  // namespace sonar

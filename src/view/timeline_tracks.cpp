@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "view/school_look.h"
+#include "view/shapes.h"
+#include "view/timeline_strip.h"
+
+namespace sonar {
+namespace {
+
+Rgba8 look_of(const SchoolRow& school, const TimelineStyle& style, const Theme& theme) {
+  if (!style.by_school || school.status == "rejected") return status_colour(school.status, theme);
+  return school_colour(static_cast<int>(school.school_id));
+}
+
+}  // namespace
+
+void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
+                const Theme& theme, std::vector<PixelPoint>& numbered) {
+  const double em = theme.text_px;
+  const ObservationProduct& product = *strip.observation->product;
+  for (const SchoolRow& school : product.schools) {
+    std::vector<PathItem::Part> parts;
+    std::size_t last = 0;
+    for (const SchoolPingRow& row : product.school_pings) {
+      const auto i = static_cast<std::size_t>(std::max<std::int64_t>(0, row.ping_index));
+      if (row.school_id != school.school_id || row.ping_index < 0 || i >= strip.along.x.size()) continue;
+      if (!std::isfinite(row.range_m)) continue;
+      if (parts.empty() || strip.along.gap_between(last, i)) parts.emplace_back();
+      parts.back().points.push_back(plot.at(strip.along.x[i], row.range_m));
+      last = i;
+    }
+    if (parts.empty()) continue;
+    const bool selected = strip.observation->selected == school.school_id;
+    const Rgba8 colour = look_of(school, style, theme);
+    std::vector<PixelPoint> points;
+    for (PathItem::Part& part : parts) {
+      points.insert(points.end(), part.points.begin(), part.points.end());
+      if (part.points.size() == 1) part.points.push_back({part.points[0].x + 1.0, part.points[0].y});
+    }
+    // A dark line below a bright one is seen on every colour.
+    const double wide = (style.by_school ? 3.0 : 1.8) + (selected ? 1.5 : 0.0);
+    for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.8), std::pair(colour, wide)}) {
+      PathItem item;
+      item.parts = parts;
+      item.stroke = {line, width * theme.line_px,
+                     width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
+      frame.items.emplace_back(std::move(item));
+    }
+    // Where a part of the axis is shown, the number stands at the first ping in it.
+    const auto seen = std::find_if(points.begin(), points.end(), [&](const PixelPoint& p) {
+      return p.x >= plot.place.x - 0.5 && p.x <= plot.place.x + plot.place.width + 0.5;
+    });
+    if (seen == points.end()) continue;
+    const PixelPoint at{seen->x, seen->y - 0.9 * em};
+    const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
+      return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
+    });
+    if (!free) continue;
+    numbered.push_back(at);
+    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em,
+                                selected ? theme.accent : theme.text, TextAnchor::left);
+    number.bold = true;
+    number.halo = theme.halo;
+    frame.items.emplace_back(std::move(number));
+  }
+}
+
+namespace {
+
+/// Dashes of the status names in the order of the key.
+constexpr std::array<const char*, 4> kStatuses{"accepted", "corrected", "unreviewed", "rejected"};
+
+KeyEntry hatched(std::string text, Rgba8 fill, double slope, const Theme& theme) {
+  return {std::move(text), [=](FrameDescription& frame, const PixelRect& at) {
+            frame.items.emplace_back(rectangle_item(at, fill, theme.axis, 0.5 * theme.line_px));
+            frame.items.emplace_back(hatch_item(at, slope, theme));
+          }};
+}
+
+}  // namespace
+
+std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style, const Theme& theme) {
+  std::vector<KeyEntry> out;
+  for (const char* status : kStatuses) {
+    const bool there =
+        style.schools && std::any_of(strips.begin(), strips.end(), [&](const Strip& s) {
+          return std::any_of(s.observation->product->schools.begin(), s.observation->product->schools.end(),
+                             [&](const SchoolRow& row) { return row.status == status; });
+        });
+    if (!there) continue;
+    SchoolRow row;
+    row.status = status;
+    // With a colour for each school any of them may be meant.
+    const bool own = style.by_school && row.status != "rejected";
+    const Rgba8 colour = own ? theme.text : status_colour(status, theme);
+    out.push_back({fmt::format("track of a school, {}", status), [colour, dashes = status_dashes(status, theme), theme](
+                                                                     FrameDescription& frame, const PixelRect& at) {
+                     const double y = at.y + 0.5 * at.height;
+                     PathItem line = line_item({at.x, y}, {at.x + at.width, y}, colour, 1.8 * theme.line_px);
+                     line.stroke.dashes_px = dashes;
+                     frame.items.emplace_back(std::move(line));
+                   }});
+  }
+  if (std::any_of(strips.begin(), strips.end(), any_silent)) {
+    out.push_back(hatched("ping without data", theme.no_data, 1.0, theme));
+  }
+  if (std::any_of(strips.begin(), strips.end(), [](const Strip& s) { return !s.observation->bad.empty(); })) {
+    out.push_back(hatched("ping not used", with_alpha(theme.no_data, 190), -1.0, theme));
+  }
+  return out;
+}
+
+}  // namespace sonar
