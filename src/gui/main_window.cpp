@@ -82,6 +82,10 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   theme();
   desk.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
+    // Where there is no picture yet, the view tells what it waits for.
+    if (change == DocumentChange::progress && desk_.workspace.document.survey() == nullptr) {
+      if (auto* first = findChild<QWidget*>("top_slice.view")) first->update();
+    }
   });
   const QScreen* on = screen();
   resize(on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize()));

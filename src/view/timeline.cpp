@@ -71,8 +71,10 @@ Pings pings_under(std::span<const double> x, double gap, double from, double to)
 
 void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& theme) {
   const double em = theme.text_px;
-  const Ticks ticks =
-      nice_ticks(plot.y.first, plot.y.last, std::max(2, static_cast<int>(plot.place.height / (3.5 * em))));
+  int most = std::max(2, static_cast<int>(plot.place.height / (3.5 * em)));
+  Ticks ticks = nice_ticks(plot.y.first, plot.y.last, most);
+  // A scale with one number on it is none.
+  while (ticks.major.size() < 2 && most < 5) ticks = nice_ticks(plot.y.first, plot.y.last, ++most);
   for (const double v : ticks.major) {
     const double y = plot.at(0.0, v).y;
     frame.items.emplace_back(line_item({plot.place.x - 0.4 * em, y}, {plot.place.x, y}, theme.axis, theme.line_px));
