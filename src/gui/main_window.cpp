@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QDragEnterEvent>
+#include <QLayout>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
@@ -88,8 +89,17 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
     }
   });
   const QScreen* on = screen();
-  resize(on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize()));
+  const QSize first_size = on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize());
+  resize(first_size);
   lay_out_docks(*this);
+  if (size() != first_size) {
+    // Until they had their places the docks stood side by side, and were wider than a small screen.
+    QMainWindow::layout()->activate();
+    resize(first_size);
+    lay_out_docks(*this);
+    QMainWindow::layout()->activate();
+    resize(first_size);
+  }
   // Keys belong to the picture at first, not to a line of text.
   if (auto* first = findChild<QWidget*>("top_slice.view")) first->setFocus();
 }
