@@ -79,6 +79,7 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   connect(list_->header(), &QHeaderView::sortIndicatorChanged, this, [this](int by) {
     if (by >= 0 && fitted_) list_->setColumnWidth(by, std::max(list_->columnWidth(by), title_width(by)));
   });
+  for (int c = 0; c < model_.columnCount(); ++c) list_->setColumnWidth(c, title_width(c));  // until there are rows
   list_->installEventFilter(this);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
     if (following_ || !now.isValid()) return;

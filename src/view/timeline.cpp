@@ -199,7 +199,9 @@ Result<std::vector<Strip>> strips_of(std::span<const TimelineObservation> observ
   return strips;
 }
 
-const char* value_label(EchogramValue value) {
+/// brief  in few words: there is no room for what decibels refer to
+const char* value_label(EchogramValue value, bool brief) {
+  if (brief) return value == EchogramValue::mean ? "mean Sv (dB)" : "Sv (dB)";
   if (value == EchogramValue::maximum) return "largest Sv (dB re 1 m\u207B\u00B9)";
   return value == EchogramValue::minimum ? "smallest Sv (dB re 1 m\u207B\u00B9)" : "mean Sv (dB re 1 m\u207B\u00B9)";
 }
@@ -269,6 +271,8 @@ EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const do
 
 namespace {
 
+constexpr double kBarFrom_em = 40.0;  ///< a narrower picture without a title needs its width for time
+
 /// Everything that timeline() decides before it draws.
 struct LaidOut {
   TimeNs zero = 0;
@@ -277,6 +281,7 @@ struct LaidOut {
   std::string title;
   bool raw_gone = false;
   bool any_echogram = false;
+  bool colour_bar = false;
   std::vector<Strip> strips;
   Layout layout;
   PlotFrame plot;
@@ -307,9 +312,9 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.title = heads.size() == 1 ? observation_title(heads.front()) : survey_title(heads);
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
-  out.layout = lay_out(
-      size, theme,
-      {.title_lines = style.brief ? 0 : 3, .colour_bar = out.any_echogram && !style.brief, .y_label_characters = 4});
+  out.colour_bar = out.any_echogram && (!style.brief || size.width >= kBarFrom_em * em);
+  out.layout =
+      lay_out(size, theme, {.title_lines = style.brief ? 0 : 3, .colour_bar = out.colour_bar, .y_label_characters = 4});
   PlotFrame& plot = out.plot;
   plot.place = out.layout.plot;
   const double names = (style.brief ? 1.2 : 0.6) * em;
@@ -385,8 +390,9 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_names(frame, laid->strips, plot, theme);
   add_y_axis(frame, plot, theme);
   add_x_axis(frame, plot, style.axis, laid->zero, theme);
+  if (laid->colour_bar)
+    add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value, style.brief));
   if (style.brief) return frame;
-  if (laid->any_echogram) add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value));
   std::string line = time_span_text(laid->zero, laid->last);
   if (laid->raw_gone && style.raw_there) line += " · echograms are being read";
   if (laid->raw_gone && !style.raw_there) {

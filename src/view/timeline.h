@@ -37,7 +37,7 @@ struct TimelineStyle {
   SvScale scale{.map = ColourMapName::ek500, .low_db = -75.0, .span_db = 36.0};
   bool schools = true;
   bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
-  bool brief = false;      ///< no title and no colour bar: a window has its own
+  bool brief = false;      ///< no title, and a colour bar only where it is wide: a window has its own
   bool raw_there = false;  ///< the raw data are there: an echogram that is missing is being read
   std::optional<TimelineInterval> shown = {};  ///< part of the time axis; empty = all of it
   friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
@@ -51,7 +51,7 @@ void describe(Visitor& v, TimelineStyle& p) {
   v.field("schools", p.schools, {.text = "draw school tracks in"});
   v.field("by_school", p.by_school, {.text = "each school in a colour of its own; off = status tells the colour"});
   v.field("raw_there", p.raw_there, {.text = "a missing echogram is being read, not gone"});
-  v.field("brief", p.brief, {.text = "no title and no colour bar"});
+  v.field("brief", p.brief, {.text = "no title; a colour bar only where it is wide"});
 }
 
 /// What a human marked, on the clock of the product's pings.
