@@ -59,8 +59,9 @@ QAction* make_action(QMainWindow& window, const Action& action) {
 }
 
 void ask_when_opened(QMenu& menu, QAction& shown, const Action& action) {
-  QObject::connect(&menu, &QMenu::aboutToShow, &shown, [&shown, &action] {
-    shown.setEnabled(!action.enabled || action.enabled());
+  QObject::connect(&menu, &QMenu::aboutToShow, &shown, [&menu, &shown, &action] {
+    const bool meant = !action.of_school || !menu.property(kBesideSchools).toBool();
+    shown.setEnabled(meant && (!action.enabled || action.enabled()));
     refresh(shown, action);
   });
   QObject::connect(&menu, &QMenu::aboutToHide, &shown, [&shown] { shown.setEnabled(true); });

@@ -8,6 +8,8 @@ namespace sonar {
 namespace {
 
 constexpr int kLowWindow_px = 1000;
+constexpr int kNarrowScreen_px = 1200;  ///< tree, views and controls do not stand beside each other
+constexpr int kLowScreen_px = 700;      ///< two rows of views and one of lists do not stand above each other
 
 QDockWidget* dock(const QMainWindow& window, const char* name) { return window.findChild<QDockWidget*>(name); }
 
@@ -47,6 +49,23 @@ void share(QMainWindow& window, Qt::Orientation orientation,
   window.resizeDocks(docks, wanted, orientation);
 }
 
+/// For a screen of few units, as a dense one has: lists are tabs behind the controls, and each view has a tab mate.
+void lay_out_small(QMainWindow& window) {
+  QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");
+  QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
+  QDockWidget* side = put(window, Qt::TopDockWidgetArea, "side_slice");
+  QDockWidget* time = put(window, Qt::BottomDockWidgetArea, "observation_timeline");
+  beside(window, top, side, Qt::Horizontal);
+  behind(window, right, {"survey_tree", "diagnostics", "journal"});
+  behind(window, top, {"observation_map", "survey_map"});
+  behind(window, side, {"volume"});
+  behind(window, time, {"survey_timeline", "propagation", "schools", "school_pings", "review"});
+  const int width = window.width();
+  const int height = window.height();
+  share(window, Qt::Horizontal, {{top, width * 33 / 100}, {side, width * 33 / 100}, {right, width * 34 / 100}});
+  share(window, Qt::Vertical, {{top, height * 6 / 10}, {time, height * 4 / 10}});
+}
+
 }  // namespace
 
 void lay_out_docks(QMainWindow& window) {
@@ -54,6 +73,7 @@ void lay_out_docks(QMainWindow& window) {
   window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   window.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
   window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  if (window.width() < kNarrowScreen_px || window.height() < kLowScreen_px) return lay_out_small(window);
   QDockWidget* left = put(window, Qt::LeftDockWidgetArea, "survey_tree");
   QDockWidget* notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
   QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <QApplication>
 #include <QCommandLineParser>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "gui/main_window.h"
@@ -30,18 +33,42 @@ DocumentOptions document_options(const Preferences& preferences) {
   return options;
 }
 
-int run_program(int argc, char** argv) {
-  QApplication application(argc, argv);
-  QApplication::setApplicationName("sonar-explorer");
-  QApplication::setApplicationVersion(SONAR_VERSION);
+struct CommandLine {
   QCommandLineParser parser;
-  parser.setApplicationDescription("Explores fishery-sonar surveys: find schools, follow them, map them");
-  parser.addHelpOption();
-  parser.addVersionOption();
-  parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
-  const QCommandLineOption demo("demo", "Open a simulated survey; it is made first where it is not there yet");
-  const QCommandLineOption dark("dark", "Begin in dark colours");
-  parser.addOptions({demo, dark});
+  QCommandLineOption demo{"demo", "Open a simulated survey; it is made first where it is not there yet"};
+  QCommandLineOption dark{"dark", "Begin in dark colours"};
+
+  CommandLine() {
+    QCoreApplication::setApplicationName("sonar-explorer");
+    QCoreApplication::setApplicationVersion(SONAR_VERSION);
+    parser.setApplicationDescription("Explores fishery-sonar surveys: find schools, follow them, map them");
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
+    parser.addOptions({demo, dark});
+  }
+};
+
+/// What is asked of the program needs no window, or is no sense: it is answered where there is no display, too.
+bool asks_for_text(int argc, char** argv) {
+  const std::span<char*> words(argv + 1, argv + argc);
+  return std::any_of(words.begin(), words.end(), [](const char* word) {
+    const std::string_view text(word);
+    return text == "-h" || text == "--help" || text == "--help-all" || text == "-v" || text == "--version";
+  });
+}
+
+int run_program(int argc, char** argv) {
+  if (asks_for_text(argc, argv)) {
+    QCoreApplication plain(argc, argv);
+    CommandLine().parser.process(plain);
+    return 0;
+  }
+  QApplication application(argc, argv);
+  CommandLine line;
+  QCommandLineParser& parser = line.parser;
+  const QCommandLineOption& demo = line.demo;
+  const QCommandLineOption& dark = line.dark;
   parser.process(application);
 
   const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());

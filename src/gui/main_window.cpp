@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QDragEnterEvent>
+#include <QLayout>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
@@ -82,10 +83,23 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   theme();
   desk.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
+    // Where there is no picture yet, the view tells what it waits for.
+    if (change == DocumentChange::progress && desk_.workspace.document.survey() == nullptr) {
+      if (auto* first = findChild<QWidget*>("top_slice.view")) first->update();
+    }
   });
   const QScreen* on = screen();
-  resize(on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize()));
+  const QSize first_size = on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize());
+  resize(first_size);
   lay_out_docks(*this);
+  if (size() != first_size) {
+    // Until they had their places the docks stood side by side, and were wider than a small screen.
+    QMainWindow::layout()->activate();
+    resize(first_size);
+    lay_out_docks(*this);
+    QMainWindow::layout()->activate();
+    resize(first_size);
+  }
   // Keys belong to the picture at first, not to a line of text.
   if (auto* first = findChild<QWidget*>("top_slice.view")) first->setFocus();
 }

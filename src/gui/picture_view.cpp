@@ -10,6 +10,8 @@
 #include <QToolTip>
 #include <QWheelEvent>
 
+#include "gui/action_menus.h"
+
 namespace sonar {
 namespace {
 
@@ -35,6 +37,17 @@ void draw_twice(QPainter& painter, const QPainterPath& path) {
   painter.drawPath(path);
   painter.setPen(QPen(QColor(255, 255, 255, 230), 1.0));
   painter.drawPath(path);
+}
+
+/// A line in the lower left corner, light on dark whatever lies below it.
+void draw_on_ground(QPainter& painter, const QRect& view, const QString& text) {
+  constexpr int kMargin_px = 4;
+  const QRect words = painter.fontMetrics().boundingRect(text);
+  const QRect ground(view.left() + kMargin_px, view.bottom() - words.height() - 3 * kMargin_px,
+                     words.width() + 2 * kMargin_px, words.height() + 2 * kMargin_px);
+  painter.fillRect(ground, QColor(0, 0, 0, 200));
+  painter.setPen(Qt::white);
+  painter.drawText(ground, Qt::AlignCenter, text);
 }
 
 /// In the window's units.
@@ -102,9 +115,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));
   if (latencies_()) {
-    QPainterPath text;
-    text.addText(QPointF(8, height() - 8.0), font(), QString::fromStdString(picture_.timing()));
-    draw_twice(painter, text);
+    draw_on_ground(painter, rect(), QString::fromStdString(picture_.timing()));
   }
 }
 
@@ -161,9 +172,8 @@ void PictureView::set_menu(QMenu* menu) {
 
 void PictureView::contextMenuEvent(QContextMenuEvent* event) {
   if (menu_ == nullptr) return;
-  if (event->reason() == QContextMenuEvent::Mouse) {
-    picture_.aim(pixel_at(event->pos()));
-  }
+  const bool by_mouse = event->reason() == QContextMenuEvent::Mouse;
+  menu_->setProperty(kBesideSchools, by_mouse && !picture_.aim(pixel_at(event->pos())));
   menu_open_ = true;
   menu_->popup(event->globalPos());
 }

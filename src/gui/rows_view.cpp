@@ -79,6 +79,7 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   connect(list_->header(), &QHeaderView::sortIndicatorChanged, this, [this](int by) {
     if (by >= 0 && fitted_) list_->setColumnWidth(by, std::max(list_->columnWidth(by), title_width(by)));
   });
+  for (int c = 0; c < model_.columnCount(); ++c) list_->setColumnWidth(c, title_width(c));  // until there are rows
   list_->installEventFilter(this);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
     if (following_ || !now.isValid()) return;
@@ -157,8 +158,15 @@ void RowsView::rows_changed() {
 void RowsView::show_selected() {
   const auto row = rows_.selected();
   const QModelIndex at = row ? order_.mapFromSource(model_.index_of(*row)) : QModelIndex();
+  const bool let_go = !row && showed_;
+  showed_ = row.has_value();
   if (at == list_->currentIndex().siblingAtColumn(0) && at.isValid()) return;
   following_ = true;
+  // What the list had marked for the window is let go with it; a list that follows nothing keeps what a human marked.
+  if (let_go) {
+    list_->selectionModel()->clearSelection();
+    list_->selectionModel()->clearCurrentIndex();
+  }
   if (at.isValid()) {
     // One of several that were chosen to be copied stays one of them.
     const bool chosen = list_->selectionModel()->isSelected(at);

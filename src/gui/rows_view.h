@@ -68,6 +68,7 @@ class RowsView : public QWidget {
   QTreeView* list_;
   QMenu* menu_ = nullptr;
   bool following_ = false;  ///< the selection follows the rows: nobody clicked
+  bool showed_ = false;     ///< the rows had one that the window has selected
   bool stale_ = true;       ///< changed while nobody saw it
   bool fitted_ = false;
   int listening_ = 0;

@@ -83,6 +83,9 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
     }
     cursor->setText(text_at_cursor(workspace));
     cursor->setCursorPosition(0);
+    // What a narrow window cuts off.
+    const bool cut = cursor->fontMetrics().horizontalAdvance(cursor->text()) > cursor->width();
+    cursor->setToolTip(cut ? cursor->text() : QString());
   };
   workspace.cursor.changed().add(read);
   // After the window has taken the theme.

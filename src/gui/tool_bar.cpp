@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QIcon>
+#include <QLabel>
 #include <QPainter>
 #include <QPixmap>
 #include <QPointer>
@@ -11,9 +12,11 @@
 #include <QTimer>
 #include <QToolBar>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "gui/action_menus.h"
+#include "session/playback.h"
 
 namespace sonar {
 namespace {
@@ -94,6 +97,24 @@ void follow(QMainWindow& window, QToolBar& bar, Desk& desk) {
   grey_buttons(window, bar, desk.actions);
 }
 
+/// How fast it plays, beside the buttons that play.
+void add_rate(QToolBar& bar, Playback& playback) {
+  auto* rate = new QLabel(&bar);
+  rate->setObjectName("play_rate");
+  rate->setToolTip("Speed of playing, and what is reached; + and - change it");
+  // What it says while it plays must not push the buttons behind it about.
+  rate->setMinimumWidth(rate->fontMetrics().horizontalAdvance("5x, 99.9 pings/s"));
+  rate->setAlignment(Qt::AlignCenter);
+  bar.addWidget(rate);
+  const auto show = [rate = QPointer<QLabel>(rate), &playback] {
+    if (rate.isNull()) return;
+    const QString text = QString::fromStdString(playback.rate_text());
+    if (text != rate->text()) rate->setText(text);
+  };
+  playback.changed().add(show);
+  show();
+}
+
 }  // namespace
 
 void add_tool_bar(QMainWindow& window, Desk& desk) {
@@ -108,6 +129,7 @@ void add_tool_bar(QMainWindow& window, Desk& desk) {
     QAction* action = find_action(window, button.id);
     if (action == nullptr) continue;
     bar->addAction(action);
+    if (std::string_view(button.id) == "ping.last") add_rate(*bar, *desk.playback);
   }
   tint_tool_bar(window);
   follow(window, *bar, desk);

@@ -16,6 +16,7 @@ const std::string* CsvRowReader::field(std::string_view name) {
 }
 
 void CsvRowReader::operator()(std::string_view name, std::string_view, std::string& v) {
+  if (is_later_column(name) && !table_.column(name)) return;
   if (const std::string* text = field(name)) v = *text;
 }
 

@@ -212,7 +212,8 @@ class RowFiller {
   template <class T>
   void take(std::vector<std::vector<T>>& store, std::string_view name, T& value) {
     if (store.size() <= at_) store.resize(at_ + 1);
-    if (row_ == 0) store[at_] = in_.values<T>(group_, std::string(name), rows_.size());
+    const bool absent = row_ == 0 && is_later_column(name) && !in_.has_variable(group_, std::string(name));
+    if (row_ == 0 && !absent) store[at_] = in_.values<T>(group_, std::string(name), rows_.size());
     if (row_ < store[at_].size()) value = store[at_][row_];
     ++at_;
   }

@@ -259,7 +259,8 @@ TEST_F(Product, damage_gives_an_error) {
     std::ofstream(at("b.nc"), std::ios::binary) << bytes;
     return read_product(at("b.nc"));
   };
-  for (std::size_t cut = 0; cut < sound.size(); cut += 997) {
+  // Cut within the seal, it is a whole file without one.
+  for (std::size_t cut = 0; cut + 64 < sound.size(); cut += 997) {
     EXPECT_FALSE(read_bytes(sound.substr(0, cut))) << cut;
   }
   for (std::size_t flip = 0; flip < sound.size(); flip += 499) {

@@ -100,6 +100,7 @@ struct SchoolRow {
   TimeNs decided_utc = 0;     ///< 0 = not decided
   std::string species;
   std::string comment;
+  std::string name;  ///< that a human gave it
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -184,6 +185,10 @@ void columns(Visitor& v, SchoolRow& r) {
   v("decided_utc", "", TimeColumn{r.decided_utc});
   v("species", "", r.species);
   v("comment", "", r.comment);
+  v("name", "", r.name);
 }
+
+/// Columns that came after the first published tables: a file without them is whole, and has none of it.
+[[nodiscard]] constexpr bool is_later_column(std::string_view column) { return column == "name"; }
 
 }  // namespace sonar

@@ -55,6 +55,7 @@ std::optional<JournalLine> line_from_json(const nlohmann::json& json) {
   line.command = json["cmd"].get<std::string>();
   line.ping_time = *ping_time;
   line.args = json["args"];
+  if (json.contains("step")) line.step = whole_number(json["step"]).value_or(0);
   if (has("operator", &nlohmann::json::is_string)) line.operator_name = json["operator"].get<std::string>();
   if (has("t", &nlohmann::json::is_string)) line.decided = time_from_iso(json["t"].get<std::string>()).value_or(0);
   return line;
@@ -82,12 +83,14 @@ Result<Journal> head_from_json(const nlohmann::json& json) {
 }  // namespace
 
 std::string journal_text(const JournalLine& line) {
-  return sealed({{"n", line.n},
-                 {"t", line.decided == 0 ? std::string{} : iso_time(line.decided)},
-                 {"operator", line.operator_name},
-                 {"cmd", line.command},
-                 {"ping_time", line.ping_time},
-                 {"args", line.args}});
+  nlohmann::json json = {{"n", line.n},
+                         {"t", line.decided == 0 ? std::string{} : iso_time(line.decided)},
+                         {"operator", line.operator_name},
+                         {"cmd", line.command},
+                         {"ping_time", line.ping_time},
+                         {"args", line.args}};
+  if (line.step != 0) json["step"] = line.step;
+  return sealed(std::move(json));
 }
 
 std::string journal_head_text(const Journal& journal) {

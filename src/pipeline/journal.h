@@ -24,6 +24,8 @@ struct JournalLine {
   std::string command;   ///< "propagate", "undo", "redo", ...
   TimeNs ping_time = 0;  ///< of the ping it was made on
   nlohmann::json args = nlohmann::json::object();
+  /// n of the first line of the step that this one belongs to: such lines are undone and redone together. 0 = alone.
+  std::int64_t step = 0;
 };
 
 /// A journal file: JSON lines, the first with the version, the survey's files and the recipe.

@@ -128,6 +128,18 @@ TEST_F(JournalFile, NewerVersionIsRefusedByName) {
   EXPECT_FALSE(read_journal(path_));
 }
 
+TEST(Journal, ALineSaysOfWhichStepItIsAndOthersSayNothing) {
+  JournalLine line;
+  line.n = 8;
+  line.command = "detect";
+  EXPECT_THAT(journal_text(line), testing::Not(testing::HasSubstr("step")));
+  line.step = 7;
+  const auto read = parse_journal(journal_head_text({}) + "\n" + journal_text(line) + "\n", "j");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->lines.size(), 1U);
+  EXPECT_EQ(read->lines[0].step, 7);
+}
+
 TEST(Journal, UndoAndRedoNameTheirTarget) {
   const auto line = [](std::int64_t n, const char* command, std::int64_t target) {
     JournalLine made;

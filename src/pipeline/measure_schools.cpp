@@ -118,6 +118,7 @@ void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& re
     row.decided_utc = school.decided.decided_utc;
     row.species = school.decided.species;
     row.comment = school.decided.comment;
+    row.name = school.decided.name;
     row.continues = school.decided.continues;
     product.schools.push_back(std::move(row));
   }

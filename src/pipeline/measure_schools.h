@@ -22,7 +22,7 @@ struct SchoolMasks {
   };
   std::vector<InPing> pings;  ///< rising
   std::int64_t track_id = 0;  ///< number among the tracked schools; 0 = a human's
-  SchoolRow decided;          ///< origin, status, operator, decided_utc, species, comment; the rest is measured
+  SchoolRow decided;          ///< origin, status, operator, decided_utc, species, comment, name; the rest is measured
 };
 
 /// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.

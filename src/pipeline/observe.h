@@ -22,7 +22,7 @@ namespace sonar {
 /// are not merged.
 inline constexpr std::string_view kStageVersions =
     "decode 2, flags 3, calibrate 1, background 2, median 1, seabed 2, detect 4, track 5, propagate 3, measure 6, "
-    "summarise 1";
+    "summarise 2";
 
 /// Inclusive range of ping indices.
 struct PingSelection {

@@ -65,7 +65,7 @@ Result<void> check_volume(const VolumeData& volume) {
   const Shape3 shape = volume.sv.shape();
   if (shape.fans < 2 || shape.beams < 2 || shape.samples < 2) {
     return fail(ErrorCode::bad_parameter,
-                fmt::format("a volume of {} fans, {} beams and {} samples cannot be drawn; 2 of each are the least",
+                fmt::format("a volume of {} x {} x {} (fans, beams, samples) cannot be drawn; 2 of each are the least",
                             shape.fans, shape.beams, shape.samples));
   }
   const Sector& sector = volume.sector;

@@ -24,6 +24,7 @@ struct Action {
   std::function<bool()> enabled = {};          ///< empty = always
   std::function<bool()> checked = {};          ///< given = the action is a switch
   std::function<std::string()> text_now = {};  ///< "Undo grow school 3"
+  bool of_school = false;  ///< done to the selected school: a menu that opens beside every school does not offer it
 };
 
 /// All actions of a window, in the order of its menus.

@@ -44,9 +44,9 @@ void Choices::run(std::function<Result<std::int64_t>()> job) {
 void Choices::publish(std::string failure, std::int64_t line) {
   ChoicesShown shown;
   for (const auto& [index, of] : open_) shown.states[index] = of.state;
-  if (!done_.empty()) shown.undo_text = "Undo " + done_.back().name;
   // What was undone before this run, or before another observation was opened, has a name and no states.
-  if (const auto n = history_.redoable()) shown.redo_text = "Redo " + names_[*n];
+  if (const auto lines = history_.undoable(); !lines.empty()) shown.undo_text = "Undo " + step_name(lines.back());
+  if (const auto lines = history_.redoable(); !lines.empty()) shown.redo_text = "Redo " + step_name(lines.front());
   shown.names = names_;
   shown.lines = std::make_shared<std::vector<JournalLine>>(place_.journal.lines);
   shown.failure = std::move(failure);
@@ -60,17 +60,33 @@ void Choices::publish(std::string failure, std::int64_t line) {
 
 void Choices::open(OpenObservationPtr observation, std::vector<SchoolMasks> detected) {
   run([this, observation = std::move(observation), detected = std::move(detected)]() -> Result<std::int64_t> {
-    open_[observation->index()] = {observation, state_of_detected(detected), nullptr};
+    open_[observation->index()] = {observation, state_before_detection(detected), nullptr};
     rebuild(observation->index());
     return 0;
   });
 }
 
-void Choices::act(std::size_t observation, std::int64_t ping_index, Command command) {
+void Choices::act(std::size_t observation, std::int64_t ping_index, Command command,
+                  std::shared_ptr<JournalStep> step) {
   stopping_ = false;
-  run([this, observation, ping_index, command = std::move(command)]() mutable {
-    return carry_out(observation, ping_index, std::move(command));
+  run([this, observation, ping_index, command = std::move(command), step = std::move(step)]() mutable {
+    if (step && step->broken) return Result<std::int64_t>(0);
+    auto line = carry_out(observation, ping_index, std::move(command), step.get());
+    if (step && !line) step->broken = true;
+    return line;
   });
+}
+
+/// What a step did is what its first line did.
+std::string Choices::step_name(std::int64_t n) const {
+  const auto named = names_.find(n);
+  const std::string name = named == names_.end() ? std::string{} : named->second;
+  const auto of = std::find_if(place_.journal.lines.begin(), place_.journal.lines.end(),
+                               [n](const JournalLine& line) { return line.n == n; });
+  if (of == place_.journal.lines.end() || of->step == 0 || of->command != "detect") return name;
+  const auto all = std::count_if(place_.journal.lines.begin(), place_.journal.lines.end(),
+                                 [&](const JournalLine& line) { return line.step == of->step; });
+  return all == 1 ? name : fmt::format("{} in {} observations", name, all);
 }
 
 void Choices::turn_back(bool undo) {
@@ -88,13 +104,21 @@ bool Choices::asks_to_detect(std::int64_t n) const {
                      [&](const JournalLine& line) { return line.n == n && line.command == "detect"; });
 }
 
+void Choices::tell_replayed(std::size_t done, std::size_t total) {
+  queue_.post_latest("journal replayed", [this, alive = std::weak_ptr<bool>(alive_), done, total] {
+    if (alive.expired() || !options_.replayed) return;
+    options_.replayed(static_cast<std::int64_t>(done), static_cast<std::int64_t>(total));
+  });
+}
+
 void Choices::rebuild() {
   done_.clear();
   undone_.clear();
   const std::vector<JournalLine> lines = effective_lines(place_.journal.lines);
   for (auto& [index, of] : open_) of.state = base_of(of, lines);
   for (const JournalLine& line : lines) {
-    Turn turn{line.n, line.command, {}, {}};
+    tell_replayed(done_.size(), lines.size());
+    Turn turn{line.n, line.step, line.command, {}, {}};
     for (auto& [index, of] : open_) {
       turn.before[index] = of.state;
       of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.observation->ground()));
@@ -119,6 +143,7 @@ void Choices::rebuild(std::size_t index) {
   OnObservation& of = open_.at(index);
   of.state = base_of(of, lines);
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    tell_replayed(i, lines.size());
     done_[i].before[index] = of.state;
     of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.observation->ground()));
     done_[i].after[index] = of.state;
@@ -174,7 +199,8 @@ CommandGround Choices::watched(std::size_t observation) {
   return ground;
 }
 
-Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t ping_index, Command command) {
+Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t ping_index, Command command,
+                                        JournalStep* step) {
   const auto at = open_.find(observation);
   if (at == open_.end()) return fail(ErrorCode::usage, "the observation is not open");
   const CommandGround& ground = at->second.observation->ground();
@@ -183,7 +209,7 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   }
   JournalAct act{history_.next(), now(), options_.operator_name, ground.times[static_cast<std::size_t>(ping_index)],
                  std::move(command)};
-  Turn turn{act.n, {}, {}, {}};
+  Turn turn{act.n, 0, {}, {}, {}};
   for (const auto& [index, of] : open_) turn.before[index] = turn.after[index] = of.state;
   auto applied = apply_watched(act, *at->second.state, watched(observation));
   if (!applied) return pass_on(applied);
@@ -195,10 +221,13 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
     auto other = apply(act, *of.state, of.observation->ground());
     if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
   }
-  const JournalLine line = line_of(act);
+  JournalLine line = line_of(act);
   // What the next start could not read must not be shown as done.
   if (const auto read = act_of(line); !read) return pass_on(read);
+  if (step != nullptr) line.step = step->first == 0 ? act.n : step->first;
   if (auto written = write(line); !written) return pass_on(written);
+  if (step != nullptr) step->first = line.step;
+  turn.step = line.step;
   if (asks_to_detect(act.n)) {
     rebuild();  // what was found lies under every other line
     return act.n;
@@ -211,26 +240,38 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   return act.n;
 }
 
+/// False where the states are not known, and everything must be carried out anew.
+bool Choices::turn_known(const std::vector<std::int64_t>& targets, bool undo) {
+  std::vector<Turn>& from = undo ? done_ : undone_;
+  if (targets.size() > from.size()) return false;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Turn& turn = from[from.size() - 1 - i];
+    if (turn.n != targets[i] || turn.before.size() != open_.size() || asks_to_detect(turn.n)) return false;
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (auto& [index, of] : open_) of.state = undo ? from.back().before[index] : from.back().after[index];
+    (undo ? undone_ : done_).push_back(std::move(from.back()));
+    from.pop_back();
+  }
+  return true;
+}
+
 Result<std::int64_t> Choices::turn(bool undo) {
-  const auto target = undo ? history_.undoable() : history_.redoable();
-  if (!target) return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
+  const std::vector<std::int64_t> targets = undo ? history_.undoable() : history_.redoable();
+  if (targets.empty()) return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
   JournalLine line;
-  line.n = history_.next();
   line.decided = now();
   line.operator_name = options_.operator_name;
   line.command = undo ? "undo" : "redo";
-  line.args = {{"target", *target}};
-  if (auto written = write(line); !written) return pass_on(written);
-  std::vector<Turn>& from = undo ? done_ : undone_;
-  const bool known = !from.empty() && from.back().n == *target && from.back().before.size() == open_.size() &&
-                     !asks_to_detect(*target);
-  if (!known) {
-    rebuild();  // what was undone before this run began
-    return line.n;
+  for (const std::int64_t target : targets) {
+    line.n = history_.next();
+    line.args = {{"target", target}};
+    const auto written = write(line);
+    if (written) continue;
+    if (target != targets.front()) rebuild();  // some of the step's lines were turned
+    return pass_on(written);
   }
-  for (auto& [index, of] : open_) of.state = undo ? from.back().before[index] : from.back().after[index];
-  (undo ? undone_ : done_).push_back(std::move(from.back()));
-  from.pop_back();
+  if (!turn_known(targets, undo)) rebuild();  // what was undone before this run began
   return line.n;
 }
 

@@ -35,6 +35,14 @@ struct ChoicesShown {
   std::int64_t done_line = 0;                 ///< n of the line that was just written; 0 = none
 };
 
+/// Lines of the journal that are undone and redone together. Whoever asks for them hands the same one over with each;
+/// after one that cannot be done the others are left.
+/// threads  that of the acts alone
+struct JournalStep {
+  std::int64_t first = 0;  ///< n of its first line
+  bool broken = false;
+};
+
 /// Every human choice on a survey: carried out one after another behind the window, written into the journal and flushed,
 /// and only then shown.
 /// threads  members are called from the window's thread; what they bring about comes through the change queue
@@ -47,6 +55,8 @@ class Choices {
   struct Options {
     std::string operator_name;
     std::function<TimeNs()> clock;  ///< UTC now; empty = 0
+    /// While lines are carried out anew, as after opening; called when the queue is drained.
+    std::function<void(std::int64_t done, std::int64_t total)> replayed = {};
   };
 
   /// shown, step  called when the queue is drained
@@ -59,7 +69,9 @@ class Choices {
   /// detected  schools that were found in it; empty = nobody looked
   void open(OpenObservationPtr observation, std::vector<SchoolMasks> detected = {});
   /// On a ping of an open observation.
-  void act(std::size_t observation, std::int64_t ping_index, Command command);
+  /// step  that the act is part of; null = it stands alone
+  void act(std::size_t observation, std::int64_t ping_index, Command command,
+           std::shared_ptr<JournalStep> step = nullptr);
   void undo() { turn_back(true); }
   void redo() { turn_back(false); }
   /// Ends the propagation that runs, if one does; what it reached stays.
@@ -78,6 +90,7 @@ class Choices {
   /// One act, and the states round it.
   struct Turn {
     std::int64_t n = 0;
+    std::int64_t step = 0;  ///< JournalLine::step
     std::string name;
     std::map<std::size_t, JournalStatePtr> before;
     std::map<std::size_t, JournalStatePtr> after;
@@ -90,8 +103,12 @@ class Choices {
   [[nodiscard]] bool asks_to_detect(std::int64_t n) const;
   void rebuild();
   void rebuild(std::size_t index);
+  void tell_replayed(std::size_t done, std::size_t total);
   [[nodiscard]] std::string name_of(const JournalAct& act, const Turn& turn) const;
-  [[nodiscard]] Result<std::int64_t> carry_out(std::size_t observation, std::int64_t ping_index, Command command);
+  [[nodiscard]] std::string step_name(std::int64_t n) const;
+  [[nodiscard]] Result<std::int64_t> carry_out(std::size_t observation, std::int64_t ping_index, Command command,
+                                               JournalStep* step);
+  bool turn_known(const std::vector<std::int64_t>& targets, bool undo);
   [[nodiscard]] Result<std::int64_t> turn(bool undo);
   [[nodiscard]] Result<void> hold_journal();
   Result<void> write(const JournalLine& line);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/desk.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -37,6 +39,13 @@ Rows* Desk::rows(const std::string& id) {
 std::string idle_text(const Desk& desk, const std::string& dock) {
   const Document& document = desk.workspace.document;
   if (document.survey() != nullptr) return document.nothing_shown();
+  const Progress& now = document.progress();
+  if (dock == "top_slice" && !now.stage.empty()) {
+    const std::string words =
+        now.stage == "simulate" ? "Making the simulated survey" : "Reading the survey: " + now.stage;
+    const auto percent = now.total > 0 ? fmt::format(", {} %", 100 * now.done / now.total) : std::string{};
+    return words + percent + ".\nEsc, or Cancel below, stops it.";
+  }
   return dock == "top_slice" ? "Open a survey (Ctrl+O), or drop a folder of raw files here." : "";
 }
 

@@ -100,6 +100,7 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   shown_.reset();
   staged_.reset();
   choices_ = {};
+  replaying_ = {};
   propagating_.clear();
   detected_.clear();
   products_.clear();
@@ -111,7 +112,12 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   const std::vector<JournalLine> lines = effective_lines(all_lines);
   choices_.lines = std::make_shared<const std::vector<JournalLine>>(all_lines);  // known before they are replayed
   choices_thread_ = std::make_unique<Choices>(
-      queue_, place ? std::move(*place) : JournalPlace{}, Choices::Options{options_.operator_name, options_.clock},
+      queue_, place ? std::move(*place) : JournalPlace{},
+      Choices::Options{options_.operator_name, options_.clock,
+                       [this](std::int64_t done, std::int64_t total) {
+                         replaying_ = {"reading the journal", done, total};
+                         changes_.tell(DocumentChange::progress);
+                       }},
       [this](ChoicesShown shown) { take_choices(std::move(shown)); },
       [this](std::size_t observation, std::int64_t ping_index, const PingMask& mask) {
         take_step(observation, ping_index, mask);
@@ -215,7 +221,8 @@ void Document::act(std::int64_t ping_index, Command command) {
   if (shown_) act(shown_->index(), ping_index, std::move(command));
 }
 
-void Document::act(std::size_t observation, std::int64_t ping_index, Command command) {
+void Document::act(std::size_t observation, std::int64_t ping_index, Command command,
+                   std::shared_ptr<JournalStep> step) {
   if (!choices_thread_) return;
   replay_journal();
   if (const auto* propagate = std::get_if<PropagateCommand>(&command); propagate != nullptr && shown_) {
@@ -229,13 +236,14 @@ void Document::act(std::size_t observation, std::int64_t ping_index, Command com
                                                : std::optional<std::size_t>{};
     followed_ = known ? std::optional(state(observation).schools[*known]->number) : std::nullopt;
   }
-  choices_thread_->act(observation, ping_index, std::move(command));
+  choices_thread_->act(observation, ping_index, std::move(command), std::move(step));
   if (!following_.stage.empty()) changes_.tell(DocumentChange::progress);
 }
 
 Progress Document::activity() const {
   if (!progress_.stage.empty()) return progress_;
   if (!following_.stage.empty()) return following_;
+  if (!replaying_.stage.empty()) return replaying_;
   // One observation is measured after each act, in no time.
   if (measures_begun_ > 1) return {"measuring", measures_done_, measures_begun_};
   return {};
@@ -268,6 +276,7 @@ const JournalState& Document::state() const { return state(shown_ ? shown_->inde
 void Document::take_choices(ChoicesShown shown) {
   const ChoicesShown before = std::exchange(choices_, std::move(shown));
   propagating_.clear();
+  if (!std::exchange(replaying_, {}).stage.empty()) changes_.tell(DocumentChange::progress);
   if (!busy() && !std::exchange(following_, {}).stage.empty()) {
     followed_.reset();
     changes_.tell(DocumentChange::progress);
@@ -290,10 +299,11 @@ void Document::take_step(std::size_t observation, std::int64_t ping_index, const
 
 void Document::detect(std::vector<std::size_t> observations) {
   if (!survey_) return;
-  run([this, survey = survey_, observations = std::move(observations)](Work& work, const Wanted& wanted) {
+  const auto step = observations.size() > 1 ? std::make_shared<JournalStep>() : nullptr;
+  run([this, survey = survey_, observations = std::move(observations), step](Work& work, const Wanted& wanted) {
     for (const std::size_t index : observations) {
       if (work.cancelled() || !wanted() || index >= survey->observations.size()) break;
-      detect_one(survey, index, work, wanted);
+      detect_one(survey, index, step, work, wanted);
     }
     if (!work.cancelled()) return;
     queue_.post([this, alive = std::weak_ptr<bool>(alive_), survey, observations] {
@@ -318,8 +328,8 @@ void Document::tell_lacking(const std::vector<std::size_t>& observations) {
                   lacking, lacking == 1 ? "" : "s"));
 }
 
-void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
-                          const Wanted& wanted) {
+void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
+                          const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
   if (const auto room = room_for(observation, options_.memory_bytes); !room) {
@@ -331,8 +341,8 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   const auto file = detected_file(options_.cache, *survey, observation);
   const std::string key = observation_key(*survey, observation, recipe, observe_options);
   if (auto kept = kept_detected(file, key)) {
-    return post(wanted, [this, survey, index, schools = std::move(*kept)] {
-      if (survey == survey_) take_detected(index, schools);
+    return post(wanted, [this, survey, index, step, schools = std::move(*kept)] {
+      if (survey == survey_) take_detected(index, schools, step);
     });
   }
   auto product = observe(*survey, observation, recipe, observe_options, work);
@@ -340,19 +350,21 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
     if (product.error().code == ErrorCode::cancelled) return;
     return post(wanted, [this, line = to_line(product.error())] { tell(line); });
   }
-  post(wanted, [this, survey, index, schools = detected_schools(*product)] {
-    if (survey == survey_) take_detected(index, schools);
+  post(wanted, [this, survey, index, step, schools = detected_schools(*product)] {
+    if (survey == survey_) take_detected(index, schools, step);
   });
   keep_detected(file, *product);
 }
 
-void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools) {
+void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools,
+                             const std::shared_ptr<JournalStep>& step) {
+  const auto found = static_cast<std::int64_t>(schools.size());
   const OpenObservationPtr observation = opened(index);
   unreplayed_.erase(index);
   choices_thread_->open(chosen_on_[index], std::move(schools));
   detected_.insert(index);
   if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
-    act(index, 0, DetectCommand{});
+    act(index, 0, DetectCommand{found}, step);
   }
 }
 

@@ -98,7 +98,7 @@ class Document {
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   void tell(std::string notice);
   [[nodiscard]] const Progress& progress() const { return progress_; }
-  /// Whatever a user waits for: that, else a propagation, else measures.
+  /// Whatever a user waits for: that, else a propagation, else the journal's lines, else measures.
   [[nodiscard]] Progress activity() const;
   /// Runs a job behind the window, with progress; one that runs is ended first. It must not touch the document.
   void run(std::function<void(Work&, const Wanted&)> job);
@@ -129,7 +129,9 @@ class Document {
   void act(Command command) { act(ping_, std::move(command)); }
   /// On the observation on show. What cannot be done is told as a notice and changes nothing.
   void act(std::int64_t ping_index, Command command);
-  void act(std::size_t observation, std::int64_t ping_index, Command command);
+  /// step  that the act is part of; null = it stands alone
+  void act(std::size_t observation, std::int64_t ping_index, Command command,
+           std::shared_ptr<JournalStep> step = nullptr);
   void undo();
   void redo();
   void stop_propagation();
@@ -144,13 +146,17 @@ class Document {
   [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
 
   // --- schools
-  /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found.
+  /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found. However
+  /// many they are, it is one step to undo.
   void detect(std::vector<std::size_t> observations);
   [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
   /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
   [[nodiscard]] bool lacks_detected(std::size_t observation) const;
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
+
+  /// Whether figures are on their way.
+  [[nodiscard]] bool measuring() const { return measures_begun_ > 0; }
 
   /// Returns when nothing runs or waits in the background, its changes drained; for tests and the program's end.
   void settle();
@@ -160,9 +166,9 @@ class Document {
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
   OpenObservationPtr opened(std::size_t index);
-  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, Work& work,
-                  const Wanted& wanted);
-  void take_detected(std::size_t index, std::vector<SchoolMasks> schools);
+  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
+                  const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
+  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, const std::shared_ptr<JournalStep>& step);
   void tell_unseen(const ChoicesShown& before);
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
@@ -209,6 +215,7 @@ class Document {
   };
   std::map<std::size_t, Measuring> measuring_;
   Progress following_;  ///< a propagation's pings
+  Progress replaying_;  ///< the journal's lines
   std::optional<std::int64_t> followed_;
   std::int64_t measures_begun_ = 0;
   std::int64_t measures_done_ = 0;

@@ -66,8 +66,9 @@ void Document::measure_behind(const OpenObservationPtr& observation, const Journ
 
 void Document::take_measured() {
   const bool shown = measures_begun_ > 1;
-  if (++measures_done_ == measures_begun_) measures_begun_ = measures_done_ = 0;
-  if (shown) changes_.tell(DocumentChange::progress);
+  const bool all = ++measures_done_ == measures_begun_;
+  if (all) measures_begun_ = measures_done_ = 0;
+  if (shown || all) changes_.tell(DocumentChange::progress);
 }
 
 }  // namespace sonar

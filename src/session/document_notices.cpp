@@ -38,10 +38,16 @@ bool same_choices(const JournalState& a, const JournalState& b) {
       return p.ping_index == q.ping_index && p.mask == q.mask;
     };
     return one->number == other->number && x.status == y.status && x.species == y.species && x.comment == y.comment &&
-           std::ranges::equal(one->masks.pings, other->masks.pings, same_ping);
+           x.name == y.name && std::ranges::equal(one->masks.pings, other->masks.pings, same_ping);
   };
   return std::ranges::equal(a.schools, b.schools, same_school) && a.events == b.events && a.bad_pings == b.bad_pings &&
          (a.calibration == nullptr) == (b.calibration == nullptr);
+}
+
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& paths) {
+  std::vector<std::string> names;
+  for (const auto& path : paths) names.push_back(path.string());
+  return names;
 }
 
 }  // namespace
@@ -59,7 +65,7 @@ std::string Document::nothing_shown() const {
   if (!survey_) return {};
   if (shown_) return staged_ ? std::string{} : unreadable_;
   const auto& all = survey_->observations;
-  if (all.empty()) return "there are no pings in what was opened";
+  if (all.empty()) return fmt::format("there are no pings in {}", fmt::join(names_of(paths_), ", "));
   if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); })) return {};
   std::string why = why_no_grid(all.front());
   if (all.size() > 1) why += fmt::format("; nor can {} more observations", all.size() - 1);

@@ -27,14 +27,14 @@ void move_over(std::int64_t n, std::vector<std::int64_t>& from, std::vector<std:
 std::string school_text(const JournalState* state, const CommandGround& ground, const SchoolKey& key) {
   if (state == nullptr) return " school";
   const auto at = school_at(*state, ground, key);
-  return at ? fmt::format(" school {}", state->schools[*at]->number) : " school";
+  return at ? " " + school_title(*state->schools[*at]) : " school";
 }
 
 /// The school that an act made.
 std::string made_text(const JournalState* after, std::int64_t n) {
   if (after == nullptr) return " school";
   for (const auto& school : after->schools) {
-    if (school->made_by == n) return fmt::format(" school {}", school->number);
+    if (school->made_by == n) return " " + school_title(*school);
   }
   return " school";
 }
@@ -44,6 +44,7 @@ std::string decide_verb(const DecideCommand& command) {
   if (one.status == "accepted") return "accept";
   if (one.status == "rejected") return "reject";
   if (one.status) return "mark as " + *one.status;
+  if (one.name) return "rename";
   return one.species ? "set species of" : "comment on";
 }
 
@@ -62,15 +63,20 @@ void History::add(const JournalLine& line) {
     return;
   }
   done_.push_back(line.n);
+  if (line.step != 0) step_[line.n] = line.step;
   undone_.clear();
 }
 
-std::optional<std::int64_t> History::undoable() const {
-  return done_.empty() ? std::nullopt : std::optional(done_.back());
-}
-
-std::optional<std::int64_t> History::redoable() const {
-  return undone_.empty() ? std::nullopt : std::optional(undone_.back());
+std::vector<std::int64_t> History::step_at_end(const std::vector<std::int64_t>& list) const {
+  if (list.empty()) return {};
+  const auto step = step_.find(list.back());
+  if (step == step_.end()) return {list.back()};
+  std::vector<std::int64_t> lines;
+  for (auto n = list.rbegin(); n != list.rend(); ++n) {
+    const auto of = step_.find(*n);
+    if (of != step_.end() && of->second == step->second) lines.push_back(*n);
+  }
+  return lines;
 }
 
 std::string act_name(const JournalAct& act, const CommandGround& ground, const JournalState* before,

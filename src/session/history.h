@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,15 +20,19 @@ class History {
   explicit History(std::span<const JournalLine> lines);
 
   void add(const JournalLine& line);
-  /// n of the line that undo takes back; empty where there is none.
-  [[nodiscard]] std::optional<std::int64_t> undoable() const;
-  [[nodiscard]] std::optional<std::int64_t> redoable() const;
+  /// n of the lines that undo takes back, in the order in which it does: of a step all, else one. Empty where there is
+  /// none.
+  [[nodiscard]] std::vector<std::int64_t> undoable() const { return step_at_end(done_); }
+  [[nodiscard]] std::vector<std::int64_t> redoable() const { return step_at_end(undone_); }
   /// n of the next line.
   [[nodiscard]] std::int64_t next() const { return last_ + 1; }
 
  private:
+  [[nodiscard]] std::vector<std::int64_t> step_at_end(const std::vector<std::int64_t>& list) const;
+
   std::vector<std::int64_t> done_;
   std::vector<std::int64_t> undone_;
+  std::map<std::int64_t, std::int64_t> step_;  ///< by n, of those that are part of one
   std::int64_t last_ = 0;
 };
 

@@ -64,7 +64,8 @@ class LivePicture {
 
   virtual void pointer(const PointerEvent& /*event*/) {}
   /// A menu opens at a place: what lies there becomes what its acts are about.
-  virtual void aim(PixelPoint /*at*/) {}
+  /// out  false where acts on the selected school are not meant: it lies elsewhere
+  virtual bool aim(PixelPoint /*at*/) { return true; }
   [[nodiscard]] virtual std::vector<Overlay> overlays() const { return {}; }
   /// What a tooltip says at a place; empty = nothing.
   [[nodiscard]] virtual std::string hint(PixelPoint /*at*/) const { return {}; }

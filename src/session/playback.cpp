@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/playback.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -8,6 +10,7 @@ namespace sonar {
 namespace {
 
 constexpr const char* kName = "playback";
+constexpr std::size_t kRatePings = 11;  // ten steps: as much as an eye averages
 constexpr std::array<double, 3> kTimes{1.0, 2.0, 5.0};
 constexpr std::array<const char*, 4> kTexts{"1x", "2x", "5x", "as fast as possible"};
 
@@ -34,6 +37,7 @@ void Playback::play() {
   of_ = document.shown();
   ping_ = -1;
   unreadable_ = false;
+  came_s_.clear();
   pulse_.run(kName, [this](double now_s) { return step(now_s); });
   changed_.tell();
 }
@@ -65,6 +69,9 @@ bool Playback::step(double now_s) {
   if (ping != ping_) {  // it has just come, whoever asked for it
     ping_ = ping;
     since_s_ = now_s;
+    came_s_.push_back(now_s);
+    if (came_s_.size() > kRatePings) came_s_.pop_front();
+    changed_.tell();
     if (speed_ != PlaySpeed::fastest) return true;
   }
   if (now_s - since_s_ < wait_s(ping)) return true;
@@ -76,7 +83,14 @@ bool Playback::step(double now_s) {
 void Playback::set_speed(PlaySpeed speed) {
   if (speed == speed_) return;
   speed_ = speed;
+  came_s_.clear();
   changed_.tell();
+}
+
+std::string Playback::rate_text() const {
+  if (!playing_ || came_s_.size() < 2 || !(came_s_.back() > came_s_.front())) return speed_text();
+  const double per_s = static_cast<double>(came_s_.size() - 1) / (came_s_.back() - came_s_.front());
+  return fmt::format("{}, {:.{}f} pings/s", speed_text(), per_s, per_s < 10.0 ? 1 : 0);
 }
 
 void Playback::faster() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 
@@ -35,7 +36,10 @@ class Playback {
   void slower();
   /// "5x", "as fast as possible".
   [[nodiscard]] std::string speed_text() const;
-  /// Called when playing() or speed() have changed.
+  /// "5x, 2.3 pings/s" while it plays and two pings have come at least, else as speed_text(): what is reached, which
+  /// recording and machine may hold below what was asked for.
+  [[nodiscard]] std::string rate_text() const;
+  /// Called when playing(), speed() or the rate have changed.
   [[nodiscard]] Listeners<>& changed() { return changed_; }
 
   /// Longest time between two pings at real time: gaps in the recording are not sat out, s.
@@ -53,6 +57,7 @@ class Playback {
   std::weak_ptr<OpenObservation> of_;  ///< what is played
   std::int64_t ping_ = -1;             ///< that waits for its successor
   double since_s_ = 0.0;               ///< when it was there
+  std::deque<double> came_s_;          ///< when the last pings came
   bool unreadable_ = false;            ///< the ping that was asked for cannot be had
   Listeners<> changed_;
   int listening_;

@@ -41,6 +41,17 @@ class PlaybackAtWork : public testing::Test {
   SlicesDesk desk_;
 };
 
+// Two pings a second on the test's own clock.
+TEST_F(PlaybackAtWork, TellsHowManyPingsASecondItReaches) {
+  EXPECT_EQ(playback().rate_text(), "1x");
+  for (int i = 0; i < 3; ++i) desk_.ask("ping.faster");
+  desk_.ask("ping.play");
+  for (int i = 0; i < 6; ++i) tick(0.5 * i);
+  EXPECT_EQ(playback().rate_text(), "as fast as possible, 2.0 pings/s");
+  desk_.ask("ping.play");
+  EXPECT_EQ(playback().rate_text(), "as fast as possible");
+}
+
 TEST_F(PlaybackAtWork, ShowsEveryPingInItsOrderAndThenRests) {
   std::vector<std::int64_t> arrived;
   document().changes().add([&](DocumentChange change) {

@@ -22,7 +22,27 @@ bool unreviewed_first(const SurveySchool& a, const SurveySchool& b) {
 }  // namespace
 
 Review::Review(Workspace& workspace, const Preferences& preferences)
-    : SchoolTable(workspace), preferences_(preferences) {}
+    : SchoolTable(workspace), preferences_(preferences) {
+  measured_listening_ = workspace.document.changes().add([this](DocumentChange change) {
+    if (change == DocumentChange::survey) goes_on_ = false;
+    if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
+    goes_on_ = false;
+    next();
+  });
+}
+
+Review::~Review() { workspace().document.changes().remove(measured_listening_); }
+
+void Review::school_selected() {
+  goes_on_ = false;  // a human has gone elsewhere
+  SchoolTable::school_selected();
+}
+
+bool Review::waits_for_figures() const {
+  return workspace().document.measuring() &&
+         std::any_of(schools().begin(), schools().end(),
+                     [&](const SurveySchool& school) { return school.row == nullptr && waits(school); });
+}
 
 void Review::make() {
   SchoolTable::make();
@@ -53,6 +73,8 @@ void Review::next() {
     document.open_all();
     break;
   }
+  goes_on_ = waits_for_figures();
+  if (goes_on_) return document.tell("wait: measuring; the school that scatters most is shown when all are measured");
   const auto at = selected();
   const std::size_t count = schools().size();
   for (std::size_t i = 0; i < count; ++i) {

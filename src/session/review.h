@@ -41,10 +41,14 @@ class Review : public SchoolTable {
  public:
   /// preferences  outlive it
   Review(Workspace& workspace, const Preferences& preferences);
+  ~Review() override;
+  Review(const Review&) = delete;
+  Review& operator=(const Review&) = delete;
 
   void narrow(const std::string& filter) override { filter_ = filter; }
   /// The next unreviewed school that the filter leaves, behind the selected one, from the beginning where there is none
-  /// behind. Opens what is not open yet.
+  /// behind. Opens what is not open yet. Who scatters most is known when all are measured: until then it waits, says so,
+  /// and goes there by itself, unless another school is selected meanwhile.
   void next();
   /// About the selected school; goes on to the next where preferences say so.
   void decide(std::string status);
@@ -58,13 +62,17 @@ class Review : public SchoolTable {
 
  protected:
   void make() override;
+  void school_selected() override;
 
  private:
   [[nodiscard]] bool waits(const SurveySchool& school) const;
+  [[nodiscard]] bool waits_for_figures() const;
   void say(Decision decision, const SurveySchool& school);
 
   const Preferences& preferences_;
   std::string filter_;
+  bool goes_on_ = false;  ///< when everything is measured
+  int measured_listening_ = 0;
   /// Decided, though the journal has not said so yet.
   std::set<std::pair<std::size_t, std::int64_t>> decided_;
 };

@@ -58,7 +58,8 @@ void add_decisions(Desk& desk, Review& review) {
                       .keys = std::move(keys),
                       .tip = tip,
                       .run = [&review, status] { review.decide(status); },
-                      .enabled = with_school});
+                      .enabled = with_school,
+                      .of_school = true});
   };
   add("review.accept", "Accept", {"A", "Return", "Enter"}, "The selected school is one", "accepted");
   add("review.reject", "Reject", {"R"}, "The selected school is none: it stays in the tables, marked", "rejected");
@@ -74,7 +75,8 @@ void add_species(Desk& desk, Review& review) {
                       .tip = "Species of the selected school; the list stands in the preferences",
                       .run = [&review, digit] { review.set_species(digit); },
                       .enabled = [&desk] { return desk.workspace.school().has_value(); },
-                      .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); }});
+                      .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); },
+                      .of_school = true});
   }
 }
 

@@ -84,6 +84,29 @@ TEST_F(ReviewAtWork, AFreshUserReviewsAHundredSchoolsWithThreeKeysEachAtMost) {
   EXPECT_EQ(document().notices().back(), "every school is reviewed");
 }
 
+// Detection brings weak and strong schools alike; before all are measured nobody knows which is the strongest.
+TEST_F(ReviewAtWork, WhileSchoolsAreMeasuredTheNextOneWaitsForTheStrongest) {
+  document().detect({0, 1});
+  bool asked = false;
+  document().changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::state || asked || document().state().schools.empty()) return;
+    asked = true;
+    EXPECT_TRUE(document().product(0) == nullptr || document().product(0)->schools.empty())
+        << "nothing is measured yet";
+    press("review.next");
+    EXPECT_FALSE(workspace().school());
+    EXPECT_THAT(document().notices().back(), HasSubstr("measuring"));
+  });
+  document().settle();
+  ASSERT_TRUE(asked);
+  ASSERT_TRUE(workspace().school()) << "it goes there by itself";
+  EXPECT_EQ(review().selected(), 0U);
+  const double most_m2 = std::get<double>(review().cell(0, 3).key);
+  for (std::size_t row = 1; row < review().rows(); ++row) {
+    EXPECT_LE(std::get<double>(review().cell(row, 3).key), most_m2);
+  }
+}
+
 TEST_F(ReviewAtWork, TheStrongestThatIsNotReviewedComesFirst) {
   paint_schools(6);
   double last_m2 = INFINITY;

@@ -50,8 +50,8 @@ void merge_selected(Workspace& workspace, Merging& merging) {
 
 void begin_merging(Workspace& workspace, Merging& merging) {
   merging.first = workspace.school();
-  workspace.document.tell(
-      fmt::format("select the school that is to become part of school {}; Esc gives up", merging.first->number));
+  workspace.document.tell(fmt::format("select the school that is to become part of {}; Esc gives up",
+                                      title_of(workspace.document, *merging.first)));
 }
 
 void reshape(Workspace& workspace, Reshaping what, bool all_pings) {
@@ -100,6 +100,15 @@ void comment(Desk& desk) {
   decision.school = school->key();
   decision.comment = asked_line(desk, *school, "Comment", school->decided().comment);
   if (decision.comment) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+}
+
+void rename(Desk& desk) {
+  const auto school = school_on_show(desk.workspace);
+  if (!school) return;
+  Decision decision;
+  decision.school = school->key();
+  decision.name = asked_line(desk, *school, "Name", school->decided().name);
+  if (decision.name) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
 void name_species(Desk& desk) {
@@ -173,7 +182,8 @@ void add_carrying(Desk& desk) {
                       .keys = {key},
                       .tip = "Follow the selected school through time from the mask that it has in this ping",
                       .run = [&workspace, backwards, forwards] { carry_on(workspace, backwards, forwards); },
-                      .enabled = with_school(desk)});
+                      .enabled = with_school(desk),
+                      .of_school = true});
   };
   add("school.propagate_forwards", "Propagate forwards from here", "P", false, true);
   add("school.propagate_backwards", "Propagate backwards from here", "Shift+P", true, false);
@@ -190,14 +200,16 @@ void add_reshaping(Desk& desk) {
                       .keys = {key},
                       .tip = fmt::format("{}, in this ping", tip),
                       .run = [&workspace, what] { reshape(workspace, what, false); },
-                      .enabled = with_school(desk)});
+                      .enabled = with_school(desk),
+                      .of_school = true});
     desk.actions.add({.id = std::string(id) + "_all",
                       .menu = kMenu,
                       .text = std::string(text) + ", whole track",
                       .keys = {whole_key},
                       .tip = fmt::format("{}, in all its pings", tip),
                       .run = [&workspace, what] { reshape(workspace, what, true); },
-                      .enabled = with_school(desk)});
+                      .enabled = with_school(desk),
+                      .of_school = true});
   };
   add("school.fill_holes", "Fill holes", "H", "Shift+H", "Give the selected school what it encloses",
       Reshaping::fill_holes);
@@ -220,21 +232,24 @@ void add_parting(Desk& desk, const std::shared_ptr<Merging>& merging) {
                             workspace.document.act(SplitCommand{school->key(), {}});
                           }
                         },
-                    .enabled = with_school(desk)});
+                    .enabled = with_school(desk),
+                    .of_school = true});
   desk.actions.add({.id = "school.split_piece",
                     .menu = kMenu,
                     .text = "Split off the piece pointed at",
                     .keys = {"Shift+K"},
                     .tip = "The piece under the cursor becomes a new school, through all pings",
                     .run = [&workspace] { split_under_cursor(workspace); },
-                    .enabled = with_school(desk)});
+                    .enabled = with_school(desk),
+                    .of_school = true});
   desk.actions.add({.id = "school.merge",
                     .menu = kMenu,
                     .text = "Merge with the next selected",
                     .keys = {"J"},
                     .tip = "The school that is selected next becomes part of this one",
                     .run = [&workspace, merging] { begin_merging(workspace, *merging); },
-                    .enabled = with_school(desk)});
+                    .enabled = with_school(desk),
+                    .of_school = true});
   workspace.school.changed().add([&workspace, merging] { merge_selected(workspace, *merging); });
 }
 
@@ -246,14 +261,24 @@ void add_naming(Desk& desk) {
                     .keys = {"Ctrl+Shift+K"},
                     .tip = "Name the species of the selected school; digits set those of the preferences",
                     .run = [&desk] { name_species(desk); },
-                    .enabled = with_school(desk)});
+                    .enabled = with_school(desk),
+                    .of_school = true});
+  desk.actions.add({.id = "school.rename",
+                    .menu = kMenu,
+                    .text = "Rename...",
+                    .keys = {"F2"},
+                    .tip = "A name beside the number of the selected school, in views, tables and files",
+                    .run = [&desk] { rename(desk); },
+                    .enabled = with_school(desk),
+                    .of_school = true});
   desk.actions.add({.id = "school.comment",
                     .menu = kMenu,
                     .text = "Comment...",
                     .keys = {"Ctrl+K"},
                     .tip = "A line of text about the selected school",
                     .run = [&desk] { comment(desk); },
-                    .enabled = with_school(desk)});
+                    .enabled = with_school(desk),
+                    .of_school = true});
   desk.actions.add(
       {.id = "school.delete",
        .menu = kMenu,
@@ -268,7 +293,8 @@ void add_naming(Desk& desk) {
              }
            },
        .enabled = [&workspace] { return workspace.mark() || school_on_show(workspace); },
-       .text_now = [&workspace] { return mark_text(workspace); }});
+       .text_now = [&workspace] { return mark_text(workspace); },
+       .of_school = true});
 }
 
 }  // namespace

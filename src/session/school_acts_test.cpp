@@ -154,6 +154,29 @@ TEST_F(SchoolActs, AnEmptyAnswerWipesACommentAndUndoBringsItBack) {
   EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "a wreck");
 }
 
+TEST_F(SchoolActs, ASchoolIsRenamedAndCalledSoEverywhere) {
+  desk_->asking.text = [](const auto&, const std::string& label, const std::string& now) {
+    EXPECT_EQ(label, "Name");
+    EXPECT_EQ(now, "");
+    return std::string("north wall");
+  };
+  act("school.rename", "rename", "Undo rename school 1");
+  EXPECT_EQ(title_of(document(), {0, 1}), "school 1 (north wall)");
+  const ProductPtr product = document().product(0);
+  ASSERT_TRUE(product);
+  ASSERT_EQ(product->schools.size(), 1U);
+  EXPECT_EQ(product->schools[0].name, "north wall") << "tables and files have it";
+  act("school.smooth", "smooth", "Undo smooth school 1 (north wall)");
+  press("edit.undo");
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(title_of(document(), {0, 1}), "school 1");
+  press("edit.redo");
+  document().settle();
+  begin();
+  EXPECT_EQ(title_of(document(), {0, 1}), "school 1 (north wall)");
+}
+
 TEST_F(SchoolActs, DecisionsAreWrittenDown) {
   desk_->preferences.advance = false;
   act("review.accept", "decide", "Undo accept school 1");
@@ -191,7 +214,7 @@ TEST_F(SchoolActs, NothingSelectedNothingDone) {
   press("school.none");
   const auto lines = document().choices().lines->size();
   for (const char* id : {"school.delete", "school.fill_holes", "school.split", "school.merge", "school.propagate",
-                         "school.comment", "review.accept"}) {
+                         "school.rename", "school.comment", "review.accept"}) {
     EXPECT_FALSE(desk_->actions.find(id)->enabled()) << id;
     press(id);
   }
@@ -213,7 +236,24 @@ TEST_F(SchoolActs, SearchingTheSurveyFindsSchoolsInEveryObservation) {
   EXPECT_TRUE(document().detected(0));
   EXPECT_TRUE(document().detected(1));
   EXPECT_FALSE(document().state(1).schools.empty());
-  EXPECT_EQ(document().choices().undo_text, "Undo look for schools");
+  EXPECT_EQ(document().choices().undo_text, "Undo look for schools in 2 observations");
+  EXPECT_EQ(pings_of(1), (Pings{2, 3, 4, 5, 6})) << "the school that was there keeps its number";
+  // One step, however many observations: one key takes it back, one does it again, and both stand in the journal.
+  const auto found = document().state(1).schools.size();
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(document().state(0).schools.size(), 1U);
+  EXPECT_TRUE(document().state(1).schools.empty());
+  EXPECT_EQ(document().choices().redo_text, "Redo look for schools in 2 observations");
+  press("edit.redo");
+  document().settle();
+  EXPECT_EQ(document().state(1).schools.size(), found);
+  begin();
+  EXPECT_EQ(document().state(1).schools.size(), found);
+  EXPECT_EQ(pings_of(1), (Pings{2, 3, 4, 5, 6}));
+  press("edit.undo");
+  document().settle();
+  EXPECT_TRUE(document().state(1).schools.empty()) << "also after the next start";
 }
 
 }  // namespace

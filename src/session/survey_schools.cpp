@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/survey_schools.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -44,6 +46,13 @@ SlicePlaces middle_of(const PingMask& mask, int beams) {
 }
 
 }  // namespace
+
+std::string title_of(const Document& document, const SchoolName& school) {
+  const auto& schools = document.state(school.observation).schools;
+  const auto found =
+      std::find_if(schools.begin(), schools.end(), [&](const auto& one) { return one->number == school.number; });
+  return found == schools.end() ? fmt::format("school {}", school.number) : school_title(**found);
+}
 
 std::int64_t SurveySchool::middle_ping() const {
   const auto& there = state->masks.pings;

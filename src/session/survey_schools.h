@@ -34,6 +34,9 @@ struct SurveySchool {
 /// Empty where there is none, or none is selected.
 [[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
 
+/// "school 3 (north wall)"; without its name where it is not known.
+[[nodiscard]] std::string title_of(const Document& document, const SchoolName& school);
+
 /// Selects a school, looks at its observation and its middle ping, and lays the slices through its middle.
 void go_to_school(Workspace& workspace, const SurveySchool& school);
 /// Looks at a ping of an observation; opens the observation where needed.

@@ -41,7 +41,7 @@ std::string school_text(const JournalState& state, std::int64_t ping_index, int 
   for (const auto& school : state.schools) {
     const auto* there = in_ping(school->masks, ping_index);
     const int q = there == nullptr ? 0 : confidence_at(there->mask, row, sample);
-    if (q > 0) return fmt::format("school {}, f {:.2f}", school->number, q / 255.0);
+    if (q > 0) return fmt::format("{}, f {:.2f}", school_title(*school), q / 255.0);
   }
   return {};
 }

@@ -72,8 +72,10 @@ Pings pings_under(std::span<const double> x, double gap, double from, double to)
 
 void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& theme) {
   const double em = theme.text_px;
-  const Ticks ticks =
-      nice_ticks(plot.y.first, plot.y.last, std::max(2, static_cast<int>(plot.place.height / (3.5 * em))));
+  int most = std::max(2, static_cast<int>(plot.place.height / (3.5 * em)));
+  Ticks ticks = nice_ticks(plot.y.first, plot.y.last, most);
+  // A scale with one number on it is none.
+  while (ticks.major.size() < 2 && most < 5) ticks = nice_ticks(plot.y.first, plot.y.last, ++most);
   for (const double v : ticks.major) {
     const double y = plot.at(0.0, v).y;
     frame.items.emplace_back(line_item({plot.place.x - 0.4 * em, y}, {plot.place.x, y}, theme.axis, theme.line_px));
@@ -141,7 +143,9 @@ Result<std::vector<Strip>> strips_of(std::span<const TimelineObservation> observ
   return strips;
 }
 
-const char* value_label(EchogramValue value) {
+/// brief  in few words: there is no room for what decibels refer to
+const char* value_label(EchogramValue value, bool brief) {
+  if (brief) return value == EchogramValue::mean ? "mean Sv (dB)" : "Sv (dB)";
   if (value == EchogramValue::maximum) return "largest Sv (dB re 1 m\u207B\u00B9)";
   return value == EchogramValue::minimum ? "smallest Sv (dB re 1 m\u207B\u00B9)" : "mean Sv (dB re 1 m\u207B\u00B9)";
 }
@@ -211,6 +215,8 @@ EchogramImage echogram_image(const EchogramPyramid& echogram, std::span<const do
 
 namespace {
 
+constexpr double kBarFrom_em = 40.0;  ///< a narrower picture without a title needs its width for time
+
 /// Everything that timeline() decides before it draws.
 struct LaidOut {
   TimeNs zero = 0;
@@ -219,6 +225,7 @@ struct LaidOut {
   std::string title;
   bool raw_gone = false;
   bool any_echogram = false;
+  bool colour_bar = false;
   std::vector<Strip> strips;
   std::vector<KeyEntry> key;
   Layout layout;
@@ -250,8 +257,9 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.title = heads.size() == 1 ? observation_title(heads.front()) : survey_title(heads);
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
+  out.colour_bar = out.any_echogram && (!style.brief || size.width >= kBarFrom_em * em);
   LayoutNeeds needs{
-      .title_lines = style.brief ? 0 : 3, .colour_bar = out.any_echogram && !style.brief, .y_label_characters = 4};
+      .title_lines = style.brief ? 0 : 3, .colour_bar = out.colour_bar, .y_label_characters = 4};
   if (!style.brief) out.key = timeline_key(out.strips, style, theme);
   if (!out.key.empty()) {
     needs.foot_lines = 1;
@@ -334,9 +342,10 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_names(frame, laid->strips, plot, theme);
   add_y_axis(frame, plot, theme);
   add_x_axis(frame, plot, style.axis, laid->zero, theme);
+  if (laid->colour_bar)
+    add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value, style.brief));
   if (style.brief) return frame;
   add_key(frame, laid->layout.foot, laid->key, theme);
-  if (laid->any_echogram) add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value));
   std::string line = time_span_text(laid->zero, laid->last);
   if (laid->any_echogram) line += style.filtered ? " · noise removed" : " · not filtered";
   if (!style.searched) line += " · schools not looked for";

@@ -37,7 +37,7 @@ struct TimelineStyle {
   SvScale scale{.map = ColourMapName::ek500, .low_db = -75.0, .span_db = 36.0};
   bool schools = true;
   bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
-  bool brief = false;      ///< no title and no colour bar: a window has its own
+  bool brief = false;      ///< no title, and a colour bar only where it is wide: a window has its own
   bool raw_there = false;  ///< the raw data are there: an echogram that is missing is being read
   bool filtered = false;   ///< echograms are of data without noise, and the title says so
   bool searched = true;    ///< schools were looked for; else the title says that they were not
@@ -55,7 +55,7 @@ void describe(Visitor& v, TimelineStyle& p) {
   v.field("raw_there", p.raw_there, {.text = "a missing echogram is being read, not gone"});
   v.field("filtered", p.filtered, {.text = "the echograms are of data whose noise was removed"});
   v.field("searched", p.searched, {.text = "schools were looked for"});
-  v.field("brief", p.brief, {.text = "no title and no colour bar"});
+  v.field("brief", p.brief, {.text = "no title; a colour bar only where it is wide"});
 }
 
 /// What a human marked, on the clock of the product's pings.

@@ -309,6 +309,30 @@ TEST(Timeline, AKeyNamesItsTracksAndTheTitleHowItWasMade) {
   EXPECT_TRUE(says(drawn(), "schools not looked for"));
 }
 
+// However low the picture and however far the sonar reaches: one number alone is no scale.
+TEST(Timeline, ALowOneStillHasTwoRanges) {
+  for (const double far_m : {90.0, 130.0, 230.0, 430.0, 600.0}) {
+    ObservationProduct p = map_example::product("obs-0001", 40);
+    p.grid->range.spacing_m = far_m / p.grid->range.count;
+    const TimelineObservation one{&p, nullptr};
+    TimelineStyle style;
+    style.brief = true;
+    for (int height = 120; height < 260; height += 10) {
+      const PixelSize size{500, height};
+      const Theme theme = light_theme(size);
+      const auto frame = timeline(std::span(&one, 1), style, size, theme);
+      if (!frame) continue;  // too low for any
+      const auto where = timeline_plot(std::span(&one, 1), style, size, theme);
+      ASSERT_TRUE(where);
+      const auto ranges = std::count_if(frame->items.begin(), frame->items.end(), [&](const auto& item) {
+        const auto* text = std::get_if<TextItem>(&item);
+        return text != nullptr && text->anchor == TextAnchor::right && text->at.x < where->plot.place.x;
+      });
+      EXPECT_GE(ranges, 2) << far_m << " m, " << height << " pixels";
+    }
+  }
+}
+
 TEST(Timeline, MarksStandAtTheirTimesAndTellWhatHappened) {
   ObservationProduct p = map_example::product("obs-0001", 40);
   map_example::add_school(p, 3, p.pings[0].transducer, 5, 15, map_example::block(2, 1, 2, 24, 3));

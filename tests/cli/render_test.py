@@ -315,7 +315,7 @@ class BadInput(unittest.TestCase):
         self.assertEqual(code, 0, out + error)
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "timeline", "observation-map"):
             self.assertEqual(render(kind, folder / "survey", "--out", folder / "x.png")[0], 0, kind)
-        self.refused("volume", folder / "survey", "--out", folder / "x.png", code=2, says=["1 fans", "2 of each"])
+        self.refused("volume", folder / "survey", "--out", folder / "x.png", code=2, says=["1 x ", "2 of each"])
 
     def test_a_ping_without_data(self):
         folder = sonarx.Case.fresh("silent_ping")

@@ -68,6 +68,7 @@ TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {
   const Target target = look_at_school();
   move("top_slice", place_in("top_slice", target.voxel));
   EXPECT_THAT(desk_->picture("top_slice")->timing(), testing::MatchesRegex("[0-9.]+ ms, growth [0-9.]+ ms"));
+  keep_picture("latencies");
   key(Qt::Key_F12);
   EXPECT_FALSE(workspace().latencies());
 }

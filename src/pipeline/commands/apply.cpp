@@ -36,6 +36,18 @@ void note_ends(Edit& edit, const ManualSchool& made) {
   }
 }
 
+/// What is carried on again replaces what was carried to the same sides before.
+std::shared_ptr<const GrownFrom> followed_by(const GrownFrom& before, const PropagateCommand& command) {
+  const auto backward = [](const PropagateCommand& one) { return one.reach_backward.value_or(one.reach) != 0; };
+  const auto forward = [](const PropagateCommand& one) { return one.reach_forward.value_or(one.reach) != 0; };
+  auto grown = std::make_shared<GrownFrom>(before);
+  std::erase_if(grown->followed, [&](const PropagateCommand& one) {
+    return (backward(command) || !backward(one)) && (forward(command) || !forward(one));
+  });
+  grown->followed.push_back(command);
+  return grown;
+}
+
 Result<PingMask> selection_of(const Edit& edit, const PropagateCommand& command, std::optional<std::size_t> school) {
   if (school) {
     if (in_ping(edit.masks(*school), edit.ping()) == nullptr) {
@@ -110,7 +122,9 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
   edit.carried_out_as(made->reached);
   const std::vector<SchoolMasks::InPing> carried = made->school.pings;
   if (school) {
+    const auto before = edit.state().schools[*school]->grown;
     edit.touch(*school);
+    if (before && before->ping_index == edit.ping()) edit.set_grown(*school, followed_by(*before, made->reached));
     edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.ground().limits));
     for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
   } else {

@@ -91,9 +91,10 @@ struct Decision {
   std::optional<std::string> status;  ///< one of kStatusNames
   std::optional<std::string> species;
   std::optional<std::string> comment;
+  std::optional<std::string> name = {};
 };
 
-/// `decide`, `species`, `comment`: one decision; `bulk_decide`: what a rule chose, school by school.
+/// `decide`, `species`, `comment`, `rename`: one decision; `bulk_decide`: what a rule chose, school by school.
 struct DecideCommand {
   std::vector<Decision> decisions;
   std::string rule;  ///< of bulk_decide, for people
@@ -136,7 +137,10 @@ struct CalibrateCommand {
 
 /// `detect`: schools of the line's observation are looked for without a human; every other line is laid upon what is found,
 /// whether it came before or after.
-struct DetectCommand {};
+struct DetectCommand {
+  /// How many were found: their numbers are theirs, also before they are found again. 0 = not known.
+  std::int64_t schools = 0;
+};
 
 using Command = std::variant<PropagateCommand, GrowCommand, BrushCommand, EraseCommand, ReshapeCommand, MergeCommand,
                              SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand,

@@ -12,6 +12,7 @@
 #include "pipeline/calibration_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/json_members.h"
+#include "pipeline/json_file.h"
 #include "pipeline/transfer_function_json.h"
 
 namespace sonar {
@@ -37,6 +38,7 @@ json from_decision(const Decision& decision) {
   if (decision.status) args["status"] = *decision.status;
   if (decision.species) args["species"] = *decision.species;
   if (decision.comment) args["comment"] = *decision.comment;
+  if (decision.name) args["name"] = *decision.name;
   return args;
 }
 
@@ -51,14 +53,15 @@ Result<Decision> read_decision(const json& args, const std::string& place, TimeN
     if (!status) return named(status.error());
     decision.status = std::string(kStatusNames[*status]);
   }
-  for (const auto& [member, text] : {std::pair("species", &decision.species), {"comment", &decision.comment}}) {
+  for (const auto& [member, text] :
+       {std::pair("species", &decision.species), {"comment", &decision.comment}, {"name", &decision.name}}) {
     if (!args.contains(member)) continue;
     auto read = read_text(args, member);
     if (!read) return named(read.error());
     *text = std::move(*read);
   }
-  if (!decision.status && !decision.species && !decision.comment) {
-    return fail(ErrorCode::format, place + "expected status, species or comment");
+  if (!decision.status && !decision.species && !decision.comment && !decision.name) {
+    return fail(ErrorCode::format, place + "expected status, species, comment or name");
   }
   return decision;
 }
@@ -163,6 +166,17 @@ Result<EventCommand> read_event(const json& args) {
   return EventCommand{std::string(kEventKindNames[*kind]), *time, std::move(*text)};
 }
 
+Result<Command> read_detect(const json& args) {
+  constexpr std::int64_t kMostSchools = 1'000'000'000;
+  const auto found = args.find("schools");
+  if (found == args.end()) return DetectCommand{};
+  const auto schools = whole_number(*found);
+  if (!schools || *schools < 0 || *schools > kMostSchools) {
+    return fail(ErrorCode::format, fmt::format("schools: expected a whole number from 0 to {}", kMostSchools));
+  }
+  return DetectCommand{*schools};
+}
+
 template <class C>
 Result<Command> read_interval(std::string_view name, const json& args, TimeNs ping_time) {
   if (name == "bad_ping" && !args.contains("first")) return C{ping_time, ping_time};
@@ -181,8 +195,10 @@ json from_event(const EventCommand& event) {
 std::string decide_name(const DecideCommand& command) {
   if (command.decisions.size() != 1 || !command.rule.empty()) return "bulk_decide";
   const Decision& one = command.decisions.front();
-  if (!one.status && one.species && !one.comment) return "species";
-  if (!one.status && !one.species && one.comment) return "comment";
+  if (one.status) return "decide";
+  if (one.species && !one.comment && !one.name) return "species";
+  if (one.comment && !one.species && !one.name) return "comment";
+  if (one.name && !one.species && !one.comment) return "rename";
   return "decide";
 }
 
@@ -258,7 +274,9 @@ nlohmann::json to_json(const Command& command) {
                         made["file"] = c.file;
                         return made;
                       },
-                      [](const DetectCommand&) { return json::object(); }};
+                      [](const DetectCommand& c) {
+                        return c.schools > 0 ? json{{"schools", c.schools}} : json::object();
+                      }};
   return std::visit(args, command);
 }
 
@@ -282,7 +300,7 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
     if (!school) return pass_on(school);
     return DeleteCommand{*school};
   }
-  if (name == "decide" || name == "species" || name == "comment" || name == "bulk_decide") {
+  if (name == "decide" || name == "species" || name == "comment" || name == "rename" || name == "bulk_decide") {
     return read_decide(name, args, ping_time);
   }
   if (name == "event" || name == "remove_event") {
@@ -300,7 +318,7 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
     if (!file) return pass_on(file);
     return CalibrateCommand{std::move(*calibration), std::move(*file)};
   }
-  if (name == "detect") return DetectCommand{};
+  if (name == "detect") return read_detect(args);
   return fail(ErrorCode::unsupported, "this version does not know the command");
 }
 

@@ -24,6 +24,13 @@ Decision decision(const SchoolKey& school, std::optional<std::string> status, st
   return {school, std::move(status), std::move(species), std::move(comment)};
 }
 
+Decision renaming(const SchoolKey& school, std::string name) {
+  Decision made;
+  made.school = school;
+  made.name = std::move(name);
+  return made;
+}
+
 /// One of every command, each of which can be carried out upon detected().
 std::vector<std::pair<int, Command>> every_command() {
   GrowCommand grow;
@@ -60,6 +67,7 @@ std::vector<std::pair<int, Command>> every_command() {
           {3, DecideCommand{{decision(key_a(), "accepted")}, ""}},
           {3, DecideCommand{{decision(key_a(), {}, "herring")}, ""}},
           {3, DecideCommand{{decision(key_a(), {}, {}, "near the \"wreck\"")}, ""}},
+          {3, DecideCommand{{renaming(key_a(), "north wall")}, ""}},
           {3, DecideCommand{{decision(key_a(), "accepted"), decision(key_b(), "rejected")}, "5 pings or more"}},
           {3, EventCommand{"trawl", ping_time(2), "haul 12"}},
           {3, BadPingsCommand{ping_time(3), ping_time(3)}},
@@ -315,6 +323,96 @@ TEST(Commands, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
   EXPECT_EQ(recipe_text(measuring_recipe({}, SmallSea::detected())), recipe_text({}));
   const JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
   EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.ground()).calibration);
+}
+
+TEST(Commands, ANameIsKeptWithTheSchoolAndInItsRow) {
+  const JournalState state = after({{3, DecideCommand{{renaming(key_a(), "north wall")}, ""}}});
+  EXPECT_EQ(state.schools[0]->masks.decided.name, "north wall");
+  EXPECT_EQ(state.schools[0]->masks.decided.status, "unreviewed") << "a name is no decision about what it is";
+  EXPECT_EQ(school_title(*state.schools[0]), "school 1 (north wall)");
+  EXPECT_EQ(school_title(*state.schools[1]), "school 2");
+  const JournalLine written = line(1, 3, DecideCommand{{renaming(key_a(), "")}, ""});
+  EXPECT_EQ(written.command, "rename");
+  EXPECT_EQ(written.args["name"], "") << "an empty name takes the name away";
+  EXPECT_EQ(after({{3, DecideCommand{{renaming(key_a(), "north wall")}, ""}},
+                   {3, DecideCommand{{renaming(key_a(), "")}, ""}}})
+                .schools[0]
+                ->masks.decided.name,
+            "");
+}
+
+std::vector<SchoolMasks> found_schools() { return masks_of(SmallSea::detected()); }
+
+// A human's school has number 1 before anything is looked for: what is found later goes on from there, whatever of it the
+// human's school had taken before.
+TEST(Commands, WhatIsFoundLaterRenumbersNobody) {
+  const SmallSea sea;
+  BrushCommand apart;
+  apart.runs = {{channel_at(0, 0), 5, 3}};
+  GrowCommand on_a;
+  on_a.seeds = {seed_a()};
+  for (const Command& first : {Command(apart), Command(propagate_from(seed_a()))}) {
+    std::vector<JournalLine> lines{line(1, 3, first), line(2, 0, DetectCommand{2}), line(3, 6, apart)};
+    const JournalState alone = fold(std::span(lines).first(1), {}, sea.ground());
+    ASSERT_EQ(alone.schools.size(), 1U);
+    ASSERT_EQ(alone.schools[0]->number, 1);
+    const JournalState state = fold(lines, state_before_detection(found_schools()), sea.ground());
+    EXPECT_EQ(state.schools.front()->number, 1);
+    EXPECT_EQ(state.schools.front()->made_by, 1);
+    EXPECT_EQ(state.schools.back()->number, 4) << "1 by hand, 2 and 3 found";
+    EXPECT_EQ(state.schools.back()->made_by, 3);
+    // Of the two that were found the second is B, whether or not the first was taken over.
+    const auto b = school_at(state, sea.ground(), key_b());
+    ASSERT_TRUE(b);
+    EXPECT_EQ(state.schools[*b]->number, 3);
+    // The journal alone knows their numbers while they are still looked for.
+    const JournalState waiting = fold(lines, {}, sea.ground());
+    EXPECT_EQ(waiting.schools.back()->number, 4);
+  }
+}
+
+TEST(Commands, ALineThatAsksForDetectionSaysHowManyWereFound) {
+  const JournalLine written = line(1, 0, DetectCommand{7});
+  EXPECT_EQ(written.args["schools"], 7);
+  const auto read = act_of(written);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(std::get<DetectCommand>(read->command).schools, 7);
+  JournalLine older = written;
+  older.args = nlohmann::json::object();
+  ASSERT_TRUE(act_of(older));
+  for (const auto& wrong : {nlohmann::json(-1), nlohmann::json("two"), nlohmann::json(1e15)}) {
+    older.args = {{"schools", wrong}};
+    EXPECT_FALSE(act_of(older)) << wrong.dump();
+  }
+}
+
+TEST(Commands, OnlyClicksAndPropagationsFromThereLeaveASchoolThatGrowsAgain) {
+  const SmallSea sea;
+  GrowCommand grow;
+  grow.seeds = {seed_a()};
+  PropagateCommand on;
+  on.school = key_a(3);
+  const auto state_after = [&](std::vector<std::pair<int, Command>> acts) {
+    std::vector<JournalLine> lines;
+    for (const auto& [ping, command] : acts) {
+      lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
+    }
+    return fold(lines, {}, sea.ground());
+  };
+  const JournalState followed = state_after({{3, grow}, {3, on}});
+  ASSERT_TRUE(followed.schools[0]->grown);
+  EXPECT_EQ(followed.schools[0]->grown->ping_index, 3);
+  EXPECT_EQ(followed.schools[0]->grown->followed.size(), 1U);
+  EXPECT_TRUE(state_after({{3, grow}, {3, on}, {3, on}}).schools[0]->grown->followed.size() == 1U)
+      << "what was done again counts once";
+  PropagateCommand elsewhere = on;
+  elsewhere.school = key_a(4);
+  EXPECT_FALSE(state_after({{3, grow}, {3, on}, {4, elsewhere}}).schools[0]->grown);
+  EXPECT_FALSE(
+      state_after({{3, grow}, {3, on}, {4, EraseCommand{{{channel_at(2, 3), 31, 2}}, key_a(4)}}}).schools[0]->grown);
+  EXPECT_TRUE(
+      state_after({{3, grow}, {3, on}, {3, DecideCommand{{decision(key_a(3), "accepted")}, ""}}}).schools[0]->grown)
+      << "a decision is about it, not of it";
 }
 
 TEST(Commands, LinesOfOtherPingsChangeNothing) {

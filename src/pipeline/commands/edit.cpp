@@ -82,6 +82,7 @@ std::size_t Edit::add(SchoolMasks masks) {
 void Edit::touch(std::size_t school) {
   StateSchool& changed = writable(school);
   changed.by_hand = true;
+  changed.grown.reset();
   SchoolRow& row = changed.masks.decided;
   if (row.origin == "automatic") row.status = "corrected";
   row.operator_name = act_.operator_name;
@@ -93,8 +94,21 @@ void Edit::decide(std::size_t school, const Decision& decision) {
   if (decision.status) row.status = *decision.status;
   if (decision.species) row.species = *decision.species;
   if (decision.comment) row.comment = *decision.comment;
+  if (decision.name) row.name = *decision.name;
   row.operator_name = act_.operator_name;
   row.decided_utc = act_.decided;
+}
+
+void Edit::number_detected(std::int64_t at_least) {
+  for (std::size_t i = 0; i < state_.schools.size(); ++i) {
+    const std::int64_t number = state_.schools[i]->number;
+    // Each has its place, also where an earlier line took another one's voxels.
+    if (number < 0) writable(i).number = state_.next_number + state_.unnumbered + number;
+  }
+  state_.next_number += std::max(state_.unnumbered, at_least);
+  state_.unnumbered = 0;
+  std::stable_sort(state_.schools.begin(), state_.schools.end(),
+                   [](const auto& a, const auto& b) { return a->number < b->number; });
 }
 
 void Edit::set_mask(std::size_t school, std::int64_t ping_index, PingMask mask, double threshold_db) {

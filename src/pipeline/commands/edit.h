@@ -33,9 +33,15 @@ class Edit {
 
   /// A new school of the line's operator; nobody has decided about it yet.
   std::size_t add(SchoolMasks masks);
-  /// Notes that a human changed a school; a detected one is `corrected` from now on.
+  /// Notes that a human changed a school, in whatever way; a detected one is `corrected` from now on.
   void touch(std::size_t school);
   void decide(std::size_t school, const Decision& decision);
+  /// What was found gets its numbers, the next ones; so many are taken at least.
+  void number_detected(std::int64_t at_least);
+  /// After touch(): only such acts have made the school.
+  void set_grown(std::size_t school, std::shared_ptr<const GrownFrom> grown) {
+    writable(school).grown = std::move(grown);
+  }
   /// An empty mask takes the ping away. threshold_db: NaN = as it was
   void set_mask(std::size_t school, std::int64_t ping_index, PingMask mask, double threshold_db = kUnknown);
   void set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings);
@@ -78,7 +84,7 @@ class Edit {
 [[nodiscard]] Result<void> carry_out(Edit& edit, const SplitCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DeleteCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DecideCommand& command);
-/// Changes nothing: what is found lies under the first line.
+/// Changes no mask: what is found lies under the first line.
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DetectCommand& command);
 
 }  // namespace sonar

@@ -72,12 +72,19 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
     return {};
   }
   const double threshold_db = threshold_of(command, edit.ground(), *ping);
+  const auto before = school ? edit.state().schools[*school]->grown : nullptr;
   if (school) {
     edit.touch(*school);
     if (anew) edit.set_mask(*school, edit.ping(), {});  // its threshold goes with it
     edit.set_mask(*school, edit.ping(), unite(edit.mask(*school, edit.ping()), *grown), threshold_db);
   } else {
     school = edit.add(one_ping(edit.ping(), *grown, threshold_db));
+  }
+  const bool again = anew && before && before->ping_index == edit.ping();
+  if (again || !command.school) {
+    // Grown again, it keeps what followed until that is done again too.
+    edit.set_grown(*school, std::make_shared<const GrownFrom>(GrownFrom{
+                                edit.ping(), command, again ? before->followed : std::vector<PropagateCommand>{}}));
   }
   edit.take(edit.ping(), *grown, *school, true);
   return {};

@@ -141,6 +141,9 @@ Result<void> carry_out(Edit& edit, const DeleteCommand& command) {
   return {};
 }
 
-Result<void> carry_out(Edit& /*edit*/, const DetectCommand& /*command*/) { return {}; }
+Result<void> carry_out(Edit& edit, const DetectCommand& command) {
+  edit.number_detected(command.schools);
+  return {};
+}
 
 }  // namespace sonar

@@ -36,7 +36,7 @@ TEST(Commands, HostileLinesAreRefusedByTheNameOfTheMember) {
       {"split", R"({"school":{"channel":1,"sample":2},"seed":[]})", "seed: expected"},
       {"delete", R"({})", "school: expected"},
       {"decide", R"({"school":{"channel":1,"sample":2},"status":"maybe"})", "status: expected"},
-      {"decide", R"({"school":{"channel":1,"sample":2}})", "status, species or comment"},
+      {"decide", R"({"school":{"channel":1,"sample":2}})", "status, species, comment or name"},
       {"species", R"({"school":{"channel":1,"sample":2},"species":"her\u0000ring"})", "control characters"},
       {"bulk_decide", R"({"rule":"x","decisions":[3]})", "decisions[0]"},
       {"event", R"({"kind":"party","time":1,"text":""})", "kind: expected"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/commands/state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -21,6 +23,23 @@ JournalState state_of_detected(std::vector<SchoolMasks> schools) {
     state.schools.push_back(std::move(school));
   }
   return state;
+}
+
+JournalState state_before_detection(std::vector<SchoolMasks> schools) {
+  JournalState state = state_of_detected(std::move(schools));
+  state.unnumbered = static_cast<std::int64_t>(state.schools.size());
+  state.next_number = 1;
+  for (auto& school : state.schools) {
+    auto copy = std::make_shared<StateSchool>(*school);
+    copy->number -= state.unnumbered + 1;
+    school = std::move(copy);
+  }
+  return state;
+}
+
+std::string school_title(const StateSchool& school) {
+  const std::string& name = school.masks.decided.name;
+  return fmt::format("school {}{}", school.number, name.empty() ? "" : " (" + name + ")");
 }
 
 const SchoolMasks::InPing* in_ping(const SchoolMasks& school, std::int64_t ping_index) {

@@ -17,13 +17,25 @@
 
 namespace sonar {
 
+/// How a school came to be that only clicks of one ping and propagations from there have made: it can be grown again.
+struct GrownFrom {
+  std::int64_t ping_index = 0;
+  GrowCommand grow;
+  std::vector<PropagateCommand> followed;  ///< in order, each from that ping
+};
+
 /// A school as the journal has left it.
 struct StateSchool {
-  std::int64_t number = 0;   ///< 1, 2, ... in the order in which schools came to be; for people
+  /// 1, 2, ... in the order in which schools came to be; for people. Below 0: found, and not asked for yet.
+  std::int64_t number = 0;
   std::int64_t made_by = 0;  ///< the journal line that made it; 0 = detected
   bool by_hand = false;      ///< a human made or changed its mask
   SchoolMasks masks;
+  std::shared_ptr<const GrownFrom> grown;  ///< null = it was made or changed in another way
 };
+
+/// "school 3", or "school 3 (north wall)" where it has a name.
+[[nodiscard]] std::string school_title(const StateSchool& school);
 
 /// A human made, changed or accepted its mask: growths and propagations of other schools leave its voxels alone.
 [[nodiscard]] bool keeps_its_voxels(const StateSchool& school);
@@ -32,6 +44,7 @@ struct StateSchool {
 struct JournalState {
   std::vector<std::shared_ptr<const StateSchool>> schools;  ///< rising number
   std::int64_t next_number = 1;
+  std::int64_t unnumbered = 0;                           ///< how many were found that have no numbers yet
   std::vector<EventCommand> events;                      ///< in time order
   std::vector<BadPingsCommand> bad_pings;                ///< as they were said, less what is good again
   std::shared_ptr<const CalibrationParams> calibration;  ///< that Sv and measures follow; null = the recipe's
@@ -40,6 +53,9 @@ struct JournalState {
 
 /// The state before the first line: what was detected.
 [[nodiscard]] JournalState state_of_detected(std::vector<SchoolMasks> schools);
+/// The same where a line `detect` asks for them: from there on they have numbers, above those of the schools that were
+/// there before, so that finding schools renames none.
+[[nodiscard]] JournalState state_before_detection(std::vector<SchoolMasks> schools);
 
 /// The state after one more act. An act on other pings changes nothing.
 /// errors   bad_parameter: what it needs is not there, in one line; those of the pings. The state stands.

@@ -128,7 +128,7 @@ inline std::string told(const JournalState& state) {
   std::string text;
   for (const auto& school : state.schools) {
     const SchoolRow& row = school->masks.decided;
-    text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment +
+    text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment + row.name +
             row.operator_name + std::to_string(row.decided_utc) + (school->by_hand ? "h" : "d");
     for (const auto& there : school->masks.pings) {
       text += "|" + std::to_string(there.ping_index) + ":" + std::to_string(there.threshold_db);

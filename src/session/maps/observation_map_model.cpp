@@ -11,6 +11,7 @@
 #include "session/maps/cursor_place.h"
 #include "session/maps/observation_map_painter.h"
 #include "session/place_text.h"
+#include "session/survey_schools.h"
 #include "view/map_items.h"
 
 namespace sonar {
@@ -140,8 +141,11 @@ void ObservationMapModel::pointer(const PointerEvent& event) {
   }
 }
 
-void ObservationMapModel::aim(PixelPoint at) {
-  if (places_ && places_->map) click(at);
+bool ObservationMapModel::aim(PixelPoint at) {
+  if (!places_ || !places_->map) return true;
+  const bool school = places_->school_at(at) != 0;
+  click(at);
+  return school;
 }
 
 void ObservationMapModel::click(PixelPoint at) {
@@ -172,7 +176,7 @@ std::string ObservationMapModel::hint(PixelPoint at) const {
     const TimeNs time = shown->files().navigation[static_cast<std::size_t>(*ping)].time;
     text = fmt::format("ping {}, {} UTC\n", *ping, clock_text(time, true));
   } else if (const std::int64_t school = places_->school_at(at)) {
-    text = fmt::format("school {}\n", school);
+    text = title_of(workspace_.document, {shown->index(), school}) + "\n";
   }
   const auto there = places_->map->geographic(at);
   if (!there) return text;

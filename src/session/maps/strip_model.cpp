@@ -185,11 +185,12 @@ void StripModel::pointer(const PointerEvent& event) {
   }
 }
 
-void StripModel::aim(PixelPoint at) {
+bool StripModel::aim(PixelPoint at) {
   const auto* pane = places_ ? places_->pane_at(at) : nullptr;
-  if (pane == nullptr) return;
+  if (pane == nullptr) return true;
   clicked_ = pane->ping;
   workspace_.document.look_at(pane->ping);
+  return true;
 }
 
 std::string StripModel::hint(PixelPoint at) const {

@@ -35,7 +35,7 @@ class StripModel : public LivePicture {
   explicit StripModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
-  void aim(PixelPoint at) override;
+  bool aim(PixelPoint at) override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   [[nodiscard]] MaskAspect aspect() const { return aspect_; }
   void set_aspect(MaskAspect aspect);

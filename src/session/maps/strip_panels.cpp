@@ -27,8 +27,7 @@ std::map<std::int64_t, std::string> endings(const JournalState& state) {
     // Of several schools in the ping the youngest is the one that was carried on last.
     for (auto school = state.schools.rbegin(); school != state.schools.rend(); ++school) {
       if (in_ping((*school)->masks, note.ping_index) == nullptr) continue;
-      notes[end_of((*school)->masks, note.ping_index, step)] =
-          fmt::format("school {}, {}", (*school)->number, note.text);
+      notes[end_of((*school)->masks, note.ping_index, step)] = fmt::format("{}, {}", school_title(**school), note.text);
       break;
     }
   }
@@ -69,7 +68,7 @@ std::string strip_title(const StripWish& wish) {
   if (wish.state && wish.selected != 0) {
     for (const auto& school : wish.state->schools) {
       if (school->number != wish.selected || school->masks.pings.empty()) continue;
-      title += fmt::format(" · school {} in pings {} to {}", school->number, school->masks.pings.front().ping_index,
+      title += fmt::format(" · {} in pings {} to {}", school_title(*school), school->masks.pings.front().ping_index,
                            school->masks.pings.back().ping_index);
     }
   }

@@ -9,6 +9,7 @@
 #include "geo/geodesic.h"
 #include "session/maps/survey_map_painter.h"
 #include "session/place_text.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
@@ -117,8 +118,11 @@ void SurveyMapModel::pointer(const PointerEvent& event) {
   }
 }
 
-void SurveyMapModel::aim(PixelPoint at) {
-  if (places_ && places_->map) click(at);
+bool SurveyMapModel::aim(PixelPoint at) {
+  if (!places_ || !places_->map) return true;
+  const bool school = places_->school_at(at) != nullptr;
+  click(at);
+  return school;
 }
 
 void SurveyMapModel::click(PixelPoint at) {
@@ -160,7 +164,8 @@ std::string SurveyMapModel::hint(PixelPoint at) const {
   const auto& observations = workspace_.document.survey()->observations;
   std::string text;
   if (const auto* school = places_->school_at(at); school != nullptr) {
-    text = fmt::format("{}, school {}\n", observations[school->name.observation].name, school->name.number);
+    text = fmt::format("{}, {}\n", observations[school->name.observation].name,
+                       title_of(workspace_.document, school->name));
   } else if (const auto ping = places_->ping_at(at)) {
     text = fmt::format("{}, ping {}\n", observations[ping->observation].name, ping->ping);
   }

@@ -46,7 +46,7 @@ class SurveyMapModel : public LivePicture {
   explicit SurveyMapModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
-  void aim(PixelPoint at) override;
+  bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// Of the picture on show; null before the first.

@@ -47,7 +47,8 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
     // The mask lives in the school, which the layer keeps.
     layers.push_back({school->number, i == selected,
                       layer_of(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
-                               status_line(school->masks.decided.status))});
+                               status_line(school->masks.decided.status)),
+                      school_title(*school)});
   }
   if (const auto found = document.propagating().find(ping_index);
       found != document.propagating().end() && display.masks) {

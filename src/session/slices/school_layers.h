@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "session/workspace.h"
@@ -20,6 +21,7 @@ struct SchoolLayer {
   std::int64_t number = 0;  ///< of the school; 0 = the preview, or a propagation that runs
   bool selected = false;
   MaskLayer layer;
+  std::string title = {};  ///< "school 3 (north wall)"
 };
 
 /// What lies over a ping of the observation on show: its schools, what a running propagation has reached, and what would

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/slices/slice_build.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <variant>
 
@@ -50,7 +48,7 @@ void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& th
       if (!at) return;
       picture.frame.items.emplace_back(ClipItem{picture.plot.place});
       picture.frame.items.emplace_back(TextItem{{at->x + 0.5 * theme.text_px, at->y},
-                                                fmt::format("school {}", school.number),
+                                                school.title,
                                                 theme.text_px,
                                                 theme.text,
                                                 TextAnchor::left,

@@ -137,9 +137,10 @@ std::string SliceModel::hint(PixelPoint at) const {
     hint += fmt::format("\nweak: {:.1f} dB above the noise", *snr_db);
   }
   if (!text.school.empty()) hint += "\n" + text.school;
-  // Over a school the preview says which one it is, as the line before does.
+  // Over a school the preview says which one it is, over what is removed why nothing grows: as the lines before do.
   const Preview& preview = workspace_.preview();
-  if (!preview.text.empty() && (preview.mask || text.school.empty())) hint += "\n" + preview.text;
+  const bool said = !text.school.empty() || !text.flags.empty();
+  if (!preview.text.empty() && (preview.mask || !said)) hint += "\n" + preview.text;
   return hint;
 }
 

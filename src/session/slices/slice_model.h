@@ -30,7 +30,7 @@ class SliceModel : public LivePicture {
   ~SliceModel() override;
 
   void pointer(const PointerEvent& event) override;
-  void aim(PixelPoint at) override;
+  bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// With the growth that the picture shows the trial of.

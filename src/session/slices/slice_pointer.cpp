@@ -96,10 +96,12 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
   }
 }
 
-void SliceModel::aim(PixelPoint at) {
+bool SliceModel::aim(PixelPoint at) {
   point({PointerAction::move, PointerButton::none, at});
   const auto voxel = voxel_at(at);
-  if (voxel && seed_.school_under(*voxel)) seed_.select(*voxel);
+  const bool school = voxel && seed_.school_under(*voxel);
+  if (school) seed_.select(*voxel);
+  return school;
 }
 
 void SliceModel::release(const PointerEvent& event) {

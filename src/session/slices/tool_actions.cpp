@@ -50,6 +50,9 @@ void copy_read_out(Desk& desk) {
 /// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(Desk& desk) {
   if (desk.brush_tool->drawing()) return desk.brush_tool->cancel();
+  Document& document = desk.workspace.document;
+  // Nothing else can be let go while the first survey is on its way.
+  if (document.survey() == nullptr && !document.progress().stage.empty()) return document.cancel();
   const Action* stop = desk.actions.find("school.stop");
   if (stop != nullptr && stop->enabled()) return stop->run();
   desk.workspace.school.set(std::nullopt);

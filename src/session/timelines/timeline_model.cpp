@@ -305,9 +305,10 @@ std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
   return found;
 }
 
-void TimelineModel::aim(PixelPoint at) {
+bool TimelineModel::aim(PixelPoint at) {
   workspace_.mark.set(mark_at(at));
   if (const auto there = ping_at(at)) look_at_ping(workspace_.document, there->observation, there->ping);
+  return true;
 }
 
 std::vector<Overlay> TimelineModel::overlays() const {

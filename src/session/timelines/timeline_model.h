@@ -47,7 +47,7 @@ class TimelineModel : public LivePicture {
   TimelineModel& operator=(const TimelineModel&) = delete;
 
   void pointer(const PointerEvent& event) override;
-  void aim(PixelPoint at) override;
+  bool aim(PixelPoint at) override;
   void wait() override {
     echograms_->wait();
     LivePicture::wait();

@@ -140,7 +140,8 @@ std::string growth_text(const PingMask& mask, const StagedPing& ping, const Sect
       sum += volume * (linear_from_count(counts.row(run.row)[i]) - background(s));
     }
   }
-  std::string text = fmt::format("{} voxels, {:.3g} m\u00B3", grouped(mask.voxels()), volume_m3);
+  std::string text =
+      fmt::format("{} voxel{}, {:.3g} m\u00B3", grouped(mask.voxels()), mask.voxels() == 1 ? "" : "s", volume_m3);
   if (sum > 0.0) text += fmt::format(", mean Sv {:.1f} dB", db_from_linear(sum / measured_m3));
   return text;
 }

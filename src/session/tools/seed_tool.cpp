@@ -132,7 +132,7 @@ void SeedTool::press(const Voxel& voxel, bool shift, bool control, bool double_p
   if (plain && school_under(voxel)) return select(voxel);
   auto command = command_at(*place_);
   if (!command) return document.tell(command.error().text);
-  act(observation, document.staged(), std::move(*command));
+  act({observation, document.staged(), std::move(*command), false, 0, document.staged()->ping_index});
 }
 
 void SeedTool::select(const Voxel& voxel) {
@@ -143,11 +143,14 @@ void SeedTool::select(const Voxel& voxel) {
             : std::nullopt);
 }
 
-void SeedTool::act(std::size_t observation, StagedPingPtr staged, GrowCommand command, std::int64_t number) {
+void SeedTool::act(Pending what) {
   made_.reset();
-  const std::int64_t ping = staged->ping_index;
-  pending_ = Pending{observation, std::move(staged), command, false, number};
-  workspace_.document.act(observation, ping, std::move(command));
+  pending_ = what;
+  const auto step = what.followed.empty() ? nullptr : std::make_shared<JournalStep>();
+  workspace_.document.act(what.observation, what.ping, std::move(what.command), step);
+  for (PropagateCommand& command : what.followed) {
+    workspace_.document.act(what.observation, what.ping, std::move(command), step);
+  }
 }
 
 void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed) {
@@ -203,9 +206,13 @@ void SeedTool::take_state() {
   const ChoicesShown& now = document.choices();
   if (pending_ && !now.failure.empty()) {
     pending_.reset();
-  } else if (pending_ && now.done_line > 0 && now.lines->back().command == command_name(pending_->command) &&
-             now.lines->back().args == to_json(Command(pending_->command))) {
-    take_made(*std::exchange(pending_, std::nullopt), std::move(before));
+  } else if (pending_ && now.done_line > 0) {
+    const JournalLine& last = now.lines->back();
+    const bool first = pending_->done == 0 && last.command == command_name(pending_->command) &&
+                       last.args == to_json(Command(pending_->command));
+    if (first) pending_->before = std::move(before);
+    if (first || (pending_->done > 0 && last.command == "propagate")) ++pending_->done;
+    if (pending_->done > pending_->followed.size()) take_made(*std::exchange(pending_, std::nullopt));
   }
   if (made_ && !stands_last()) made_.reset();
   if (anew_ && (anew_->instead_of_last ? !made_ : anew_->before != state_)) anew_.reset();
@@ -214,11 +221,17 @@ void SeedTool::take_state() {
   if (!anew_) drop_preview();
 }
 
-void SeedTool::take_made(const Pending& done, JournalStatePtr before) {
+void SeedTool::take_made(const Pending& done) {
   const Document& document = workspace_.document;
   const JournalState& state = document.state(done.observation);
-  made_ =
-      Made{document.choices().done_line, done.observation, done.command, done.staged, std::move(before), done.number};
+  made_ = Made{document.choices().done_line,
+               done.observation,
+               done.command,
+               done.staged,
+               done.before,
+               done.number,
+               done.ping,
+               done.followed};
   if (done.command.to == GrowTo::school) {
     const auto made = std::find_if(state.schools.begin(), state.schools.end(),
                                    [&](const auto& school) { return school->made_by == made_->line; });
@@ -241,8 +254,10 @@ bool SeedTool::stands_last() const {
 void SeedTool::parameters_changed(bool tolerance) {
   const auto& staged = workspace_.document.staged();
   if (workspace_.document.busy()) return show_place();
-  if (stands_last() && staged && staged->ping_index == made_->staged->ping_index) {
-    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, true});
+  const bool here = staged && made_ && staged->ping_index == made_->staged->ping_index;
+  if (here && stands_last()) {
+    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, true,
+                      made_->ping, made_->followed});
   }
   if (!tolerance || !grow_selected_anew()) show_place();
 }
@@ -256,29 +271,56 @@ bool SeedTool::grow_selected_anew() {
   const auto under = place_ ? school_under(place_->voxel) : std::nullopt;
   if (over_ && under != selected) return false;
   const StateSchool& school = *document.state().schools[*selected];
+  const bool rejected = school.masks.decided.status == "rejected";
+  GrowCommand command;
+  command.to = GrowTo::replace;
+  command.school = key_of(school.masks, document.shown()->ground());
+  if (school.grown && !rejected && in_ping(school.masks, school.grown->ping_index) != nullptr) {
+    command.seeds = school.grown->grow.seeds;
+    grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false,
+               school.grown->ping_index, school.grown->followed});
+    return true;
+  }
   const auto* there = in_ping(school.masks, staged->ping_index);
   const auto seed =
       there == nullptr ? std::nullopt : best_seed(there->mask, *staged->filtered, document.shown()->grid());
-  const bool rejected = school.masks.decided.status == "rejected";
   if (!seed || school.by_hand || rejected) {
     if (place_ && !under) return false;
     const char* why = school.by_hand ? "was shaped by hand" : rejected ? "is rejected" : "has no seed in this ping";
     say(fmt::format("school {} {}: the tolerance is that of the next click", school.number, why));
     return true;
   }
-  GrowCommand command;
-  command.to = GrowTo::replace;
   command.seeds = {*seed};
-  command.school = key_of(school.masks, document.shown()->ground());
-  grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false});
+  grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false, staged->ping_index});
   return true;
+}
+
+/// What carried a school through time, as it would be done now; as far as before.
+std::vector<PropagateCommand> SeedTool::as_set(std::vector<PropagateCommand> followed, const SchoolKey& from) const {
+  for (PropagateCommand& command : followed) {
+    PropagateCommand now = propagation_as_set(workspace_);
+    now.grow = params_;
+    now.reach = command.reach;
+    now.reach_backward = command.reach_backward;
+    now.reach_forward = command.reach_forward;
+    now.school = from;  // the voxel that named it before may be no member any more
+    command = std::move(now);
+  }
+  return followed;
 }
 
 void SeedTool::grow_anew(Anew anew) {
   anew.command.grow = params_;
   anew.command.growth_curve = workspace_.growth_curve();
+  const SeedKey& seed = anew.command.seeds.front();
+  const TimeNs seeded = workspace_.document.shown()->ground().times[static_cast<std::size_t>(anew.ping)];
+  anew.followed = as_set(std::move(anew.followed), {seeded, seed.channel, seed.sample});
   rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
-  show({workspace_.document.shown(), anew.staged, anew.before, anew.command}, anew.number);
+  if (anew.staged->ping_index == anew.ping) {
+    show({workspace_.document.shown(), anew.staged, anew.before, anew.command}, anew.number);
+  } else {
+    say(fmt::format("school {} grows anew from ping {}", anew.number, anew.ping));
+  }
   anew_ = std::move(anew);
   pulse_.run("grow anew", [this](double now_s) { return rest(now_s); });
 }
@@ -300,10 +342,12 @@ void SeedTool::finish_growing_anew() {
   const Anew anew = *std::exchange(anew_, std::nullopt);
   if (workspace_.document.busy() || (anew.instead_of_last && !stands_last())) return;
   const auto of = workspace_.document.open_observation(anew.observation);
+  if (!of) return;
   // What grows no more stays as it was.
-  if (!of || !try_growth({of, anew.staged, anew.before, anew.command})) return;
+  const StagedPingPtr seeds = anew.ping == anew.staged->ping_index ? anew.staged : of->cache().held(anew.ping);
+  if (seeds && !try_growth({of, seeds, anew.before, anew.command})) return;
   if (anew.instead_of_last) workspace_.document.undo();
-  act(anew.observation, anew.staged, anew.command, anew.number);
+  act({anew.observation, anew.staged, anew.command, false, anew.number, anew.ping, anew.followed});
 }
 
 }  // namespace sonar

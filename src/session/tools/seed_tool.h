@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/task_thread.h"
 #include "session/pulse.h"
@@ -22,8 +23,9 @@ namespace sonar {
 ///
 /// While the last act of all is a growth by this tool, a change of its parameters grows it anew: shown at once as the
 /// preview; when the parameters have rested for kRest_s (or something else is done) the old growth is undone and the new
-/// one done, so that undo knows one growth. A selected school that no human has shaped grows anew in this ping with each
-/// other tolerance, from its loudest member, in the same way.
+/// one done, so that undo knows one growth. A selected school grows anew with each other tolerance in the same way: one
+/// that clicks and propagations have made from its own seeds, and is then carried on as before, all in one step; one that
+/// no human has shaped in this ping, from its loudest member.
 /// threads  the window's
 class SeedTool {
  public:
@@ -61,9 +63,11 @@ class SeedTool {
     std::int64_t line = 0;
     std::size_t observation = 0;
     GrowCommand command;
-    StagedPingPtr staged;     ///< the ping it was done on
+    StagedPingPtr staged;     ///< the ping on show when it was done
     JournalStatePtr before;   ///< the state it was done upon
     std::int64_t number = 0;  ///< of the school that it made or changed
+    std::int64_t ping = 0;    ///< that it was done on
+    std::vector<PropagateCommand> followed = {};
   };
   struct Pending {
     std::size_t observation = 0;
@@ -71,6 +75,10 @@ class SeedTool {
     GrowCommand command;
     bool carry_on = false;    ///< a second press came meanwhile
     std::int64_t number = 0;  ///< of the school that is replaced; 0 = another growth
+    std::int64_t ping = 0;
+    std::vector<PropagateCommand> followed = {};  ///< of the same step
+    std::size_t done = 0;                         ///< lines of the step so far
+    JournalStatePtr before = {};                  ///< known with the first line
   };
   /// A growth that is looked at while its parameters move.
   struct Anew {
@@ -78,8 +86,10 @@ class SeedTool {
     StagedPingPtr staged;
     JournalStatePtr before;  ///< the state it would be done upon
     GrowCommand command;
-    std::int64_t number = 0;       ///< of the school that it would give
-    bool instead_of_last = false;  ///< of made_; else the next act
+    std::int64_t number = 0;                      ///< of the school that it would give
+    bool instead_of_last = false;                 ///< of made_; else the next act
+    std::int64_t ping = 0;                        ///< of the seeds
+    std::vector<PropagateCommand> followed = {};  ///< in the same step
   };
 
   // What would be selected:
@@ -92,12 +102,14 @@ class SeedTool {
   void hear(DocumentChange change);
   void forget();
   void take_state();
-  void take_made(const Pending& done, JournalStatePtr before);
-  void act(std::size_t observation, StagedPingPtr staged, GrowCommand command, std::int64_t number = 0);
+  void take_made(const Pending& done);
+  void act(Pending what);
   void carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed);
   // What is selected anew:
   void parameters_changed(bool tolerance);
   bool grow_selected_anew();
+  [[nodiscard]] std::vector<PropagateCommand> as_set(std::vector<PropagateCommand> followed,
+                                                     const SchoolKey& from) const;
   void grow_anew(Anew anew);
   [[nodiscard]] bool stands_last() const;
   bool rest(double now_s);

@@ -181,10 +181,12 @@ TEST_F(SeedToolAtWork, ControlTakesAwayWhatHoversAndShiftAddsIt) {
   press();
   desk_.settle();
   const PingMask whole = mask_of(0);
-  document().undo();  // something else stands last: the growth is not done anew
+  document().undo();  // something else stands last
   document().redo();
   desk_.settle();
+  workspace().school.set(std::nullopt);  // and nothing is selected: no school grows anew
   set_tolerance(4.0);
+  workspace().school.set(SchoolName{0, 1});
   tool().hover(bright(), false, true);
   desk_.settle();
   ASSERT_TRUE(workspace().preview().mask);
@@ -239,17 +241,128 @@ TEST_F(SeedToolAtWork, WhatIsDoneNextComesAfterTheGrowthAnew) {
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
 }
 
-TEST_F(SeedToolAtWork, AToleranceThatMovesAfterSomethingElseWasDoneChangesNoSchool) {
+TEST_F(SeedToolAtWork, AToleranceThatMovesAfterSomethingElseWasDoneChangesOnlyWhatIsSelected) {
   press();
   desk_.settle();
   const PingMask before = mask_of(0);
   document().undo();
   document().redo();
   desk_.settle();
+  workspace().school.set(std::nullopt);
   set_tolerance(6.0);
   rest();
   EXPECT_EQ(mask_of(0), before);
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "redo"}));
+  tool().leave();
+  workspace().school.set(SchoolName{0, 1});
+  set_tolerance(7.0);
+  rest();
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  EXPECT_EQ(journal().size(), 4U);
+  document().undo();
+  desk_.settle();
+  EXPECT_EQ(mask_of(0), before) << "an act of its own";
+}
+
+/// A school that was clicked twice: grown and carried both ways.
+class SeedToolOnFollowed : public SeedToolAtWork {
+ protected:
+  void SetUp() override {
+    SeedToolAtWork::SetUp();
+    ASSERT_TRUE(workspace().select.set("reach_pings", 2));
+    press();
+    press(false, false, true);
+    desk_.settle();
+    tool().leave();
+    ASSERT_EQ(journal(), (std::vector<std::string>{"grow", "propagate"}));
+  }
+  std::vector<SchoolMasks::InPing> pings() { return document().state().schools.at(0)->masks.pings; }
+  /// The masks, and the journal's file read by itself gives the same.
+  void expect_same(const std::vector<SchoolMasks::InPing>& wanted, const char* why) {
+    const auto read = read_journal(document().journal_path().string());
+    ASSERT_TRUE(read);
+    const JournalState replayed = fold(effective_lines(read->lines), {}, document().shown()->ground());
+    ASSERT_EQ(pings().size(), wanted.size()) << why;
+    ASSERT_EQ(replayed.schools.at(0)->masks.pings.size(), wanted.size()) << why;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      EXPECT_EQ(pings()[i].ping_index, wanted[i].ping_index) << why;
+      EXPECT_EQ(pings()[i].mask, wanted[i].mask) << why;
+      EXPECT_EQ(replayed.schools[0]->masks.pings[i].mask, wanted[i].mask) << why;
+    }
+  }
+  /// What a double press under this tolerance gives where nothing was before.
+  std::vector<SchoolMasks::InPing> double_pressed(double db) {
+    GrowCommand grow;
+    grow.grow = grow_params(workspace().select.values());
+    grow.grow.tolerance_db = db;
+    grow.growth_curve = workspace().growth_curve();
+    grow.seeds = {seed_key(*document().shown(), bright())};
+    PropagateCommand on = propagation_as_set(workspace());
+    on.grow = grow.grow;
+    on.tracked.tolerance_db = db;
+    const CommandGround& ground = document().shown()->ground();
+    const TimeNs time = ground.times[static_cast<std::size_t>(SlicesDesk::bright().ping)];
+    on.school = SchoolKey{time, grow.seeds[0].channel, grow.seeds[0].sample};
+    const std::vector<JournalLine> lines{line_of({1, 0, "", time, grow}), line_of({2, 0, "", time, on})};
+    const JournalState state = fold(lines, {}, ground);
+    return state.schools.at(0)->masks.pings;
+  }
+};
+
+TEST_F(SeedToolOnFollowed, ToleranceGrowsItAnewAndCarriesItOnInOneStep) {
+  const auto before = pings();
+  for (const double db : {9.0, 7.0, 6.0}) set_tolerance(db);
+  desk_.settle();
+  ASSERT_TRUE(workspace().preview().mask) << "seen at once, in the ping that is looked at";
+  EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
+  EXPECT_EQ(workspace().preview().instead_of, 1);
+  expect_same(before, "so far it is only looked at");
+  rest();
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  expect_same(double_pressed(6.0), "as a double press under this tolerance gives it");
+  SchoolMasks earlier;
+  earlier.pings = before;
+  EXPECT_LT(mask_of(0).voxels(), in_ping(earlier, document().ping())->mask.voxels());
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "propagate", "grow", "propagate"}));
+  EXPECT_EQ(document().choices().undo_text, "Undo grow school 1 anew");
+  // The slider goes on: still one step.
+  set_tolerance(8.0);
+  rest();
+  expect_same(double_pressed(8.0), "the slider went on");
+  EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
+  document().undo();
+  desk_.settle();
+  expect_same(before, "one step back");
+  document().redo();
+  desk_.settle();
+  expect_same(double_pressed(8.0), "and forth");
+}
+
+TEST_F(SeedToolOnFollowed, AfterADecisionAndFromAnotherPingItStillGrowsAnew) {
+  Decision decision;
+  decision.school = key_of(document().state().schools[0]->masks, document().shown()->ground());
+  decision.status = "accepted";
+  document().act(DecideCommand{{decision}, {}});
+  document().look_at(document().ping() + 1);
+  desk_.settle();
+  set_tolerance(6.0);
+  desk_.settle();
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("grows anew from ping"));
+  rest();
+  expect_same(double_pressed(6.0), "from the seed that it was made from");
+  EXPECT_EQ(document().state().schools[0]->masks.decided.status, "accepted");
+}
+
+TEST_F(SeedToolOnFollowed, WhatWasShapedAfterwardsStays) {
+  EraseCommand erase;
+  erase.runs = {{seed_key(*document().shown(), bright()).channel, bright().sample + 1, 1}};
+  document().act(erase);
+  desk_.settle();
+  const auto before = pings();
+  set_tolerance(6.0);
+  rest();
+  expect_same(before, "shaped by hand");
+  EXPECT_THAT(workspace().preview().text, testing::HasSubstr("was shaped by hand"));
 }
 
 /// A school that was found without a human, selected in a ping that it is in.

@@ -28,7 +28,7 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
     if (!tried && input.masks.size() >= kMostMasks) continue;
     input.masks.push_back(school.layer);
     if (tried) ++input.tried;
-    if (!tried) input.legend.emplace_back(colour_of(school.layer), fmt::format("school {}", school.number));
+    if (!tried) input.legend.emplace_back(colour_of(school.layer), school.title);
   }
 }
 

@@ -228,13 +228,14 @@ void VolumeModel::hover(const PointerEvent& event) {
   if (!voxel && hooks.leave) hooks.leave();
 }
 
-void VolumeModel::aim(PixelPoint at) {
+bool VolumeModel::aim(PixelPoint at) {
   const auto voxel = voxel_at(in_frame(at));
   const Document& document = workspace_.document;
-  if (!voxel) return;
+  if (!voxel) return false;
   workspace_.cursor.set(voxel);
   const auto under = school_of_voxel(document.state(), shown_->ping_index, document.shown()->sector(), *voxel);
   if (under && hooks.select) hooks.select(*voxel);
+  return under.has_value();
 }
 
 void VolumeModel::leave() {

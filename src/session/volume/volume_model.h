@@ -34,7 +34,7 @@ class VolumeModel : public LivePicture {
   [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }
 
   void pointer(const PointerEvent& event) override;
-  void aim(PixelPoint at) override;
+  bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
 

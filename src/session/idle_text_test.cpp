@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "session/test_desk.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+// Until something can be shown, the first view says what goes on, how far it is, and what ends it.
+TEST(IdleText, TellsHowFarTheFirstSurveyIsAndEscapeEndsIt) {
+  ChangeQueue queue;
+  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  Document& document = desk.workspace.document;
+  EXPECT_THAT(idle_text(desk, "top_slice"), HasSubstr("Open a survey"));
+  std::promise<void> seen;
+  std::promise<bool> ended;
+  document.open({TestSurvey::easy().folder()}, [&](Work& work) -> Result<void> {
+    work.progress("simulate", 5, 20);
+    seen.get_future().wait();
+    ended.set_value(work.cancelled());
+    return fail(ErrorCode::cancelled, "stopped on request");
+  });
+  while (document.progress().stage.empty()) {
+    queue.wait();
+    queue.drain();
+  }
+  EXPECT_EQ(idle_text(desk, "top_slice"), "Making the simulated survey, 25 %.\nEsc, or Cancel below, stops it.");
+  EXPECT_EQ(idle_text(desk, "side_slice"), "");
+  desk.actions.find("tool.cancel")->run();
+  seen.set_value();
+  EXPECT_TRUE(ended.get_future().get());
+  document.settle();
+  EXPECT_THAT(idle_text(desk, "top_slice"), HasSubstr("Open a survey"));
+  EXPECT_THAT(document.notices().back(), HasSubstr("stopped"));
+}
+
+TEST(IdleText, NamesTheFolderInWhichThereAreNoPings) {
+  ChangeQueue queue;
+  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  const auto empty = TestSurvey::easy().fresh();
+  desk.workspace.document.open({empty});
+  desk.workspace.document.settle();
+  const std::string text = desk.workspace.document.survey() == nullptr ? desk.workspace.document.notices().back()
+                                                                       : idle_text(desk, "top_slice");
+  EXPECT_THAT(text, HasSubstr(empty.string()));
+}
+
+// What the journal says is carried out anew after opening: line by line, and told so.
+TEST(IdleText, AJournalThatIsReadAtOpeningShowsHowFarItIs) {
+  const auto journal = TestSurvey::easy().fresh();
+  ChangeQueue queue;
+  for (const bool again : {false, true}) {
+    Document document(queue, TestSurvey::options(journal));
+    std::vector<std::int64_t> totals;
+    document.changes().add([&](DocumentChange change) {
+      const Progress now = document.activity();
+      if (change == DocumentChange::progress && now.stage == "reading the journal") totals.push_back(now.total);
+    });
+    document.open({TestSurvey::easy().folder()});
+    document.settle();
+    if (again) {
+      EXPECT_THAT(totals, testing::Contains(3));
+    }
+    EXPECT_EQ(document.activity().stage, "") << "and then it is done";
+    for (int i = 0; i < 3 && !again; ++i) {
+      document.act(EventCommand{"trawl", document.shown()->ground().times[static_cast<std::size_t>(i)], ""});
+    }
+    document.settle();
+  }
+}
+
+}  // namespace
+}  // namespace sonar
