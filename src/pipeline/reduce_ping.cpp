@@ -22,9 +22,10 @@ struct Reach {
   int samples = 0;
 };
 
-/// Detection looks no further round a candidate than this.
+/// Detection looks no further round a candidate than this, the samples of its filter left out.
 Reach detection_reach(const DetectParams& params) {
-  return {params.search_fans, params.search_beams, params.search_samples};
+  return {params.search_fans + params.rim_fans, params.search_beams + params.rim_beams,
+          params.search_samples + params.rim_samples + params.member_samples / 2};
 }
 /// Detection takes candidates from no lower than this below its thresholds (the median's ln 2, rounded up).
 constexpr double kCandidateSlack_db = 2.0;

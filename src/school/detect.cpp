@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "base/check.h"
@@ -13,6 +14,7 @@
 #include "school/edges.h"
 #include "school/noise_reach.h"
 #include "school/reverberation.h"
+#include "school/settle_members.h"
 
 namespace sonar {
 namespace {
@@ -25,15 +27,6 @@ using Runs = std::vector<Run>;
 /// The median of Rayleigh-fading echo lies at ln 2 of its mean, whatever the sonar; thresholds are meant for the mean.
 constexpr double kMedianOfMean_db = -1.5917;
 
-std::vector<Runs> split(const Runs& runs, const Shape3& shape, Connectivity connectivity) {
-  const Components components = label_runs(runs, shape, connectivity);
-  std::vector<Runs> parts(static_cast<std::size_t>(components.count));
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    parts[static_cast<std::size_t>(components.label[i])].push_back(runs[i]);
-  }
-  return parts;
-}
-
 IndexBox box_of_runs(const Runs& runs, int beams) {
   PingMask mask;
   mask.runs = runs;
@@ -42,19 +35,23 @@ IndexBox box_of_runs(const Runs& runs, int beams) {
 
 class PingDetector {
  public:
-  PingDetector(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
-               const Background& background, const DetectParams& params, const PingMask* taken)
+  PingDetector(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered, View3<const SampleFlags> flags,
+               const Sector& sector, const Background& background, const DetectParams& params, const PingMask* taken)
       : sv_(sv),
+        unfiltered_(unfiltered),
         flags_(flags),
         sector_(sector),
+        background_(background),
         params_(params),
-        thresholder_(sv, flags, background, water_levels(sv, flags, background, params), taken),
+        taken_(taken),
+        water_(water_levels(sv, flags, background, params)),
+        thresholder_(sv, flags, background, water_, taken),
         claimed_(sv.shape()) {}
 
   std::vector<Detection> run() {
     const Runs candidates = thresholder_.candidates(floor_db(), params_.background_margin_db + kMedianOfMean_db);
     std::vector<std::pair<double, Runs>> components;
-    for (Runs& part : split(candidates, sv_.shape(), params_.connectivity)) {
+    for (Runs& part : connected_parts(candidates, sv_.shape(), params_.connectivity)) {
       if (!worth_a_look(part)) continue;
       const double reference_db = reference(part);
       components.emplace_back(reference_db, std::move(part));
@@ -128,22 +125,11 @@ class PingDetector {
 
   bool search(const Runs& component, const IndexBox& box, double level_db) {
     bool found = false;
-    for (const Runs& part :
-         split(thresholder_.above(box, level_db, params_.background_rest_db), sv_.shape(), params_.connectivity)) {
+    for (const Runs& part : connected_parts(thresholder_.above(box, level_db, params_.background_rest_db), sv_.shape(),
+                                            params_.connectivity)) {
       if (large_enough(part) && share_a_voxel(part, component)) found = consider(part, level_db) || found;
     }
     return found;
-  }
-
-  [[nodiscard]] static bool share_a_voxel(const Runs& a, const Runs& b) {
-    auto i = a.begin();
-    auto j = b.begin();
-    while (i != a.end() && j != b.end()) {
-      if (i->row == j->row && i->first_sample < j->end() && j->first_sample < i->end()) return true;
-      const bool a_first = i->row != j->row ? i->row < j->row : i->end() < j->end();
-      (a_first ? i : j)++;
-    }
-    return false;
   }
 
   [[nodiscard]] double lowest(const Runs& runs) const {
@@ -167,10 +153,13 @@ class PingDetector {
     }
     const double reference_db = reference(part);
     if (reference_db < std::max(level_db + params_.min_prominence_db, floor_db())) return false;
-    const double threshold_db = std::max(reference_db - params_.tolerance_db, level_db);
-    Detection detection = describe_mask(members(part, reference_db, threshold_db), flags_, sector_);
-    detection.reference_db = reference_db;
-    detection.threshold_db = threshold_db;
+    // A weak school beside a stronger one stands no deeper below its own top than where the two part.
+    const double depth_db = std::min(params_.tolerance_db, reference_db - level_db);
+    auto settled = params_.member_samples > 0 ? settler().settle(part, depth_db, claimed_.view())
+                                              : by_filtered(part, reference_db, depth_db);
+    Detection detection = describe_mask(std::move(settled.mask), flags_, sector_);
+    detection.reference_db = settled.reference_db;
+    detection.threshold_db = settled.threshold_db;
     for (const Run& run : part) {
       const auto claimed = claimed_.view().row(run.row).subspan(static_cast<std::size_t>(run.first_sample),
                                                                 static_cast<std::size_t>(run.count));
@@ -180,8 +169,14 @@ class PingDetector {
     return true;
   }
 
-  [[nodiscard]] PingMask members(const Runs& part, double reference_db, double threshold_db) const {
-    const MemberTable table = MemberTable::one_sided(reference_db, reference_db - threshold_db);
+  /// Most pings hold no school.
+  MemberSettler& settler() {
+    if (!settler_) settler_.emplace(sv_, unfiltered_, flags_, background_, water_, params_, taken_);
+    return *settler_;
+  }
+
+  [[nodiscard]] MemberSettler::Settled by_filtered(const Runs& part, double reference_db, double depth_db) const {
+    const MemberTable table = MemberTable::one_sided(reference_db, depth_db);
     PingMask mask;
     for (const Run& run : part) {
       const auto counts = sv_.row(run.row);
@@ -197,7 +192,7 @@ class PingDetector {
         open = inside;
       }
     }
-    return mask;
+    return {std::move(mask), reference_db, reference_db - depth_db};
   }
 
   [[nodiscard]] bool believable(const Detection& detection) const {
@@ -301,22 +296,28 @@ class PingDetector {
   }
 
   View3<const std::int16_t> sv_;
+  View3<const std::int16_t> unfiltered_;
   View3<const SampleFlags> flags_;
   const Sector& sector_;
+  const Background& background_;
   const DetectParams& params_;
+  const PingMask* taken_;
+  WaterLevels water_;
   Thresholder thresholder_;
+  std::optional<MemberSettler> settler_;
   Array3<std::uint8_t> claimed_;  ///< voxels of components that have had their school
   std::vector<Detection> found_;
 };
 
 }  // namespace
 
-std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Sector& sector,
-                              const Background& background, const DetectParams& params, const PingMask* taken) {
-  SONAR_CHECK(sv.shape() == flags.shape());
+std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered,
+                              View3<const SampleFlags> flags, const Sector& sector, const Background& background,
+                              const DetectParams& params, const PingMask* taken) {
+  SONAR_CHECK(sv.shape() == flags.shape() && sv.shape() == unfiltered.shape());
   SONAR_CHECK(sv.shape().fans == sector.fans() && sv.shape().beams == sector.beams() &&
               sv.shape().samples == sector.range().count);
-  return PingDetector(sv, flags, sector, background, params, taken).run();
+  return PingDetector(sv, unfiltered, flags, sector, background, params, taken).run();
 }
 
 WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,

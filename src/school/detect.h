@@ -21,7 +21,7 @@ struct DetectParams {
   double floor_db = -60.0;
   double background_margin_db = 8.0;
   double water_share = 0.3;
-  double noise_sigmas = 4.5;
+  double noise_sigmas = 4.25;
   double reference_percentile = 90.0;
   double tolerance_db = 10.0;
   double link_db = 3.0;
@@ -44,6 +44,11 @@ struct DetectParams {
   double floor_flat_share = 0.06;
   double record_end_share = 0.025;
   double cut_off_share = 0.5;
+  int member_samples = 23;
+  double member_percentile = 92.0;
+  int rim_fans = 1;
+  int rim_beams = 1;
+  int rim_samples = 15;
   int search_fans = 2;
   int search_beams = 3;
   int search_samples = 40;
@@ -125,6 +130,24 @@ void describe(Visitor& v, DetectParams& p) {
           {.unit = "1", .min = 0, .max = 0.5, .text = "last share of the samples, where the record cuts echo off"});
   v.field("cut_off_share", p.cut_off_share,
           {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's beams reaching there that makes it the seabed"});
+  v.field("member_samples", p.member_samples,
+          {.unit = "samples",
+           .min = 0,
+           .max = 1001,
+           .text = "what of a school's water is it: by a median along each beam of so many; 0 = by the filtered data"});
+  v.field("member_percentile", p.member_percentile,
+          {.unit = "%",
+           .min = 1,
+           .max = 100,
+           .text = "the reference of these medians: this share of the school lies below"});
+  v.field("rim_fans", p.rim_fans,
+          {.unit = "fans", .min = 0, .max = 100, .text = "members lie no farther outside what the filtered data show"});
+  v.field(
+      "rim_beams", p.rim_beams,
+      {.unit = "beams", .min = 0, .max = 100, .text = "members lie no farther outside what the filtered data show"});
+  v.field(
+      "rim_samples", p.rim_samples,
+      {.unit = "samples", .min = 0, .max = 1000, .text = "members lie no farther outside what the filtered data show"});
   v.field("search_fans", p.search_fans,
           {.unit = "fans", .min = 0, .max = 1000, .text = "a candidate's school is sought so far beyond its box"});
   v.field("search_beams", p.search_beams,
@@ -154,16 +177,18 @@ struct Detection {
 /// Schools of one ping, without a human: candidates at max(floor, background + margin), the background being the beams'
 /// noise or the water at that range; components by runs, then a
 /// threshold relative to each candidate's own reference; what falls apart there becomes several detections.
-/// sv          [fan][beam][sample], median-filtered Sv counts
+/// sv          [fan][beam][sample], median-filtered Sv counts: they show where schools are
+/// unfiltered  same shape: settles which voxels are theirs (settle_members.h)
 /// flags       same shape, seabed included; kNeverMember voxels are never members
 /// background  of the unfiltered samples; rows without one use the floor alone
 /// taken       voxels that a human gave to schools; null = none
 /// out         sorted by first voxel; no voxel in two
 /// threads     pure
 /// cost        about 1 ms for 25 x 20 x 1320
-[[nodiscard]] std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                            const Sector& sector, const Background& background,
-                                            const DetectParams& params, const PingMask* taken = nullptr);
+[[nodiscard]] std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered,
+                                            View3<const SampleFlags> flags, const Sector& sector,
+                                            const Background& background, const DetectParams& params,
+                                            const PingMask* taken = nullptr);
 
 /// What detection takes for background beside the mean noise: the noise's own record of it, or else
 /// reverberation_counts() and noise_reach().

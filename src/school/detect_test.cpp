@@ -38,7 +38,18 @@ struct Scene {
     disturb();
     const Array3<std::int16_t> sv = test::filtered(counts, flags);
     const Background background{flat.power_db, flat.calibration.view()};
-    return detect(sv.view(), flags.view(), sector, background, params);
+    return detect(sv.view(), std::as_const(counts).view(), flags.view(), sector, background, params);
+  }
+
+  /// The median of so many samples of a beam about one, where none is faulty.
+  [[nodiscard]] std::int16_t along_beam(int row, int sample, int samples) const {
+    const auto all = counts.view().row(row);
+    const int half = samples / 2;
+    const int first = std::max(0, sample - half);
+    const int end = std::min(static_cast<int>(all.size()), sample + half + 1);
+    std::vector<std::int16_t> window(all.begin() + first, all.begin() + end);
+    std::sort(window.begin(), window.end());
+    return window[window.size() / 2];
   }
 
   /// Overwritten samples carry their flag.
@@ -186,9 +197,11 @@ TEST(Detect, RefusesAWallAndABeam) {
 TEST(Detect, LeavesOthersVoxelsAlone) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0);
-  const Array3<std::int16_t> sv = test::filtered(test::counts_of(scene.expected, 1), scene.flags);
+  const Array3<std::int16_t> counts = test::counts_of(scene.expected, 1);
+  const Array3<std::int16_t> sv = test::filtered(counts, scene.flags);
   const Background background{scene.flat.power_db, scene.flat.calibration.view()};
-  const auto found = detect(sv.view(), scene.flags.view(), scene.sector, background, {}, &scene.truths[0]);
+  const auto found =
+      detect(sv.view(), counts.view(), scene.flags.view(), scene.sector, background, {}, &scene.truths[0]);
   for (const Detection& d : found) EXPECT_EQ(overlap(d.mask, scene.truths[0]), 0U);
 }
 
@@ -204,13 +217,12 @@ TEST(Detect, ConfidenceFallsToNothingAtTheThresholdThatIsPublished) {
       scene.add(150.0, -15.0, 262.0 + apart_deg,
                 weak_db);  // stands in the stronger one's skirt, which may raise its threshold
       for (const Detection& d : scene.look(static_cast<std::uint64_t>(10.0 * apart_deg), params)) {
-        const Array3<std::int16_t> sv = test::filtered(scene.counts, scene.flags);
         const double t = d.reference_db - d.threshold_db;
         raised = raised || t < params.tolerance_db - 0.5;
         std::size_t i = 0;
         for (const sonar::Run& run : d.mask.runs) {
           for (int s = run.first_sample; s < run.end(); ++s, ++i) {
-            const double below = d.reference_db - db_from_counts(sv.view().row(run.row)[static_cast<std::size_t>(s)]);
+            const double below = d.reference_db - db_from_counts(scene.along_beam(run.row, s, params.member_samples));
             const double f = below > 0.0 ? 1.0 - below * below / (t * t) : 1.0;
             ASSERT_NEAR(d.mask.confidence[i], std::max(1.0, 255.0 * f), 0.51) << below << " of " << t;
           }
@@ -219,6 +231,29 @@ TEST(Detect, ConfidenceFallsToNothingAtTheThresholdThatIsPublished) {
     }
   }
   EXPECT_TRUE(raised);
+}
+
+// The box of three beams takes most of a school of two beams away, and what is left of it tells neither where the echo
+// is 10 dB below the strongest, nor how much of it is noise.
+TEST(Detect, SmallAndWeakSchoolsAreAsLargeAsTheyAre) {
+  for (const double above_noise_db : {40.0, 22.0, 16.0}) {
+    Scene scene;
+    scene.add(220.0, -18.0, 266.0, -40.0, {11, 7, 4});
+    const double peak = *std::max_element(scene.expected.all().begin(), scene.expected.all().end());
+    const double noise_db = db_from_linear(peak) - above_noise_db;
+    for (double& sv : scene.expected.all()) sv += linear_from_db(noise_db);
+    std::fill(scene.flat.power_db.begin(), scene.flat.power_db.end(), noise_db);
+    DetectParams by_filtered;
+    by_filtered.member_samples = 0;
+    const auto found = scene.look(21);
+    const auto as_filtered = scene.look(21, by_filtered);
+    ASSERT_EQ(found.size(), 1U) << above_noise_db;
+    ASSERT_EQ(as_filtered.size(), 1U) << above_noise_db;
+    EXPECT_GT(dice(found[0].mask, scene.truths[0]), 0.85) << above_noise_db;
+    EXPECT_NEAR(volume(found[0].mask, scene.sector) / volume(scene.truths[0], scene.sector), 1.0, 0.2)
+        << above_noise_db;
+    EXPECT_GT(dice(found[0].mask, scene.truths[0]), dice(as_filtered[0].mask, scene.truths[0])) << above_noise_db;
+  }
 }
 
 TEST(Detect, SeabedIsNoMember) {

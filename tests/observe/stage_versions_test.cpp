@@ -39,11 +39,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 2, "aae837000c9ff6f0127446493cea9c4a"},
-    {"detect", 4, "ccc44b9443e584e22db20886484d607b"},
+    {"detect", 4, "681309c9299f15e98a87e66bb0d9b74c"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 6, "938a8b04b0308211ab8a2cd302ed5325"},
-    {"summarise", 2, "b1b6dd56edc8065e64196f90563eae7c"},
+    {"measure", 6, "2f73bf74d34d954c6a720b20a012439e"},
+    {"summarise", 2, "8696eab71d8f488cf494afb2e72c363f"},
 }};
 
 constexpr int kFans = 8;
@@ -168,8 +168,9 @@ std::vector<DetectedPing> detected(Engine& engine, std::map<std::string, Digest>
     found.ping_index = i;
     found.time = engine.observation().navigation[static_cast<std::size_t>(i)].time;
     found.placement = engine.placement(i);
-    found.detections = detect(ping->filtered->counts.view(), ping->filtered->flags.view(), engine.sector(),
-                              ping->background(), engine.recipe().detect);
+    found.detections =
+        detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
+               engine.sector(), ping->background(), engine.recipe().detect);
     for (const Detection& detection : found.detections) digests["detect"].mask(detection.mask);
     pings.push_back(std::move(found));
   }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/settle_members.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/units.h"
+#include "school/beam_medians.h"
+#include "school/grow.h"
+
+namespace sonar {
+
+MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
+                             View3<const SampleFlags> flags, const Background& background, WaterLevels water,
+                             const DetectParams& params, const PingMask* taken)
+    : filtered_(filtered),
+      unfiltered_(unfiltered),
+      flags_(flags),
+      params_(params),
+      along_beams_(filtered.shape(), kNoData),
+      thresholder_(std::as_const(along_beams_).view(), flags, background, std::move(water), taken) {}
+
+IndexBox MemberSettler::box_round(const std::vector<Run>& part) const {
+  PingMask mask;
+  mask.runs = part;
+  return box_of(mask, filtered_.shape().beams)
+      .enlarged(params_.rim_fans, params_.rim_beams, params_.rim_samples)
+      .clipped(filtered_.shape());
+}
+
+void MemberSettler::look_along_beams(const IndexBox& box) {
+  std::vector<std::int16_t> medians;
+  for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
+    for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
+      const int row = fan * filtered_.shape().beams + beam;
+      beam_medians(unfiltered_.row(row), flags_.row(row), filtered_.row(row), box.first_sample, box.last_sample + 1,
+                   params_.member_samples / 2, medians);
+      std::copy(medians.begin(), medians.end(), along_beams_.view().row(row).begin() + box.first_sample);
+    }
+  }
+}
+
+double MemberSettler::reference(const std::vector<Run>& part) const {
+  std::vector<std::int16_t> values;
+  for (const Run& run : part) {
+    const auto row = along_beams_.view().row(run.row);
+    values.insert(values.end(), row.begin() + run.first_sample, row.begin() + run.end());
+  }
+  const auto high = [&] {
+    const double rank = std::ceil(params_.member_percentile / 100.0 * static_cast<double>(values.size()));
+    const auto k = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+    std::nth_element(values.begin(), values.begin() + k, values.end());
+    return values[static_cast<std::size_t>(k)];
+  };
+  // what the search's lower level let in does not count
+  const double lowest = high() - counts_from_db(params_.tolerance_db);
+  std::erase_if(values, [lowest](std::int16_t value) { return value < lowest; });
+  return db_from_counts(high());
+}
+
+std::vector<Run> MemberSettler::joined(const std::vector<Run>& part, double threshold_db) const {
+  const std::vector<Run> all = thresholder_.above(box_round(part), threshold_db, params_.background_rest_db);
+  std::vector<Run> runs;
+  for (const std::vector<Run>& piece : connected_parts(all, filtered_.shape(), params_.connectivity)) {
+    if (share_a_voxel(piece, part)) runs.insert(runs.end(), piece.begin(), piece.end());
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+MemberSettler::Settled MemberSettler::settle(const std::vector<Run>& part, double depth_db,
+                                             View3<std::uint8_t> claimed) {
+  look_along_beams(box_round(part));
+  Settled settled;
+  settled.reference_db = reference(part);
+  settled.threshold_db = settled.reference_db - depth_db;
+  const MemberTable table = MemberTable::one_sided(settled.reference_db, settled.reference_db - settled.threshold_db);
+  for (const Run& run : joined(part, settled.threshold_db)) {
+    const auto counts = std::as_const(along_beams_).view().row(run.row);
+    const auto of_others = claimed.row(run.row);
+    bool open = false;
+    for (auto s = static_cast<std::size_t>(run.first_sample); s < static_cast<std::size_t>(run.end()); ++s) {
+      const std::uint8_t confidence = table(counts[s]);
+      const bool inside = confidence != 0 && of_others[s] == 0;
+      if (inside) {
+        if (!open) settled.mask.runs.push_back({run.row, static_cast<std::int32_t>(s), 0});
+        ++settled.mask.runs.back().count;
+        settled.mask.confidence.push_back(confidence);
+        of_others[s] = 1;
+      }
+      open = inside;
+    }
+  }
+  return settled;
+}
+
+bool share_a_voxel(const std::vector<Run>& a, const std::vector<Run>& b) {
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() && j != b.end()) {
+    if (i->row == j->row && i->first_sample < j->end() && j->first_sample < i->end()) return true;
+    const bool a_first = i->row != j->row ? i->row < j->row : i->end() < j->end();
+    (a_first ? i : j)++;
+  }
+  return false;
+}
+
+std::vector<std::vector<Run>> connected_parts(const std::vector<Run>& runs, const Shape3& shape,
+                                              Connectivity connectivity) {
+  const Components components = label_runs(runs, shape, connectivity);
+  std::vector<std::vector<Run>> parts(static_cast<std::size_t>(components.count));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    parts[static_cast<std::size_t>(components.label[i])].push_back(runs[i]);
+  }
+  return parts;
+}
+
+}  // namespace sonar

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+#include "model/mask.h"
+#include "school/background.h"
+#include "school/candidates.h"
+#include "school/detect.h"
+#include "school/runs.h"
+
+namespace sonar {
+
+/// Which voxels belong to a school that the filtered data show. Their box of many beams finds schools in noise, but
+/// takes the rims of small ones away and lets noise fill those of weak ones; a median along each beam alone does
+/// neither.
+class MemberSettler {
+ public:
+  /// filtered, unfiltered  [fan][beam][sample] Sv counts
+  /// flags                 same shape
+  /// taken                 voxels that a human gave to schools; null = none
+  /// All but the water are borrowed.
+  MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
+                View3<const SampleFlags> flags, const Background& background, WaterLevels water,
+                const DetectParams& params, const PingMask* taken);
+
+  struct Settled {
+    PingMask mask;
+    double reference_db = 0.0;
+    double threshold_db = 0.0;
+  };
+  /// part      what hangs together in the filtered data
+  /// depth_db  members lie no deeper below the reference
+  /// claimed   voxels of other schools; the members are added
+  [[nodiscard]] Settled settle(const std::vector<Run>& part, double depth_db, View3<std::uint8_t> claimed);
+
+ private:
+  [[nodiscard]] IndexBox box_round(const std::vector<Run>& part) const;
+  void look_along_beams(const IndexBox& box);
+  [[nodiscard]] double reference(const std::vector<Run>& part) const;
+  [[nodiscard]] std::vector<Run> joined(const std::vector<Run>& part, double threshold_db) const;
+
+  View3<const std::int16_t> filtered_;
+  View3<const std::int16_t> unfiltered_;
+  View3<const SampleFlags> flags_;
+  const DetectParams& params_;
+  Array3<std::int16_t> along_beams_;
+  Thresholder thresholder_;
+};
+
+/// Whether two lists of runs, each sorted, have a voxel in common.
+[[nodiscard]] bool share_a_voxel(const std::vector<Run>& a, const std::vector<Run>& b);
+
+/// The parts of runs that hang together, each sorted, in order of their first run.
+[[nodiscard]] std::vector<std::vector<Run>> connected_parts(const std::vector<Run>& runs, const Shape3& shape,
+                                                            Connectivity connectivity);
+
+}  // namespace sonar
