@@ -155,24 +155,26 @@ class PingDetector {
     if (reference_db < std::max(level_db + params_.min_prominence_db, floor_db())) return false;
     // A weak school beside a stronger one stands no deeper below its own top than where the two part.
     const double depth_db = std::min(params_.tolerance_db, reference_db - level_db);
-    auto settled = params_.member_samples > 0 ? settler().settle(part, depth_db, claimed_.view())
-                                              : by_filtered(part, reference_db, depth_db);
-    Detection detection = describe_mask(std::move(settled.mask), flags_, sector_);
-    detection.reference_db = settled.reference_db;
-    detection.threshold_db = settled.threshold_db;
+    for (MemberSettler::Settled& school : settled(part, reference_db, depth_db)) {
+      Detection detection = describe_mask(std::move(school.mask), flags_, sector_);
+      detection.reference_db = school.reference_db;
+      detection.threshold_db = school.threshold_db;
+      if (believable(detection)) found_.push_back(std::move(detection));
+    }
     for (const Run& run : part) {
       const auto claimed = claimed_.view().row(run.row).subspan(static_cast<std::size_t>(run.first_sample),
                                                                 static_cast<std::size_t>(run.count));
       std::fill(claimed.begin(), claimed.end(), std::uint8_t{1});
     }
-    if (believable(detection)) found_.push_back(std::move(detection));
     return true;
   }
 
-  /// Most pings hold no school.
-  MemberSettler& settler() {
+  std::vector<MemberSettler::Settled> settled(const Runs& part, double reference_db, double depth_db) {
+    if (params_.member_samples == 0) return {by_filtered(part, reference_db, depth_db)};
+    // Most pings hold no school.
     if (!settler_) settler_.emplace(sv_, unfiltered_, flags_, background_, water_, params_, taken_);
-    return *settler_;
+    return settler_->settle(
+        part, depth_db, [this](const Runs& runs) { return large_enough(runs); }, claimed_.view());
   }
 
   [[nodiscard]] MemberSettler::Settled by_filtered(const Runs& part, double reference_db, double depth_db) const {

@@ -46,6 +46,7 @@ struct DetectParams {
   double cut_off_share = 0.5;
   int member_samples = 23;
   double member_percentile = 92.0;
+  double part_dip_db = 3.0;
   int rim_fans = 1;
   int rim_beams = 1;
   int rim_samples = 15;
@@ -140,6 +141,11 @@ void describe(Visitor& v, DetectParams& p) {
            .min = 1,
            .max = 100,
            .text = "the reference of these medians: this share of the school lies below"});
+  v.field("part_dip_db", p.part_dip_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "water so far below the members' threshold parts schools that the filter had joined"});
   v.field("rim_fans", p.rim_fans,
           {.unit = "fans", .min = 0, .max = 100, .text = "members lie no farther outside what the filtered data show"});
   v.field(

@@ -256,6 +256,26 @@ TEST(Detect, SmallAndWeakSchoolsAreAsLargeAsTheyAre) {
   }
 }
 
+// The filter's box of three beams bridges the 26 m of open water between two schools 48 m apart. Bodies that touch stay one.
+TEST(Detect, OpenWaterPartsSchoolsThatTheFilterJoins) {
+  Scene apart;
+  apart.add(240.0, -18.0, 261.0, -36.0, {11, 9, 6});
+  apart.add(240.0, -18.0, 273.0, -36.0, {11, 9, 6});
+  const std::vector<Detection> two = apart.look(31);
+  ASSERT_EQ(two.size(), 2U);
+  for (const PingMask& truth : apart.truths) {
+    EXPECT_GT(std::max(dice(two[0].mask, truth), dice(two[1].mask, truth)), 0.85);
+  }
+  EXPECT_EQ(overlap(two[0].mask, two[1].mask), 0U);
+  DetectParams by_filtered;
+  by_filtered.member_samples = 0;
+  EXPECT_EQ(apart.look(31, by_filtered).size(), 1U);
+  Scene touching;
+  touching.add(240.0, -18.0, 263.5, -36.0, {11, 9, 6});
+  touching.add(240.0, -18.0, 268.5, -36.0, {11, 9, 6});
+  EXPECT_EQ(touching.look(32).size(), 1U);
+}
+
 TEST(Detect, SeabedIsNoMember) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0);

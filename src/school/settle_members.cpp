@@ -60,25 +60,71 @@ double MemberSettler::reference(const std::vector<Run>& part) const {
   return db_from_counts(high());
 }
 
-std::vector<Run> MemberSettler::joined(const std::vector<Run>& part, double threshold_db) const {
+MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double threshold_db) const {
   const std::vector<Run> all = thresholder_.above(box_round(part), threshold_db, params_.background_rest_db);
-  std::vector<Run> runs;
-  for (const std::vector<Run>& piece : connected_parts(all, filtered_.shape(), params_.connectivity)) {
-    if (share_a_voxel(piece, part)) runs.insert(runs.end(), piece.begin(), piece.end());
-  }
-  std::sort(runs.begin(), runs.end());
-  return runs;
+  Parts parts = connected_parts(all, filtered_.shape(), params_.connectivity);
+  std::erase_if(parts, [&](const std::vector<Run>& piece) { return !share_a_voxel(piece, part); });
+  return parts;
 }
 
-MemberSettler::Settled MemberSettler::settle(const std::vector<Run>& part, double depth_db,
-                                             View3<std::uint8_t> claimed) {
+/// One group of pieces for each school, the strongest first.
+MemberSettler::Parts MemberSettler::grouped(const std::vector<Run>& part, double threshold_db,
+                                            const std::function<bool(const std::vector<Run>&)>& large) const {
+  const Parts all = pieces(part, threshold_db);
+  std::vector<std::pair<double, std::size_t>> tops;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!large(all[i])) continue;
+    const double top_db = reference(all[i]);
+    if (top_db >= threshold_db + params_.min_prominence_db) tops.emplace_back(-top_db, i);
+  }
+  Parts groups;
+  std::vector<bool> grouped(all.size(), false);
+  if (tops.size() > 1) {
+    std::sort(tops.begin(), tops.end());
+    const Parts lower = pieces(part, threshold_db - params_.part_dip_db);
+    for (const auto& [top, first] : tops) {
+      if (grouped[first]) continue;
+      const auto basin = std::find_if(lower.begin(), lower.end(),
+                                      [&, i = first](const auto& wide) { return share_a_voxel(wide, all[i]); });
+      std::vector<Run> group;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (grouped[i] || (i != first && (basin == lower.end() || !share_a_voxel(*basin, all[i])))) continue;
+        grouped[i] = true;
+        group.insert(group.end(), all[i].begin(), all[i].end());
+      }
+      groups.push_back(std::move(group));
+    }
+  }
+  if (groups.empty()) groups.emplace_back();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!grouped[i]) groups.front().insert(groups.front().end(), all[i].begin(), all[i].end());
+  }
+  for (std::vector<Run>& group : groups) std::sort(group.begin(), group.end());
+  return groups;
+}
+
+std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>& part, double depth_db,
+                                                          const std::function<bool(const std::vector<Run>&)>& large,
+                                                          View3<std::uint8_t> claimed) {
   look_along_beams(box_round(part));
-  Settled settled;
-  settled.reference_db = reference(part);
-  settled.threshold_db = settled.reference_db - depth_db;
-  const MemberTable table = MemberTable::one_sided(settled.reference_db, settled.reference_db - settled.threshold_db);
-  for (const Run& run : joined(part, settled.threshold_db)) {
-    const auto counts = std::as_const(along_beams_).view().row(run.row);
+  const double reference_db = reference(part);
+  const double threshold_db = reference_db - depth_db;
+  const Parts schools = grouped(part, threshold_db, large);
+  std::vector<Settled> settled;
+  for (const std::vector<Run>& school : schools) {
+    // Beside a stronger one a school goes down to where the two part, as there.
+    const double own_db = schools.size() == 1 ? reference_db : reference(school);
+    settled.push_back(members(school, own_db, std::max(threshold_db, own_db - depth_db), claimed));
+  }
+  return settled;
+}
+
+MemberSettler::Settled MemberSettler::members(const std::vector<Run>& runs, double reference_db, double threshold_db,
+                                              View3<std::uint8_t> claimed) const {
+  Settled settled{{}, reference_db, threshold_db};
+  const MemberTable table = MemberTable::one_sided(reference_db, reference_db - threshold_db);
+  for (const Run& run : runs) {
+    const auto counts = along_beams_.view().row(run.row);
     const auto of_others = claimed.row(run.row);
     bool open = false;
     for (auto s = static_cast<std::size_t>(run.first_sample); s < static_cast<std::size_t>(run.end()); ++s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/array.h"
@@ -32,16 +33,26 @@ class MemberSettler {
     double reference_db = 0.0;
     double threshold_db = 0.0;
   };
+  /// One school, or several where the filter bridged open water.
   /// part      what hangs together in the filtered data
   /// depth_db  members lie no deeper below the reference
+  /// large     whether so many voxels may be a school: others go with the first school
   /// claimed   voxels of other schools; the members are added
-  [[nodiscard]] Settled settle(const std::vector<Run>& part, double depth_db, View3<std::uint8_t> claimed);
+  /// out       at least one
+  [[nodiscard]] std::vector<Settled> settle(const std::vector<Run>& part, double depth_db,
+                                            const std::function<bool(const std::vector<Run>&)>& large,
+                                            View3<std::uint8_t> claimed);
 
  private:
   [[nodiscard]] IndexBox box_round(const std::vector<Run>& part) const;
   void look_along_beams(const IndexBox& box);
   [[nodiscard]] double reference(const std::vector<Run>& part) const;
-  [[nodiscard]] std::vector<Run> joined(const std::vector<Run>& part, double threshold_db) const;
+  using Parts = std::vector<std::vector<Run>>;
+  [[nodiscard]] Parts pieces(const std::vector<Run>& part, double threshold_db) const;
+  [[nodiscard]] Parts grouped(const std::vector<Run>& part, double threshold_db,
+                              const std::function<bool(const std::vector<Run>&)>& large) const;
+  [[nodiscard]] Settled members(const std::vector<Run>& runs, double reference_db, double threshold_db,
+                                View3<std::uint8_t> claimed) const;
 
   View3<const std::int16_t> filtered_;
   View3<const std::int16_t> unfiltered_;
