@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 4, "ccc44b9443e584e22db20886484d607b"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 6, "938a8b04b0308211ab8a2cd302ed5325"},
+    {"measure", 7, "938a8b04b0308211ab8a2cd302ed5325"},
     {"summarise", 2, "b1b6dd56edc8065e64196f90563eae7c"},
 }};
 
