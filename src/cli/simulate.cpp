@@ -140,8 +140,10 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--schools", o->schools, "Schools in each observation");
   verb->add_option("--speed-knots", o->speed_knots, "The ship's speed over ground");
   verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams");
-  verb->add_option("--beam-pattern", o->beam_pattern, "Shape of the beams: gaussian or uniform_line (with side lobes)")
-      ->check(CLI::IsMember({"gaussian", "uniform_line"}));
+  verb->add_option("--beam-pattern", o->beam_pattern,
+                   "Shape of the beams: gaussian, uniform_line (with side lobes), or sending wider than receiving: "
+                   "wide_transmit (both ways), wide_fan (along the fan)")
+      ->check(CLI::IsMember({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
   verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
   verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");

@@ -15,6 +15,7 @@
 #include "school/correct_sizes.h"
 #include "school/measure.h"
 #include "school/summarise.h"
+#include "school/two_way_beam.h"
 
 namespace sonar {
 namespace {
@@ -49,8 +50,19 @@ struct Measured {
   std::vector<bool> fault;
 };
 
-Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all,
-                     std::size_t index) {
+/// Equivalent beam angle of each row, dB re 1 sr.
+std::vector<double> beam_angles(const Engine& engine) {
+  const std::vector<BeamConfig>& beams = engine.observation().config.beams;
+  std::vector<double> psi_db;
+  for (const int channel : engine.grid().channel) {
+    const auto i = static_cast<std::size_t>(channel);
+    psi_db.push_back(i < beams.size() ? beams[i].equivalent_beam_angle_db : kUnknown);
+  }
+  return psi_db;
+}
+
+Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
+                     double area) {
   const ObservationFiles& observation = engine.observation();
   const PingMask others = others_than(all, index);
   MeasureInput input;
@@ -62,6 +74,7 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   input.background = ping.background();
   input.placement = engine.placement(ping.ping_index);
   input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
+  input.two_way_area = area;
   input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
   input.others = &others;
   input.threshold_db = all[index].in_ping->threshold_db;
@@ -90,10 +103,10 @@ Hash128 key_of(const std::vector<InPingRef>& schools) {
   return hasher.value();
 }
 
-std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine,
-                                   const std::vector<InPingRef>& schools) {
+std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine, const std::vector<InPingRef>& schools,
+                                   double area) {
   std::vector<Measured> rows;
-  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i));
+  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, area));
   return rows;
 }
 
@@ -211,12 +224,13 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::vector<std::vector<Measured>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
+  const double area = two_way_area(engine.grid(), beam_angles(engine));
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
     if (const auto* kept = kept_rows(before, ping_index, refs)) {
       rows[static_cast<std::size_t>(i)] = *kept;
     } else if (const auto ping = engine.kept_or_staged(ping_index)) {
-      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs);
+      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs, area);
     } else {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     }

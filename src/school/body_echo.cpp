@@ -11,6 +11,7 @@
 
 #include "base/units.h"
 #include "school/runs.h"
+#include "school/two_way_beam.h"
 
 namespace sonar {
 namespace {
@@ -136,6 +137,8 @@ struct Moments {
   Vector3 first{};
   Covariance3 second{};
   Covariance3 blur{};
+  Covariance3 upright{};
+  Covariance3 sideways{};
   double range2 = 0.0;  ///< sum of weight x range^2
 };
 
@@ -189,6 +192,8 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
   sum.sigma = sigma_v;
   add_square(m.blur, up, w2 * solid_angle * sigma_v * sigma_v);
   add_square(m.blur, sideways, w2 * solid_angle * sigma_h * sigma_h);
+  add_square(m.upright, up, w2 * solid_angle * sigma_v * sigma_v);
+  add_square(m.sideways, sideways, w2 * solid_angle * sigma_h * sigma_h);
   add_square(m.blur, along, w0 * solid_angle * ping.pulse_m * ping.pulse_m / 12.0);
 }
 
@@ -206,11 +211,6 @@ std::vector<FanEcho> profile(const std::vector<FanSum>& sums, const Sector& sect
 
 }  // namespace
 
-std::vector<double> beam_shapes(const MeasureParams& params) {
-  if (!params.find_beam_shape) return {params.beam_gaussian_share};
-  return {0.0, 0.25, 0.5, 0.75, 1.0};
-}
-
 BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   Moments m;
   std::vector<FanSum> sums(static_cast<std::size_t>(ping.sector->fans()));
@@ -227,14 +227,18 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
     for (std::size_t b = a; b < 3; ++b, ++k) {
       out.total[k] = m.second[k] / m.weight - centre[a] * centre[b];
       out.blur[k] = m.blur[k] / m.weight;
+      out.upright[k] = m.upright[k] / m.weight;
+      out.sideways[k] = m.sideways[k] / m.weight;
     }
   }
   out.centre = {centre[0], centre[1], centre[2]};
   out.mean_range2_m2 = m.range2 / m.weight;
+  out.two_way_area = ping.two_way_area;
   out.known = true;
   const std::vector<FanEcho> fans = profile(sums, *ping.sector, params.min_fan_share);
-  for (const double share : beam_shapes(params)) {
-    out.heights.push_back(height_likelihood(fans, {share, params.beam_pedestal}, std::sqrt(out.mean_range2_m2)));
+  for (const BeamShape& shape : beam_shapes(params, ping.two_way_area)) {
+    const BeamModel beam{shape.gaussian_share, params.beam_pedestal, shape.transmit_ratio};
+    out.heights.push_back(height_likelihood(fans, beam, std::sqrt(out.mean_range2_m2)));
   }
   return out;
 }

@@ -14,16 +14,17 @@ namespace sonar {
 
 /// What a ping's echo tells of a school's body before beam and pulse are taken out.
 struct BodyEcho {
-  bool known = false;                     ///< false = no echo above the background: nothing else means anything
-  Covariance3 total{};                    ///< of the echo round its centre, sonar frame, m^2
-  Covariance3 blur{};                     ///< what beam and pulse add to it, m^2
-  Point<Sonar> centre;                    ///< m
-  double mean_range2_m2 = 0;              ///< echo-weighted mean of range squared
-  std::vector<HeightLikelihood> heights;  ///< [shape of the beam] as beam_shapes(); empty ones = too few fans to tell
+  bool known = false;         ///< false = no echo above the background: nothing else means anything
+  Covariance3 total{};        ///< of the echo round its centre, sonar frame, m^2
+  Covariance3 blur{};         ///< what pulse and beam add to it, if it sends as narrowly as it receives, m^2
+  Covariance3 upright{};      ///< the part of it that is the beam's in elevation
+  Covariance3 sideways{};     ///< and in azimuth
+  double two_way_area = 1.0;  ///< MeasureInput's
+  Point<Sonar> centre;        ///< m
+  double mean_range2_m2 = 0;  ///< echo-weighted mean of range squared
+  /// [shape of the beam] as beam_shapes(params, two_way_area); empty ones = too few fans to tell
+  std::vector<HeightLikelihood> heights;
 };
-
-/// The shapes of beam that a school's echo is held against, as shares of a Gaussian: BeamModel.
-[[nodiscard]] std::vector<double> beam_shapes(const MeasureParams& params);
 
 /// Second moments of the echo in and round the mask, and how likely which height of the body is.
 /// The mask ends where the echo falls below its threshold, and moments cut there would be too small; so the echo is

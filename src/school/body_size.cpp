@@ -33,16 +33,21 @@ void correct_selection(Covariance3& total, const Covariance3& blur, const Point<
 
 }  // namespace
 
-BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const MeasureParams& params) {
+BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
+                   const MeasureParams& params) {
   BodySize size;
   if (!echo.known) return size;
   const auto height = most_likely_height(heights);
   Covariance3 total = echo.total;
-  if (height) correct_selection(total, echo.blur, echo.centre, height->variance_m2);
+  Covariance3 blur = echo.blur;
+  for (std::size_t k = 0; k < blur.size(); ++k) {
+    blur[k] += (beam.upright_variance - 1.0) * echo.upright[k] + (beam.level_variance - 1.0) * echo.sideways[k];
+  }
+  if (height) correct_selection(total, blur, echo.centre, height->variance_m2);
   Covariance3 body{};
-  for (std::size_t k = 0; k < body.size(); ++k) body[k] = total[k] - echo.blur[k];
+  for (std::size_t k = 0; k < body.size(); ++k) body[k] = total[k] - blur[k];
   const HorizontalAxes axes = horizontal_axes(body, 0.0);
-  const double level_blur = (echo.blur[0] + echo.blur[3]) / 2.0;
+  const double level_blur = (blur[0] + blur[3]) / 2.0;
   const auto extent = [&](double variance, double least_variance) {
     const double size_m = 2.0 * std::sqrt(params.shape_variance * std::max(variance, 0.0));
     return variance > least_variance && size_m >= params.floor_extent_m ? size_m : kUnknown;

@@ -4,6 +4,7 @@
 #include "model/school.h"
 #include "school/body_echo.h"
 #include "school/measure_params.h"
+#include "school/two_way_beam.h"
 
 namespace sonar {
 
@@ -16,6 +17,8 @@ struct BodySize {
 
 /// The extents of a uniform ellipsoid of the echo's second moments less those of beam and pulse.
 /// heights  how likely which height is, by this ping alone or with its neighbours
-[[nodiscard]] BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const MeasureParams& params);
+/// beam     the shape for which the heights are that likely
+[[nodiscard]] BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
+                                 const MeasureParams& params);
 
 }  // namespace sonar

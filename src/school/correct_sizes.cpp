@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "school/body_size.h"
 #include "school/edges.h"
+#include "school/two_way_beam.h"
 
 namespace sonar {
 namespace {
@@ -63,8 +64,10 @@ constexpr std::int64_t kAllPings = std::numeric_limits<std::int64_t>::max();
 
 /// Index of the shape of beam under which the echo of all schools is likeliest, each with one height for all its pings:
 /// the shape is the sonar's, and one school's ragged body may look like another.
-std::size_t likeliest_shape(const std::vector<SchoolThroughPings>& schools, std::size_t shapes) {
+std::size_t likeliest_shape(const std::vector<SchoolThroughPings>& schools, const std::vector<BeamShape>& beams) {
+  const std::size_t shapes = beams.size();
   std::vector<double> likelihood(shapes, 0.0);
+  for (std::size_t shape = 0; shape < shapes; ++shape) likelihood[shape] = -beams[shape].handicap;
   for (const SchoolThroughPings& school : schools) {
     std::vector<double> peaks(shapes, 0.0);
     double overdispersion = std::numeric_limits<double>::infinity();
@@ -79,16 +82,27 @@ std::size_t likeliest_shape(const std::vector<SchoolThroughPings>& schools, std:
   return static_cast<std::size_t>(std::max_element(likelihood.begin(), likelihood.end()) - likelihood.begin());
 }
 
+/// The same for all pings of an observation; those without an echo do not know it.
+double area_of(const std::vector<SchoolThroughPings>& schools) {
+  for (const SchoolThroughPings& school : schools) {
+    for (const MeasuredSchool* ping : school) {
+      if (ping->body.known) return ping->body.two_way_area;
+    }
+  }
+  return 1.0;
+}
+
 }  // namespace
 
 std::vector<SchoolPingRow> correct_sizes(const std::vector<SchoolThroughPings>& schools, const MeasureParams& params) {
-  const std::size_t shape = likeliest_shape(schools, beam_shapes(params).size());
+  const std::vector<BeamShape> shapes = beam_shapes(params, area_of(schools));
+  const std::size_t shape = likeliest_shape(schools, shapes);
   std::vector<SchoolPingRow> rows;
   for (const SchoolThroughPings& school : schools) {
     for (const MeasuredSchool* ping : school) {
       rows.push_back(ping->row);
       const HeightLikelihood heights = heights_near(school, shape, ping->row.ping_index, params.height_pool_pings);
-      measure_body(body_size(ping->body, heights, params), rows.back());
+      measure_body(body_size(ping->body, heights, shapes[shape], params), rows.back());
     }
   }
   return rows;

@@ -25,6 +25,7 @@ struct MeasureInput {
   Background background;
   Placement placement;
   double pulse_m = 0.0;              ///< extent of the pulse along range, c tau / 2
+  double two_way_area = 1.0;         ///< of the beams: two_way_beam.h
   const Seabed* seabed = nullptr;    ///< null = none seen
   const PingMask* others = nullptr;  ///< voxels of all other schools of the ping; null = none
   double threshold_db = kUnknown;    ///< the mask's, for the record

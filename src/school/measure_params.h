@@ -18,6 +18,7 @@ struct MeasureParams {
   double min_fan_share = 0.5;
   bool find_beam_shape = true;
   double beam_gaussian_share = 0.5;
+  bool use_beam_angle = true;
   double beam_pedestal = 0.1;
   int height_pool_pings = 10;
   double min_height_evidence = 0.7;
@@ -54,14 +55,15 @@ void describe(Visitor& v, MeasureParams& p) {
           {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of local and estimated background, either way"});
   v.field("min_fan_share", p.min_fan_share,
           {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is sound"});
-  v.field(
-      "find_beam_shape", p.find_beam_shape,
-      {.text = "of shares 0, 0.5 and 1 the one that fits all pings of a school best; off = as beam_gaussian_share"});
+  v.field("find_beam_shape", p.find_beam_shape,
+          {.text = "the shape of beam that fits all schools of an observation best; off = as beam_gaussian_share"});
   v.field("beam_gaussian_share", p.beam_gaussian_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .text = "the beam's flanks: 1 = Gaussian (a shaded array), 0 = a uniform line array's, between = a mean"});
+  v.field("use_beam_angle", p.use_beam_angle,
+          {.text = "the file's equivalent beam angles tell how much wider than it receives the sonar sends"});
   v.field("beam_pedestal", p.beam_pedestal,
           {.unit = "1",
            .min = 0.0001,

@@ -12,6 +12,7 @@
 #include "geo/geodesic.h"
 #include "school/correct_sizes.h"
 #include "school/test_water.h"
+#include "school/two_way_beam.h"
 
 namespace sonar {
 namespace {
@@ -43,6 +44,7 @@ struct Ping {
     in.grid = &grid;
     in.background = {flat.power_db, flat.calibration.view()};
     in.placement = placement;
+    in.two_way_area = two_way_area(grid, beam_angle_db);
     return measure(in, mask, params);
   }
 
@@ -52,6 +54,7 @@ struct Ping {
   }
 
   MeasureParams params;
+  std::vector<double> beam_angle_db;  ///< none = the file has none
   BeamGrid grid;
   Sector sector;
   Array3<double> expected;
@@ -124,6 +127,31 @@ TEST(Measure, CorrectedSizesAreTheBodysForEitherBeamShape) {
         EXPECT_NEAR(row.volume_corrected_m3 / body_m3, 1.0, 0.25) << range_m << " " << elevation_deg;
         // backscatter within 1 dB of sv V of the body: the mask leaves out what is 10 dB down
         EXPECT_NEAR(db_from_linear(row.backscatter_m2 / (1e-4 * body_m3)), -0.4, 0.6) << range_m;
+      }
+    }
+  }
+}
+
+// A sonar that sends wider than it receives has wider beams than their -3 dB widths say. Only the equivalent beam angle
+// tells; how it is shared out between height and length the schools tell.
+TEST(Measure, CorrectedSizesAreTheBodysWhereTheSonarSendsWide) {
+  for (const test::Beams beams : {test::Beams::wide_transmit, test::Beams::wide_fan}) {
+    for (const double elevation_deg : {-25.0, -12.0}) {
+      for (const double range_m : {100.0, 200.0, 300.0}) {
+        Ping ping;
+        ping.beam_angle_db.assign(500, test::beam_angle_db(beams));
+        test::Ellipsoid e = ellipsoid(range_m, elevation_deg, 268.0);
+        e.beams = beams;
+        if (range_m > 150.0) e.half_z = 10.0;
+        ping.add(e);
+        const SchoolPingRow row = ping.measured(1, false);
+        EXPECT_NEAR(row.length_corrected_m / 40.0, 1.0, 0.06) << range_m;
+        EXPECT_NEAR(row.width_corrected_m / 24.0, 1.0, 0.08) << range_m;
+        EXPECT_NEAR(row.volume_corrected_m3 / (kBody_m3 * e.half_z / 6.0), 1.0, 0.25)
+            << range_m << " " << elevation_deg;
+        if (beams != test::Beams::wide_transmit) continue;
+        ping.beam_angle_db.clear();  // nobody tells, and the body looks taller
+        EXPECT_GT(ping.measured(1, false).height_corrected_m, 1.25 * 2.0 * e.half_z);
       }
     }
   }

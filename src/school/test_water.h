@@ -46,19 +46,33 @@ inline BeamGrid grid(double mounting_deg = 270.0) {
 }
 inline RangeAxis range_axis(int samples = 900) { return {-0.75, 0.3776, samples}; }
 
-/// Two-way pattern in elevation and in azimuth, of one -3 dB width: exp(-z^2 / 2), or a uniform line's (sin x / x)^4.
-enum class Beams { gaussian, uniform_line };
+/// Two-way pattern in elevation and in azimuth, received with one -3 dB width: exp(-z^2 / 2); a uniform line's
+/// (sin x / x)^4; such a line that sends as a Gaussian three times as wide; a Gaussian that sends all beams of a fan alike.
+enum class Beams { gaussian, uniform_line, wide_transmit, wide_fan };
+/// Echo from further off the axis is left out, and of the integrals as well.
+inline constexpr double kReach_sigmas = 7.0;
 
 /// sigmas  angle off the axis in standard deviations of the Gaussian
-inline double two_way(Beams beams, double sigmas) {
+inline double two_way(Beams beams, double sigmas, bool vertical) {
   if (beams == Beams::gaussian) return std::exp(-0.5 * sigmas * sigmas);
+  if (beams == Beams::wide_fan) return std::exp((vertical ? -0.5 : -0.25) * sigmas * sigmas);
   const double x = 1.3915573782515105 * sigmas / (2.0 * std::sqrt(std::numbers::ln2));
-  return std::abs(x) < 1e-9 ? 1.0 : std::pow(std::sin(x) / x, 4);
+  const double sinc = std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x;
+  if (beams == Beams::uniform_line) return std::pow(sinc, 4);
+  return sinc * sinc * std::exp(-0.25 * sigmas * sigmas / 9.0);
 }
-/// Its integral: sqrt(2 pi) for the Gaussian, 2 pi / 3 in x for the line.
-inline double two_way_integral(Beams beams) {
-  if (beams == Beams::gaussian) return std::sqrt(2.0 * std::numbers::pi);
-  return 2.0 * std::numbers::pi / 3.0 * 2.0 * std::sqrt(std::numbers::ln2) / 1.3915573782515105;
+/// Its integral, by summing.
+inline double two_way_integral(Beams beams, bool vertical) {
+  constexpr int kSteps = 20'000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) sum += two_way(beams, (i + 0.5) / kSteps * kReach_sigmas, vertical);
+  return 2.0 * sum * kReach_sigmas / kSteps;
+}
+/// Equivalent beam angle of every beam of the grid.
+inline double beam_angle_db(Beams beams) {
+  const double sigma_v = rad_from_deg(kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  const double sigma_h = rad_from_deg(kHorizontalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  return db_from_linear(two_way_integral(beams, true) * two_way_integral(beams, false) * sigma_v * sigma_h);
 }
 
 struct Ellipsoid {
@@ -74,7 +88,7 @@ struct Ellipsoid {
 inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellipsoid& e, int points = 4000) {
   const double sigma_v = rad_from_deg(kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
   const double sigma_h = rad_from_deg(kHorizontalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
-  const double integral = two_way_integral(e.beams);
+  const double integral = two_way_integral(e.beams, true) * two_way_integral(e.beams, false);
   const double volume = 4.0 / 3.0 * std::numbers::pi * e.half_x * e.half_y * e.half_z;
   const double dr = sector.range().spacing_m;
   std::uint64_t n = 1;
@@ -89,16 +103,16 @@ inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellips
     const double elevation = std::asin(-p.z / r);
     const auto sample = static_cast<int>(std::lround(sector.range().sample_at(r)));
     if (sample < 0 || sample >= sector.range().count) continue;
-    const double weight = e.sv * volume / points / (r * r * dr) / (integral * integral * sigma_v * sigma_h);
+    const double weight = e.sv * volume / points / (r * r * dr) / (integral * sigma_v * sigma_h);
     for (int f = 0; f < sector.fans(); ++f) {
       const double de = (elevation - sector.elevation_rad(f)) / sigma_v;
-      if (std::abs(de) > 7.0) continue;
+      if (std::abs(de) > kReach_sigmas) continue;
       for (int b = 0; b < sector.beams(); ++b) {
         double azimuth = std::atan2(p.y, p.x) - sector.azimuth_rad(b);
         azimuth -= 2.0 * std::numbers::pi * std::round(azimuth / (2.0 * std::numbers::pi));
         const double da = azimuth * std::cos(elevation) / sigma_h;
-        if (std::abs(da) > 7.0) continue;
-        sv(f, b, sample) += weight * two_way(e.beams, de) * two_way(e.beams, da);
+        if (std::abs(da) > kReach_sigmas) continue;
+        sv(f, b, sample) += weight * two_way(e.beams, de, true) * two_way(e.beams, da, false);
       }
     }
   }

@@ -48,24 +48,40 @@ struct PatternAt {
 /// sin(x)/x falls to a half in power at this x.
 constexpr double kHalfPowerOfSinc = 1.3915573782515105;
 
-PatternAt gaussian(double z) {
-  const double value = std::exp(-0.5 * z * z);
-  return {value, -z * value};
+/// Receiving and transmitting beam, the latter's angle shrunk by q.
+PatternAt gaussian(double z, double q) {
+  const double steepness = 0.5 * (1.0 + q * q);
+  const double value = std::exp(-0.5 * steepness * z * z);
+  return {value, -steepness * z * value};
 }
 
-/// (sin x / x)^4, of one -3 dB width with the Gaussian.
-PatternAt uniform_line(double z) {
+/// (sin x / x)^2.
+PatternAt line_one_way(double x) {
+  constexpr double kSmall = 1e-4;  // below it the quotient loses its digits, and the parabola is exact to 1e-16
+  if (std::abs(x) < kSmall) return {1.0 - x * x / 3.0, -2.0 * x / 3.0};
+  const double s = std::sin(x) / x;
+  return {s * s, 2.0 * s * (std::cos(x) - s) / x};
+}
+
+/// (sin x / x)^2 (sin qx / qx)^2, of one -3 dB width with the Gaussian.
+PatternAt uniform_line(double z, double q) {
   const double scale = kHalfPowerOfSinc / (2.0 * std::sqrt(std::numbers::ln2));
   const double x = z * scale;
+  if (q < 1.0) {
+    const PatternAt receive = line_one_way(x);
+    const PatternAt transmit = line_one_way(q * x);
+    return {receive.value * transmit.value,
+            (receive.slope * transmit.value + receive.value * transmit.slope * q) * scale};
+  }
   constexpr double kSmall = 1e-4;  // below it the quotient loses its digits, and the parabola is exact to 1e-16
   if (std::abs(x) < kSmall) return {1.0 - 2.0 * x * x / 3.0, -4.0 * x / 3.0 * scale};
   const double s = std::sin(x) / x;
   return {s * s * s * s, 4.0 * s * s * s * (std::cos(x) - s) / x * scale};
 }
 
-PatternAt pattern_at(double gaussian_share, double z) {
-  const PatternAt g = gaussian_share > 0.0 ? gaussian(z) : PatternAt{};
-  const PatternAt u = gaussian_share < 1.0 ? uniform_line(z) : PatternAt{};
+PatternAt pattern_at(double gaussian_share, double transmit_ratio, double z) {
+  const PatternAt g = gaussian_share > 0.0 ? gaussian(z, transmit_ratio) : PatternAt{};
+  const PatternAt u = gaussian_share < 1.0 ? uniform_line(z, transmit_ratio) : PatternAt{};
   const double rest = 1.0 - gaussian_share;
   return {gaussian_share * g.value + rest * u.value, gaussian_share * g.slope + rest * u.slope};
 }
@@ -73,7 +89,10 @@ PatternAt pattern_at(double gaussian_share, double z) {
 class Likelihood {
  public:
   Likelihood(const std::vector<FanEcho>& fans, const BeamModel& beam)
-      : fans_(fans), gaussian_share_(beam.gaussian_share), pedestal_(beam.pedestal) {
+      : fans_(fans),
+        gaussian_share_(beam.gaussian_share),
+        transmit_ratio_(beam.transmit_ratio),
+        pedestal_(beam.pedestal) {
     double sum = 0.0;
     double moment = 0.0;
     for (const FanEcho& fan : fans) {
@@ -102,7 +121,7 @@ class Likelihood {
     const double inverse = 1.0 / fan.sigma_rad;
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double z = (fan.elevation_rad - centre_ - half_height * marginal_.u[k]) * inverse;
-      const PatternAt p = pattern_at(gaussian_share_, z);
+      const PatternAt p = pattern_at(gaussian_share_, transmit_ratio_, z);
       m += marginal_.weight[k] * p.value * inverse;
       dm -= marginal_.weight[k] * p.slope * inverse * inverse;
     }
@@ -153,6 +172,7 @@ class Likelihood {
 
   const std::vector<FanEcho>& fans_;
   double gaussian_share_;
+  double transmit_ratio_;
   double pedestal_;
   Marginal marginal_;
   double centre_ = 0.0;
@@ -163,7 +183,7 @@ class Likelihood {
 }  // namespace
 
 double two_way_pattern(const BeamModel& beam, double off_axis) {
-  return pattern_at(beam.gaussian_share, off_axis).value;
+  return pattern_at(beam.gaussian_share, beam.transmit_ratio, off_axis).value;
 }
 
 double half_height_m(std::size_t k) {

@@ -20,9 +20,10 @@ struct FanEcho {
 struct BeamModel {
   double gaussian_share = 0.5;  ///< 1 = Gaussian, 0 = a uniform line array, in between a mean of both
   double pedestal = 0.1;  ///< share of the strongest fan, added to echo and model alike: flanks below decide nothing
+  double transmit_ratio = 1.0;  ///< width of receiving over that of sending: 1 = alike, 0 = sent everywhere
 };
 
-/// Two-way pattern at an angle off the axis, 1 on it; both shapes are half power at one-way width / 2.
+/// Two-way pattern at an angle off the axis, 1 on it; both shapes receive half the power at one-way width / 2.
 /// off_axis  angle in units of FanEcho::sigma_rad
 [[nodiscard]] double two_way_pattern(const BeamModel& beam, double off_axis);
 

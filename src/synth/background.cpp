@@ -18,8 +18,9 @@ double strength(double db) { return db > kNothing_db ? linear_from_db(db) : 0.0;
 /// Vertical two-way pattern as a density over elevation, rad^-1.
 double vertical_density(BeamPattern pattern, const RowBeam& row, double elevation_rad) {
   const double x = (elevation_rad - row.elevation_rad) / row.sigma_v_rad;
-  if (std::abs(x) > pattern_reach(pattern)) return 0.0;
-  return pattern_value(pattern, x) / (pattern_integral(pattern) * row.sigma_v_rad);
+  constexpr PatternPart kPart = PatternPart::vertical;
+  if (std::abs(x) > pattern_reach(pattern, kPart)) return 0.0;
+  return pattern_value(pattern, kPart, x) / (pattern_integral(pattern, kPart) * row.sigma_v_rad);
 }
 
 /// The sonar equation the other way: received power in dB re 1 W for Sv = 0 dB at range r.
@@ -106,7 +107,7 @@ Seabed::Seabed(const Layout& layout, const Scene& scene, const Point<Enu>& ship,
       const double grazing = std::min(down - out.slope_rad, std::numbers::pi / 2.0);
       return grazing > 0.0 ? sample_of(out.distance_m / std::sin(grazing), row.count) : row.count;
     };
-    const double reach = pattern_reach(layout.pattern) * row.sigma_v_rad;
+    const double reach = pattern_reach(layout.pattern, PatternPart::vertical) * row.sigma_v_rad;
     out.first = meets(-row.elevation_rad + reach);
     out.last = std::max(out.first, meets(-row.elevation_rad - reach));
     const double edge =

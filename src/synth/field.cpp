@@ -41,12 +41,12 @@ const ExpTable& exp_table() {
   return table;
 }
 
-/// A uniform line's two-way pattern by its distance from the axis.
+/// A line's two-way pattern by its distance from the axis.
 class LineTable {
  public:
-  LineTable() : reach_(pattern_reach(BeamPattern::uniform_line)) {
+  LineTable(BeamPattern pattern, PatternPart part) : reach_(pattern_reach(pattern, part)) {
     for (int i = 0; i < static_cast<int>(reach_ * kStepsPerUnit) + 1; ++i) {
-      values_.push_back(static_cast<float>(pattern_value(BeamPattern::uniform_line, (i + 0.5) / kStepsPerUnit)));
+      values_.push_back(static_cast<float>(pattern_value(pattern, part, (i + 0.5) / kStepsPerUnit)));
     }
   }
   [[nodiscard]] float operator()(double off_axis) const {
@@ -59,9 +59,20 @@ class LineTable {
   std::vector<float> values_;
 };
 
-const LineTable& line_table() {
-  static const LineTable table;
-  return table;
+struct LineTables {
+  explicit LineTables(BeamPattern pattern)
+      : vertical(pattern, PatternPart::vertical), horizontal(pattern, PatternPart::horizontal) {}
+  LineTable vertical;
+  LineTable horizontal;
+};
+
+/// The Gaussian has none, and looks into none.
+const LineTables& line_tables(BeamPattern pattern) {
+  static const LineTables line(BeamPattern::uniform_line);
+  static const LineTables wide_transmit(BeamPattern::wide_transmit);
+  static const LineTables wide_fan(BeamPattern::wide_fan);
+  if (pattern == BeamPattern::wide_transmit) return wide_transmit;
+  return pattern == BeamPattern::wide_fan ? wide_fan : line;
 }
 
 struct Lobe {
@@ -93,12 +104,17 @@ Pattern pattern(const Layout& layout, double width, double energy, double cut) {
 }
 
 Pattern line_pattern(const Layout& layout) {
-  const double reach = pattern_reach(BeamPattern::uniform_line);
-  const double integral = pattern_integral(BeamPattern::uniform_line);
-  Pattern p{{}, BeamPattern::uniform_line, 0.0, layout.max_sigma_v_rad * reach, layout.max_sigma_h_rad * reach};
+  const BeamPattern shape = layout.pattern;
+  const double integral =
+      pattern_integral(shape, PatternPart::vertical) * pattern_integral(shape, PatternPart::horizontal);
+  Pattern p{{},
+            shape,
+            0.0,
+            layout.max_sigma_v_rad * pattern_reach(shape, PatternPart::vertical),
+            layout.max_sigma_h_rad * pattern_reach(shape, PatternPart::horizontal)};
   for (const RowBeam& row : layout.rows) {
-    p.lobes.push_back({1.0 / row.sigma_v_rad, 1.0 / row.sigma_h_rad,
-                       1.0 / (integral * integral * row.sigma_v_rad * row.sigma_h_rad)});
+    p.lobes.push_back(
+        {1.0 / row.sigma_v_rad, 1.0 / row.sigma_h_rad, 1.0 / (integral * row.sigma_v_rad * row.sigma_h_rad)});
   }
   return p;
 }
@@ -121,7 +137,7 @@ struct IndexRange {
 
 class Splatter {
  public:
-  explicit Splatter(const Layout& layout) : layout_(layout) {
+  explicit Splatter(const Layout& layout) : layout_(layout), line_(line_tables(layout.pattern)) {
     for (int fan = 0; fan < layout.shape.fans; ++fan) elevations_.push_back(row(fan, 0).elevation_rad);
     for (int beam = 0; beam < layout.shape.beams; ++beam) azimuths_.push_back(row(0, beam).azimuth_rad);
   }
@@ -162,7 +178,9 @@ class Splatter {
 
  private:
   [[nodiscard]] float towards(const Pattern& p, const Lobe& lobe, double de, double da) const {
-    if (p.shape == BeamPattern::uniform_line) return line_(de * lobe.inverse_v) * line_(da * lobe.inverse_h);
+    if (p.shape != BeamPattern::gaussian) {
+      return line_.vertical(de * lobe.inverse_v) * line_.horizontal(da * lobe.inverse_h);
+    }
     const double q = de * de * lobe.inverse_v + da * da * lobe.inverse_h;
     return q < p.cut ? exp_(q) : 0.0F;
   }
@@ -177,7 +195,7 @@ class Splatter {
 
   const Layout& layout_;
   const ExpTable& exp_ = exp_table();
-  const LineTable& line_ = line_table();
+  const LineTables& line_;
   std::vector<double> elevations_;
   std::vector<double> azimuths_;
 };

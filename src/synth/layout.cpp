@@ -49,6 +49,17 @@ void record_grid(Layout& layout, BeamGrid grid) {
 
 }  // namespace
 
+std::vector<Beam> sounding_beams(std::vector<Beam> beams, BeamPattern pattern) {
+  if (!has_own_beam_angle(pattern)) return beams;
+  const double integral =
+      pattern_integral(pattern, PatternPart::vertical) * pattern_integral(pattern, PatternPart::horizontal);
+  for (Beam& beam : beams) {
+    const RowBeam row = row_beam(beam, 0, 0.0);
+    beam.psi_db = db_from_linear(integral * row.sigma_v_rad * row.sigma_h_rad);
+  }
+  return beams;
+}
+
 Layout make_layout(std::vector<Beam> beams, BeamPattern pattern) {
   Layout layout;
   layout.pattern = pattern;

@@ -40,6 +40,10 @@ struct Layout {
   }
 };
 
+/// The beams with their equivalent beam angles: the pattern's own where has_own_beam_angle(),
+/// else the table's.
+[[nodiscard]] std::vector<Beam> sounding_beams(std::vector<Beam> beams, BeamPattern pattern);
+
 [[nodiscard]] Layout make_layout(std::vector<Beam> beams, BeamPattern pattern = BeamPattern::gaussian);
 
 }  // namespace sonar::synth

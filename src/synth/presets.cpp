@@ -5,6 +5,7 @@
 
 #include "geo/geodesic.h"
 #include "synth/demo.h"
+#include "synth/layout.h"
 #include "synth/placement.h"
 #include "synth/random.h"
 
@@ -110,7 +111,7 @@ SurveyParams survey_params(Preset preset) {
 
 Scene scene_base(const SurveyParams& params, const std::vector<Beam>& beams, int observation) {
   Scene scene;
-  scene.beams = beams;
+  scene.beams = sounding_beams(beams, params.beam_pattern);
   scene.beam_pattern = params.beam_pattern;
   scene.water = params.water;
   scene.noise = params.noise;

@@ -79,8 +79,10 @@ void describe(Visitor& v, SurveyParams& p) {
   v.field("splits", p.splits, {.min = 0, .max = 20, .text = "schools that split in each observation"});
   v.field("motion_deg", p.motion_deg,
           {.unit = "deg", .min = 0, .max = 10, .text = "amplitude of yaw; roll is three times this"});
-  v.choice("beam_pattern", p.beam_pattern, kBeamPatternNames,
-           "the beams' two-way directivity: a Gaussian, or a uniform line array's with its side lobes");
+  v.choice(
+      "beam_pattern", p.beam_pattern, kBeamPatternNames,
+      "the beams' two-way directivity: a Gaussian, a uniform line array's with its side lobes, and such as send wider "
+      "than they receive, both ways or along the fan");
   v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "a new file begins after this much"});
   v.field("new_file_per_observation", p.new_file_per_observation, {.text = "no file holds two observations"});
   v.group("water", p.water, "what is in the water besides fish");

@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/depth_raster.h"
 #include "io/simrad/writer.h"
+#include "synth/layout.h"
 #include "synth/nmea.h"
 #include "synth/seabed_grid.h"
 #include "synth/sonar.h"
@@ -197,7 +198,7 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   SimulateResult result;
   std::int64_t pings_in_all = 0;
   for (const Scene& scene : *scenes) pings_in_all += scene.pings;
-  SurveyFiles files(out, sounder_config(beams, kSurveyName), params.file_mb);
+  SurveyFiles files(out, sounder_config(sounding_beams(beams, params.beam_pattern), kSurveyName), params.file_mb);
   SurveyTruth truth(out / "truth", kSurveyName, program_version);
   for (std::size_t i = 0; i < scenes->size(); ++i) {
     const SyntheticSonar sonar((*scenes)[i]);

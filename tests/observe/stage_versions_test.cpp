@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 4, "681309c9299f15e98a87e66bb0d9b74c"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 6, "2f73bf74d34d954c6a720b20a012439e"},
+    {"measure", 7, "2f73bf74d34d954c6a720b20a012439e"},
     {"summarise", 2, "8696eab71d8f488cf494afb2e72c363f"},
 }};
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/two_way_beam.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "base/units.h"
+#include "school/test_water.h"
+#include "school/vertical_fit.h"
+
+namespace sonar {
+namespace {
+
+/// 10 log10 of the product of a beam's -3 dB widths, rad^2.
+double widths_db(double vertical_deg, double horizontal_deg) {
+  return db_from_linear(rad_from_deg(vertical_deg) * rad_from_deg(horizontal_deg));
+}
+
+BeamGrid grid_of(const std::vector<double>& vertical_deg, const std::vector<double>& horizontal_deg) {
+  BeamGrid grid;
+  grid.vertical_width_deg = vertical_deg;
+  grid.horizontal_width_deg = horizontal_deg;
+  return grid;
+}
+
+/// Over exp(-4 ln 2 u^2) squared, (sin x / x)^2 squared: integrals pi / (8 ln 2) w^2 and (2 pi / 3 / 2.7831)^2 w^2.
+constexpr double kSquareGaussian_db = -2.468;
+constexpr double kSquareLine_db = -2.460;
+
+TEST(TwoWayArea, IsOneForBeamsThatSendAsTheyReceive) {
+  const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.9});
+  for (const double square_db : {kSquareGaussian_db, kSquareLine_db}) {
+    const std::vector<double> psi_db{widths_db(6.6, 3.4) + square_db, widths_db(7.2, 2.9) + square_db};
+    EXPECT_EQ(two_way_area(grid, psi_db), 1.0);
+  }
+}
+
+// A Gaussian that sends everywhere in one plane has the one-way integral there, sqrt(2) of the two-way one.
+TEST(TwoWayArea, IsWhatTheWideTransmitBeamMakesOfThem) {
+  const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.9});
+  const double wide_db = kSquareGaussian_db + db_from_linear(std::numbers::sqrt2);
+  const std::vector<double> psi_db{widths_db(6.6, 3.4) + wide_db, widths_db(7.2, 2.9) + wide_db};
+  EXPECT_NEAR(two_way_area(grid, psi_db), std::numbers::sqrt2, 0.002);
+}
+
+TEST(TwoWayArea, IsOneWhereTheBeamAngleIsNoEvidence) {
+  const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.0});
+  const double wide_db = -1.0;
+  const std::vector<double> sound{widths_db(6.6, 3.4) + wide_db, widths_db(7.2, 2.0) + wide_db};
+  ASSERT_GT(two_way_area(grid, sound), 1.3);
+  EXPECT_EQ(two_way_area(grid, {}), 1.0);
+  EXPECT_EQ(two_way_area(grid, std::vector{0.0, 0.0}), 1.0) << "not filled in";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], std::numeric_limits<double>::quiet_NaN()}), 1.0);
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], sound[0]}), 1.0) << "copied though the widths differ";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] + 5.0, sound[1] + 5.0}), 1.0) << "wider than any beam";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] - 9.0, sound[1] - 9.0}), 1.0) << "narrower than both ways";
+  EXPECT_EQ(two_way_area(grid_of({6.6, 0.0}, {3.4, 2.0}), sound), 1.0) << "a width is missing";
+}
+
+// Fans 0, 10 and 19, beam 12, of a recorded MS70: from what neither pattern has down to nearly the square of one.
+TEST(TwoWayArea, IsOneWhereTheBeamAngleGoesItsOwnWay) {
+  const BeamGrid grid = grid_of({6.994, 6.370, 7.235}, {2.709, 3.250, 3.963});
+  EXPECT_EQ(two_way_area(grid, std::vector{-18.83, -22.73, -22.67}), 1.0);
+}
+
+double integral_of(const BeamShape& shape) {
+  constexpr double kReach = 200.0;
+  constexpr int kSteps = 200'000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    sum += two_way_pattern({shape.gaussian_share, 0.1, shape.transmit_ratio}, (i + 0.5) / kSteps * kReach);
+  }
+  return 2.0 * sum * kReach / kSteps;
+}
+
+// However the area is shared, the parts make it up. What sends everywhere has a tail, 1 / (pi x) of it beyond x.
+TEST(BeamShapes, HaveTheAreaThatTheyAreAskedFor) {
+  for (const double area : {1.0, 1.3, 1.8}) {
+    const std::vector<BeamShape> shapes = beam_shapes(MeasureParams{}, area);
+    EXPECT_EQ(shapes.size(), area > 1.0 ? 10U : 5U);
+    for (const BeamShape& shape : shapes) {
+      const double square = integral_of({shape.gaussian_share, 1.0, 1.0});
+      EXPECT_NEAR(integral_of(shape) / square * std::sqrt(shape.level_variance), area, 0.005)
+          << shape.gaussian_share << " " << shape.transmit_ratio;
+    }
+    EXPECT_TRUE(std::any_of(shapes.begin(), shapes.end(), [&](const BeamShape& shape) {
+      return area > 1.45 || (shape.transmit_ratio == 1.0 && std::abs(shape.level_variance - area * area) < 1e-9);
+    })) << "all of it along the fan";
+  }
+}
+
+TEST(BeamShapes, SendAsTheyReceiveWhereTheBeamAngleIsNotToBeUsed) {
+  MeasureParams params;
+  params.use_beam_angle = false;
+  for (const BeamShape& shape : beam_shapes(params, 1.8)) {
+    EXPECT_EQ(shape.transmit_ratio, 1.0);
+    EXPECT_EQ(shape.upright_variance, 1.0);
+    EXPECT_EQ(shape.level_variance, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace sonar
