@@ -156,10 +156,12 @@ class FileReducer {
     if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
     const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
     if (row < 0) return {};
-    // A ping's first channel tells of roll, heave, heading, seabed and water: it stays in any case.
+    // A ping's first channel tells of roll, heave, heading, seabed, water and beams that are missing: it stays in any
+    // case.
     ChannelPing head = raw.head;
     head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
     head.reduced_water = is_first ? ping_rows_.water : std::nullopt;
+    head.reduced_short = is_first ? ping_rows_.short_beams : std::vector<ReducedChannel>{};
     return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
                           ping_rows_.record[static_cast<std::size_t>(row)], is_first);
   }

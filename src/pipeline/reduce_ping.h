@@ -20,6 +20,7 @@ struct ReducedPing {
   std::vector<ReducedRow> record;  ///< [row]
   std::optional<ReducedSeabed> seabed;
   std::optional<WaterLevels> water;
+  std::vector<ReducedChannel> short_beams;  ///< of which nothing is kept, though they end before the ping does
 };
 
 /// Picks the samples that decide about the masks of one ping.
