@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
 #include "school/candidates.h"
+#include "school/detect.h"
 #include "school/runs.h"
 
 namespace sonar {
@@ -232,28 +233,36 @@ void note_short_beams(const PowerVolume& whole, const std::vector<int>& row_of_c
 }  // namespace
 
 Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const std::vector<const PingMask*>& masks,
-                                bool keeps_ends, const ReduceParams& params) {
+                                KeepAlso also, const ReduceParams& params) {
   const auto whole = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(ping_index));
   if (!whole) return pass_on(whole);
   ReducedPing out;
   out.counts = Array3<std::int16_t>(whole->volume.counts.shape(), kNoData);
   Seabed seabed;
-  if (!masks.empty()) {
+  if (!masks.empty() || also.detections) {
     const auto staged = engine.staged(ping_index);
     if (!staged) return pass_on(staged);
     seabed = staged->seabed;
     const Recipe& recipe = engine.recipe();
+    // What became no school is still what tracks were joined past: without it they would be joined otherwise.
+    std::vector<Detection> detected;
+    std::vector<const PingMask*> deciding = masks;
+    if (recipe.automatic && also.detections) {
+      detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(*staged->filtered).flags.view(),
+                        engine.sector(), staged->background(), recipe.detect);
+      for (const Detection& one : detected) deciding.push_back(&one.mask);
+    }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,
                       recipe.median.kernel_beams / 2 + params.margin_beams,
                       recipe.median.kernel_samples / 2 + params.margin_samples};
     Keeper keeper(*whole, *staged, out);
     out.water = water_of(*staged, recipe.detect);
-    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, masks)) {
+    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, deciding)) {
       keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
     }
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
   }
-  if (keeps_ends) keep_last_samples(whole->volume.counts, out.counts);
+  if (also.ends) keep_last_samples(whole->volume.counts, out.counts);
   if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
   const std::vector<int> row_of_channel = engine.grid().row_of_channel();
   fill_record(*whole, row_of_channel, seabed, engine.background_db(ping_index), out);
