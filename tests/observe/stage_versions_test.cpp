@@ -39,7 +39,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 2, "aae837000c9ff6f0127446493cea9c4a"},
-    {"detect", 4, "ccc44b9443e584e22db20886484d607b"},
+    {"detect", 5, "ccc44b9443e584e22db20886484d607b"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
     {"measure", 6, "938a8b04b0308211ab8a2cd302ed5325"},
