@@ -50,7 +50,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("--margin-beams", arguments->reduce.margin_beams, "raw-reduced: the same in beams");
   verb->add_option("--margin-fans", arguments->reduce.margin_fans, "raw-reduced: the same in fans");
   verb->add_option("--margin-pings", arguments->reduce.margin_pings,
-                   "raw-reduced: pings without samples before and after a school");
+                   "raw-reduced: pings that hold none of a school, before and after it");
   verb->add_option("--coarsen", arguments->reduce.coarsen_samples,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));

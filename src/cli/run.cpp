@@ -132,6 +132,7 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
   const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
   opened.plan = make_plan(opened.survey, paths, arguments.session, opened.plan.recipe,
                           {options.pings, opened.journal, options.program_version});
+  if (auto possible = require_possible(opened.plan, options); !possible) return possible;
   if (auto held = set_aside(options.out, opened.plan); !held) return held;
   return write_file(options.out / "plan.json", plan_text(opened.plan));
 }

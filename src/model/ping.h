@@ -34,6 +34,14 @@ struct ReducedSeabed {
   friend bool operator==(const ReducedSeabed&, const ReducedSeabed&) = default;
 };
 
+/// What a reduced raw file says of a beam of which it holds nothing, though the beam was not whole: no channel, or one
+/// that ended before the others. Behind the record of a reduced ping's first channel.
+struct ReducedChannel {
+  int channel = 0;  ///< 0-based
+  ReducedRow row;
+  friend bool operator==(const ReducedChannel&, const ReducedChannel&) = default;
+};
+
 /// One channel of one ping: RAW0's header and a view of its power counts.
 struct ChannelPing {
   int channel = 0;  ///< 0-based
@@ -57,6 +65,7 @@ struct ChannelPing {
   std::optional<ReducedRow> reduced;            ///< only in reduced files
   std::optional<ReducedSeabed> reduced_seabed;  ///< only beside `reduced`
   std::optional<WaterLevels> reduced_water;     ///< of the whole ping; only beside `reduced`
+  std::vector<ReducedChannel> reduced_short;    ///< beams left out that end early; only beside `reduced`
 };
 
 /// Whether the channel listened only, or to a test signal: what it holds is no echo.

@@ -32,6 +32,7 @@ struct KeptPing {
   std::size_t ping_index = 0;
   std::vector<const PingMask*> masks;  ///< empty: no samples stay
   bool keeps_ends = false;             ///< the first after a gap shows how far the beams reach
+  bool tracked = false;                ///< some school's track runs here or begins soon
 };
 
 /// An observation being reduced, with the stages that tell faulty samples.
@@ -75,7 +76,10 @@ void choose_pings(const ObservationProduct& product, std::size_t observation, co
   }
   for (const auto& [school, span] : spans) {
     for (std::int64_t i = span.first - params.margin_pings; i <= span.second + params.margin_pings; ++i) {
-      if (i >= 0 && i <= last_ping) out.pings.try_emplace(static_cast<std::size_t>(i));
+      if (i < 0 || i > last_ping) continue;
+      KeptPing& ping = out.pings[static_cast<std::size_t>(i)];
+      // What became no school is kept up to a school's end: behind that nothing may bridge the pings that go.
+      ping.tracked = ping.tracked || i <= span.second;
     }
   }
   std::size_t expected = 0;
@@ -147,7 +151,7 @@ class FileReducer {
       // Detection and the seabed stood on the background that the product holds.
       const auto& levels = observation.product->background_db;
       if (!levels.empty()) observation.engine->give_background(index, levels[ping.ping_index]);
-      auto reduced = reduce_ping(*observation.engine, index, ping.masks, ping.keeps_ends, params_);
+      auto reduced = reduce_ping(*observation.engine, index, ping.masks, {ping.keeps_ends, ping.tracked}, params_);
       if (!reduced) return pass_on(reduced);
       ping_rows_ = std::move(*reduced);
       row_of_channel_ = observation.files->grid->row_of_channel();
@@ -156,10 +160,12 @@ class FileReducer {
     if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
     const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
     if (row < 0) return {};
-    // A ping's first channel tells of roll, heave, heading, seabed and water: it stays in any case.
+    // A ping's first channel tells of roll, heave, heading, seabed, water and beams that are missing: it stays in any
+    // case.
     ChannelPing head = raw.head;
     head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
     head.reduced_water = is_first ? ping_rows_.water : std::nullopt;
+    head.reduced_short = is_first ? ping_rows_.short_beams : std::vector<ReducedChannel>{};
     return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
                           ping_rows_.record[static_cast<std::size_t>(row)], is_first);
   }

@@ -36,7 +36,7 @@ void describe(Visitor& v, ReduceParams& p) {
           {.unit = "pings",
            .min = 0,
            .max = 100000,
-           .text = "pings without samples before and after each school: they end its track as it ended before"});
+           .text = "pings before and after each school that hold none of it: they begin and end its track as before"});
   v.field("coarsen_samples", p.coarsen_samples,
           {.unit = "samples",
            .min = 0,
@@ -54,7 +54,8 @@ struct ReduceReport {
 
 /// Writes each raw file anew with the selected schools' samples only, under its own name. A school's samples are those
 /// that decided about it: the box in which detection looked at it and at its neighbours, widened by half the median's
-/// box, and what the corrected sizes look at. Each beam is cut to its first and last such sample by offset and count;
+/// box, and what the corrected sizes look at. What was detected beside schools but became none stays as well, as long as
+/// a school's track may meet it. Each beam is cut to its first and last such sample by offset and count;
 /// what lies between is the missing value -20000, a faulty sample -32767. Behind the samples stands what was worked out
 /// from the whole ping (ReducedRow), so that a run under the same recipe gives the same masks.
 /// Pings without schools lose their samples, and all but margin_pings beside a school go. Everything that is no sample

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
 #include "school/candidates.h"
+#include "school/detect.h"
 #include "school/runs.h"
 
 namespace sonar {
@@ -189,48 +190,84 @@ void keep_coarse(const Array3<std::int16_t>& counts, int group, Array3<std::int1
   }
 }
 
-void fill_record(const PowerVolume& whole, const Seabed& seabed, const std::vector<float>& background_db,
-                 ReducedPing& out) {
+void fill_record(const PowerVolume& whole, const std::vector<int>& row_of_channel, const Seabed& seabed,
+                 const std::vector<float>& background_db, ReducedPing& out) {
   if (seabed.found) {
     out.seabed = ReducedSeabed{seabed.offset_m, seabed.slope_x, seabed.slope_y, seabed.min_x,
                                seabed.max_x,    seabed.min_y,   seabed.max_y};
   }
+  // A file that was reduced before tells how long its beams once were.
+  const std::vector<int> told =
+      is_reduced(whole.heads) ? reduced_lengths(whole.heads, row_of_channel) : std::vector<int>{};
+  const int samples = whole.volume.counts.shape().samples;
   out.record.resize(whole.volume.counts.shape().rows());
   for (std::size_t row = 0; row < out.record.size(); ++row) {
     ReducedRow& record = out.record[row];
     record.background_db = background_db.empty() ? std::numeric_limits<float>::quiet_NaN() : background_db[row];
-    record.recorded_samples = recorded_end(whole.volume.counts.view().row(static_cast<int>(row)));
-    record.seabed_sample = seabed.found ? seabed.first_sample[row] : whole.volume.counts.shape().samples;
+    if (told.empty()) {
+      record.recorded_samples = recorded_end(whole.volume.counts.view().row(static_cast<int>(row)));
+    } else {
+      record.recorded_samples = told[row] < 0 ? samples : std::min(told[row], samples);
+    }
+    record.seabed_sample = seabed.found ? seabed.first_sample[row] : samples;
+  }
+}
+
+/// Beams that the file will not hold: no channel to write, or no sample of it. Those that end with the ping are water.
+void note_short_beams(const PowerVolume& whole, const std::vector<int>& row_of_channel, ReducedPing& out) {
+  const int samples = whole.volume.counts.shape().samples;
+  std::vector<bool> there(row_of_channel.size(), false);
+  for (const ChannelPing& head : whole.heads) {
+    if (head.channel >= 0 && static_cast<std::size_t>(head.channel) < there.size()) {
+      there[static_cast<std::size_t>(head.channel)] = true;
+    }
+  }
+  for (std::size_t channel = 0; channel < row_of_channel.size(); ++channel) {
+    const int row = row_of_channel[channel];
+    if (row < 0) continue;
+    const ReducedRow& record = out.record[static_cast<std::size_t>(row)];
+    const bool kept = there[channel] && recorded_end(std::as_const(out.counts).view().row(row)) > 0;
+    if (!kept && record.recorded_samples < samples) out.short_beams.push_back({static_cast<int>(channel), record});
   }
 }
 
 }  // namespace
 
 Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const std::vector<const PingMask*>& masks,
-                                bool keeps_ends, const ReduceParams& params) {
+                                KeepAlso also, const ReduceParams& params) {
   const auto whole = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(ping_index));
   if (!whole) return pass_on(whole);
   ReducedPing out;
   out.counts = Array3<std::int16_t>(whole->volume.counts.shape(), kNoData);
   Seabed seabed;
-  if (!masks.empty()) {
+  if (!masks.empty() || also.detections) {
     const auto staged = engine.staged(ping_index);
     if (!staged) return pass_on(staged);
     seabed = staged->seabed;
     const Recipe& recipe = engine.recipe();
+    // What became no school is still what tracks were joined past: without it they would be joined otherwise.
+    std::vector<Detection> detected;
+    std::vector<const PingMask*> deciding = masks;
+    if (recipe.automatic && also.detections) {
+      detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(*staged->filtered).flags.view(),
+                        engine.sector(), staged->background(), recipe.detect);
+      for (const Detection& one : detected) deciding.push_back(&one.mask);
+    }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,
                       recipe.median.kernel_beams / 2 + params.margin_beams,
                       recipe.median.kernel_samples / 2 + params.margin_samples};
     Keeper keeper(*whole, *staged, out);
     out.water = water_of(*staged, recipe.detect);
-    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, masks)) {
+    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, deciding)) {
       keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
     }
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
   }
-  if (keeps_ends) keep_last_samples(whole->volume.counts, out.counts);
+  if (also.ends) keep_last_samples(whole->volume.counts, out.counts);
   if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
-  fill_record(*whole, seabed, engine.background_db(ping_index), out);
+  const std::vector<int> row_of_channel = engine.grid().row_of_channel();
+  fill_record(*whole, row_of_channel, seabed, engine.background_db(ping_index), out);
+  note_short_beams(*whole, row_of_channel, out);
   return out;
 }
 

@@ -20,14 +20,20 @@ struct ReducedPing {
   std::vector<ReducedRow> record;  ///< [row]
   std::optional<ReducedSeabed> seabed;
   std::optional<WaterLevels> water;
+  std::vector<ReducedChannel> short_beams;  ///< of which nothing is kept, though they end before the ping does
+};
+
+/// What else of a ping stays, beside its masks.
+struct KeepAlso {
+  bool ends = false;        ///< the last sample of each fan's longest beam, which tells how far the beams reached
+  bool detections = false;  ///< all that detection finds, school or not
 };
 
 /// Picks the samples that decide about the masks of one ping.
 /// engine         knows the ping's background
-/// keeps_ends     keep the last sample of each fan's longest beam, which tells how far the beams reached
 /// errors         as load_volume()
 [[nodiscard]] Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index,
-                                              const std::vector<const PingMask*>& masks, bool keeps_ends,
+                                              const std::vector<const PingMask*>& masks, KeepAlso also,
                                               const ReduceParams& params);
 
 }  // namespace sonar

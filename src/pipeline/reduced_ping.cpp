@@ -14,10 +14,19 @@ namespace {
 /// Calls body(row, record) for every beam of the grid that has a record.
 template <class Body>
 void for_each_record(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, const Body& body) {
+  std::vector<bool> told(row_of_channel.size(), false);
+  const auto tell = [&](int channel, const ReducedRow& record) {
+    if (channel < 0 || static_cast<std::size_t>(channel) >= row_of_channel.size()) return;
+    const auto at = static_cast<std::size_t>(channel);
+    if (row_of_channel[at] >= 0 && !told[at]) body(row_of_channel[at], record);
+    told[at] = true;
+  };
   for (const ChannelPing& head : heads) {
-    if (!head.reduced || head.channel < 0 || static_cast<std::size_t>(head.channel) >= row_of_channel.size()) continue;
-    const int row = row_of_channel[static_cast<std::size_t>(head.channel)];
-    if (row >= 0) body(row, *head.reduced);
+    if (head.reduced) tell(head.channel, *head.reduced);
+  }
+  // What a channel says of itself comes first: parts of a ping in two files each list what they do not hold.
+  for (const ChannelPing& head : heads) {
+    for (const ReducedChannel& beam : head.reduced_short) tell(beam.channel, beam.row);
   }
 }
 
@@ -25,6 +34,14 @@ void for_each_record(std::span<const ChannelPing> heads, std::span<const int> ro
 
 bool is_reduced(std::span<const ChannelPing> heads) {
   return std::any_of(heads.begin(), heads.end(), [](const ChannelPing& head) { return head.reduced.has_value(); });
+}
+
+std::vector<int> reduced_lengths(std::span<const ChannelPing> heads, std::span<const int> row_of_channel) {
+  std::vector<int> lengths(row_of_channel.size(), -1);
+  for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    lengths[static_cast<std::size_t>(row)] = record.recorded_samples;
+  });
+  return lengths;
 }
 
 void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, Volume& volume) {

@@ -13,8 +13,9 @@
 namespace sonar {
 
 // A reduced raw file holds what decides about its schools, and for each stored beam what was worked out from the whole
-// ping: background, seabed, recorded length (ReducedRow), the water's own level. What of a beam was left out counts as water without echo,
-// never as faulty; a sample that was faulty in the whole ping holds kReducedFault.
+// ping: background, seabed, recorded length (ReducedRow), the water's own level, and which beams were missing or
+// shorter than the others (ReducedChannel). What of a beam was left out counts as water without echo, never as faulty; a
+// sample that was faulty in the whole ping holds kReducedFault.
 
 /// Power count of a sample that was flagged as faulty before the file was reduced.
 inline constexpr std::int16_t kReducedFault = -32767;
@@ -22,8 +23,11 @@ inline constexpr std::int16_t kReducedFault = -32767;
 /// Whether a ping comes from a reduced file.
 [[nodiscard]] bool is_reduced(std::span<const ChannelPing> heads);
 
+/// Samples of each row in the whole ping; -1 where the file does not tell: then none were missing.
+[[nodiscard]] std::vector<int> reduced_lengths(std::span<const ChannelPing> heads, std::span<const int> row_of_channel);
+
 /// Puts a reduced ping's volume in the place of the whole one: what was left out becomes the weakest power there is,
-/// without flags; faulty samples and those beyond a beam's recorded end become kNoData and lost.
+/// without flags; faulty samples, those beyond a beam's recorded end and missing channels become kNoData and lost.
 /// volume  as load_volume() gave it: power counts and flags
 void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, Volume& volume);
 

@@ -65,6 +65,22 @@ TEST(ReducedPing, record_survives_the_file) {
     EXPECT_EQ(cut.head.reduced_water, (WaterLevels{{kMinCount, kMinCount}, 700}));
   }
   EXPECT_EQ(reduced_water(std::vector<ChannelPing>{}), WaterLevels{});
+  // Beams that were missing or short stand behind what there is of these.
+  p.reduced_short = {{0, {-149.5F, 900, 0}}, {499, {-151.0F, 1000, 640}}};
+  for (const bool water : {true, false}) {
+    ChannelPing told = p;
+    if (!water) told.reduced_water.reset();
+    bytes.clear();
+    ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, told));
+    const auto written = std::span(bytes).subspan(16, bytes.size() - 20);
+    EXPECT_EQ(simrad::parse_raw0(written).head.reduced_short, told.reduced_short);
+    EXPECT_EQ(simrad::parse_raw0(written).head.reduced_water, told.reduced_water);
+    // Cut anywhere, it is what is there in full.
+    for (std::size_t cut = 1; cut <= simrad::kReducedShortHeadBytes + 2 * simrad::kReducedShortBytes; ++cut) {
+      const simrad::Raw0 cut_short = simrad::parse_raw0(written.first(written.size() - cut));
+      EXPECT_EQ(cut_short.head.reduced_short.size(), cut <= simrad::kReducedShortBytes ? 1U : 0U) << cut;
+    }
+  }
   // A plane that makes no sense is none.
   p.reduced_seabed->slope_x = std::numeric_limits<double>::quiet_NaN();
   bytes.clear();
@@ -103,6 +119,31 @@ TEST(ReducedPing, what_was_left_out_is_water_and_what_was_faulty_is_lost) {
   EXPECT_EQ(volume.flags(0, 0, 3), SampleFlags::lost);
   EXPECT_EQ(volume.flags(0, 0, 4), SampleFlags::seabed);
   EXPECT_FALSE(any(volume.flags(0, 1, 4) & SampleFlags::seabed));
+}
+
+TEST(ReducedPing, missing_and_short_beams_are_lost) {
+  // Channels 0..3 in rows 3..0. The file has channel 1 alone; it tells that channel 0 was missing and channel 2 ended
+  // after four samples. Of channel 3 it tells nothing: that is water.
+  Volume volume{Array3<std::int16_t>({2, 2, 6}, kNoData), Array3<SampleFlags>({2, 2, 6}, SampleFlags::lost)};
+  ChannelPing only = head(1, {-150.0F, 6, 6});
+  only.reduced_short = {{0, {-149.0F, 6, 0}}, {2, {-148.0F, 2, 4}}, {1, {-1.0F, 0, 0}}, {4, {}}, {-1, {}}};
+  const std::vector<ChannelPing> heads = {only};
+  const std::vector<int> row_of_channel = {3, 2, 1, 0};
+  open_reduced(heads, row_of_channel, volume);
+  fill_reduced(volume);
+  for (int s = 0; s < 6; ++s) {
+    EXPECT_EQ(volume.flags(0, 0, s), SampleFlags::none);
+    EXPECT_EQ(volume.flags(0, 1, s), s < 4 ? SampleFlags::none : SampleFlags::lost);
+    EXPECT_EQ(volume.counts(0, 1, s), s < 4 ? kMinCount : kNoData);
+    EXPECT_EQ(volume.flags(1, 0, s), SampleFlags::none) << "what a channel says of itself holds";
+    EXPECT_EQ(volume.flags(1, 1, s), SampleFlags::lost);
+  }
+  EXPECT_EQ(reduced_lengths(heads, row_of_channel), (std::vector<int>{-1, 4, 6, 0}));
+  const std::vector<float> levels = reduced_background_db(heads, row_of_channel);
+  EXPECT_TRUE(std::isnan(levels[0]));
+  EXPECT_EQ(levels[1], -148.0F);
+  EXPECT_EQ(levels[3], -149.0F);
+  EXPECT_EQ(reduced_seabed(heads, row_of_channel, 6).first_sample, (std::vector<std::int32_t>{6, 2, 6, 6}));
 }
 
 }  // namespace

@@ -111,7 +111,24 @@ Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan
   return {};
 }
 
+/// The chosen tasks, all of which have the chosen pings.
+Result<std::vector<PlanTask>> possible_tasks(const Plan& plan, const RunOptions& options) {
+  auto tasks = chosen_tasks(plan, options);
+  if (!tasks || !options.pings) return tasks;
+  for (const PlanTask& task : *tasks) {
+    if (options.pings->first >= task.pings) {
+      return fail(ErrorCode::usage, fmt::format("{} has pings 0 to {}", task.observation, task.pings - 1));
+    }
+  }
+  return tasks;
+}
+
 }  // namespace
+
+Result<void> require_possible(const Plan& plan, const RunOptions& options) {
+  if (auto tasks = possible_tasks(plan, options); !tasks) return pass_on(tasks);
+  return {};
+}
 
 std::filesystem::path product_path(const std::filesystem::path& out, const std::string& observation) {
   return out / "products" / (observation + ".nc");
@@ -119,13 +136,8 @@ std::filesystem::path product_path(const std::filesystem::path& out, const std::
 
 Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::span<const JournalLine> journal,
                            const RunOptions& options, Work& work) {
-  const auto tasks = chosen_tasks(plan, options);
+  const auto tasks = possible_tasks(plan, options);
   if (!tasks) return pass_on(tasks);
-  for (const PlanTask& task : *tasks) {
-    if (options.pings && options.pings->first >= task.pings) {
-      return fail(ErrorCode::usage, fmt::format("{} has pings 0 to {}", task.observation, task.pings - 1));
-    }
-  }
   if (auto space = require_free_space(options.out, space_needed(*tasks)); !space) return pass_on(space);
   remove_leftovers(options.out / "products");
   ObserveOptions observe_options{options.pings, journal, options.program_version};

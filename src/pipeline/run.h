@@ -37,6 +37,10 @@ struct RunReport {
 /// Where the product of an observation lies below OUT.
 [[nodiscard]] std::filesystem::path product_path(const std::filesystem::path& out, const std::string& observation);
 
+/// Whether the plan has what is asked for: to be known before anything is written.
+/// errors   usage: no such observation or task, or no such ping in it
+[[nodiscard]] Result<void> require_possible(const Plan& plan, const RunOptions& options);
+
 /// Works through the plan's tasks (or the chosen one): makes each product that is not there or not right, atomically.
 /// A failed observation does not stop the others.
 /// survey   opened from plan.survey with plan.recipe

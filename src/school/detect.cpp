@@ -15,6 +15,7 @@
 #include "school/noise_reach.h"
 #include "school/reverberation.h"
 #include "school/settle_members.h"
+#include "school/wave_front.h"
 
 namespace sonar {
 namespace {
@@ -213,7 +214,8 @@ class PingDetector {
     if (edges.boundary_fraction > params_.max_boundary_faces) return false;
     if (edges.seabed_fraction > params_.max_seabed_faces) return false;
     if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask)) return false;
-    return !is_shell(detection) && !is_open_floor(detection);
+    return !is_shell(detection) && !is_open_floor(detection) &&
+           !is_wave_front(detection.mask, detection.box, sector_, params_);
   }
 
   /// The flank of the seabed's echo grows towards it; a school at the seabed is brightest inside itself.

@@ -39,6 +39,10 @@ struct DetectParams {
   double max_shell_thickness_m = 8.0;
   double shell_share = 0.9;
   double shell_bend = 2.0;
+  double front_share = 0.01;
+  double front_most = 0.8;
+  int front_beams = 8;
+  int front_rows = 12;
   int floor_beams = 8;
   double floor_echo_db = -30.0;
   double floor_flat_share = 0.06;
@@ -115,6 +119,20 @@ void describe(Visitor& v, DetectParams& p) {
            .min = 1,
            .max = 100,
            .text = "a wall's whole extent along range stays below so many max_shell_thickness_m"});
+  v.field("front_share", p.front_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "another sonar's pulse: its ranges lie within this share of its width across; 0 = not looked at"});
+  v.field("front_most", p.front_most,
+          {.unit = "1", .min = 0.1, .max = 1, .text = "... the middle ones, so large a share of all its beams"});
+  v.field("front_beams", p.front_beams,
+          {.unit = "beams",
+           .min = 2,
+           .max = 1000,
+           .text = "... side by side, or so many fans, where middles alone tell; both edges tell in any case"});
+  v.field("front_rows", p.front_rows,
+          {.unit = "beams", .min = 2, .max = 100000, .text = "... of so many beams in all"});
   v.field("floor_beams", p.floor_beams,
           {.unit = "beams", .min = 1, .max = 1000, .text = "a school may fill fans of fewer beams; no seabed there"});
   v.field("floor_echo_db", p.floor_echo_db,

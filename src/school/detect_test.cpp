@@ -194,6 +194,51 @@ TEST(Detect, RefusesAWallAndABeam) {
   EXPECT_TRUE(scene.look(1).empty());
 }
 
+// Sound that another ship makes reaches all beams that hear it at one time, that is at one range.
+TEST(Detect, RefusesAnotherSonarsPulses) {
+  const DetectParams unaware{.front_share = 0.0};
+  for (const int samples : {16, 25}) {
+    for (const int first : {120, 300, 600, 850 - samples}) {
+      Scene scene;
+      for (int fan = 0; fan < 20; ++fan) {
+        for (int beam = 8; beam < 12; ++beam) {
+          for (int s = first; s < first + samples; ++s) scene.expected(fan, beam, s) = 1e-4;
+        }
+      }
+      const auto seed = static_cast<std::uint64_t>(first);
+      EXPECT_FALSE(scene.look(seed, unaware).empty());
+      EXPECT_TRUE(scene.look(seed).empty()) << samples << " from " << first;
+    }
+  }
+}
+
+TEST(Detect, RefusesNoiseThatSetsInAndEndsAtOneRange) {
+  Scene scene;
+  for (int row = 0; row < 100; ++row) {  // the lowest four fans; too thick for a wall
+    for (int s = 500; s < 580; ++s) scene.expected.view().row(row)[static_cast<std::size_t>(s)] = 1e-4;
+  }
+  EXPECT_FALSE(scene.look(1, {.front_share = 0.0}).empty());
+  EXPECT_TRUE(scene.look(1).empty());
+}
+
+// A ball so near that it fills many beams has its middles at nearly one range too: by half its angular radius squared.
+TEST(Detect, FindsSchoolsThatFillManyBeams) {
+  for (const double range_m : {40.0, 60.0, 100.0}) {
+    Scene scene;
+    scene.add(range_m, -22.0, 270.0, -40.0, {0.3 * range_m, 0.3 * range_m, 0.3 * range_m});
+    const std::vector<Detection> found = scene.look(1);
+    ASSERT_EQ(found.size(), 1U) << range_m;
+    EXPECT_GE(found[0].box.beams(), 8);
+    EXPECT_GE(found[0].box.fans(), 8);
+  }
+  // A long thin one across the beams, at right angles to the middle one, bends by the square of its angle.
+  Scene scene;
+  scene.add(120.0, -15.0, 270.0, -40.0, {40.0, 3.0, 3.0});
+  const std::vector<Detection> found = scene.look(2);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GE(found[0].box.beams(), 8);
+}
+
 TEST(Detect, LeavesOthersVoxelsAlone) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0);

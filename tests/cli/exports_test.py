@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exports are readable by others, and reduced raw files give the same schools."""
 import json
+import random
 import sqlite3
+import struct
 
 import sonarx
 from sonarx import OUT, SURVEY, Case
@@ -16,6 +18,15 @@ KEYS = ("observation", "school_id", "time_utc", "n_voxels", "volume_m3")
 
 def total(folder, pattern):
     return sum(p.stat().st_size for p in folder.rglob(pattern))
+
+
+def datagrams(raw):
+    """(type, type and time, body) of each"""
+    at = 0
+    while at < len(raw):
+        size = struct.unpack_from("<i", raw, at)[0]
+        yield raw[at + 4:at + 8], raw[at + 4:at + 16], raw[at + 16:at + 4 + size]
+        at += size + 8
 
 
 class Exports(Case):
@@ -87,14 +98,52 @@ class Exports(Case):
         survey, out = self.fresh("loud-survey"), self.fresh("loud-out")
         self.sonarx("simulate", survey, "--params", params, "--seed", "5")
         self.sonarx("run", survey, "--out", out)
-        masks = lambda folder: [[r[k] for k in r if k != "ping_index"] for r in sonarx.read_csv(folder / "school_pings.csv")]
-        self.assertGreater(len(masks(out)), 10)
+        self.assert_reduced_twice_is_the_same("loud", survey, out)
+
+    def assert_reduced_twice_is_the_same(self, name, survey, out):
+        rows = lambda folder: [[r[k] for k in r if k != "ping_index"] for r in sonarx.read_csv(folder / "school_pings.csv")]
+        wanted = rows(out)
+        self.assertGreater(len(wanted), 10)
         for step in ("once", "twice"):
-            dest, again = self.fresh(f"loud-{step}"), self.fresh(f"loud-{step}-out")
+            dest, again = self.fresh(f"{name}-{step}"), self.fresh(f"{name}-{step}-out")
             self.sonarx("export", out, "--to", "raw-reduced", "--survey", survey, "--dest", dest)
             self.sonarx("run", dest, "--out", again)
-            self.assertEqual(masks(again), masks(out), step)
+            self.assertEqual(rows(again), wanted, step)
             survey, out = dest, again
+
+    def test_reduced_raw_of_a_survey_that_lost_channels(self):
+        """A channel that is missing, or that ends early, is no water in the reduced file either: it was lost."""
+        survey, out = self.fresh("lost-survey"), self.fresh("lost-out")
+        rng = random.Random(7)
+        lost = shorter = 0
+        for raw in SURVEY.glob("*.raw"):
+            parts = []
+            for kind, head, body in datagrams(raw.read_bytes()):
+                count = struct.unpack_from("<i", body, 68)[0] if kind == b"RAW0" else 0
+                chance = rng.random() if kind == b"RAW0" else 1.0
+                first = kind == b"RAW0" and struct.unpack_from("<h", body)[0] == 1
+                if chance < 0.04 or (first and chance < 0.3):
+                    lost += 1
+                    continue
+                if chance < 0.08:
+                    shorter += 1
+                    left = rng.randrange(count // 10, count) // 2 * 2
+                    body = body[:68] + struct.pack("<i", left) + body[72:72 + 2 * left]
+                size = struct.pack("<i", len(head) + len(body))
+                parts.append(size + head + body + size)
+            (survey / raw.name).write_bytes(b"".join(parts))
+        self.assertGreater(min(lost, shorter), 100)
+        self.sonarx("run", survey, "--out", out)
+        self.assert_reduced_twice_is_the_same("lost", survey, out)
+
+    def test_reduced_raw_of_a_crowd(self):
+        """Among many schools, what was detected but became no school decides with which detection a track goes on."""
+        params = self.fresh("crowd-params") / "params.json"
+        params.write_text(json.dumps({"schools": 14, "pings": 20, "observations": 1}))
+        survey, out = self.fresh("crowd-survey"), self.fresh("crowd-out")
+        self.sonarx("simulate", survey, "--params", params, "--seed", "3")
+        self.sonarx("run", survey, "--out", out)
+        self.assert_reduced_twice_is_the_same("crowd", survey, out)
 
     def test_reduced_raw_needs_the_survey(self):
         code, _, err = sonarx.run("export", OUT, "--to", "raw-reduced", "--dest", self.fresh("export-none"))

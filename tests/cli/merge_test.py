@@ -46,6 +46,12 @@ class Merge(Case):
         self.assertGreater((away / "out" / "survey.gpkg").stat().st_size, 10000)
         self.sonarx("export", away / "out", "--to", "geojson", "--dest", away / "geojson")
 
+    def test_a_refused_run_leaves_nothing(self):
+        for wrong in (("--pings", "900:901"), ("--only", "obs-0009")):
+            out = self.fresh("merge-refused") / "out"
+            self.one_line_error("run", SURVEY, "--out", out, *wrong, code=2)
+            self.assertFalse(out.exists(), wrong)
+
     def test_only_one_observation_then_the_rest(self):
         out = self.fresh("only")
         said = self.sonarx("run", SURVEY, "--out", out, "--only", "obs-0002")

@@ -44,14 +44,18 @@ bool begins_with(std::span<const std::byte> bytes, std::string_view mark) {
   return bytes.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), bytes.begin());
 }
 
+ReducedRow reduced_row_at(std::span<const std::byte> bytes, std::size_t at) {
+  ReducedRow row;
+  row.background_db = number_at<float>(bytes, at);
+  row.seabed_sample = std::clamp(number_at<std::int32_t>(bytes, at + 4), 0, kMaxSamples);
+  row.recorded_samples = std::clamp(number_at<std::int32_t>(bytes, at + 8), 0, kMaxSamples);
+  return row;
+}
+
 /// The extension of reduced files, where there is one.
 std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
   if (rest.size() < kReducedBytes || !begins_with(rest, kReducedMark)) return std::nullopt;
-  ReducedRow row;
-  row.background_db = number_at<float>(rest, 4);
-  row.seabed_sample = std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples);
-  row.recorded_samples = std::clamp(number_at<std::int32_t>(rest, 12), 0, kMaxSamples);
-  return row;
+  return reduced_row_at(rest, 4);
 }
 
 /// The water's levels, as far as they are there.
@@ -66,6 +70,23 @@ std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) 
     water.reverberation[i] = number_at<std::int16_t>(rest, kReducedWaterHeadBytes + 2 * i);
   }
   return water;
+}
+
+/// The beams that were left out and end early, as far as they are there.
+std::vector<ReducedChannel> parse_reduced_short(std::span<const std::byte> rest) {
+  std::vector<ReducedChannel> out;
+  if (rest.size() < kReducedShortHeadBytes || !begins_with(rest, kReducedShortMark)) return out;
+  const auto told = static_cast<std::size_t>(std::max(number_at<std::int32_t>(rest, 4), 0));
+  rest = rest.subspan(kReducedShortHeadBytes);
+  const std::size_t count = std::min(told, rest.size() / kReducedShortBytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = i * kReducedShortBytes;
+    const auto number = number_at<std::int32_t>(rest, at);
+    // RAW0 itself can name no other.
+    if (number < 1 || number > std::numeric_limits<std::int16_t>::max()) continue;
+    out.push_back({number - 1, reduced_row_at(rest, at + 4)});
+  }
+  return out;
 }
 
 /// The plane, where it makes sense.
@@ -86,6 +107,11 @@ void parse_reduced_ping(std::span<const std::byte> rest, ChannelPing& head) {
     rest = rest.subspan(std::min(rest.size(), kReducedSeabedBytes));
   }
   head.reduced_water = parse_reduced_water(rest);
+  if (head.reduced_water) {
+    const std::size_t bytes = kReducedWaterHeadBytes + 2 * head.reduced_water->reverberation.size();
+    rest = rest.subspan(std::min(rest.size(), bytes));
+  }
+  head.reduced_short = parse_reduced_short(rest);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ inline constexpr int kMaxSamples = 1 << 20;
 /// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's three members, little-endian.
 inline constexpr std::string_view kReducedMark = "SXR1";
 inline constexpr std::size_t kReducedBytes = 16;
-/// Behind that, in one channel of a ping, what there is of these two in this order:
+/// Behind that, in one channel of a ping, what there is of these three in this order:
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
 inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
@@ -25,6 +25,10 @@ inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
 /// WaterLevels::reverberation.
 inline constexpr std::string_view kReducedWaterMark = "SXW1";
 inline constexpr std::size_t kReducedWaterHeadBytes = 12;
+/// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.
+inline constexpr std::string_view kReducedShortMark = "SXL1";
+inline constexpr std::size_t kReducedShortHeadBytes = 8;
+inline constexpr std::size_t kReducedShortBytes = 16;
 
 struct Raw0 {
   ChannelPing head;                  ///< power_count is left empty: the bytes need not be aligned

@@ -87,23 +87,35 @@ void put_mark(RawBytes& out, std::string_view mark) {
   for (const char c : mark) out.push_back(static_cast<std::byte>(c));
 }
 
+void put_reduced_row(RawBytes& out, const ReducedRow& row) {
+  put_f32(out, row.background_db);
+  put(out, row.seabed_sample);
+  put(out, row.recorded_samples);
+}
+
 /// What reduced files hold behind a channel's samples.
 void put_reduced(RawBytes& out, const ChannelPing& p) {
   put_mark(out, simrad::kReducedMark);
-  put_f32(out, p.reduced->background_db);
-  put(out, p.reduced->seabed_sample);
-  put(out, p.reduced->recorded_samples);
+  put_reduced_row(out, *p.reduced);
   if (p.reduced_seabed) {
     put_mark(out, simrad::kReducedSeabedMark);
     const ReducedSeabed& s = *p.reduced_seabed;
     for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
   }
-  if (!p.reduced_water) return;
-  put_mark(out, simrad::kReducedWaterMark);
-  put(out, p.reduced_water->noise_reach);
-  put(out, std::int16_t{0});
-  put(out, static_cast<std::int32_t>(p.reduced_water->reverberation.size()));
-  for (const std::int16_t count : p.reduced_water->reverberation) put(out, count);
+  if (p.reduced_water) {
+    put_mark(out, simrad::kReducedWaterMark);
+    put(out, p.reduced_water->noise_reach);
+    put(out, std::int16_t{0});
+    put(out, static_cast<std::int32_t>(p.reduced_water->reverberation.size()));
+    for (const std::int16_t count : p.reduced_water->reverberation) put(out, count);
+  }
+  if (p.reduced_short.empty()) return;
+  put_mark(out, simrad::kReducedShortMark);
+  put(out, static_cast<std::int32_t>(p.reduced_short.size()));
+  for (const ReducedChannel& beam : p.reduced_short) {
+    put(out, static_cast<std::int32_t>(beam.channel + 1));
+    put_reduced_row(out, beam.row);
+  }
 }
 
 }  // namespace
