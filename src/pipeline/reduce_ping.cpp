@@ -249,8 +249,9 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     std::vector<Detection> detected;
     std::vector<const PingMask*> deciding = masks;
     if (recipe.automatic && also.detections) {
-      detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(*staged->filtered).flags.view(),
-                        engine.sector(), staged->background(), recipe.detect);
+      detected =
+          detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
+                 std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(), recipe.detect);
       for (const Detection& one : detected) deciding.push_back(&one.mask);
     }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,

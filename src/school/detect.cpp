@@ -156,7 +156,13 @@ class PingDetector {
     if (reference_db < std::max(level_db + params_.min_prominence_db, floor_db())) return false;
     // A weak school beside a stronger one stands no deeper below its own top than where the two part.
     const double depth_db = std::min(params_.tolerance_db, reference_db - level_db);
-    for (MemberSettler::Settled& school : settled(part, reference_db, depth_db)) {
+    std::vector<MemberSettler::Settled> schools = settled(part, reference_db, depth_db);
+    // The filtered data show edges more evenly than one beam does.
+    if (schools.size() == 1) {
+      const PingMask filtered = by_filtered(part, reference_db, depth_db).mask;
+      if (is_wave_front(filtered, box_of(filtered, sv_.shape().beams), sector_, params_)) schools.clear();
+    }
+    for (MemberSettler::Settled& school : schools) {
       Detection detection = describe_mask(std::move(school.mask), flags_, sector_);
       detection.reference_db = school.reference_db;
       detection.threshold_db = school.threshold_db;
