@@ -258,8 +258,7 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
   out.colour_bar = out.any_echogram && (!style.brief || size.width >= kBarFrom_em * em);
-  LayoutNeeds needs{
-      .title_lines = style.brief ? 0 : 3, .colour_bar = out.colour_bar, .y_label_characters = 4};
+  LayoutNeeds needs{.title_lines = style.brief ? 0 : 3, .colour_bar = out.colour_bar, .y_label_characters = 4};
   if (!style.brief) out.key = timeline_key(out.strips, style, theme);
   if (!out.key.empty()) {
     needs.foot_lines = 1;
