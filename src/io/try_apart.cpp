@@ -7,9 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "base/library_gate.h"
 
@@ -31,11 +33,10 @@ namespace {
   for (;;) ::kill(::getpid(), SIGKILL);
 }
 
-}  // namespace
+enum class Ending { came_to_its_end, ran_out_of_time, broke };
 
-Result<void> try_apart(const std::function<void()>& body, const std::string& named, unsigned seconds) {
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+/// errno is what fork() left where no child could be made.
+std::optional<Ending> one_try(const std::function<void()>& body, const std::array<int, 2>& ends, unsigned seconds) {
   auto at_rest = libraries_at_rest();
   const pid_t pid = ::fork();
   if (pid == 0) child(body, ends[1], seconds);
@@ -44,17 +45,35 @@ Result<void> try_apart(const std::function<void()>& body, const std::string& nam
   ::close(ends[1]);
   char done = 0;
   ssize_t got = -1;
+  int status = 0;
   if (pid > 0) {
     while ((got = ::read(ends[0], &done, 1)) < 0 && errno == EINTR) {
     }
-    int status = 0;
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }
   }
   ::close(ends[0]);
-  if (pid < 0) return fail(ErrorCode::io, std::strerror(error), {.file = named});
-  if (got != 1) return fail(ErrorCode::format, "is damaged: reading it breaks netCDF", {.file = named});
-  return {};
+  errno = error;
+  if (pid < 0) return std::nullopt;
+  if (got == 1) return Ending::came_to_its_end;
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? Ending::ran_out_of_time : Ending::broke;
+}
+
+}  // namespace
+
+Result<void> try_apart(const std::function<void()>& body, const std::string& named, unsigned seconds) {
+  // A lock that no gate knows of (a thread's end, the C library's own) may be held while the child is made; then it
+  // waits for ever, whatever the file. The next child is made at another moment.
+  const unsigned little = std::max(1U, seconds / 12);
+  for (const unsigned wait : {little, little, seconds}) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+    const std::optional<Ending> ending = one_try(body, ends, wait);
+    if (!ending) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+    if (*ending == Ending::came_to_its_end) return {};
+    if (*ending == Ending::broke) break;
+  }
+  return fail(ErrorCode::format, "is damaged: reading it breaks netCDF", {.file = named});
 }
 
 }  // namespace sonar

@@ -11,7 +11,8 @@ namespace sonar {
 /// Runs something that may crash or hang on bad input (a library's parser) in a child process first. Its results are
 /// lost; what counts is whether it comes to its end.
 /// named    stands in messages
-/// seconds  longer counts as hanging
+/// seconds  longer counts as hanging. A child that waits for a lock which some thread held when it was made is given up
+///          after a twelfth of that and made again, twice at most.
 /// errors   format: it crashed or hung; io: no child process could be made
 /// threads  any that is not inside_library(); the caller holds the locks that body needs free in no other thread, and
 ///          body takes none

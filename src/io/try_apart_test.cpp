@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/try_apart.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
+
+#include <string>
 
 namespace sonar {
 namespace {
@@ -21,6 +24,19 @@ TEST(TryApart, tells_who_survives) {
         for (;;) ::pause();
       },
       "x", 1));
+}
+
+// What a child waits for in vain may be free when the next is made.
+TEST(TryApart, a_child_that_hangs_is_made_again) {
+  const std::string marker = ::testing::TempDir() + "try_apart_" + std::to_string(::getpid());
+  EXPECT_TRUE(try_apart(
+      [&] {
+        const int fresh = ::open(marker.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
+        if (fresh < 0) return;
+        for (;;) ::pause();
+      },
+      "x", 12));
+  EXPECT_EQ(::unlink(marker.c_str()), 0);
 }
 
 }  // namespace
