@@ -4,11 +4,14 @@
 // A small product for the tests of maps: a ship sails on a given course at 4 m/s, one ping every 5 s; a sector of 3 fans
 // and 4 beams looks to port, 60 samples of 2 m.
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "geo/geodesic.h"
 #include "model/product.h"
+#include "view/frame_description.h"
 
 namespace sonar::map_example {
 
@@ -75,6 +78,22 @@ inline void add_school(ObservationProduct& p, std::int64_t id, Geographic at, in
     p.masks.push_back({id, i, mask});
   }
   p.schools.push_back(school);
+}
+
+/// Whether a text of the picture holds these words.
+inline bool says(const FrameDescription& frame, const std::string& words) {
+  return std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
+    const auto* t = std::get_if<TextItem>(&item);
+    return t != nullptr && t->text.find(words) != std::string::npos;
+  });
+}
+
+/// One of its images, in their order; null = there are not so many.
+inline const ImageItem* image_of(const FrameDescription& frame, int which = 0) {
+  for (const auto& item : frame.items) {
+    if (const auto* i = std::get_if<ImageItem>(&item); i != nullptr && which-- == 0) return i;
+  }
+  return nullptr;
 }
 
 }  // namespace sonar::map_example

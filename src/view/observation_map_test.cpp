@@ -16,19 +16,8 @@ namespace {
 
 constexpr PixelSize kSize{800, 640};
 
-bool says(const FrameDescription& frame, const std::string& words) {
-  return std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
-    const auto* t = std::get_if<TextItem>(&item);
-    return t != nullptr && t->text.find(words) != std::string::npos;
-  });
-}
-
-const ImageItem* image_of(const FrameDescription& frame, int which = 0) {
-  for (const auto& item : frame.items) {
-    if (const auto* i = std::get_if<ImageItem>(&item); i != nullptr && which-- == 0) return i;
-  }
-  return nullptr;
-}
+using map_example::image_of;
+using map_example::says;
 
 TEST(ObservationMap, HullHoldsEveryFootprint) {
   const ObservationProduct p = map_example::product("obs-0001", 20);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/units.h"
@@ -58,5 +59,14 @@ struct LitVolume {
   static std::int16_t counts(double db) { return static_cast<std::int16_t>(std::lround(counts_from_db(db))); }
   [[nodiscard]] SliceData data() const { return {sv.view(), flags.view(), {}}; }
 };
+
+/// All texts of a picture.
+inline std::vector<std::string> texts_of(const SlicePicture& picture) {
+  std::vector<std::string> texts;
+  for (const auto& item : picture.frame.items) {
+    if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(text->text);
+  }
+  return texts;
+}
 
 }  // namespace sonar::slice_example

@@ -14,16 +14,9 @@ namespace {
 
 using slice_example::hand_sector;
 using slice_example::LitVolume;
+using slice_example::texts_of;
 
 constexpr PixelSize kSize{400, 400};
-
-std::vector<std::string> texts_of(const SlicePicture& picture) {
-  std::vector<std::string> texts;
-  for (const auto& item : picture.frame.items) {
-    if (const auto* text = std::get_if<TextItem>(&item)) texts.push_back(text->text);
-  }
-  return texts;
-}
 
 const Voxel kLit{4, 3, 20};
 const SliceView kTop{TopSlice{4}};

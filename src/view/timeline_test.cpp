@@ -147,12 +147,7 @@ TEST(EchogramImage, GapsStayEmptyAndPingsFillUpToTheNext) {
   EXPECT_EQ(image.at(172, 50).a, 0);
 }
 
-bool says(const FrameDescription& frame, const std::string& words) {
-  return std::any_of(frame.items.begin(), frame.items.end(), [&](const auto& item) {
-    const auto* t = std::get_if<TextItem>(&item);
-    return t != nullptr && t->text.find(words) != std::string::npos;
-  });
-}
+using map_example::says;
 
 // 12 pings 0.01 nmi apart, then 0.1 nmi without any, then 12 more. The gap is as empty as the plot round the strip.
 TEST(Timeline, AGapAlongTheLogIsEmpty) {
