@@ -34,9 +34,19 @@ bool above_neighbour_beams(View3<const std::int16_t> power, int row, int sample,
   return true;
 }
 
-/// Between two pings a ship moves by more than a sample, so the same place is a few samples wide.
-bool above_other_ping(View3<const std::int16_t> other, Shape3 shape, int row, int sample, int reach, int limit) {
-  return other.shape() != shape || largest(other.row(row), sample, reach) < limit;
+/// Whether another ping shows something at the same place. Between two pings a ship moves by more than a sample, so the
+/// place is a few samples wide. A wall, which most beams of the fan show, has no say: it hides what else is there.
+bool shown_by(View3<const std::int16_t> other, Shape3 shape, int row, int sample, int reach, int limit) {
+  if (other.shape() != shape || largest(other.row(row), sample, reach) < limit) return false;
+  const int fan = row / shape.beams;
+  int loud = 0;
+  int recorded = 0;
+  for (int b = 0; b < shape.beams; ++b) {
+    const int level = largest(other.row(fan, b), sample, reach);
+    recorded += level != kNoData ? 1 : 0;
+    loud += level >= limit ? 1 : 0;
+  }
+  return 2 * loud <= recorded || recorded == 1;
 }
 
 }  // namespace
@@ -56,8 +66,8 @@ void flag_impulses(View3<const std::int16_t> power, const NeighbourPings& neighb
         const int sample = static_cast<int>(word * 64) + std::countr_zero(left);
         const int limit = counts[static_cast<std::size_t>(sample)] - threshold;
         if (above_neighbour_beams(power, row, sample, params.beam_reach_samples, limit) &&
-            above_other_ping(neighbours.before, shape, row, sample, params.ping_reach_samples, limit) &&
-            above_other_ping(neighbours.after, shape, row, sample, params.ping_reach_samples, limit)) {
+            !shown_by(neighbours.before, shape, row, sample, params.ping_reach_samples, limit) &&
+            !shown_by(neighbours.after, shape, row, sample, params.ping_reach_samples, limit)) {
           flags.row(row)[static_cast<std::size_t>(sample)] |= SampleFlags::impulse;
         }
       }

@@ -57,5 +57,17 @@ TEST(flag_impulses, a_peak_that_the_next_ping_shows_too_is_no_impulse) {
   EXPECT_FALSE(any(flags(2, 2, 100)));
 }
 
+TEST(flag_impulses, a_wall_of_the_ping_before_hides_none) {
+  auto ping = noise_ping({5, 9, 200}, -125, 62);
+  ping(2, 4, 100) = counts_of_power(1e-8);
+  auto before = noise_ping({5, 9, 200}, -125, 63);
+  for (int beam = 0; beam < 9; ++beam) {
+    for (int sample = 99; sample < 103; ++sample) before(2, beam, sample) = counts_of_power(1e-7);
+  }
+  Array3<SampleFlags> flags(ping.shape());
+  flag_impulses(ping.view(), {.before = before.view(), .after = {}}, {}, flags.view());
+  EXPECT_TRUE(any(flags(2, 4, 100)));
+}
+
 }  // namespace
 }  // namespace sonar

@@ -63,7 +63,7 @@ void flag_hot_beams(View3<const std::int16_t> power, const HotBeamParams& params
 void flag_walls(View3<const std::int16_t> power, const WallParams& params, View3<SampleFlags> flags);
 
 /// Peaks of up to 3 samples in one beam, far above the samples before and after, the neighbouring beams, and the same
-/// place in the pings before and after where these are given.
+/// place in the pings before and after where these are given and show more there than a wall.
 /// source  two-sided comparison as in Ryan et al., ICES J. Mar. Sci. 72 (2015) 2482
 void flag_impulses(View3<const std::int16_t> power, const NeighbourPings& neighbours, const ImpulseParams& params,
                    View3<SampleFlags> flags);

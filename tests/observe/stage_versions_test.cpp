@@ -34,14 +34,14 @@ struct Recorded {
 // In the order of the stages: where one changes, those after it change with it and keep their numbers.
 constexpr std::array<Recorded, 11> kRecorded{{
     {"decode", 2, "67a30992438549e29295a79665f21403"},
-    {"flags", 3, "51ed733ca50c62dd8fb52f71b6b77001"},
+    {"flags", 4, "51ed733ca50c62dd8fb52f71b6b77001"},
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 2, "aae837000c9ff6f0127446493cea9c4a"},
     {"detect", 5, "681309c9299f15e98a87e66bb0d9b74c"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 3, "796c2390f6457277936c4d7907e65301"},
+    {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
     {"measure", 7, "2f73bf74d34d954c6a720b20a012439e"},
     {"summarise", 2, "8696eab71d8f488cf494afb2e72c363f"},
 }};
