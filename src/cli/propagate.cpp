@@ -100,13 +100,19 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
     if (!curve) return pass_on(curve);
     command.growth_curve = std::move(*curve);
   }
-  const double slope = db_per_opacity(command.growth_curve);
-  const bool in_db = arguments.tolerance_db > 0.0;
-  // The paper grows in opacity and the default one-sided in dB; a tolerance in the other's unit is turned by the curve.
   command.grow.mode = command.mode;
-  command.grow.tolerance_db = in_db ? arguments.tolerance_db : arguments.tolerance_opacity * slope;
-  command.grow.tolerance_opacity = in_db ? arguments.tolerance_db / slope : arguments.tolerance_opacity;
-  command.tracked.tolerance_db = command.grow.tolerance_db;
+  // The paper grows in opacity and the default one-sided in dB; a tolerance in the other's unit is turned by the curve.
+  const double slope = db_per_opacity(command.growth_curve);
+  if (arguments.tolerance_db > 0.0) {
+    command.grow.tolerance_db = arguments.tolerance_db;
+    command.grow.tolerance_opacity = arguments.tolerance_db / slope;
+  } else if (arguments.tolerance_opacity > 0.0) {
+    command.grow.tolerance_db = arguments.tolerance_opacity * slope;
+    command.grow.tolerance_opacity = arguments.tolerance_opacity;
+  }
+  if (arguments.tolerance_db > 0.0 || arguments.tolerance_opacity > 0.0) {
+    command.tracked.tolerance_db = command.grow.tolerance_db;
+  }
   // What is selected with all 26 neighbours is followed with them.
   if (command.grow.connectivity == Connectivity::all) {
     command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
@@ -245,9 +251,11 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
   verb->add_option("--seed", arguments->seeds, "PING,FAN,BEAM,SAMPLE from 0; several are joined")->required();
   auto* in_db =
-      verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference")->check(within(0.01, 60.0));
-  auto* in_opacity = verb->add_option("--tolerance-opacity", arguments->tolerance_opacity, "difference of opacity")
-                         ->check(within(0.0001, 1.0));
+      verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference (else the recipe's)")
+          ->check(within(0.01, 60.0));
+  auto* in_opacity =
+      verb->add_option("--tolerance-opacity", arguments->tolerance_opacity, "Difference of opacity (else the recipe's)")
+          ->check(within(0.0001, 1.0));
   in_db->excludes(in_opacity);
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
       ->check(CLI::IsMember({"tracked", "paper"}));
@@ -258,10 +266,7 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--operator", arguments->operator_name, "Who selects");
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
-  verb->callback([arguments, in_db, in_opacity, &run] {
-    if (in_db->count() + in_opacity->count() == 0) throw CLI::RequiredError("--tolerance-db or --tolerance-opacity");
-    run = [arguments] { return propagate_verb(*arguments); };
-  });
+  verb->callback([arguments, &run] { run = [arguments] { return propagate_verb(*arguments); }; });
 }
 
 }  // namespace sonar

@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
+#include "school/standing_out.h"
 #include "signal/beam_overlap.h"
 #include "signal/calibrate.h"
 #include "signal/median.h"
@@ -244,15 +245,24 @@ Result<std::shared_ptr<const StagedPing>> Engine::kept_or_staged(std::int64_t pi
   return std::shared_ptr<const StagedPing>(std::make_shared<StagedPing>(std::move(*ping)));
 }
 
-Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {
-  auto ping = staged(ping_index);
-  if (!ping) return pass_on(ping);
+FilteredPing Engine::filtered(const StagedPing& ping) const {
   FilteredPing out;
-  out.volume = std::move(ping->filtered);
-  out.placement = tracking_placement(ping_index);
-  out.time = observation_.navigation[static_cast<std::size_t>(ping_index)].time;
-  out.bad = is_bad(ping_index);
+  out.volume = ping.filtered;
+  out.placement = tracking_placement(ping.ping_index);
+  out.time = observation_.navigation[static_cast<std::size_t>(ping.ping_index)].time;
+  out.bad = is_bad(ping.ping_index);
+  out.standing_out = [volume = ping.filtered, table = ping.calibration, noise = ping.background_db, water = ping.water,
+                      params = recipe_.detect](double margin_db, Above above) {
+    const Background background{noise, table->view(), water ? &*water : nullptr};
+    return standing_out(volume->counts.view(), volume->flags.view(), background, params, margin_db, above);
+  };
   return out;
+}
+
+Result<FilteredPing> Engine::filtered(std::int64_t ping_index) {
+  const auto ping = staged(ping_index);
+  if (!ping) return pass_on(ping);
+  return filtered(*ping);
 }
 
 }  // namespace sonar

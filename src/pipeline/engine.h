@@ -82,6 +82,7 @@ class Engine {
   [[nodiscard]] Result<std::shared_ptr<const StagedPing>> kept_or_staged(std::int64_t ping_index);
   /// The same for growing and propagating.
   [[nodiscard]] Result<FilteredPing> filtered(std::int64_t ping_index);
+  [[nodiscard]] FilteredPing filtered(const StagedPing& ping) const;
 
  private:
   using Power = std::shared_ptr<const PowerVolume>;

@@ -132,6 +132,11 @@ Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& pin
                             const TransferFunction& growth_curve, const GrowParams& params) {
   if (ping.bad) return fail(ErrorCode::bad_parameter, "the ping was made without transmitting; it shows no school");
   const std::vector<int> rows = ground.grid->row_of_channel();
+  // The paper grows on opacity alone.
+  const bool limited = params.mode == GrowMode::tracked && params.margin_db > 0.0 && ping.standing_out;
+  PingMask inside;
+  // What a human points at may be the water itself, as a layer is: it has to stand above the noise alone.
+  if (limited) inside.runs = ping.standing_out(params.margin_db, Above::noise);
   PingMask selection;
   for (const SeedKey& seed : seeds) {
     if (seed.channel < 0 || static_cast<std::size_t>(seed.channel) >= rows.size() ||
@@ -139,7 +144,8 @@ Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& pin
       return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", seed.channel));
     }
     auto grown = grow_from_click(ping.volume->counts.view(), ping.volume->flags.view(),
-                                 {rows[static_cast<std::size_t>(seed.channel)], seed.sample}, growth_curve, params);
+                                 {rows[static_cast<std::size_t>(seed.channel)], seed.sample}, growth_curve, params,
+                                 limited ? &inside : nullptr);
     if (!grown) return grown;
     selection = unite(selection, *grown);
   }

@@ -12,6 +12,10 @@
 
 namespace sonar {
 
+/// By which every median of Rayleigh-fading echo lies below its mean, whatever the sonar: 10 log10(ln 2). Thresholds are
+/// meant for the mean.
+inline constexpr double kMedianOfMean_db = -1.5917;
+
 /// Background of a ping: noise as a level for each beam with the table that turns power into Sv, and the water; borrowed.
 struct Background {
   std::span<const double> power_db;       ///< [row] mean (not median) power, dB re 1 W; NaN or empty = none known

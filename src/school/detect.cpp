@@ -25,9 +25,6 @@ constexpr double kMostRise_db = 6.0;
 
 using Runs = std::vector<Run>;
 
-/// The median of Rayleigh-fading echo lies at ln 2 of its mean, whatever the sonar; thresholds are meant for the mean.
-constexpr double kMedianOfMean_db = -1.5917;
-
 IndexBox box_of_runs(const Runs& runs, int beams) {
   PingMask mask;
   mask.runs = runs;

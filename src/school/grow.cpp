@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "school/mask_edit.h"
 
 namespace sonar {
 namespace {
@@ -179,7 +180,8 @@ PingMask grow(View3<const std::int16_t> sv, View3<const SampleFlags> flags, cons
 }
 
 Result<PingMask> grow_from_click(View3<const std::int16_t> sv, View3<const SampleFlags> flags, VoxelIndex seed,
-                                 const TransferFunction& growth_curve, const GrowParams& params) {
+                                 const TransferFunction& growth_curve, const GrowParams& params,
+                                 const PingMask* inside) {
   const Shape3 shape = sv.shape();
   if (seed.row < 0 || seed.row >= static_cast<std::int32_t>(shape.rows()) || seed.sample < 0 ||
       seed.sample >= shape.samples) {
@@ -200,11 +202,16 @@ Result<PingMask> grow_from_click(View3<const std::int16_t> sv, View3<const Sampl
   const std::vector<float> opacity = growth_curve.table_i16();
   const double centre = static_cast<double>(opacity[static_cast<std::size_t>(count + 32768)]);
   if (!(centre > 0.0)) return refuse(fmt::format("has opacity 0 ({:.1f} dB)", db_from_counts(count)));
+  if (inside != nullptr && !contains(*inside, seed.row, seed.sample)) {
+    return refuse(
+        fmt::format("({:.1f} dB) stands no {:g} dB above the noise", db_from_counts(count), params.margin_db));
+  }
   const MemberTable members = params.mode == GrowMode::paper
                                   ? MemberTable::by_opacity(opacity, centre, params.tolerance_opacity)
                                   : MemberTable::one_sided(db_from_counts(count), params.tolerance_db);
   GrowLimits limits;
   limits.connectivity = params.connectivity;
+  limits.inside = inside;
   return grow(sv, flags, members, std::span(&seed, 1), limits);
 }
 

@@ -27,6 +27,7 @@ struct GrowParams {
   Connectivity connectivity = Connectivity::faces;
   double tolerance_db = 10.0;
   double tolerance_opacity = 0.1;
+  double margin_db = 3.0;
 };
 
 template <class Visitor>
@@ -38,6 +39,11 @@ void describe(Visitor& v, GrowParams& p) {
           {.unit = "dB", .min = 0.01, .max = 60, .text = "members lie no deeper below the reference level"});
   v.field("tolerance_opacity", p.tolerance_opacity,
           {.unit = "1", .min = 0, .max = 1, .text = "mode paper: members differ no more in opacity"});
+  v.field("margin_db", p.margin_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 30,
+           .text = "mode tracked: members stand so far above the beam's noise; 0 = whatever the noise is"});
 }
 
 /// Which Sv counts are members, and how surely: one byte for each of the 65536 counts, 0 = no member, else 255 f.
@@ -76,10 +82,12 @@ struct GrowLimits {
                             std::span<const VoxelIndex> seeds, const GrowLimits& limits);
 
 /// One click. Mode paper: centre = the seed's opacity; else reference = the seed's Sv. Join several clicks by unite().
-/// errors  bad_parameter, one line: seed outside the volume, in crops or seabed, without data, with opacity 0
+/// inside  growth stays in its runs, sorted; null = anywhere
+/// errors  bad_parameter, one line: seed outside the volume, in crops or seabed, without data, with opacity 0, not
+///         inside
 [[nodiscard]] Result<PingMask> grow_from_click(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
                                                VoxelIndex seed, const TransferFunction& growth_curve,
-                                               const GrowParams& params);
+                                               const GrowParams& params, const PingMask* inside = nullptr);
 
 /// Voxels with confidence >= threshold (0..1): the core of a mask, or at a low threshold its fuzzy area.
 [[nodiscard]] PingMask at_least(const PingMask& mask, double threshold);

@@ -10,6 +10,7 @@
 #include "school/grow.h"
 #include "school/propagate_paper.h"
 #include "school/propagate_tracked.h"
+#include "school/standing_out.h"
 #include "school/test_water.h"
 
 namespace sonar {
@@ -31,11 +32,23 @@ struct Passage {
     if (i != hidden) {
       test::Ellipsoid e;
       e.centre = {school_north - north + 0.4 * 5.0 * static_cast<double>(i), -160.0, 50.0};
-      e.half_x = 16.0;
-      e.half_z = 6.0;
+      e.half_x = 16.0 * scale;
+      e.half_y *= scale;
+      e.half_z = 6.0 * scale;
+      e.sv = linear_from_db(school_db);
       test::add_ellipsoid(expected, sector, e, 700);
     }
+    for (double& sv : expected.all()) sv += linear_from_db(noise_db);
     volume->counts = test::filtered(test::counts_of(expected, static_cast<std::uint64_t>(i) + 1), volume->flags);
+    if (noise_known) {
+      const double level_db = db_from_linear(linear_from_db(noise_db) + linear_from_db(test::kNoise_db));
+      out.standing_out = [volume, level_db](double margin_db, Above above) {
+        test::FlatBackground flat(volume->counts.shape());
+        flat.power_db.assign(flat.power_db.size(), level_db);
+        return standing_out(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(),
+                            {flat.power_db, flat.calibration.view()}, {}, margin_db, above);
+      };
+    }
     out.volume = std::move(volume);
     return out;
   }
@@ -61,6 +74,10 @@ struct Passage {
   Sector sector;
   double speed;
   double school_north = 75.0;
+  double school_db = -40.0;
+  double scale = 1.0;  ///< of the school's extents
+  double noise_db = -400.0;  ///< beside the water's
+  bool noise_known = true;
   int pings = 16;
   int hidden = -1;
 };
@@ -98,6 +115,25 @@ TEST(Tracked, EndsWithANoteWhenTheSchoolIsGone) {
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->note_forward.empty());
   EXPECT_LT(result->pings.back().ping_index, 10);
+}
+
+// The reference follows the school, and would follow it down into the noise when it has left.
+TEST(Tracked, IsNotFollowedIntoTheNoise) {
+  Passage passage;
+  passage.pings = 30;
+  passage.school_db = -60.0;
+  passage.scale = 2.0;
+  passage.noise_db = -72.0;
+  const PingMask selection = passage.click(5, {.tolerance_db = 6.0});
+  const PingReach reach{5, 29};
+  for (const double margin_db : {5.0, 0.0}) {
+    TrackedPropagationParams params;
+    params.margin_db = margin_db;
+    const auto result = propagate_tracked(passage.provider(), passage.sector, 5, selection, reach, params);
+    ASSERT_TRUE(result);
+    const std::int64_t last = result->pings.back().ping_index;
+    EXPECT_TRUE(margin_db > 0.0 ? last < 18 : last > 22) << last;
+  }
 }
 
 TEST(Tracked, DoesNotTakeOthersVoxels) {

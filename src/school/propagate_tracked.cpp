@@ -34,6 +34,33 @@ std::vector<Run> united(std::vector<Run> runs) {
   return out;
 }
 
+/// The parts of runs, sorted and apart, that lie in others.
+std::vector<Run> common(const std::vector<Run>& a, const std::vector<Run>& b) {
+  std::vector<Run> out;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const int first = std::max(a[i].first_sample, b[j].first_sample);
+    const int end = std::min(a[i].end(), b[j].end());
+    if (a[i].row == b[j].row && first < end) out.push_back({a[i].row, first, end - first});
+    const bool a_ends_first = a[i].row != b[j].row ? a[i].row < b[j].row : a[i].end() < b[j].end();
+    if (a_ends_first) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return out;
+}
+
+/// What the members of a selection's later pings have to stand above.
+Above stands_above(const FilteredPing& ping, const PingMask& selection, double margin_db) {
+  if (!ping.standing_out) return Above::noise;
+  std::size_t standing = 0;
+  for (const Run& run : common(selection.runs, ping.standing_out(margin_db, Above::water))) {
+    standing += static_cast<std::size_t>(run.count);
+  }
+  return 2 * standing >= selection.voxels() ? Above::water : Above::noise;
+}
+
 /// The school where it was last seen.
 struct Sighting {
   PingMask mask;
@@ -51,9 +78,9 @@ struct Found {
 
 class Follower {
  public:
-  Follower(const Sector& sector, const TrackedPropagationParams& params, const Geographic& origin,
+  Follower(const Sector& sector, const TrackedPropagationParams& params, const Geographic& origin, Above above,
            const PropagationObserver& on_step)
-      : sector_(sector), params_(params), origin_(origin), on_step_(on_step) {}
+      : sector_(sector), params_(params), origin_(origin), above_(above), on_step_(on_step) {}
 
   /// Follows one direction; returns why it ended, or nothing where the reach ended it.
   std::string follow(const PingProvider& pings, std::int64_t clicked, int step, const FilteredPing& start,
@@ -124,12 +151,16 @@ class Follower {
     const std::vector<VoxelIndex> seeds = seeds_at(moved);
     PingMask gate;
     gate.runs = gate_round(seeds, dt);
+    if (ping.standing_out && params_.margin_db > 0.0) {
+      gate.runs = common(gate.runs, ping.standing_out(params_.margin_db, above_));
+    }
     double tolerance_db = params_.tolerance_db;
     const double largest = params_.max_growth * (last.cut ? params_.cut_growth : 1.0);
     for (int attempt = 0; attempt < params_.tries; ++attempt, tolerance_db *= params_.tighter) {
       Found found = grow_twice(ping, seeds, gate, reference_db, tolerance_db);
       if (found.mask.empty()) {
-        why = fmt::format("no voxel of the moved school reaches {:.1f} dB", reference_db - tolerance_db);
+        why = fmt::format("no voxel of the moved school reaches {:.1f} dB and stands out of the background",
+                          reference_db - tolerance_db);
         return std::nullopt;
       }
       const double volume = shape_of(found.mask, sector_).volume_m3;
@@ -215,6 +246,7 @@ class Follower {
   const Sector& sector_;
   const TrackedPropagationParams& params_;
   Geographic origin_;
+  Above above_;
   const PropagationObserver& on_step_;
 };
 
@@ -228,7 +260,8 @@ Result<Propagation> propagate_tracked(const PingProvider& pings, const Sector& s
   if (!start) return pass_on(start);
   const View3<const std::int16_t> sv = start->volume->counts.view();
   const double reference_db = db_from_counts(percentile(sv, selection, params.reference_percentile / 100.0));
-  const Follower follower(sector, params, start->placement.transducer, on_step);
+  const Above above = stands_above(*start, selection, params.margin_db);
+  const Follower follower(sector, params, start->placement.transducer, above, on_step);
   Propagation result;
   result.note_backward = follower.follow(pings, clicked, -1, *start, selection, reach, reference_db, result);
   std::reverse(result.pings.begin(), result.pings.end());

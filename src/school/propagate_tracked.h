@@ -16,6 +16,7 @@ namespace sonar {
 
 struct TrackedPropagationParams {
   double tolerance_db = 10.0;
+  double margin_db = 5.0;
   double reference_percentile = 90.0;
   double max_reference_step_db = 3.0;
   double max_growth = 2.0;
@@ -40,6 +41,11 @@ template <class Visitor>
 void describe(Visitor& v, TrackedPropagationParams& p) {
   v.field("tolerance_db", p.tolerance_db,
           {.unit = "dB", .min = 0.1, .max = 60, .text = "members lie no deeper below the school's reference level"});
+  v.field("margin_db", p.margin_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 30,
+           .text = "and stand so far above the background: a school that has left is not sought in it; 0 = anywhere"});
   v.field("reference_percentile", p.reference_percentile,
           {.unit = "%", .min = 1, .max = 100, .text = "share of the school's voxels below its reference level"});
   v.field("max_reference_step_db", p.max_reference_step_db,
@@ -78,6 +84,7 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
 /// Carries a school through time without the paper's limits: the whole previous mask, moved over ground by the ship's
 /// and the school's movement, seeds the next ping; one-sided threshold below a reference that follows the school; a
 /// school partly outside stays in the track, coordinates cut by the sector's borders do not move its velocity.
+/// Members stand above the background: the water's too if the selection does, for a human may have pointed at a layer.
 /// sector     of the observation (one grid and range axis for all pings)
 /// selection  the mask in ping `clicked`, not empty; kept as it is
 /// errors     as propagate_paper

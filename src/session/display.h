@@ -73,6 +73,7 @@ struct SelectParams {
   Connectivity connectivity = Connectivity::faces;
   double tolerance_db = 10.0;
   double tolerance_opacity = 0.1;
+  double margin_db = 3.0;
   int reach_pings = 30;
   bool backwards = true;
   bool forwards = true;
@@ -86,6 +87,11 @@ void describe(Visitor& v, SelectParams& p) {
           {.unit = "dB", .min = 3, .max = 25, .text = "how far below the reference level members may lie"});
   v.field("tolerance_opacity", p.tolerance_opacity,
           {.unit = "1", .min = 0, .max = 1, .text = "mode paper: members differ no more in opacity"});
+  v.field("margin_db", p.margin_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 30,
+           .text = "mode tracked: members stand so far above the beam's noise; 0 = whatever the noise is"});
   v.field("reach_pings", p.reach_pings,
           {.unit = "pings", .min = 1, .max = 100000, .text = "how far a school is followed to each side"});
   v.field("backwards", p.backwards, {.text = "follow a school to earlier pings"});

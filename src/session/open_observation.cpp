@@ -30,11 +30,7 @@ OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std:
   ground_.ping = [this](std::int64_t i) -> Result<FilteredPing> {
     auto staged = ping(i);
     if (!staged) return pass_on(staged);
-    return FilteredPing{(*staged)->filtered,
-                        engine_.tracking_placement(i),
-                        ground_.times[static_cast<std::size_t>(i)],
-                        {},
-                        engine_.is_bad(i)};
+    return engine_.filtered(**staged);
   };
 }
 

@@ -37,7 +37,7 @@ std::string grouped(std::size_t number) {
 }  // namespace
 
 GrowParams grow_params(const SelectParams& params) {
-  return {params.mode, params.connectivity, params.tolerance_db, params.tolerance_opacity};
+  return {params.mode, params.connectivity, params.tolerance_db, params.tolerance_opacity, params.margin_db};
 }
 
 PropagateCommand propagation_as_set(const Workspace& workspace) {
@@ -101,13 +101,12 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
     school = trial.state ? school_at(*trial.state, ground, *trial.command.school) : std::nullopt;
     if (!school) return fail(ErrorCode::bad_parameter, "the selected school is no more");
   }
-  FilteredPing ping;
-  ping.volume = trial.ping->filtered;
+  FilteredPing ping = trial.observation->engine().filtered(*trial.ping);
   if (trial.observation->recalibrated()) {
     // What is tried is what the act will do, and that stands on the calibration of the choices.
     auto of_choices = ground.ping(trial.ping->ping_index);
     if (!of_choices) return pass_on(of_choices);
-    ping.volume = of_choices->volume;
+    ping = std::move(*of_choices);
   }
   const bool needed = trial.command.to == GrowTo::take_away || trial.command.to == GrowTo::replace;
   const auto* there = needed ? in_ping(trial.state->schools[*school]->masks, trial.ping->ping_index) : nullptr;
