@@ -15,6 +15,7 @@
 #include "school/noise_reach.h"
 #include "school/reverberation.h"
 #include "school/settle_members.h"
+#include "school/side_lobes.h"
 #include "school/wave_front.h"
 
 namespace sonar {
@@ -218,7 +219,8 @@ class PingDetector {
     if (edges.seabed_fraction > params_.max_seabed_faces) return false;
     if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask)) return false;
     return !is_shell(detection) && !is_open_floor(detection) &&
-           !is_wave_front(detection.mask, detection.box, sector_, params_);
+           !is_wave_front(detection.mask, detection.box, sector_, params_) &&
+           !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_);
   }
 
   /// The flank of the seabed's echo grows towards it; a school at the seabed is brightest inside itself.

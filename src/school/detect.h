@@ -43,6 +43,9 @@ struct DetectParams {
   double front_most = 0.8;
   int front_beams = 8;
   int front_rows = 12;
+  double side_lobe_rise_db = 4.0;
+  double side_lobe_share = 0.25;
+  double side_lobe_below_db = 12.0;
   int floor_beams = 8;
   double floor_echo_db = -30.0;
   double floor_flat_share = 0.06;
@@ -133,6 +136,16 @@ void describe(Visitor& v, DetectParams& p) {
            .text = "... side by side, or so many fans, where middles alone tell; both edges tell in any case"});
   v.field("front_rows", p.front_rows,
           {.unit = "beams", .min = 2, .max = 100000, .text = "... of so many beams in all"});
+  v.field("side_lobe_rise_db", p.side_lobe_rise_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "what stands out less of the other beams of its fans may be a side lobe; 0 = nothing is"});
+  v.field(
+      "side_lobe_share", p.side_lobe_share,
+      {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's beams below the level that it must stand out of"});
+  v.field("side_lobe_below_db", p.side_lobe_below_db,
+          {.unit = "dB", .min = 0, .max = 100, .text = "the seabed's echo is so much stronger than its side lobes"});
   v.field("floor_beams", p.floor_beams,
           {.unit = "beams", .min = 1, .max = 1000, .text = "a school may fill fans of fewer beams; no seabed there"});
   v.field("floor_echo_db", p.floor_echo_db,

@@ -75,7 +75,7 @@ struct Passage {
   double speed;
   double school_north = 75.0;
   double school_db = -40.0;
-  double scale = 1.0;  ///< of the school's extents
+  double scale = 1.0;        ///< of the school's extents
   double noise_db = -400.0;  ///< beside the water's
   bool noise_known = true;
   int pings = 16;

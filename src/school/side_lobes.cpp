@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/side_lobes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+constexpr int kStep = 4;  ///< samples between two looks: the filter is longer than that
+
+/// What the beams of a mask's fans hear at its ranges, whatever is there.
+class FanLevels {
+ public:
+  /// seabed  whether it counts, as louder than anything
+  FanLevels(const IndexBox& box, View3<const std::int16_t> sv, View3<const SampleFlags> flags, double share,
+            bool seabed)
+      : box_(box), steps_((box.samples() - 1) / kStep + 1) {
+    std::vector<std::int16_t> values;
+    for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
+      for (int step = 0; step < steps_; ++step) {
+        const auto sample = static_cast<std::size_t>(box.first_sample + step * kStep);
+        values.clear();
+        for (int beam = 0; beam < sv.shape().beams; ++beam) {
+          const std::int16_t count = sv.row(fan, beam)[sample];
+          const SampleFlags flag = flags.row(fan, beam)[sample];
+          if (seabed && any(flag & SampleFlags::seabed)) {
+            values.push_back(kMaxCount);
+          } else if (count != kNoData && !any(flag & kNeverMember)) {
+            values.push_back(count);
+          }
+        }
+        levels_.push_back(quantile(values, sv.shape().beams, share));
+      }
+    }
+  }
+  /// The quantile over a fan's open beams; kNoData where fewer than half are.
+  [[nodiscard]] int at(int fan, int sample) const {
+    const int step = (sample - box_.first_sample) / kStep;
+    return levels_[static_cast<std::size_t>((fan - box_.first_fan) * steps_ + step)];
+  }
+
+ private:
+  static std::int16_t quantile(std::vector<std::int16_t>& values, int beams, double share) {
+    if (2 * static_cast<int>(values.size()) < beams) return kNoData;
+    const auto last = static_cast<double>(values.size() - 1);
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * last);
+    std::nth_element(values.begin(), rank, values.end());
+    return *rank;
+  }
+
+  IndexBox box_;
+  int steps_;
+  std::vector<std::int16_t> levels_;
+};
+
+/// The strongest echo that is the seabed's at a sample of a beam, whatever the fan; kNoData = none.
+int seabed_at(View3<const std::int16_t> sv, View3<const SampleFlags> flags, int beam, std::size_t sample) {
+  int most = kNoData;
+  for (int fan = 0; fan < sv.shape().fans; ++fan) {
+    if (any(flags.row(fan, beam)[sample] & SampleFlags::seabed)) most = std::max<int>(most, sv.row(fan, beam)[sample]);
+  }
+  return most;
+}
+
+/// Whether a box has part in an outermost fan of the sector, beyond which lies what that fan shows further off.
+bool borders_on(const IndexBox& box, bool top, SampleFlags what, const Sector& sector, View3<const SampleFlags> flags) {
+  const int last = sector.fans() - 1;
+  const int fan = (sector.elevation_rad(0) < sector.elevation_rad(last)) == top ? last : 0;
+  if (fan < box.first_fan || fan > box.last_fan) return false;
+  for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
+    const auto row = flags.row(fan, beam);
+    if (std::any_of(row.begin(), row.end(), [what](SampleFlags f) { return any(f & what); })) return true;
+  }
+  return false;
+}
+
+/// Median of what is known of a mask's looks, dB; otherwise where that is less than half of them.
+double median_db(std::vector<int>& counts, std::size_t looks, double otherwise) {
+  if (2 * counts.size() < looks || counts.empty()) return otherwise;
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  return db_from_counts(*middle);
+}
+
+/// Calls for every so-manyth voxel of a mask; how many.
+template <class Visit>
+std::size_t look(const PingMask& mask, Visit&& visit) {
+  std::size_t looks = 0;
+  for (const Run& run : mask.runs) {
+    for (int sample = run.first_sample; sample < run.end(); sample += kStep, ++looks) visit(run.row, sample);
+  }
+  return looks;
+}
+
+}  // namespace
+
+bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& sector, View3<const std::int16_t> sv,
+                  View3<const SampleFlags> flags, const DetectParams& params) {
+  const double rise_db = params.side_lobe_rise_db;
+  if (!(rise_db > 0.0)) return false;
+  const int beams = sv.shape().beams;
+  const auto stands_out = [&](const FanLevels& levels) {
+    std::vector<int> above;
+    const std::size_t looks = look(mask, [&](int row, int sample) {
+      const int level = levels.at(row / beams, sample);
+      if (level != kNoData) above.push_back(sv.row(row)[static_cast<std::size_t>(sample)] - level);
+    });
+    return median_db(above, looks, rise_db) >= rise_db;
+  };
+  // Where the sector ends above the seabed, that sets in at other ranges in other beams.
+  if (borders_on(box, false, SampleFlags::seabed, sector, flags) &&
+      !stands_out(FanLevels(box, sv, flags, params.side_lobe_share, true))) {
+    return true;
+  }
+  if (stands_out(FanLevels(box, sv, flags, params.side_lobe_share, false))) return false;
+  if (borders_on(box, true, SampleFlags::surface, sector, flags)) return true;
+  std::vector<int> below;
+  const std::size_t looks = look(mask, [&](int row, int sample) {
+    const auto s = static_cast<std::size_t>(sample);
+    const int seabed = seabed_at(sv, flags, row % beams, s);
+    if (seabed != kNoData) below.push_back(seabed - sv.row(row)[s]);
+  });
+  return median_db(below, looks, 0.0) >= params.side_lobe_below_db;
+}
+
+}  // namespace sonar
