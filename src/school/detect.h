@@ -53,6 +53,8 @@ struct DetectParams {
   double cut_off_share = 0.5;
   int member_samples = 23;
   double member_percentile = 92.0;
+  double peak_percentile = 99.5;
+  double peak_above_db = 1.5;
   double part_dip_db = 3.0;
   int rim_fans = 1;
   int rim_beams = 1;
@@ -172,6 +174,13 @@ void describe(Visitor& v, DetectParams& p) {
            .min = 1,
            .max = 100,
            .text = "the reference of these medians: this share of the school lies below"});
+  v.field("peak_percentile", p.peak_percentile,
+          {.unit = "%",
+           .min = 0,
+           .max = 100,
+           .text = "share of a school's filtered voxels below its peak; 0 = no school has one"});
+  v.field("peak_above_db", p.peak_above_db,
+          {.unit = "dB", .min = 0, .max = 20, .text = "the reference lies so far above the filtered peak at least"});
   v.field("part_dip_db", p.part_dip_db,
           {.unit = "dB",
            .min = 0,

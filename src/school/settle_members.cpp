@@ -60,6 +60,15 @@ double MemberSettler::reference(const std::vector<Run>& part) const {
   return db_from_counts(high());
 }
 
+double MemberSettler::level(const std::vector<Run>& part) const {
+  const double along_beams_db = reference(part);
+  if (params_.peak_percentile <= 0.0) return along_beams_db;
+  PingMask mask;
+  mask.runs = part;
+  const std::int16_t peak = percentile(filtered_, mask, params_.peak_percentile / 100.0);
+  return std::max(along_beams_db, db_from_counts(peak) + params_.peak_above_db);
+}
+
 MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double threshold_db) const {
   const std::vector<Run> all = thresholder_.above(box_round(part), threshold_db, params_.background_rest_db);
   Parts parts = connected_parts(all, filtered_.shape(), params_.connectivity);
@@ -107,13 +116,13 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
   look_along_beams(box_round(part));
-  const double reference_db = reference(part);
+  const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
   const Parts schools = grouped(part, threshold_db, large);
   std::vector<Settled> settled;
   for (const std::vector<Run>& school : schools) {
     // Beside a stronger one a school goes down to where the two part, as there.
-    const double own_db = schools.size() == 1 ? reference_db : reference(school);
+    const double own_db = schools.size() == 1 ? reference_db : level(school);
     settled.push_back(members(school, own_db, std::max(threshold_db, own_db - depth_db), claimed));
   }
   return settled;

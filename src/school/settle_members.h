@@ -47,6 +47,9 @@ class MemberSettler {
   [[nodiscard]] IndexBox box_round(const std::vector<Run>& part) const;
   void look_along_beams(const IndexBox& box);
   [[nodiscard]] double reference(const std::vector<Run>& part) const;
+  /// From where a school's members are counted down. Most schools are about as loud all through, and many beams' voxels
+  /// tell how loud; of one whose echo rises towards its heart the filtered data show the peak.
+  [[nodiscard]] double level(const std::vector<Run>& part) const;
   using Parts = std::vector<std::vector<Run>>;
   [[nodiscard]] Parts pieces(const std::vector<Run>& part, double threshold_db) const;
   [[nodiscard]] Parts grouped(const std::vector<Run>& part, double threshold_db,
