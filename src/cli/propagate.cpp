@@ -249,7 +249,9 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and carry it through time both ways");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
   verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
-  verb->add_option("--seed", arguments->seeds, "PING,FAN,BEAM,SAMPLE from 0; several are joined")->required();
+  verb->add_option("--seed", arguments->seeds,
+                   "PING,FAN,BEAM,SAMPLE from 0: fans from the deepest, beams clockwise; several are joined")
+      ->required();
   auto* in_db =
       verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference (else the recipe's)")
           ->check(within(0.01, 60.0));

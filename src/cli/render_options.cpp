@@ -162,7 +162,7 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--fan", a.picture.fan, "slice-top: fan from 0, the deepest; default: through the largest school")
       ->group(group);
   verb.add_option("--beam", a.picture.beam,
-                  "slice-side: beam from 0, the most aft; default: through the largest school")
+                  "slice-side: beam from 0, clockwise (looking to port: from aft); default: through the largest school")
       ->group(group);
   verb.add_option("--range-m", a.picture.range_m, "slice-range: slant range, m")
       ->check(between(-1e6, 1e6))
