@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -88,6 +89,53 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   const Image tint = settled(live, tinted);
   tinted.options.mask_outline = true;
   EXPECT_NE(settled(live, tinted), tint);
+}
+
+// The coarse picture that is seen while something moves has a school's line where the picture at rest has it, to within
+// two of its coarse pixels; of many schools it has none, and the picture at rest has them all.
+TEST(LiveVolume, OutlinesAFewSchoolsWhileSomethingMoves) {
+  LiveVolume live;
+  LiveVolumeInput input = block_of_echo();
+  input.options.mode = RayMode::maximum;
+  input.moving_budget_s = 1e-9;
+  const Rgba8 colour{255, 0, 255, 255};
+  const auto lines = [&](const Image& image) {
+    PixelRect r{1e9, 1e9, -1e9, -1e9};  // x, y: the least; width, height: the largest
+    for (int y = 0; y < image.size.height; ++y) {
+      for (int x = 0; x < image.size.width; ++x) {
+        if (image.at(x, y) != colour) continue;
+        r = {std::min(r.x, 1.0 * x), std::min(r.y, 1.0 * y), std::max(r.width, 1.0 * x), std::max(r.height, 1.0 * y)};
+      }
+    }
+    return r;
+  };
+  const auto drawn = [&] {
+    std::vector<std::pair<int, Image>> out;
+    Work work(1);
+    EXPECT_TRUE(live.draw(input, Wanted{}, work, [&](const LiveVolume::Picture& picture) {
+      for (const auto& item : picture.frame.items) {
+        const auto* image = std::get_if<ImageItem>(&item);
+        if (image == nullptr) continue;
+        out.emplace_back(picture.shown->divisor, *image->image);
+        break;
+      }
+    }));
+    return out;
+  };
+  auto pictures = drawn();
+  ASSERT_GT(pictures.size(), 1U);
+  ASSERT_GT(pictures.front().first, 1);
+  const PixelRect first = lines(pictures.front().second);
+  const PixelRect last = lines(pictures.back().second);
+  ASSERT_GT(last.width, last.x);
+  EXPECT_NEAR(first.x, last.x, 8.0);
+  EXPECT_NEAR(first.y, last.y, 8.0);
+  EXPECT_NEAR(first.width, last.width, 8.0);
+  EXPECT_NEAR(first.height, last.height, 8.0);
+  while (input.masks.size() < 5) input.masks.push_back(input.masks.front());
+  pictures = drawn();
+  EXPECT_LT(lines(pictures.front().second).width, 0.0);
+  EXPECT_GT(lines(pictures.back().second).width, 0.0);
 }
 
 }  // namespace

@@ -39,9 +39,12 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
+  base->left_out = observation.product().schools.size() - product.schools.size();
   FrameDescription frame = observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping),
                                            palette_of(product, options));
-  add_map_schools(frame, *base, map_schools(product));
+  const PingNavigation& current = product.pings[static_cast<std::size_t>(*ping)];
+  add_map_schools(frame, *base, map_schools(product),
+                  current.has_position() ? base->map.at(current.transducer) : std::nullopt);
   return frame;
 }
 
@@ -57,7 +60,13 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   style.before = style.after = options.neighbours;
   style.aspect = options.side_view ? MaskAspect::side : MaskAspect::above;
   style.palette.core_at = static_cast<double>(options.mask_style.core_at);
-  const auto panels = propagation_panels(product, *ping, style, observation.has_product());
+  auto panels = propagation_panels(product, *ping, style, observation.has_product());
+  for (PropagationPanel& panel : panels) {
+    const auto& masks = observation.product().masks;
+    panel.left_out = std::any_of(masks.begin(), masks.end(), [&](const SchoolMask& mask) {
+      return mask.ping_index == panel.ping_index && !(options.masks && wanted(mask.school_id, options));
+    });
+  }
   return propagation_view(*sector, panels, style, options.size, theme_of(options), observation.title());
 }
 
@@ -71,14 +80,19 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
     if (!known) return fail(ErrorCode::usage, fmt::format("no school {} in any observation", school));
   }
   std::vector<ObservationProduct> products;
-  for (const DrawnObservation& observation : observations)
+  SurveyMapStyle style;
+  for (const DrawnObservation& observation : observations) {
     products.push_back(with_chosen_schools(observation.product(), options));
+    const auto& all = observation.product().schools;
+    style.left_out += static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const SchoolRow& row) {
+      return row.status != "rejected" && !(options.masks && wanted(row.school_id, options));
+    }));
+  }
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {
     outlines[static_cast<std::size_t>(i)] = map_outlines(products[static_cast<std::size_t>(i)]);
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-  SurveyMapStyle style;
   style.sv_low_db = options.scale.low_db;
   style.sv_high_db = options.scale.high_db();
   style.unsearched = static_cast<int>(std::count_if(observations.begin(), observations.end(),

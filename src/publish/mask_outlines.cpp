@@ -6,11 +6,14 @@
 #include <cstddef>
 #include <utility>
 
+#include "render/refinement.h"
+
 namespace sonar {
 namespace {
 
 /// What is seen of a mask from a confidence on.
-Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work) {
+Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
+                                            int divisor) {
   view.mode = RayMode::accumulate;
   view.lighting.on = false;
   view.masks = {.fuzzy_above = confidence,
@@ -18,8 +21,11 @@ Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView
                 .fuzzy_opacity = 1.0F,
                 .core_extinction_per_m = 0.0F,
                 .data_too = false};
-  const auto alone = renderer.draw(view, {}, work);
+  DrawQuality quality;
+  quality.divisor = divisor;
+  auto alone = renderer.draw(view, quality, work);
   if (!alone) return pass_on(alone);
+  if (divisor > 1) alone = enlarged(*alone, view.size, divisor, work);
   std::vector<std::uint8_t> out(alone->rgba.size());
   std::transform(alone->rgba.begin(), alone->rgba.end(), out.begin(),
                  [](const auto& pixel) { return static_cast<std::uint8_t>(pixel[3] >= 0.5F); });
@@ -43,14 +49,40 @@ class Drawing {
   }
 
  private:
+  /// Of what is inside; first behind last where nothing is.
+  struct Bounds {
+    int first_x = 0;
+    int last_x = -1;
+    int first_y = 0;
+    int last_y = -1;
+  };
+  [[nodiscard]] Bounds bounds(const std::vector<std::uint8_t>& inside) const {
+    const auto [width, height] = rays_.size;
+    Bounds b{width, -width, height, -height};
+    for (int y = 0; y < height; ++y) {
+      const auto row = inside.begin() + static_cast<std::ptrdiff_t>(y) * width;
+      const auto first = std::find(row, row + width, 1);
+      if (first == row + width) continue;
+      b.first_y = std::min(b.first_y, y);
+      b.last_y = y;
+      b.first_x = std::min(b.first_x, static_cast<int>(first - row));
+      for (int x = width - 1; x > b.last_x; --x) {
+        if (row[x] != 0) b.last_x = x;
+      }
+    }
+    return b;
+  }
+
   template <class Act>
   void for_each(const std::vector<std::uint8_t>& inside, bool own, int reach, const Act& act) {
     const auto [width, height] = rays_.size;
     const auto at = [&](int x, int y) {
       return inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] != 0;
     };
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
+    // Most of a picture is far from any school.
+    const Bounds b = bounds(inside);
+    for (int y = std::max(0, b.first_y - reach); y <= std::min(height - 1, b.last_y + reach); ++y) {
+      for (int x = std::max(0, b.first_x - reach); x <= std::min(width - 1, b.last_x + reach); ++x) {
         if (at(x, y) != own) continue;
         bool met = false;
         for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach) && !met; ++v) {
@@ -72,13 +104,13 @@ class Drawing {
 }  // namespace
 
 Result<std::vector<MaskSilhouette>> mask_silhouettes(VolumeRenderer& renderer, std::span<const MaskLayer> masks,
-                                                     const VolumeView& view, Work& work) {
+                                                     const VolumeView& view, Work& work, int divisor) {
   std::vector<MaskSilhouette> out;
   for (const MaskLayer& mask : masks) {
     if (auto set = renderer.set_masks(std::span(&mask, 1)); !set) return pass_on(set);
-    auto fuzzy = seen_from(renderer, view, view.masks.fuzzy_above, work);
+    auto fuzzy = seen_from(renderer, view, view.masks.fuzzy_above, work, divisor);
     if (!fuzzy) return pass_on(fuzzy);
-    auto core = seen_from(renderer, view, view.masks.core_at, work);
+    auto core = seen_from(renderer, view, view.masks.core_at, work, divisor);
     if (!core) return pass_on(core);
     out.push_back({std::move(*fuzzy), std::move(*core)});
   }

@@ -19,11 +19,12 @@ struct MaskSilhouette {
 };
 
 /// Of every mask in turn. The renderer has its volume and transfer function; its masks are changed.
-/// view    camera, size, thresholds and opaque things count
+/// view     camera, size, thresholds and opaque things count
+/// divisor  of the rays, as DrawQuality: above 1 the silhouettes are nearly as large as they should be, and cheap
 /// errors  as VolumeRenderer::draw()
 [[nodiscard]] Result<std::vector<MaskSilhouette>> mask_silhouettes(VolumeRenderer& renderer,
                                                                    std::span<const MaskLayer> masks,
-                                                                   const VolumeView& view, Work& work);
+                                                                   const VolumeView& view, Work& work, int divisor = 1);
 
 /// Draws silhouettes as lines in their schools' colours: a whole one with a rim round the fuzzy area, a broken one
 /// round the core. Inside, the rays keep their colours, so that Sv can be read off the colour bar.

@@ -43,7 +43,10 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
     line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
     if (options.mode == RayMode::accumulate) line += ", accumulated";
     if (options.mode == RayMode::maximum) line += ", maximum along each ray";
-    if (options.mode == RayMode::first_hit) line += fmt::format(", surface at {:g} dB", options.first_hit_db);
+    if (options.mode == RayMode::first_hit) {
+      line += fmt::format(", surface at {}{:g} dB", options.first_hit_db < 0.0 ? "\u2212" : "",
+                          std::abs(options.first_hit_db));
+    }
     if (options.lighting) line += ", lit";
   }
   if (figure.seabed && known_percent(*figure.seabed) < 100) {

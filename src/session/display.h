@@ -109,6 +109,7 @@ struct VolumeParams {
   double first_hit_db = -50.0;
   bool lighting = false;
   bool data = true;
+  bool mask_outline = false;
   bool context = true;
   double moving_budget_ms = 50.0;
   int frames = 16;
@@ -122,6 +123,8 @@ void describe(Visitor& v, VolumeParams& p) {
           {.unit = "dB", .min = -120, .max = 0, .text = "mode first_hit: the surface lies where Sv reaches this"});
   v.field("lighting", p.lighting, {.text = "light surfaces by the gradient of Sv"});
   v.field("data", p.data, {.text = "show the water; off = schools alone"});
+  v.field("mask_outline", p.mask_outline,
+          {.text = "schools as outlines, so that the data keeps its colours; first hit and maximum have them always"});
   v.field("context", p.context, {.text = "show the sector's frame, range rings, sea surface and ship"});
   v.field("moving_budget_ms", p.moving_budget_ms,
           {.unit = "ms", .min = 5, .max = 2000, .text = "what a picture may take while something moves"});

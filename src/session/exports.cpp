@@ -214,6 +214,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
   options.mask_style.core_at = static_cast<float>(display.core_at);
   options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
   options.mask_style.data_too = volume.data;
+  options.mask_outline = volume.mask_outline;
   options.context = volume.context;
   options.frames = volume.frames;
   options.renderer = static_cast<RendererChoice>(volume.renderer);

@@ -123,6 +123,15 @@ TEST_F(PictureFile, OfAVolumeLooksFromWhereTheWindowDoes) {
   EXPECT_FALSE(picture_options(workspace(), PictureKind::volume)->camera);
 }
 
+TEST_F(PictureFile, OfAVolumeHasSchoolsAsTheWindowDoes) {
+  for (const bool outline : {true, false}) {
+    VolumeParams params;
+    params.mask_outline = outline;
+    workspace().volume.assign(params);
+    EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->mask_outline, outline);
+  }
+}
+
 TEST_F(PictureFile, ShowsTheSelectedSchoolAloneWhereThatIsAsked) {
   paint(2, 4, 5, 5, 200);
   paint(2, 4, 10, 10, 400);

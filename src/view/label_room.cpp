@@ -10,6 +10,7 @@
 namespace sonar {
 namespace {
 
+constexpr double kBoldWidth = 1.12;  // of plain letters'
 constexpr double kTextHeight = 1.2;  // of its size, from the lowest descender to the highest capital
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
@@ -40,7 +41,7 @@ bool meets(PixelPoint a, PixelPoint b, const PixelRect& r) {
 }  // namespace
 
 PixelRect LabelRoom::box_of(const TextItem& label) {
-  const double width = text_width_px(label.text.c_str(), label.size_px);
+  const double width = text_width_px(label.text.c_str(), label.size_px) * (label.bold ? kBoldWidth : 1.0);
   const double height = kTextHeight * label.size_px;
   double left = label.at.x;
   if (label.anchor == TextAnchor::centre) left -= width / 2;

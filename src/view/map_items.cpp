@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/map_items.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -106,6 +108,13 @@ std::string time_span_text(TimeNs first, TimeNs last) {
   if (from == to) return from + " UTC";
   const bool same_day = from.substr(0, 10) == to.substr(0, 10);
   return from + " \u2013 " + (same_day ? to.substr(11) : to) + " UTC";
+}
+
+std::string schools_text(std::size_t shown, std::size_t left_out) {
+  const std::size_t all = shown + left_out;
+  const std::string words = fmt::format("{} school{}", all, all == 1 ? "" : "s");
+  if (left_out == 0) return words;
+  return shown == 0 ? words + ", not shown" : fmt::format("{} of {}", shown, words);
 }
 
 std::string survey_title(std::span<const ObservationProduct> products) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ namespace sonar {
 [[nodiscard]] std::string clock_text(TimeNs time, bool seconds);
 /// "2009-11-13 08:11 – 09:20 UTC"; the second date only where it differs. Empty for 0.
 [[nodiscard]] std::string time_span_text(TimeNs first, TimeNs last);
+/// "12 schools"; "2 of 12 schools" and "12 schools, not shown" where the picture leaves some or all of them out.
+[[nodiscard]] std::string schools_text(std::size_t shown, std::size_t left_out);
 /// The products' common title, without the observations' names; says SYNTHETIC where one of them does.
 [[nodiscard]] std::string survey_title(std::span<const ObservationProduct> products);
 

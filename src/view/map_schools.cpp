@@ -37,6 +37,7 @@ std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64
     if (!rejected && school.status == "rejected") continue;
     MapSchool& shown = schools.emplace_back();
     shown.number = school.school_id;
+    shown.name = school.name;
     shown.status = school.status;
     shown.selected = school.school_id == selected;
     // Both tables rise with the number.
@@ -48,11 +49,15 @@ std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64
   return schools;
 }
 
-void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools) {
+void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools,
+                     std::optional<PixelPoint> ship) {
   const Theme& theme = base.theme;
   const double em = theme.text_px;
   LabelRoom room(base.map.place);
   room.take(scale_bars_place(base.map, theme));
+  for (const auto& [symbol, half] : {std::pair(base.start, 0.5 * em), std::pair(ship, em)}) {
+    if (symbol) room.take({symbol->x - half, symbol->y - half, 2.0 * half, 2.0 * half});
+  }
   frame.items.emplace_back(ClipItem{base.map.place});
   // The selected school lies over the others, and its number is the first to find room.
   std::vector<const MapSchool*> order;
@@ -82,7 +87,8 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
   std::vector<NumberedPlace> places;
   for (std::size_t i = order.size(); i-- > 0;) {
     if (!inside(base.map.place, middles[i])) continue;
-    places.push_back({middles[i], fmt::format("{}", order[i]->number), 0.25 * em, order[i]->selected});
+    places.push_back({middles[i], fmt::format("{}", order[i]->number), 0.25 * em, order[i]->selected,
+                      named_text(order[i]->number, order[i]->name, theme)});
   }
   const auto left_out = add_school_numbers(frame, room, places, theme);
   if (!left_out.empty()) {

@@ -32,7 +32,7 @@ class MaskMosaic {
   [[nodiscard]] static int school(Cell c) { return c & 0xFFU; }
 
   /// Schools are kept modulo this: a whole number of rounds of school_colour().
-  static constexpr int kSchools = 252;
+  static constexpr int kSchools = 240;
   static_assert(kSchools % kSchoolColours == 0);
 
   /// map      where the raster lies; it covers `map.place`

@@ -120,6 +120,9 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
       {em, size.height - 0.5 * em - key_px, key_width, key_px}};
   base.title = observation_title(product);
   base.track = track_item(base.map, product.pings, {theme.track, 1.6 * theme.line_px, {}});
+  const auto first = std::find_if(product.pings.begin(), product.pings.end(),
+                                  [](const PingNavigation& n) { return n.has_position(); });
+  if (first != product.pings.end()) base.start = base.map.at(first->transducer);
   base.footprints.resize(product.pings.size());
   std::vector<PlanePoint> corners;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -170,12 +173,9 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
       false});
   frame.items.emplace_back(base.track);
   if (current) add_current(frame, base, product, *current);
-  for (const PingNavigation& n : product.pings) {
-    if (!n.has_position()) continue;
-    if (const auto at = base.map.at(n.transducer)) {
-      frame.items.emplace_back(circle_item(*at, 0.45 * theme.text_px, kStartColour, {theme.text, theme.line_px, {}}));
-    }
-    break;
+  if (base.start) {
+    frame.items.emplace_back(
+        circle_item(*base.start, 0.45 * theme.text_px, kStartColour, {theme.text, theme.line_px, {}}));
   }
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, base.map, theme);
@@ -184,7 +184,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
   const std::string schools_told =
-      base.searched || told > 0 ? fmt::format("{} school{}", told, told == 1 ? "" : "s") : "schools not looked for";
+      base.searched || told > 0 ? schools_text(told, base.left_out) : "schools not looked for";
   const std::string count = fmt::format("{} pings, {}", product.pings.size(), schools_told);
   std::string ping;
   if (current && *current < product.pings.size()) {

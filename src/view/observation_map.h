@@ -30,7 +30,9 @@ struct ObservationMapBase {
   std::string title;
   std::vector<KeyEntry> key{};  ///< below the map; may be empty
   PixelRect key_place{};
-  bool searched = true;  ///< schools were looked for; else the title says that they were not
+  bool searched = true;               ///< schools were looked for; else the title says that they were not
+  std::size_t left_out = 0;           ///< schools that there are and that the map does not show
+  std::optional<PixelPoint> start{};  ///< of the observation
 };
 
 /// key     with room for a key of lines and colours below the map
@@ -62,6 +64,7 @@ struct MapSchool {
   std::string status;  ///< solid, dashed or dotted, as everywhere
   bool selected = false;
   std::vector<Geographic> places;  ///< in time order
+  std::string name{};              ///< that a human gave it, beside its number
 };
 /// The schools of a product with their places.
 /// selected  school_id that stands out; 0 = none
@@ -70,6 +73,8 @@ struct MapSchool {
                                                  bool rejected = true);
 /// Paths of schools in their colours, rejected ones grey, with their numbers beside them, or with a line to them; numbers
 /// that find no room are named in a corner. Over an observation map.
-void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools);
+/// ship  where it is drawn: numbers keep off it; empty = nowhere
+void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools,
+                     std::optional<PixelPoint> ship = std::nullopt);
 
 }  // namespace sonar

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "view/axes.h"
+#include "view/label_room.h"
 #include "view/map_items.h"
 #include "view/shapes.h"
 
@@ -57,6 +58,34 @@ void add_depth_scale(FrameDescription& frame, double middle_m, double px_per_m, 
     TextItem text =
         text_item({place.x + 0.7 * size, words_y}, tick_text(depth, ticks.decimals) + " m", size, theme.text);
     text.halo = theme.halo;
+    frame.items.emplace_back(std::move(text));
+  }
+}
+
+void add_panel_numbers(FrameDescription& frame, std::span<const PanelNumber> numbers, const PixelRect& place,
+                       const Theme& theme) {
+  const double size = 0.9 * theme.text_px;
+  const double gap = 0.4 * size;
+  LabelRoom room(place);
+  for (const PanelNumber& number : numbers) room.take(number.mask);
+  for (const PanelNumber& number : numbers) {
+    const PixelRect& m = number.mask;
+    const double wide = text_width_px(number.text.c_str(), size);
+    const double right = m.x + m.width + gap;
+    const double left = m.x - gap - wide;
+    const double middle = m.x + (m.width - wide) / 2.0;
+    const double y = m.y + m.height / 2.0;
+    const double above = m.y - 0.8 * size;
+    const double below = m.y + m.height + 0.8 * size;
+    TextItem text = text_item({right, y}, number.text, size, theme.text);
+    text.halo = theme.halo;
+    const std::vector<PixelPoint> places{{right, y},     {left, y},      {middle, above}, {middle, below},
+                                         {right, above}, {right, below}, {left, above},   {left, below}};
+    if (auto placed = room.place(text, places)) {
+      text = std::move(*placed);
+    } else if (right + wide > place.x + place.width) {
+      text.at.x = left;
+    }
     frame.items.emplace_back(std::move(text));
   }
 }

@@ -197,29 +197,26 @@ std::string state_of(const PropagationPanel& panel) {
   const bool empty = std::all_of(panel.masks.begin(), panel.masks.end(),
                                  [](const MosaicMask& m) { return m.mask == nullptr || m.mask->empty(); });
   if (!empty) return {};
+  if (panel.left_out) return "schools not shown";
   return panel.searched ? "no school" : "schools not looked for";
 }
 
-/// Schools' numbers to the right of their masks, to the left where there is no room.
+/// Schools' numbers beside their masks.
 void add_numbers(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
                  const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
-  const double size = 0.9 * theme.text_px;
-  const double gap = 0.4 * size;
+  std::vector<PanelNumber> numbers;
   for (std::size_t i = 0; i < std::min(panel.masks.size(), panel.school_ids.size()); ++i) {
     const PingMask* mask = panel.masks[i].mask;
     if (mask == nullptr || mask->empty()) continue;
     Window w;
     include(w, plan_of(sector, *mask, style.aspect), style.aspect);
     if (w.empty()) continue;
-    const std::string words = fmt::format("{}", panel.school_ids[i]);
-    const PixelPoint right = scale.at({w.right, (w.low + w.high) / 2.0}, place);
-    const PixelPoint left = scale.at({w.left, (w.low + w.high) / 2.0}, place);
-    const bool fits = right.x + gap + text_width_px(words.c_str(), size) < place.x + place.width;
-    TextItem text = text_item({fits ? right.x + gap : left.x - gap, right.y}, words, size, theme.text,
-                              fits ? TextAnchor::left : TextAnchor::right);
-    text.halo = theme.halo;
-    frame.items.emplace_back(std::move(text));
+    const PixelPoint corner = scale.at({w.left, w.high}, place);
+    const PixelPoint other = scale.at({w.right, w.low}, place);
+    numbers.push_back(
+        {fmt::format("{}", panel.school_ids[i]), {corner.x, corner.y, other.x - corner.x, other.y - corner.y}});
   }
+  add_panel_numbers(frame, numbers, place, theme);
 }
 
 /// In the middle of a panel, in as many lines as it takes.

@@ -52,9 +52,10 @@ void describe(Visitor& v, PropagationStyle& p) {
 /// One ping of the view.
 struct PropagationPanel {
   std::int64_t ping_index = 0;
-  bool bad = false;      ///< the ping was not used
-  bool absent = false;   ///< there is no such ping: before the first or after the last
-  bool searched = true;  ///< schools were looked for; else that there is none says nothing
+  bool bad = false;       ///< the ping was not used
+  bool absent = false;    ///< there is no such ping: before the first or after the last
+  bool searched = true;   ///< schools were looked for; else that there is none says nothing
+  bool left_out = false;  ///< schools that there are and that nobody wants to see: "no school" would be wrong
   bool current = false;
   TimeNs time = 0;
   double transducer_depth_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN = no scale of depths from the side

@@ -37,37 +37,54 @@ std::vector<PixelPoint> round_about(const NumberedPlace& place, const PixelRect&
   return out;
 }
 
-/// From the number's edge towards its place.
-PixelPoint nearest(const PixelRect& box, PixelPoint at) {
+/// From the label's edge towards its place.
+PixelPoint edge_towards(const PixelRect& box, PixelPoint at) {
   return {std::clamp(at.x, box.x, box.x + box.width), std::clamp(at.y, box.y, box.y + box.height)};
 }
 
 }  // namespace
 
+std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, const TextItem& label,
+                                     const NumberedPlace& place, const Theme& theme, std::size_t nearest) {
+  const PixelRect box = LabelRoom::box_of(label);
+  for (std::size_t i = nearest; i < kGaps_em.size(); ++i) {
+    const auto where = round_about(place, box, kGaps_em[i] * theme.text_px, i == 0 ? kNearDirections : kFarDirections);
+    auto placed = room.place(label, where);
+    if (!placed) continue;
+    if (i == 0) return placed;
+    const PixelPoint end = edge_towards(LabelRoom::box_of(*placed), place.at);
+    const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
+    const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
+    const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
+    for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
+      frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
+    }
+    room.add_line(from, end);
+    return placed;
+  }
+  return std::nullopt;
+}
+
+std::string named_text(std::int64_t number, const std::string& name, const Theme& theme) {
+  constexpr double kWidest_em = 12.0;
+  if (name.empty()) return {};
+  return elided(fmt::format("{} {}", number, name), theme.text_px, kWidest_em * theme.text_px);
+}
+
 std::vector<std::string> add_school_numbers(FrameDescription& frame, LabelRoom& room,
                                             std::span<const NumberedPlace> places, const Theme& theme) {
   std::vector<std::string> left_out;
   std::vector<TextItem> numbers;
-  const double em = theme.text_px;
   for (const NumberedPlace& place : places) {
     TextItem number =
-        text_item(place.at, place.text, em, place.selected ? theme.accent : theme.text, TextAnchor::centre);
+        text_item(place.at, place.text, theme.text_px, place.selected ? theme.accent : theme.text, TextAnchor::centre);
     number.bold = true;
     number.halo = theme.halo;
-    const PixelRect box = LabelRoom::box_of(number);
     std::optional<TextItem> placed;
-    for (std::size_t i = 0; i < kGaps_em.size() && !placed; ++i) {
-      const auto where = round_about(place, box, kGaps_em[i] * em, i == 0 ? kNearDirections : kFarDirections);
-      placed = room.place(number, where);
-      if (!placed || i == 0) continue;
-      const PixelPoint end = nearest(LabelRoom::box_of(*placed), place.at);
-      const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
-      const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
-      const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
-      for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
-        frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
-      }
-      room.add_line(from, end);
+    for (const std::string& words : {place.named, place.text}) {
+      if (words.empty() || placed) continue;
+      number.text = words;
+      placed = placed_about(frame, room, number, place, theme);
     }
     if (placed) {
       numbers.push_back(std::move(*placed));
@@ -79,12 +96,12 @@ std::vector<std::string> add_school_numbers(FrameDescription& frame, LabelRoom& 
   return left_out;
 }
 
-std::string left_out_text(std::span<const std::string> numbers) {
+std::string left_out_text(std::span<const std::string> labels, const char* what) {
   constexpr std::size_t kNamed = 6;
-  if (numbers.empty()) return {};
-  const std::size_t named = std::min(numbers.size(), kNamed);
-  std::string out = fmt::format("numbers left out: {}", fmt::join(numbers.first(named), ", "));
-  if (named < numbers.size()) out += fmt::format(" and {} more", numbers.size() - named);
+  if (labels.empty()) return {};
+  const std::size_t named = std::min(labels.size(), kNamed);
+  std::string out = fmt::format("{} left out: {}", what, fmt::join(labels.first(named), ", "));
+  if (named < labels.size()) out += fmt::format(" and {} more", labels.size() - named);
   return out;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +20,19 @@ struct NumberedPlace {
   std::string text;
   double radius_px = 0.0;  ///< of what is drawn there: the number stands outside
   bool selected = false;
+  std::string named{};  ///< the number and what a human called the school, where there is room for it; may be empty
 };
+
+/// A label at the first of these places where there is room, each at a distance from what it names; from the second on
+/// a line leads there, which is added to the picture. Empty where there is none.
+/// place    what it names
+/// nearest  0 = beside it; else only with a line
+[[nodiscard]] std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, const TextItem& label,
+                                                   const NumberedPlace& place, const Theme& theme,
+                                                   std::size_t nearest = 0);
+
+/// "3 Big one"; empty without a name. A long one is cut.
+[[nodiscard]] std::string named_text(std::int64_t number, const std::string& name, const Theme& theme);
 
 /// Numbers beside their places, in order of importance: none on another, none cut by the map's edge, off lines where
 /// there is a choice. One that finds room only farther off has a line to its place.
@@ -27,7 +41,8 @@ struct NumberedPlace {
                                                           std::span<const NumberedPlace> places, const Theme& theme);
 
 /// "numbers left out: 5, 9 and 3 more"; empty for none.
-[[nodiscard]] std::string left_out_text(std::span<const std::string> numbers);
+/// what  are left out
+[[nodiscard]] std::string left_out_text(std::span<const std::string> labels, const char* what = "numbers");
 
 /// Numbers as one text: "3", "1, 4", "1–5", "7 schools" where that is too long.
 /// numbers  rising, at least one

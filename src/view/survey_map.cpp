@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -13,12 +14,12 @@
 #include "view/axes.h"
 #include "view/depth_layer.h"
 #include "view/graticule.h"
-#include "view/label_room.h"
 #include "view/map_frame.h"
 #include "view/map_items.h"
 #include "view/school_look.h"
 #include "view/school_numbers.h"
 #include "view/shapes.h"
+#include "view/survey_map_labels.h"
 #include "view/survey_map_legend.h"
 
 namespace sonar {
@@ -112,148 +113,45 @@ void add_school(const SurveyMapDrawing& d, const SchoolRow& school, const Observ
                                          {d.theme.text, 0.8 * d.theme.line_px, {}}));
 }
 
-std::optional<PixelPoint> start_of(const SurveyMapDrawing& d, const ObservationProduct& product) {
-  const auto first =
-      std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
-  return first == product.pings.end() ? std::nullopt : d.map.at(first->transducer);
-}
-
 void add_start(const SurveyMapDrawing& d, const ObservationProduct& product) {
-  const auto at = start_of(d, product);
+  const auto at = start_on_map(d, product);
   if (!at) return;
   d.frame.items.emplace_back(circle_item(*at, 0.5 * d.em, kStartColour, {d.theme.text, d.theme.line_px, {}}));
 }
 
-/// How far from a start its name begins: past the marker, and past the circles of schools that reach there.
-double past_circles(const SurveyMapDrawing& d, const ObservationProduct& product, const PixelPoint& start,
-                    double side) {
-  double out = 0.9 * d.em;
-  for (const SchoolRow& school : product.schools) {
-    if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
-    const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
-    if (!centre) continue;
-    const double radius = d.look.radius_px(school.backscatter_m2);
-    const double off = side * (centre->x - start.x);
-    const bool meets = std::abs(centre->y - start.y) < radius + 0.5 * d.em && std::abs(off) < radius + d.em;
-    if (meets) out = std::max(out, off + radius + 0.3 * d.em);
-  }
-  return out;
-}
-
-/// Beside the start's marker, away from where the ship went as long as it fits there.
-std::optional<TextItem> start_name(const SurveyMapDrawing& d, const ObservationProduct& product) {
-  const auto first =
-      std::find_if(product.pings.begin(), product.pings.end(), [](const auto& n) { return n.has_position(); });
-  if (first == product.pings.end()) return std::nullopt;
-  const auto at = d.map.at(first->transducer);
-  if (!at) return std::nullopt;
-  const auto after = std::find_if(first, product.pings.end(), [&](const auto& n) {
-    return n.has_position() && geodesic(first->transducer, n.transducer).distance_m > 20.0;
-  });
-  const auto next = after != product.pings.end() ? d.map.at(after->transducer) : std::nullopt;
-  bool to_left = next && next->x > at->x;
-  const double wide = text_width_px(product.observation.c_str(), 0.9 * d.em);
-  const auto beside = [&](double side) { return past_circles(d, product, *at, side); };
-  const double reach = 0.2 * d.em + std::max(beside(-1.0), beside(1.0)) + wide;
-  const bool fits_left = at->x - reach > d.map.place.x;
-  const bool fits_right = at->x + reach < d.map.place.x + d.map.place.width;
-  if (to_left ? !fits_left && fits_right : !fits_right && fits_left) to_left = !to_left;
-  const double low = d.map.place.y + 0.8 * d.em;
-  const double y = std::clamp(at->y, low, std::max(low, d.map.place.y + d.map.place.height - 0.8 * d.em));
-  TextItem name = text_item({at->x + (to_left ? -beside(-1.0) : beside(1.0)), y}, product.observation, 0.9 * d.em,
-                            d.theme.text, to_left ? TextAnchor::right : TextAnchor::left);
-  name.halo = d.theme.halo;
-  return name;
-}
-
-/// Where it was drawn.
-std::optional<PixelPoint> add_ship(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations) {
+/// The last ping with a position; nullptr = none.
+const PingNavigation* last_placed(std::span<const ObservationProduct> observations) {
   const PingNavigation* last = nullptr;
   for (const ObservationProduct& product : observations) {
     for (const PingNavigation& n : product.pings) {
       if (n.has_position() && (last == nullptr || n.time >= last->time)) last = &n;
     }
   }
-  if (last == nullptr) return std::nullopt;
-  const auto at = d.map.at(last->transducer);
-  if (!at) return std::nullopt;
-  const double heading = std::isfinite(last->heading_deg) ? last->heading_deg : last->course_deg;
+  return last;
+}
+
+void add_ship(const SurveyMapDrawing& d, const PingNavigation& last, PixelPoint at) {
+  const double heading = std::isfinite(last.heading_deg) ? last.heading_deg : last.course_deg;
   const double turned =
-      (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + d.map.projection.north_rad(last->transducer);
-  d.frame.items.emplace_back(ship_item(*at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
-  return at;
+      (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + d.map.projection.north_rad(last.transducer);
+  d.frame.items.emplace_back(ship_item(at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
 }
 
-/// Schools of one observation whose markers lie on each other share one number, from the first of them on.
-std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
-                                            std::span<const ObservationProduct> observations) {
-  struct Marker {
-    PixelPoint at;
-    double radius_px = 0.0;
-    double backscatter_m2 = 0.0;
-    std::vector<std::int64_t> numbers;
-  };
-  std::vector<Marker> markers;
-  for (const ObservationProduct& product : observations) {
-    const std::size_t first = markers.size();
-    for (const SchoolRow& school : product.schools) {
-      if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
-      const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
-      if (!centre) continue;
-      const double radius = d.look.radius_px(school.backscatter_m2);
-      const auto shared = std::find_if(
-          markers.begin() + static_cast<std::ptrdiff_t>(first), markers.end(),
-          [&](const Marker& m) { return std::hypot(m.at.x - centre->x, m.at.y - centre->y) < 0.8 * d.em; });
-      Marker& marker = shared != markers.end() ? *shared : markers.emplace_back(Marker{*centre, 0.0, 0.0, {}});
-      marker.radius_px = std::max(marker.radius_px, radius);
-      marker.backscatter_m2 += std::isfinite(school.backscatter_m2) ? school.backscatter_m2 : 0.0;
-      marker.numbers.push_back(school.school_id);
-    }
-  }
-  // The strongest find room first.
-  std::stable_sort(markers.begin(), markers.end(),
-                   [](const Marker& a, const Marker& b) { return a.backscatter_m2 > b.backscatter_m2; });
-  std::vector<NumberedPlace> out;
-  for (Marker& marker : markers) {
-    std::sort(marker.numbers.begin(), marker.numbers.end());
-    const PixelRect& r = d.map.place;
-    if (marker.at.x < r.x || marker.at.y < r.y || marker.at.x > r.x + r.width || marker.at.y > r.y + r.height) continue;
-    out.push_back({marker.at, numbers_text(marker.numbers), marker.radius_px, false});
-  }
-  return out;
-}
-
-/// Numbers keep off the observations' names and starts, the ship and the scale.
-std::vector<std::string> add_numbers(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations,
-                                     std::span<const TextItem> names, const std::optional<PixelPoint>& ship) {
-  LabelRoom room(d.map.place);
-  room.take(scale_bars_place(d.map, d.theme));
-  for (const TextItem& name : names) room.take(LabelRoom::box_of(name));
-  if (ship) room.take({ship->x - d.em, ship->y - d.em, 2.0 * d.em, 2.0 * d.em});
-  for (const ObservationProduct& product : observations) {
-    if (const auto at = start_of(d, product)) room.take({at->x - 0.5 * d.em, at->y - 0.5 * d.em, d.em, d.em});
-  }
-  const auto places = numbered_schools(d, observations);
-  for (const NumberedPlace& place : places) {
-    const double half = 0.7 * place.radius_px;
-    room.take({place.at.x - half, place.at.y - half, 2.0 * half, 2.0 * half});
-  }
-  return add_school_numbers(d.frame, room, places, d.theme);
-}
-
-std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look, int unsearched) {
+std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look,
+                        const SurveyMapStyle& style) {
+  const int unsearched = style.unsearched;
   TimeNs first = 0;
   TimeNs last = 0;
-  std::int64_t schools = 0;
+  std::size_t schools = 0;
   for (const ObservationProduct& product : observations) {
-    schools +=
-        std::count_if(product.schools.begin(), product.schools.end(), [&](const auto& s) { return look.shown(s); });
+    schools += static_cast<std::size_t>(
+        std::count_if(product.schools.begin(), product.schools.end(), [&](const auto& s) { return look.shown(s); }));
     if (product.pings.empty()) continue;
     first = first == 0 ? product.pings.front().time : std::min(first, product.pings.front().time);
     last = std::max(last, product.pings.back().time);
   }
   const auto all = static_cast<std::int64_t>(observations.size());
-  std::string told = fmt::format("{} school{}", schools, schools == 1 ? "" : "s");
+  std::string told = schools_text(schools, style.left_out);
   if (unsearched >= all && schools == 0) {
     told = "schools not looked for";
   } else if (unsearched > 0) {
@@ -324,16 +222,12 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   const SurveyMapDrawing d{frame, map, theme, look, theme.text_px};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
   DepthBands bands;
-  std::vector<TextItem> names;
+  const PingNavigation* last = last_placed(observations);
+  const auto ship = last != nullptr ? map.at(last->transducer) : std::nullopt;
+  StartNames names;
+  if (style.names && observations.size() <= kMostNames) names = start_names(d, observations, ship);
   std::vector<PixelPoint> taken;
-  if (style.names && observations.size() <= kMostNames) {
-    for (const ObservationProduct& product : observations) {
-      auto name = start_name(d, product);
-      if (!name) continue;
-      taken.push_back(name->at);
-      names.push_back(std::move(*name));
-    }
-  }
+  for (const TextItem& name : names.names) taken.push_back(name.at);
   if (depths != nullptr) bands = add_depth_layer(frame, map, *depths, theme, taken);
   frame.items.emplace_back(ClipItem{map.place});
   bool schools = false;
@@ -350,7 +244,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
     frame.items.emplace_back(track_item(map, product.pings, {theme.track, 1.6 * theme.line_px, {}}));
   }
   // A school may lie where the ship ended: it is what the map is for, and stays seen.
-  const auto ship = add_ship(d, observations);
+  if (ship) add_ship(d, *last, *ship);
   for (const ObservationProduct& product : observations) {
     const ObservationOutlines* o = outlines_of(outlines, product.observation);
     for (const SchoolRow& school : product.schools) {
@@ -358,15 +252,18 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
     }
   }
   for (const ObservationProduct& product : observations) add_start(d, product);
-  const auto left_out = add_numbers(d, observations, names, ship);
-  for (TextItem& name : names) frame.items.emplace_back(std::move(name));
+  const auto left_out = add_numbers(d, observations, names.names, ship);
+  std::move(names.leaders.begin(), names.leaders.end(), std::back_inserter(frame.items));
+  for (TextItem& name : names.names) frame.items.emplace_back(std::move(name));
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);
-  if (style.legend) add_survey_legend(d, p.legend, bands, style, depths, schools, {left_out_text(left_out), note});
+  if (style.legend)
+    add_survey_legend(d, p.legend, bands, style, depths, schools,
+                      {left_out_text(left_out), left_out_text(names.left_out, "names"), note});
   Layout layout;
   layout.title = p.title;
-  add_title(frame, layout, theme, {frame.title, second_line(observations, look, style.unsearched)});
+  add_title(frame, layout, theme, {frame.title, second_line(observations, look, style)});
   return frame;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,13 +31,14 @@ struct SurveyMapStyle {
   SchoolColouring colouring = SchoolColouring::mean_sv;
   double sv_low_db = -60.0;
   double sv_high_db = -30.0;
-  bool rejected = false;  ///< schools that a human rejected
-  bool swept = true;      ///< the search volume
-  bool names = true;      ///< of observations, at their starts
-  double margin = 0.06;   ///< of the survey's size, on every side
-  bool legend = true;     ///< beside the map; a small window has no room for it
-  MapZoom zoom;           ///< of the map that shows the whole survey
-  int unsearched = 0;     ///< observations whose schools nobody looked for: that they show none says nothing
+  bool rejected = false;     ///< schools that a human rejected
+  bool swept = true;         ///< the search volume
+  bool names = true;         ///< of observations, at their starts
+  double margin = 0.06;      ///< of the survey's size, on every side
+  bool legend = true;        ///< beside the map; a small window has no room for it
+  MapZoom zoom;              ///< of the map that shows the whole survey
+  std::size_t left_out = 0;  ///< schools that there are and that nobody wants to see
+  int unsearched = 0;        ///< observations whose schools nobody looked for: that they show none says nothing
   friend bool operator==(const SurveyMapStyle&, const SurveyMapStyle&) = default;
 };
 

@@ -37,8 +37,9 @@ struct Theme {
 [[nodiscard]] Theme dark_theme(PixelSize size);
 
 /// Colours of schools, one after another, told apart on both themes and by colour-blind eyes (from Okabe and Ito 2008).
-inline constexpr int kSchoolColours = 12;
-/// The colour of a school's number in every kind of picture: schools share one only where their numbers differ by twelve.
+inline constexpr int kSchoolColours = 24;
+/// The colour of a school's number in every kind of picture: schools share one only where their numbers differ by
+/// a whole number of kSchoolColours.
 [[nodiscard]] Rgba8 school_colour(int number);
 
 /// Text as wide as this at most, for layout without a font: DejaVu Sans, characters counted, not bytes.

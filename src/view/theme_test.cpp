@@ -61,7 +61,8 @@ TEST(SchoolColours, AreToldApartByAllEyes) {
     for (int j = 0; j < i; ++j) {
       const int steps = std::min(i - j, kSchoolColours - (i - j));
       for (const Matrix& eye : kEyes) {
-        EXPECT_GT(apart(school_colour(i), school_colour(j), eye), steps <= 2 ? 10.5 : 7.5) << i << ' ' << j;
+        EXPECT_GT(apart(school_colour(i), school_colour(j), eye), steps <= 2 || steps == 12 ? 10.5 : 7.4)
+            << i << ' ' << j;
       }
     }
   }
@@ -83,9 +84,16 @@ TEST(SchoolColours, StandOutFromBothBackgrounds) {
   }
 }
 
-TEST(SchoolColours, ComeRoundAfterTwelve) {
-  EXPECT_EQ(school_colour(13), school_colour(1));
-  EXPECT_EQ(school_colour(-1), school_colour(11));
+TEST(SchoolColours, AreNotThatOfRejectedSchools) {
+  for (const Theme& theme : {light_theme({640, 480}), dark_theme({640, 480})}) {
+    for (int i = 0; i < kSchoolColours; ++i) EXPECT_GT(apart(school_colour(i), theme.muted, kEyes[0]), 6.0) << i;
+  }
+}
+
+TEST(SchoolColours, ComeRoundAfterTwentyFour) {
+  EXPECT_EQ(school_colour(25), school_colour(1));
+  EXPECT_EQ(school_colour(-1), school_colour(23));
+  EXPECT_NE(school_colour(13), school_colour(1));
   EXPECT_NE(school_colour(8), school_colour(1));
 }
 

@@ -331,10 +331,11 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   for (const Strip& s : laid->strips) add_echogram(frame, s, plot, style, colours, theme);
   for (const Strip& s : laid->strips) add_silent(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_bad(frame, s, plot, theme);
-  std::vector<PixelPoint> numbered;
+  std::vector<TrackNumber> numbers;
   for (const Strip& s : laid->strips) {
-    if (style.schools) add_tracks(frame, s, plot, style, theme, numbered);
+    if (style.schools) add_tracks(frame, s, plot, style, theme, numbers);
   }
+  add_track_numbers(frame, numbers, plot, theme);
   add_marks(frame, laid->strips, plot, theme);
   frame.items.emplace_back(ClipItem{});
   frame.items.emplace_back(rectangle_item(plot.place, {0, 0, 0, 0}, theme.axis, theme.line_px));
@@ -347,7 +348,11 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_key(frame, laid->layout.foot, laid->key, theme);
   std::string line = time_span_text(laid->zero, laid->last);
   if (laid->any_echogram) line += style.filtered ? " · noise removed" : " · not filtered";
-  if (!style.searched) line += " · schools not looked for";
+  if (!style.searched) {
+    line += " · schools not looked for";
+  } else if (!style.schools) {
+    line += " · schools not shown";
+  }
   if (laid->raw_gone && style.raw_there) line += " · echograms are being read";
   if (laid->raw_gone && !style.raw_there) {
     line += laid->any_echogram ? " · schools only where there are no raw data" : " · no raw data: schools only";

@@ -52,10 +52,20 @@ void add_bad(FrameDescription& frame, const Strip& strip, const PlotFrame& plot,
 /// Pings whose columns hold no data at all: neither a gap nor quiet water.
 [[nodiscard]] bool any_silent(const Strip& strip);
 void add_silent(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
-/// School tracks; a number stands at the first ping where there is room.
-/// numbered  where numbers stand
+/// A school's number on a timeline, and the track that it names.
+struct TrackNumber {
+  std::string text;
+  bool selected = false;
+  std::vector<PixelPoint> seen;  ///< the track as far as it is shown; at least one place
+};
+/// School tracks.
+/// numbers  of those that are seen, added to: they stand over all tracks, or the next one would hide them
 void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
-                const Theme& theme, std::vector<PixelPoint>& numbered);
+                const Theme& theme, std::vector<TrackNumber>& numbers);
+/// Numbers at their tracks' first pings, else at other places along them, none on another; those that find no room are
+/// left out.
+void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,
+                       const Theme& theme);
 /// What the lines and the shades of a timeline are.
 [[nodiscard]] std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style,
                                                  const Theme& theme);

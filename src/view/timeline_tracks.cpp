@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
+#include "view/label_room.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
 #include "view/timeline_strip.h"
@@ -22,8 +24,7 @@ Rgba8 look_of(const SchoolRow& school, const TimelineStyle& style, const Theme& 
 }  // namespace
 
 void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
-                const Theme& theme, std::vector<PixelPoint>& numbered) {
-  const double em = theme.text_px;
+                const Theme& theme, std::vector<TrackNumber>& numbers) {
   const ObservationProduct& product = *strip.observation->product;
   for (const SchoolRow& school : product.schools) {
     std::vector<PathItem::Part> parts;
@@ -53,22 +54,35 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
                      width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
       frame.items.emplace_back(std::move(item));
     }
-    // Where a part of the axis is shown, the number stands at the first ping in it.
-    const auto seen = std::find_if(points.begin(), points.end(), [&](const PixelPoint& p) {
+    TrackNumber number{fmt::format("{}", school.school_id), selected, {}};
+    std::copy_if(points.begin(), points.end(), std::back_inserter(number.seen), [&](const PixelPoint& p) {
       return p.x >= plot.place.x - 0.5 && p.x <= plot.place.x + plot.place.width + 0.5;
     });
-    if (seen == points.end()) continue;
-    const PixelPoint at{seen->x, seen->y - 0.9 * em};
-    const bool free = std::none_of(numbered.begin(), numbered.end(), [&](const PixelPoint& p) {
-      return std::abs(p.x - at.x) < 1.8 * em && std::abs(p.y - at.y) < 1.1 * em;
-    });
-    if (!free) continue;
-    numbered.push_back(at);
-    TextItem number = text_item(at, fmt::format("{}", school.school_id), 0.85 * em,
-                                selected ? theme.accent : theme.text, TextAnchor::left);
-    number.bold = true;
-    number.halo = theme.halo;
-    frame.items.emplace_back(std::move(number));
+    if (!number.seen.empty()) numbers.push_back(std::move(number));
+  }
+}
+
+void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,
+                       const Theme& theme) {
+  const double em = theme.text_px;
+  LabelRoom room(plot.place);
+  // The selected school's number is the first to find room.
+  for (const bool selected : {true, false}) {
+    for (const TrackNumber& number : numbers) {
+      if (number.selected != selected) continue;
+      TextItem item = text_item({}, number.text, 0.85 * em, selected ? theme.accent : theme.text, TextAnchor::left);
+      item.bold = true;
+      item.halo = theme.halo;
+      const double width = text_width_px(item.text.c_str(), item.size_px);
+      std::vector<PixelPoint> where;
+      for (const PixelPoint& p : {number.seen.front(), number.seen.back(), number.seen[number.seen.size() / 2]}) {
+        where.push_back({p.x, p.y - 0.9 * em});
+        where.push_back({p.x, p.y + 0.9 * em});
+        where.push_back({p.x - width - 0.5 * em, p.y});
+        where.push_back({p.x + 0.5 * em, p.y});
+      }
+      if (auto placed = room.place(std::move(item), where)) frame.items.emplace_back(std::move(*placed));
+    }
   }
 }
 

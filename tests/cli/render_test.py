@@ -166,6 +166,21 @@ class Files(unittest.TestCase):
         self.assertIn("no masks: schools not looked for",
                       self.words("volume", sonarx.SURVEY, "--masks-alone", "--frames", "0"))
 
+    def test_schools_that_were_left_out_are_counted(self):
+        all_of = {name: sum(row["observation"] == name for row in sonarx.read_csv(sonarx.OUT / "schools.csv"))
+                  for name in ("obs-0001", "obs-0002")}
+        first, every = all_of["obs-0001"], sum(all_of.values())
+        schools = lambda count: f"{count} school{'' if count == 1 else 's'}"
+        for kind, count in (("observation-map", first), ("survey-map", every)):
+            self.assertIn(f"{schools(count)}, not shown", " ".join(self.words(kind, sonarx.OUT, "--no-masks")), kind)
+            self.assertNotIn("not shown", " ".join(self.words(kind, sonarx.OUT)), kind)
+        said = self.words("propagation", sonarx.OUT, "--ping", "3", "--neighbours", "0", "--no-masks")
+        self.assertIn("schools not shown", said)
+        self.assertNotIn("no school", said)
+        self.assertIn("schools not shown", " ".join(self.words("timeline", *BOTH, "--no-masks")))
+        if first > 1:
+            self.assertIn(f"1 of {schools(first)}", " ".join(self.words("observation-map", sonarx.OUT, "--schools", "1")))
+
     def test_the_first_ping_keeps_its_place_among_five(self):
         said = self.words("propagation", sonarx.OUT, "--ping", "0")
         self.assertEqual(said.count("before the first ping"), 2)

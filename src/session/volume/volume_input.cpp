@@ -42,6 +42,7 @@ void set_options(PictureOptions& options, const DisplayParams& display, const Vo
   options.mask_style.core_at = static_cast<float>(display.core_at);
   options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
   options.mask_style.data_too = volume.data;
+  options.mask_outline = volume.mask_outline;
   options.mode = static_cast<RayMode>(volume.mode);
   options.first_hit_db = volume.first_hit_db;
   options.lighting = volume.lighting;
