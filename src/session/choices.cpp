@@ -152,6 +152,7 @@ void Choices::rebuild(std::size_t index) {
     of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.observation->ground()));
     done_[i].after[index] = of.state;
     if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
+    names_[done_[i].n] = done_[i].name;
   }
   for (Turn& turn : undone_) turn.before.erase(index);
 }

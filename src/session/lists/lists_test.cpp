@@ -135,6 +135,9 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   document().settle();
   document().changes().remove(listening);
   EXPECT_EQ(text("schools", 0, "Status"), "accepted");
+  const std::string named = "accept school " + text("schools", 0, "School");
+  EXPECT_EQ(text("journal", 0, "What"), named) << "by the school that it is about, which was not there at first";
+  EXPECT_EQ(document().choices().undo_text, "Undo " + named);
 }
 
 TEST_F(Lists, ChoicesOfEarlierRunsAreSeenInTheWholeSurvey) {
