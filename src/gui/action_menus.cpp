@@ -76,6 +76,7 @@ void add_menus(QMainWindow& window, const Actions& actions) {
   for (const Action& action : actions.list()) {
     QMenu* menu = menu_of(window, menus, action.menu);
     QAction* shown = make_action(window, action);
+    if (begins_group(action.id) && !menu->isEmpty()) menu->addSeparator();
     menu->addAction(shown);
     window.addAction(shown);
     ask_when_opened(*menu, *shown, action);

@@ -2,12 +2,14 @@
 #include "gui/default_layout.h"
 
 #include <QDockWidget>
+#include <algorithm>
 #include <initializer_list>
 
 namespace sonar {
 namespace {
 
 constexpr int kLowWindow_px = 1000;
+constexpr int kWholeTree_px = 300;
 constexpr int kNarrowScreen_px = 1200;  ///< tree, views and controls do not stand beside each other
 constexpr int kLowScreen_px = 700;      ///< two rows of views and one of lists do not stand above each other
 
@@ -94,8 +96,11 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, tables, {"school_pings", "review"});
   const int width = window.width();
   const int height = window.height();
-  share(window, Qt::Horizontal, {{left, width / 6}, {top, width * 3 / 10}, {side, width * 3 / 10}, {right, width / 5}});
-  share(window, Qt::Horizontal, {{time, width * 3 / 10}, {tables, width * 3 / 10}});
+  // The tree's name, time, pings and schools are seen where the views can spare the room.
+  const int tree = std::max(width / 6, std::min(kWholeTree_px, width * 22 / 100));
+  const int each = (width - tree - width / 5) / 2;
+  share(window, Qt::Horizontal, {{left, tree}, {top, each}, {side, each}, {right, width / 5}});
+  share(window, Qt::Horizontal, {{time, each}, {tables, each}});
   share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
   // In a low window a quarter is too little for a strip of masks with its titles.
   const int below = height < kLowWindow_px ? height * 32 / 100 : height / 4;

@@ -6,6 +6,8 @@
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QLayout>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
@@ -37,6 +39,21 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
   dock->setWidget(inside);
   window.addDockWidget(Qt::TopDockWidgetArea, dock);
   return dock;
+}
+
+/// Every dock can be had back from the menu bar, not only by who knows that titles have a menu.
+void add_panels_menu(QMainWindow& window) {
+  QMenu* panels = window.createPopupMenu();
+  panels->setObjectName("panels");
+  panels->setTitle("&Panels");
+  for (QAction* one : window.menuBar()->actions()) {
+    if (one->text() == "&View") one->menu()->insertMenu(find_action(window, "view.dark"), panels);
+  }
+  for (auto* dock : window.findChildren<QDockWidget*>()) {
+    QObject::connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool on) {
+      if (on) dock->raise();  // not behind another tab
+    });
+  }
 }
 
 template <class View>
@@ -73,6 +90,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
     view_of<RowsView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
   }
   add_tool_bar(*this, desk);
+  add_panels_menu(*this);
   add_status_line(*this, desk.workspace);
   answer();
   const auto theme = [this, &desk] {

@@ -34,15 +34,29 @@ Property as_it_looks(Property property, const PanelSection& section) {
   return property;
 }
 
+/// Grey while the property does not count.
+void follow_use(QWidget* widget, const PanelSection& section, const std::string& name) {
+  for (const PanelSection::Use& use : section.uses) {
+    if (use.name != name) continue;
+    const auto refresh = [widget = QPointer<QWidget>(widget), counts = use.counts] {
+      if (!widget.isNull()) widget->setEnabled(counts());
+    };
+    refresh();
+    section.source->on_change(refresh);
+  }
+}
+
 void add_property(QFormLayout& form, const PanelSection& section, const Property& plain, QWidget* parent) {
   const Property property = as_it_looks(plain, section);
   QWidget* control = bound_control(section.source, property, parent);
+  follow_use(control, section, property.name);
   // A switch carries its own label.
   if (std::holds_alternative<bool>(property.initial)) {
     form.addRow(control);
   } else {
     auto* label = new QLabel(text(property.label), parent);
     label->setToolTip(control->toolTip());
+    follow_use(label, section, property.name);
     form.addRow(label, control);
   }
   for (const PanelSection::Note& note : section.notes) {

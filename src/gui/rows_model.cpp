@@ -59,7 +59,10 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid() || row_of(index) >= rows_.rows()) return {};
   const auto column = static_cast<std::size_t>(index.column());
   switch (role) {
-    case Qt::DisplayRole:
+    case Qt::DisplayRole: {
+      const Cell cell = rows_.cell(row_of(index), column);
+      return QString::fromStdString(cell.brief.empty() ? cell.text : cell.brief);
+    }
     case Qt::ToolTipRole:
       return QString::fromStdString(rows_.cell(row_of(index), column).text);
     case Qt::TextAlignmentRole:

@@ -20,12 +20,6 @@
 #include "gui/own_keys.h"
 
 namespace sonar {
-namespace {
-
-constexpr int kRowsThatFit = 200;  // columns are fitted to the first rows
-constexpr int kWidestColumn_px = 320;
-
-}  // namespace
 
 RowsOrder::RowsOrder(RowsModel& model, QObject* parent) : QSortFilterProxyModel(parent), model_(model) {
   setSourceModel(&model);
@@ -58,7 +52,7 @@ bool RowsOrder::filterAcceptsRow(int row, const QModelIndex& parent) const {
 }
 
 RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
-    : QWidget(parent), rows_(rows), model_(rows), order_(model_), list_(new QTreeView(this)) {
+    : QWidget(parent), rows_(rows), model_(rows), order_(model_), list_(new QTreeView(this)), columns_(rows, *list_) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
@@ -72,14 +66,9 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   list_->setSortingEnabled(true);
-  list_->header()->setSectionsMovable(true);
-  list_->header()->setStretchLastSection(true);
   order_.sort(-1);  // as the rows come, until somebody clicks a title
   list_->header()->setSortIndicator(-1, Qt::AscendingOrder);
-  connect(list_->header(), &QHeaderView::sortIndicatorChanged, this, [this](int by) {
-    if (by >= 0 && fitted_) list_->setColumnWidth(by, std::max(list_->columnWidth(by), title_width(by)));
-  });
-  for (int c = 0; c < model_.columnCount(); ++c) list_->setColumnWidth(c, title_width(c));  // until there are rows
+  columns_.begin();
   list_->installEventFilter(this);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& now) {
     if (following_ || !now.isValid()) return;
@@ -114,8 +103,10 @@ RowsView::~RowsView() {
 void RowsView::add_filter_line() {
   auto* line = new QLineEdit(this);
   line->setObjectName("filter");
-  line->setPlaceholderText("Filter: words, or depth>80");
-  line->setToolTip("Words that a row has, or a title's beginning and a limit: depth>80");
+  const QString limit = QString::fromStdString(rows_.example_limit());
+  line->setPlaceholderText(limit.isEmpty() ? "Filter: words" : "Filter: words, or " + limit);
+  line->setToolTip("Words that a row has, or a title's beginning and a limit: " +
+                   (limit.isEmpty() ? "line>80" : limit));
   line->setClearButtonEnabled(true);
   keep_own_keys(*line);
   layout()->addWidget(line);
@@ -149,7 +140,7 @@ void RowsView::rows_changed() {
   model_.reset();
   if (model_.rows_known() == before) choose(chosen);
   for (const std::size_t row : open) list_->setExpanded(order_.mapFromSource(model_.index_of(row)), true);
-  if (!fitted_ && rows_.rows() > 0) fit_columns();
+  if (rows_.rows() > 0) columns_.fit();
   list_->verticalScrollBar()->setValue(scrolled);
   following_ = false;
   show_selected();
@@ -175,25 +166,6 @@ void RowsView::show_selected() {
     list_->scrollTo(at);
   }
   following_ = false;
-}
-
-void RowsView::fit_columns() {
-  fitted_ = true;
-  list_->header()->setResizeContentsPrecision(kRowsThatFit);
-  for (int c = 0; c < model_.columnCount(); ++c) {
-    const int cells = static_cast<const QAbstractItemView*>(list_)->sizeHintForColumn(c);
-    list_->setColumnWidth(c, std::max(title_width(c), std::min(cells, kWidestColumn_px)));
-  }
-}
-
-/// Qt leaves room for the mark of the order beside every title; here only the title that has it does.
-int RowsView::title_width(int column) const {
-  const QHeaderView& header = *list_->header();
-  const QString title = order_.headerData(column, Qt::Horizontal).toString();
-  const int margin = header.style()->pixelMetric(QStyle::PM_HeaderMargin, nullptr, &header);
-  const int mark = header.style()->pixelMetric(QStyle::PM_HeaderMarkSize, nullptr, &header) + margin;
-  return header.fontMetrics().horizontalAdvance(title) + 4 * margin +
-         (header.sortIndicatorSection() == column ? mark : 0);
 }
 
 std::vector<std::size_t> RowsView::chosen_rows() const {

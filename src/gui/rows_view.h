@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gui/list_columns.h"
 #include "gui/rows_model.h"
 #include "session/rows.h"
 
@@ -55,8 +56,6 @@ class RowsView : public QWidget {
   void rows_changed();
   void show_selected();
   void go_to(std::size_t row);
-  void fit_columns();
-  [[nodiscard]] int title_width(int column) const;
   /// Rows that are marked, in no order; and marking them again.
   [[nodiscard]] std::vector<std::size_t> chosen_rows() const;
   void choose(const std::vector<std::size_t>& rows);
@@ -66,11 +65,11 @@ class RowsView : public QWidget {
   RowsModel model_;
   RowsOrder order_;
   QTreeView* list_;
+  ListColumns columns_;
   QMenu* menu_ = nullptr;
   bool following_ = false;  ///< the selection follows the rows: nobody clicked
   bool showed_ = false;     ///< the rows had one that the window has selected
   bool stale_ = true;       ///< changed while nobody saw it
-  bool fitted_ = false;
   int listening_ = 0;
   int following_moves_ = 0;
 };

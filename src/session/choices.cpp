@@ -43,7 +43,10 @@ void Choices::run(std::function<Result<std::int64_t>()> job) {
 
 void Choices::publish(std::string failure, std::int64_t line) {
   ChoicesShown shown;
-  for (const auto& [index, of] : open_) shown.states[index] = of.state;
+  for (const auto& [index, of] : open_) {
+    shown.states[index] = of.state;
+    if (of.searched) shown.searched.insert(index);
+  }
   // What was undone before this run, or before another observation was opened, has a name and no states.
   if (const auto lines = history_.undoable(); !lines.empty()) shown.undo_text = "Undo " + step_name(lines.back());
   if (const auto lines = history_.redoable(); !lines.empty()) shown.redo_text = "Redo " + step_name(lines.front());
@@ -58,9 +61,10 @@ void Choices::publish(std::string failure, std::int64_t line) {
   });
 }
 
-void Choices::open(OpenObservationPtr observation, std::vector<SchoolMasks> detected) {
+void Choices::open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected) {
   run([this, observation = std::move(observation), detected = std::move(detected)]() -> Result<std::int64_t> {
-    open_[observation->index()] = {observation, state_before_detection(detected), nullptr};
+    open_[observation->index()] = {observation, detected.has_value(),
+                                   state_before_detection(detected.value_or(std::vector<SchoolMasks>{})), nullptr};
     rebuild(observation->index());
     return 0;
   });
@@ -148,6 +152,7 @@ void Choices::rebuild(std::size_t index) {
     of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.observation->ground()));
     done_[i].after[index] = of.state;
     if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
+    names_[done_[i].n] = done_[i].name;
   }
   for (Turn& turn : undone_) turn.before.erase(index);
 }

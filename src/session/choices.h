@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ using JournalStatePtr = std::shared_ptr<const JournalState>;
 /// What humans have chosen so far, as it is shown. A value.
 struct ChoicesShown {
   std::map<std::size_t, JournalStatePtr> states;  ///< of the observations that are open
-  std::string undo_text;                          ///< "Undo grow school 3"; empty where there is nothing
+  std::set<std::size_t> searched;  ///< of these, those whose state lies upon what was found without a human
+  std::string undo_text;           ///< "Undo grow school 3"; empty where there is nothing
   std::string redo_text;
   std::shared_ptr<const std::vector<JournalLine>> lines = std::make_shared<std::vector<JournalLine>>();
   std::map<std::int64_t, std::string> names;  ///< what each line did, by n: "grow school 3"; undone ones too
@@ -66,8 +68,8 @@ class Choices {
   Choices& operator=(const Choices&) = delete;
 
   /// An observation takes part from now on: what the journal says of it is carried out.
-  /// detected  schools that were found in it; empty = nobody looked
-  void open(OpenObservationPtr observation, std::vector<SchoolMasks> detected = {});
+  /// detected  schools that were found in it; none = nobody looked
+  void open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected = {});
   /// On a ping of an open observation.
   /// step  that the act is part of; null = it stands alone
   void act(std::size_t observation, std::int64_t ping_index, Command command,
@@ -84,6 +86,7 @@ class Choices {
  private:
   struct OnObservation {
     OpenObservationPtr observation;
+    bool searched = false;
     JournalState detected;  ///< lies under the journal where its lines ask for detection, and only there
     JournalStatePtr state;
   };

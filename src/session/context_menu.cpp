@@ -48,6 +48,14 @@ constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows
 constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
+/// Of the menu bar: the first of what belongs together, after others.
+constexpr std::array<Id, 20> kBegin{
+    "edit.undo",         "file.calibration", "file.save_view", "file.quit",
+    "export.movie",      "volume.above",     "map.all",        "view.top_slice",
+    "view.dark",         "ping.play",        "slice.fan_up",   "event.trawl",
+    "event.previous",    "bad.ping",         "schools.detect", "school.propagate_forwards",
+    "school.fill_holes", "school.split",     "school.species", "school.delete"};
+
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
@@ -73,5 +81,9 @@ std::span<const ActionGroup> context_menu(std::string_view dock) {
   const auto found = std::find_if(kMenus.begin(), kMenus.end(), [&](const Menu& menu) { return menu.dock == dock; });
   return found == kMenus.end() ? std::span<const ActionGroup>{} : found->groups;
 }
+
+bool begins_group(std::string_view action) { return std::find(kBegin.begin(), kBegin.end(), action) != kBegin.end(); }
+
+std::span<const std::string_view> group_beginnings() { return kBegin; }
 
 }  // namespace sonar

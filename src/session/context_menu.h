@@ -13,4 +13,9 @@ using ActionGroup = std::span<const std::string_view>;
 /// is greyed are the actions' own. Empty = no menu.
 [[nodiscard]] std::span<const ActionGroup> context_menu(std::string_view dock);
 
+/// Whether an action is the first of what belongs together in its menu of the menu bar: a line is drawn above it.
+[[nodiscard]] bool begins_group(std::string_view action);
+/// All of them. For a test.
+[[nodiscard]] std::span<const std::string_view> group_beginnings();
+
 }  // namespace sonar

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -32,6 +33,20 @@ TEST_F(ContextMenus, EveryDockHasOneAndEveryEntryIsAnActionOfTheWindow) {
     }
   }
   EXPECT_TRUE(context_menu("controls").empty());
+}
+
+TEST_F(ContextMenus, MenusOfTheBarAreInGroupsThatTheEyeCanTakeIn) {
+  constexpr int kSeven = 7;  // Miller's number
+  std::map<std::string, int> together;
+  for (const Action& action : desk_->actions.list()) {
+    const bool digit = action.id.starts_with("review.species");
+    int& run = together[action.menu];
+    run = begins_group(action.id) ? 1 : run + (digit ? 0 : 1);
+    // One a kind of picture, and one a survey.
+    if (action.menu == "&File/Save &picture" || action.menu == "&File/Open &recent") continue;
+    EXPECT_LE(run, kSeven) << action.id;
+  }
+  for (const std::string_view id : group_beginnings()) EXPECT_NE(desk_->actions.find(id), nullptr) << id;
 }
 
 }  // namespace

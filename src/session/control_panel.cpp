@@ -28,8 +28,16 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto views = std::make_shared<SourceOf<ViewSwitches>>(workspace.views);
   const auto core = [&workspace] { return in_db(workspace, workspace.display.values().core_at); };
   const auto fuzzy = [&workspace] { return in_db(workspace, workspace.display.values().fuzzy_above); };
+  const auto mode = [&workspace] { return workspace.select.values().mode; };
   return {
-      {"Selection", select},
+      {"Selection",
+       select,
+       {},
+       {},
+       true,
+       {},
+       {{"tolerance_db", [mode] { return mode() != GrowMode::paper; }},
+        {"tolerance_opacity", [mode] { return mode() == GrowMode::paper; }}}},
       {"Schools",
        display,
        {"masks", "core_at", "fuzzy_above", "rejected"},

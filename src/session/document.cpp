@@ -313,14 +313,14 @@ void Document::detect(std::vector<std::size_t> observations) {
 }
 
 bool Document::lacks_detected(std::size_t observation) const {
-  return choices_.lines && !detected(observation) && observation < survey_->observations.size() &&
+  return choices_.lines && !choices_.searched.contains(observation) && observation < survey_->observations.size() &&
          asks_for_detection(effective_lines(*choices_.lines),
                             datagram_times(*survey_, survey_->observations[observation]));
 }
 
 void Document::tell_lacking(const std::vector<std::size_t>& observations) {
   const auto lacking = std::count_if(observations.begin(), observations.end(),
-                                     [this](std::size_t index) { return lacks_detected(index); });
+                                     [this](std::size_t index) { return !detected(index) && lacks_detected(index); });
   if (lacking == 0) return;
   tell(
       fmt::format("stopped: the schools that were found before in {} observation{} are not shown; look for schools "

@@ -58,6 +58,12 @@ struct PanelSection {
     std::pair<double, double> slider;
   };
   std::vector<Look> looks = {};
+  /// A property that counts only under some values of others is grey while it does not.
+  struct Use {
+    std::string name;
+    std::function<bool()> counts;
+  };
+  std::vector<Use> uses = {};
 };
 
 }  // namespace sonar

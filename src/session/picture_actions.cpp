@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures and movies out of the program.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,11 +23,20 @@ std::function<bool()> with_survey(const Desk& desk) {
   return [&desk] { return desk.workspace.document.survey() != nullptr; };
 }
 
+/// "obs-0001-ping-0025-top_slice": pictures of many pings do not take each other's places.
+std::string file_name(const Desk& desk, const std::string& what) {
+  const Document& document = desk.workspace.document;
+  if (!document.shown() || what.starts_with("survey") || what == "timeline") return what;
+  if (what.ends_with("map") || what.ends_with("timeline")) return document.shown()->name() + "-" + what;
+  return fmt::format("{}-ping-{:04}-{}", document.shown()->name(), document.ping(), what);
+}
+
 void ask_for_picture(Desk& desk, PictureKind kind, const std::string& name) {
   if (!desk.asking.file_to_save || !asked(desk, "Picture: " + name, desk.workspace.picture_file, asked_for(kind))) {
     return;
   }
-  const std::string file = desk.asking.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", name + ".png");
+  const std::string file =
+      desk.asking.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", file_name(desk, name) + ".png");
   if (!file.empty()) save_picture(desk.workspace, kind, file);
 }
 
@@ -78,8 +89,8 @@ void save_view(Desk& desk) {
   const LivePicture* picture = picture_in_use(desk);
   if (picture == nullptr || !desk.asking.file_to_save) return;
   const Image image = picture->image();
-  const std::string file =
-      desk.asking.file_to_save("Save picture of view", "Pictures (*.png)", desk.asking.view_in_use() + ".png");
+  const std::string file = desk.asking.file_to_save("Save picture of view", "Pictures (*.png)",
+                                                    file_name(desk, desk.asking.view_in_use()) + ".png");
   if (file.empty()) return;
   Document& document = desk.workspace.document;
   if (document.survey() != nullptr) {

@@ -36,7 +36,8 @@ class PictureFile : public testing::Test, protected TestDesk {
   void SetUp() override {
     begin();
     desk_->asking.file_to_save = [this](const auto&, const auto&, const std::string& name) {
-      return (out_ / name).string();
+      saved_ = out_ / name;
+      return saved_.string();
     };
     desk_->asking.parameters = [this](const std::string&, const PanelSection& section) {
       asked_ = section.names;
@@ -46,13 +47,15 @@ class PictureFile : public testing::Test, protected TestDesk {
   }
   void answer(std::function<void(ParameterSource&)> answer) { answer_ = std::move(answer); }
   std::optional<PixelSize> made(const std::string& kind) {
+    saved_.clear();
     press("picture." + kind);
     document().settle();
-    return size_of_png(out_ / (kind + ".png"));
+    return size_of_png(saved_);
   }
   [[nodiscard]] const std::string& told() { return document().notices().back(); }
 
   fs::path out_ = TestSurvey::easy().fresh();
+  fs::path saved_;  ///< under the name that was offered
   std::vector<std::string> asked_;
   std::function<void(ParameterSource&)> answer_ = [](ParameterSource&) {};
   bool accept_ = true;
@@ -93,7 +96,7 @@ TEST_F(PictureFile, AllPlanesOfTheCommandLineCanBeHad) {
   for (std::size_t i = 0; i < kPlaneLiesNames.size(); ++i) {
     answer([i](ParameterSource& source) { (void)source.set("plane", Choice{i}); });
     EXPECT_TRUE(made("slice-plane")) << kPlaneLiesNames[i] << ": " << told();
-    fs::remove(out_ / "slice-plane.png");
+    fs::remove(saved_);
   }
   answer([](ParameterSource& source) {
     for (const char* name : {"normal_bow", "normal_starboard", "normal_down"}) (void)source.set(name, 0.0);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sonar {
 namespace {
@@ -47,7 +48,10 @@ bool Review::waits_for_figures() const {
 void Review::make() {
   SchoolTable::make();
   std::stable_sort(schools().begin(), schools().end(), unreviewed_first);
-  if (!workspace().document.choices().failure.empty()) decided_.clear();
+  if (!workspace().document.choices().failure.empty()) {
+    decided_.clear();
+    go_back();
+  }
   std::erase_if(decided_, [&](const auto& name) {
     return std::none_of(schools().begin(), schools().end(), [&](const SurveySchool& school) {
       return school.name == SchoolName{name.first, name.second} && school.decided().status == "unreviewed";
@@ -103,7 +107,20 @@ void Review::decide(std::string status) {
   decision.status = std::move(status);
   say(std::move(decision), *school);
   decided_.insert({school->name.observation, school->name.number});
-  if (preferences_.advance && unreviewed() > 0) next();
+  if (!preferences_.advance || unreviewed() == 0) return;
+  left_ = school->name;
+  next();
+}
+
+/// What could not be written down was not decided: it is shown again, instead of looking done.
+void Review::go_back() {
+  if (!left_) return;
+  workspace().queue.post([this, left = *std::exchange(left_, std::nullopt), alive = std::weak_ptr<bool>(alive_)] {
+    if (alive.expired()) return;
+    const auto row = std::find_if(schools().begin(), schools().end(),
+                                  [&](const SurveySchool& school) { return school.name == left; });
+    if (row != schools().end()) select(static_cast<std::size_t>(row - schools().begin()));
+  });
 }
 
 std::string Review::species(int digit) const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -68,6 +70,7 @@ class Review : public SchoolTable {
   [[nodiscard]] bool waits(const SurveySchool& school) const;
   [[nodiscard]] bool waits_for_figures() const;
   void say(Decision decision, const SurveySchool& school);
+  void go_back();
 
   const Preferences& preferences_;
   std::string filter_;
@@ -75,6 +78,8 @@ class Review : public SchoolTable {
   int measured_listening_ = 0;
   /// Decided, though the journal has not said so yet.
   std::set<std::pair<std::size_t, std::int64_t>> decided_;
+  std::optional<SchoolName> left_;  ///< the last that was decided about, behind which the next one is shown
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };
 
 }  // namespace sonar

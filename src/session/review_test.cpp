@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "pipeline/journal_lock.h"
 #include "session/test_desk.h"
 
 namespace sonar {
@@ -82,6 +83,23 @@ TEST_F(ReviewAtWork, AFreshUserReviewsAHundredSchoolsWithThreeKeysEachAtMost) {
   EXPECT_EQ(review().unreviewed(), 0U);
   key("review.next");
   EXPECT_EQ(document().notices().back(), "every school is reviewed");
+}
+
+TEST_F(ReviewAtWork, WhatCannotBeWrittenDownIsShownAgainInsteadOfTheNext) {
+  paint_schools(3);
+  begin();  // a new run, which has written nothing yet
+  JournalLock other_window;
+  ASSERT_TRUE(other_window.take(document().journal_path()));
+  press("review.next");
+  document().settle();
+  const auto school = workspace().school();
+  ASSERT_TRUE(school);
+  press("review.reject");
+  EXPECT_NE(workspace().school(), school) << "it goes on at once";
+  document().settle();
+  EXPECT_EQ(workspace().school(), school);
+  EXPECT_EQ(with_status("rejected"), 0);
+  EXPECT_THAT(document().notices().back(), HasSubstr("another window"));
 }
 
 // Detection brings weak and strong schools alike; before all are measured nobody knows which is the strongest.

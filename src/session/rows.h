@@ -16,13 +16,15 @@ namespace sonar {
 struct Cell {
   std::string text;
   std::variant<std::monostate, double, std::string> key;  ///< monostate: unknown, sorted last
+  std::string brief = {};  ///< shown in the text's stead where lists are narrow; empty = the text
 };
 
 struct ListColumn {
   std::string title;  ///< "Depth"
   std::string unit;   ///< "m"
   std::string tip;
-  bool number = false;  ///< aligned to the right
+  bool number = false;   ///< aligned to the right
+  bool telling = false;  ///< a sentence: it ends where the list ends, however long it is
 };
 
 /// A list for a table widget: all rows at once, replaced as a whole. Filtering and sorting are the widget's affair.
@@ -43,6 +45,8 @@ class Rows {
   [[nodiscard]] virtual int level(std::size_t /*row*/) const { return 0; }
   /// Shown in grey: undone, rejected.
   [[nodiscard]] virtual bool faded(std::size_t /*row*/) const { return false; }
+  /// A limit that makes sense here, "depth>80", to show how one is written; empty = words alone.
+  [[nodiscard]] virtual std::string example_limit() const { return {}; }
   /// What stands in the filter line, for those who go through the rows that it leaves.
   virtual void narrow(const std::string& /*filter*/) {}
   /// Called when rows or cells have changed.

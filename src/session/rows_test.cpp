@@ -62,6 +62,8 @@ TEST(Rows, AFilterTakesWordsAndLimits) {
 TEST(Cells, AreAsPeopleReadThem) {
   EXPECT_EQ(time_cell(1'600'000'000 * kSecondNs).text, "2020-09-13 12:26:40");
   EXPECT_EQ(time_cell(0).text, "");
+  EXPECT_EQ(span_brief(1'600'000'000 * kSecondNs, 1'600'001'000 * kSecondNs), "13 Sep 12:26 \u2013 12:43");
+  EXPECT_EQ(span_brief(1'600'000'000 * kSecondNs, 1'600'100'000 * kSecondNs), "13 Sep 12:26 \u2013 14 Sep 16:13");
   EXPECT_EQ(span_text(1'600'000'000 * kSecondNs, 1'600'000'060 * kSecondNs), "2020-09-13 12:26:40 \u2013 12:27:40");
   EXPECT_EQ(span_text(1'600'000'000 * kSecondNs, 1'600'086'400 * kSecondNs),
             "2020-09-13 12:26:40 \u2013 2020-09-14 12:26:40");

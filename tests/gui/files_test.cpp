@@ -36,7 +36,8 @@ class Files : public WindowAtWork {
     real_parameters_ = std::exchange(desk_->asking.parameters, [](const auto&, const auto&) { return true; });
     desk_->asking.folder_to_save = [this](const std::string&) { return out_.string(); };
     desk_->asking.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
-      return (out_ / name).string();
+      saved_ = out_ / name;
+      return saved_.string();
     };
   }
   /// What a menu's entry does.
@@ -61,6 +62,7 @@ class Files : public WindowAtWork {
     ASSERT_GT(masks().size(), 2U);
   }
 
+  fs::path saved_;  ///< under the name that was offered
   fs::path out_ = TestSurvey::easy().fresh();
   decltype(Asking::parameters) real_parameters_;
 };
@@ -86,16 +88,16 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
     QTest::keyClick(width, Qt::Key_Return);
     EXPECT_EQ(workspace().picture_file.values().width_px, 640);
   });
-  const auto picture = read_png(out_ / "slice-plane.png");
+  const auto picture = read_png(saved_);
   ASSERT_TRUE(picture) << told();
   EXPECT_EQ(picture->size.width, 640);
-  fs::remove(out_ / "slice-plane.png");
+  fs::remove(saved_);
   answer([](QDialog& dialog) {
     dialog.findChild<QSpinBox*>("width_px")->setValue(999);
     QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel), Qt::LeftButton);
   });
   EXPECT_EQ(workspace().picture_file.values().width_px, 640);
-  EXPECT_FALSE(fs::exists(out_ / "slice-plane.png"));
+  EXPECT_FALSE(fs::exists(saved_));
 }
 
 TEST_F(Files, ResultsAreAsARunWritesThem) {
@@ -161,8 +163,9 @@ TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
   const QSize size = view("side_slice")->size();
   key(Qt::Key_S, Qt::ControlModifier);
   EXPECT_EQ(view("side_slice")->size(), size) << "a notice pushes nothing about";
-  const auto kept = read_png(out_ / "side_slice.png");
+  const auto kept = read_png(saved_);
   ASSERT_TRUE(kept) << told();
+  EXPECT_EQ(saved_.filename(), "obs-0001-ping-0000-side_slice.png");
   EXPECT_EQ(*kept, desk_->picture("side_slice")->image());
   key(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
   const QImage copied = QApplication::clipboard()->image().convertToFormat(QImage::Format_RGBA8888);
@@ -183,7 +186,7 @@ TEST_F(Files, APictureOfAnyKindIsMadeFromTheMenu) {
   }
   for (const char* kind : {"slice-top", "survey-map"}) {
     trigger(std::string("picture.") + kind);
-    EXPECT_TRUE(read_png(out_ / (std::string(kind) + ".png"))) << told();
+    EXPECT_TRUE(read_png(saved_)) << told();
   }
 }
 

@@ -142,7 +142,7 @@ TEST_F(Hands, WhatIsUndoneElsewhereIsSeenInTheTreeAndEscapeLeavesNoRowMarked) {
   key(Qt::Key_D, Qt::ControlModifier);
   auto* tree = view("survey_tree")->findChild<QTreeView*>("rows");
   const auto counted = [&](int observation) {
-    return tree->model()->index(observation, 2).data().toString().toStdString();
+    return tree->model()->index(observation, 3).data().toString().toStdString();
   };
   ASSERT_FALSE(document().state(1).schools.empty());
   EXPECT_EQ(counted(1), std::to_string(document().state(1).schools.size()));

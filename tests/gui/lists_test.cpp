@@ -137,6 +137,40 @@ TEST_F(Lists, ADoubleClickInTheTreeOpensAnObservation) {
   EXPECT_EQ(document().shown()->name(), "obs-0002");
 }
 
+TEST_F(Lists, InANarrowDockSentencesEndWhereTheListEnds) {
+  desk_->workspace.document.tell("a sentence that is much longer than the dock in which the diagnostics stand is wide");
+  window_->resize(1366, 768);
+  settle();
+  raise("diagnostics");
+  for (const char* id : {"diagnostics", "journal"}) {
+    raise(id);
+    key(Qt::Key_D);  // something to be listed
+    const QHeaderView& header = *list(id).header();
+    const auto what = static_cast<int>(column(id, "What"));
+    const int end = header.sectionViewportPosition(what) + header.sectionSize(what);
+    EXPECT_LE(end, list(id).viewport()->width()) << id;
+    EXPECT_EQ(list(id).textElideMode(), Qt::ElideRight);
+    const QModelIndex cell = list(id).model()->index(0, what);
+    EXPECT_EQ(cell.data(Qt::ToolTipRole), cell.data()) << "all of it under the pointer";
+  }
+}
+
+TEST_F(Lists, TheTreeShowsTimePingsAndSchoolsWithoutBeingMoved) {
+  for (const QSize size : {QSize(1366, 768), QSize(1600, 1000), QSize(1920, 1200)}) {
+    window_->resize(size);
+    desk_->actions.find("view.reset_layout")->run();
+    key(Qt::Key_D);
+    const QHeaderView& header = *list("survey_tree").header();
+    const auto schools = static_cast<int>(column("survey_tree", "Schools"));
+    EXPECT_LE(header.sectionViewportPosition(schools) + header.sectionSize(schools),
+              list("survey_tree").viewport()->width())
+        << size.width();
+    const QModelIndex time = list("survey_tree").model()->index(0, static_cast<int>(column("survey_tree", "Time")));
+    EXPECT_LE(list("survey_tree").sizeHintForIndex(time).width(), header.sectionSize(time.column()));
+    EXPECT_GT(time.data(Qt::ToolTipRole).toString().size(), time.data().toString().size()) << "year and seconds";
+  }
+}
+
 TEST_F(Lists, AReviewIsThreeKeysASchool) {
   make_schools();
   const std::size_t all = rows("schools").rows();

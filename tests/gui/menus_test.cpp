@@ -5,6 +5,7 @@
 
 #include <QAction>
 #include <QClipboard>
+#include <QDockWidget>
 #include <QMenu>
 #include <QToolBar>
 #include <QTreeView>
@@ -65,6 +66,24 @@ TEST_F(Menus, ButtonsThatCannotActAreGreyAndTheirKeysLive) {
   EXPECT_TRUE(can("edit.redo"));
   key(Qt::Key_Y, Qt::ControlModifier);
   EXPECT_EQ(document().state().schools.size(), 1U);
+}
+
+TEST_F(Menus, EveryDockThatWasClosedCanBeHadBackFromTheMenuBar) {
+  auto* panels = window_->findChild<QMenu*>("panels");
+  ASSERT_NE(panels, nullptr);
+  for (auto* dock : window_->findChildren<QDockWidget*>()) {
+    QAction* shows = dock->toggleViewAction();
+    EXPECT_TRUE(panels->actions().contains(shows)) << dock->objectName().toStdString();
+    shows->trigger();
+    settle();
+    EXPECT_TRUE(dock->isHidden()) << dock->objectName().toStdString();
+    shows->trigger();
+    settle();
+    // The two timelines come and go together, and one of them is behind the other.
+    if (dock->objectName().endsWith("timeline")) continue;
+    EXPECT_FALSE(dock->visibleRegion().isEmpty())
+        << dock->objectName().toStdString() << " is in front of its tab mates";
+  }
 }
 
 TEST_F(Menus, ASchoolUnderARightClickIsWhatTheMenuIsAbout) {

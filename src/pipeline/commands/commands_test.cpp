@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
+#include "pipeline/commands/test_commands.h"
 #include "pipeline/commands/test_ground.h"
 #include "school/mask_edit.h"
 
@@ -19,83 +20,8 @@ using namespace test;  // NOLINT(google-build-using-namespace)
 
 constexpr int kSizeA = 3 * 3 * 8;
 
-Decision decision(const SchoolKey& school, std::optional<std::string> status, std::optional<std::string> species = {},
-                  std::optional<std::string> comment = {}) {
-  return {school, std::move(status), std::move(species), std::move(comment)};
-}
-
-Decision renaming(const SchoolKey& school, std::string name) {
-  Decision made;
-  made.school = school;
-  made.name = std::move(name);
-  return made;
-}
-
-/// One of every command, each of which can be carried out upon detected().
-std::vector<std::pair<int, Command>> every_command() {
-  GrowCommand grow;
-  grow.seeds = {seed_a()};
-  GrowCommand more = grow;
-  more.to = GrowTo::add;
-  more.school = key_b(3);
-  GrowCommand less = grow;
-  less.to = GrowTo::take_away;
-  less.school = key_a(3);
-  GrowCommand anew = grow;
-  anew.to = GrowTo::replace;
-  anew.school = key_a(3);
-  PropagateCommand on;
-  on.school = key_b(4);
-  on.reach_backward = 0;
-  const RunKey stroke{channel_at(2, 3), 38, 3};
-  return {{4, propagate_from(seed_a())},
-          {4, on},
-          {3, grow},
-          {3, more},
-          {3, less},
-          {3, anew},
-          {3, BrushCommand{{stroke}, key_a(3)}},
-          {3, BrushCommand{{stroke}, {}}},
-          {3, EraseCommand{{{channel_at(2, 3), 31, 2}}, key_a(3)}},
-          {3, EraseCommand{{{channel_at(2, 3), 31, 20}}, {}}},
-          {3, ReshapeCommand{Reshaping::fill_holes, key_a(3), false}},
-          {3, ReshapeCommand{Reshaping::smooth, key_a(3), true}},
-          {3, ReshapeCommand{Reshaping::largest_part, key_b(3), true}},
-          {3, MergeCommand{{key_a(), key_b()}}},
-          {3, SplitCommand{key_a(), {}}},
-          {3, DeleteCommand{key_b()}},
-          {3, DecideCommand{{decision(key_a(), "accepted")}, ""}},
-          {3, DecideCommand{{decision(key_a(), {}, "herring")}, ""}},
-          {3, DecideCommand{{decision(key_a(), {}, {}, "near the \"wreck\"")}, ""}},
-          {3, DecideCommand{{renaming(key_a(), "north wall")}, ""}},
-          {3, DecideCommand{{decision(key_a(), "accepted"), decision(key_b(), "rejected")}, "5 pings or more"}},
-          {3, EventCommand{"trawl", ping_time(2), "haul 12"}},
-          {3, BadPingsCommand{ping_time(3), ping_time(3)}},
-          {3, BadPingsCommand{ping_time(5), ping_time(6)}}};
-}
-
-JournalState after(const std::vector<std::pair<int, Command>>& acts) {
-  const SmallSea sea;
-  std::vector<JournalLine> lines;
-  for (const auto& [ping, command] : acts)
-    lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
-  return fold(lines, SmallSea::detected(), sea.ground());
-}
-
 const PingMask& mask_of(const JournalState& state, std::size_t school, std::int64_t ping) {
   return in_ping(state.schools[school]->masks, ping)->mask;
-}
-
-TEST(Commands, EveryCommandIsReadBackAsItWasWritten) {
-  for (const auto& [ping, command] : every_command()) {
-    const JournalLine written = line(1, ping, command);
-    const auto read = act_of(written);
-    ASSERT_TRUE(read) << written.command << ": " << read.error().text;
-    const JournalLine again = line_of(*read);
-    EXPECT_EQ(again.command, written.command);
-    EXPECT_EQ(again.args, written.args) << written.command;
-    EXPECT_EQ(read->command.index(), command.index());
-  }
 }
 
 TEST(Commands, EveryCommandChangesTheStateAndUndoRestoresIt) {
@@ -113,20 +39,6 @@ TEST(Commands, EveryCommandChangesTheStateAndUndoRestoresIt) {
     EXPECT_NE(told(done), before) << act.command;
     EXPECT_EQ(told(fold_all({act, undo})), before) << act.command;
     EXPECT_EQ(told(fold_all({act, undo, redo})), told(done)) << act.command;
-  }
-}
-
-TEST(Commands, FoldOfAPrefixAndTheRestIsTheFoldOfAll) {
-  const SmallSea sea;
-  std::vector<JournalLine> lines;
-  for (const auto& [ping, command] : every_command()) {
-    lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
-  }
-  const std::string all = told(fold(lines, SmallSea::detected(), sea.ground()));
-  for (std::size_t cut = 0; cut <= lines.size(); ++cut) {
-    const std::span<const JournalLine> every(lines);
-    const JournalState first = fold(every.first(cut), SmallSea::detected(), sea.ground());
-    ASSERT_EQ(told(fold(every.subspan(cut), first, sea.ground())), all) << "cut at " << cut;
   }
 }
 
@@ -300,31 +212,6 @@ TEST(Commands, MarksAndBadPingsAreTakenBack) {
   EXPECT_EQ(times_of(lines[4]).size(), 2U);
 }
 
-TEST(Commands, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
-  const SmallSea sea;
-  CalibrateCommand calibrate;
-  calibrate.calibration.water.salinity_psu = 7.0;
-  calibrate.calibration.absorption = AbsorptionSource::ainslie_mccolm;
-  calibrate.calibration.beams = {{3, 27.5, kUnknown, 0.5}};
-  calibrate.file = "sphere.csv";
-  JournalLine act = line(1, 3, calibrate);
-  const auto read = act_of(act);
-  ASSERT_TRUE(read) << read.error().text;
-  EXPECT_EQ(line_of(*read).args.dump(), act.args.dump());  // as text: an unknown value equals nothing
-  // Wherever it was said, it is about the whole survey.
-  act.ping_time += 1000 * kSecondNs;
-  const JournalState done = fold({&act, 1}, SmallSea::detected(), sea.ground());
-  EXPECT_EQ(told(done), told(SmallSea::detected()));
-  ASSERT_TRUE(done.calibration);
-  const Recipe recipe = measuring_recipe({}, done);
-  EXPECT_EQ(recipe.calibration.water.salinity_psu, 7.0);
-  ASSERT_EQ(recipe.calibration.beams.size(), 1U);
-  EXPECT_TRUE(std::isnan(recipe.calibration.beams[0].sa_correction_db));
-  EXPECT_EQ(recipe_text(measuring_recipe({}, SmallSea::detected())), recipe_text({}));
-  const JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
-  EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.ground()).calibration);
-}
-
 TEST(Commands, ANameIsKeptWithTheSchoolAndInItsRow) {
   const JournalState state = after({{3, DecideCommand{{renaming(key_a(), "north wall")}, ""}}});
   EXPECT_EQ(state.schools[0]->masks.decided.name, "north wall");
@@ -371,21 +258,6 @@ TEST(Commands, WhatIsFoundLaterRenumbersNobody) {
   }
 }
 
-TEST(Commands, ALineThatAsksForDetectionSaysHowManyWereFound) {
-  const JournalLine written = line(1, 0, DetectCommand{7});
-  EXPECT_EQ(written.args["schools"], 7);
-  const auto read = act_of(written);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(std::get<DetectCommand>(read->command).schools, 7);
-  JournalLine older = written;
-  older.args = nlohmann::json::object();
-  ASSERT_TRUE(act_of(older));
-  for (const auto& wrong : {nlohmann::json(-1), nlohmann::json("two"), nlohmann::json(1e15)}) {
-    older.args = {{"schools", wrong}};
-    EXPECT_FALSE(act_of(older)) << wrong.dump();
-  }
-}
-
 TEST(Commands, OnlyClicksAndPropagationsFromThereLeaveASchoolThatGrowsAgain) {
   const SmallSea sea;
   GrowCommand grow;
@@ -415,50 +287,12 @@ TEST(Commands, OnlyClicksAndPropagationsFromThereLeaveASchoolThatGrowsAgain) {
       << "a decision is about it, not of it";
 }
 
-TEST(Commands, LinesOfOtherPingsChangeNothing) {
-  std::vector<JournalLine> lines;
-  for (const auto& [ping, command] : every_command()) {
-    if (std::holds_alternative<DecideCommand>(command) || std::holds_alternative<EventCommand>(command) ||
-        std::holds_alternative<BadPingsCommand>(command)) {
-      continue;
-    }
-    JournalLine other = line(1, ping, command);
-    other.ping_time += kSecondNs;
-    lines.push_back(other);
-  }
-  EXPECT_EQ(told(fold(lines, SmallSea::detected(), SmallSea{}.ground())), told(SmallSea::detected()));
-}
-
 TEST(Commands, SchoolIsFoundByTheVoxelThatNamesIt) {
   const SmallSea sea;
   const JournalState state = SmallSea::detected();
   for (std::size_t i = 0; i < state.schools.size(); ++i) {
     EXPECT_EQ(school_at(state, sea.ground(), key_of(state.schools[i]->masks, sea.ground())), i);
   }
-}
-
-TEST(Commands, WhatCannotBeDoneIsADiagnosticAndChangesNothing) {
-  GrowCommand ringing;
-  ringing.seeds = {{channel_at(2, 3), 2}};
-  GrowCommand nowhere;
-  nowhere.seeds = {{700, 33}};
-  PropagateCommand off;
-  off.school = key_a(3);
-  const std::vector<std::pair<int, Command>> acts{{3, ringing},
-                                                  {3, nowhere},
-                                                  {3, BrushCommand{{{channel_at(2, 3), 78, 3}}, {}}},
-                                                  {3, BrushCommand{{{channel_at(2, 3), 0, 3}}, {}}},
-                                                  {3, BrushCommand{{{99, 30, 3}}, key_a()}},
-                                                  {3, MergeCommand{{key_a(), key_a(2)}}},
-                                                  {0, SplitCommand{key_a(), {}}},
-                                                  {3, SplitCommand{key_a(), seed_a()}},
-                                                  {3, SplitCommand{key_a(), SeedKey{100000, 3}}},
-                                                  {3, EraseCommand{{{channel_at(0, 0), 0, 2'000'000'000}}, {}}}};
-  JournalState state = after(acts);
-  EXPECT_EQ(state.notes.size(), acts.size());
-  for (const Diagnostic& note : state.notes) EXPECT_EQ(note.code, DiagnosticCode::decision_lost);
-  state.notes.clear();
-  EXPECT_EQ(told(state), told(SmallSea::detected()));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,14 @@ std::string date_and_time(TimeNs time) {
   std::string text = iso_time(time).substr(0, kTimeLetters);
   if (text.size() > kDateLetters) text[kDateLetters] = ' ';
   return text;
+}
+
+/// "21 Nov"
+std::string day_and_month(const std::string& date) {
+  constexpr std::array<const char*, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  const auto two_digits = [&date](std::size_t at) { return (date[at] - '0') * 10 + date[at + 1] - '0'; };
+  return fmt::format("{} {}", two_digits(8), kMonths.at(static_cast<std::size_t>(two_digits(5) - 1)));
 }
 
 Cell place_cell(std::string text, double deg) {
@@ -57,6 +66,16 @@ std::string span_text(TimeNs first, TimeNs last) {
   const std::string end = date_and_time(last);
   const bool same_day = begin.substr(0, kDateLetters) == end.substr(0, kDateLetters);
   return begin + " \u2013 " + (same_day ? end.substr(kDateLetters + 1) : end);
+}
+
+std::string span_brief(TimeNs first, TimeNs last) {
+  const std::string begin = date_and_time(first);
+  const std::string end = date_and_time(last);
+  if (begin.size() != kTimeLetters || end.size() != kTimeLetters) return span_text(first, last);
+  const auto minutes = [](const std::string& time) { return time.substr(kDateLetters + 1, 5); };
+  const bool same_day = begin.substr(0, kDateLetters) == end.substr(0, kDateLetters);
+  return fmt::format("{} {} \u2013 {}{}", day_and_month(begin), minutes(begin),
+                     same_day ? std::string() : day_and_month(end) + " ", minutes(end));
 }
 
 Cell latitude_cell(double latitude_deg) { return place_cell(latitude_minutes_text(latitude_deg), latitude_deg); }

@@ -19,6 +19,8 @@ namespace sonar {
 [[nodiscard]] Cell time_cell(TimeNs time);
 /// "19:57:26" where the day is the same, for the second end of a span.
 [[nodiscard]] std::string span_text(TimeNs first, TimeNs last);
+/// Without year and seconds: "21 Nov 19:57 \u2013 20:10", or "21 Nov 23:57 \u2013 22 Nov 00:10".
+[[nodiscard]] std::string span_brief(TimeNs first, TimeNs last);
 [[nodiscard]] Cell latitude_cell(double latitude_deg);
 [[nodiscard]] Cell longitude_cell(double longitude_deg);
 

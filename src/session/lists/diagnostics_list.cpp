@@ -7,6 +7,9 @@
 namespace sonar {
 namespace {
 
+constexpr std::size_t kWhat = 0;
+constexpr std::size_t kKind = 1;
+
 std::string meaning_of(DiagnosticCode code) {
   for (const DiagnosticEntry& entry : diagnostic_table()) {
     if (entry.code == code) return std::string(entry.sentence);
@@ -19,20 +22,22 @@ std::string meaning_of(DiagnosticCode code) {
 DiagnosticsList::DiagnosticsList(Workspace& workspace)
     : DocumentRows(workspace,
                    {DocumentChange::survey, DocumentChange::state, DocumentChange::measures, DocumentChange::notice}),
-      titles_{{"Kind", "", "stable name of what was found", false},
-              {"What", "", "what was found and what was expected", false},
+      titles_{{"What", "", "what was found and what was expected", false, true},
+              {"Kind", "", "stable name of what was found", false},
               {"Observation", "", "", false},
               {"Ping", "", "index in the observation", true},
               {"File", "", "", false},
               {"Byte", "", "offset in the file", true},
               {"Meaning", "", "", false}} {}
 
-void DiagnosticsList::add(const Diagnostics& notes, std::ptrdiff_t observation) {
+void DiagnosticsList::add(const Diagnostics& notes, std::ptrdiff_t observation, Lost which) {
   const Document& document = workspace().document;
   // Decisions on schools that are still being found again are not lost.
   const bool waits = observation >= 0 && document.lacks_detected(static_cast<std::size_t>(observation));
   for (const Diagnostic& note : notes) {
-    if (!waits || note.code != DiagnosticCode::decision_lost) remarks_.push_back({&note, 0, observation});
+    const bool lost = note.code == DiagnosticCode::decision_lost;
+    if (lost ? waits || which == Lost::without : which == Lost::alone) continue;
+    remarks_.push_back({&note, 0, observation});
   }
 }
 
@@ -40,18 +45,20 @@ void DiagnosticsList::add_observation(std::size_t index) {
   const Document& document = workspace().document;
   const SurveyFiles& survey = *document.survey();
   const auto at = static_cast<std::ptrdiff_t>(index);
+  const auto& states = document.choices().states;
+  const auto state = states.find(index);
+  const bool decided = state != states.end() && state->second;
+  if (decided) kept_.push_back(state->second);
   if (const ProductPtr product = document.product(index)) {
-    // It holds those of the files and of the choices, too.
+    // It holds those of the files and of the choices, too; but of the choices as they were when it was measured, and what
+    // was lost while schools were still being found again is not lost any more.
     kept_.push_back(product);
-    return add(product->diagnostics, at);
+    add(product->diagnostics, at, decided ? Lost::without : Lost::with);
+    return decided ? add(state->second->notes, at, Lost::alone) : void();
   }
   add(survey.observations[index].diagnostics, at);
   for (const std::uint32_t file : survey.observations[index].files) add(survey.files[file].index.diagnostics, at);
-  const auto& states = document.choices().states;
-  if (const auto state = states.find(index); state != states.end() && state->second) {
-    kept_.push_back(state->second);
-    add(state->second->notes, at);
-  }
+  if (decided) add(state->second->notes, at);
 }
 
 void DiagnosticsList::make() {
@@ -73,22 +80,22 @@ void DiagnosticsList::make() {
 
 Cell DiagnosticsList::unreadable_cell(const Remark& remark, std::size_t column) const {
   const SurveyFile& file = workspace().document.survey()->files[remark.file];
-  if (column == 0) return text_cell("file-unreadable");
-  if (column == 1) return text_cell(to_line(*file.error));
+  if (column == kWhat) return text_cell(to_line(*file.error));
+  if (column == kKind) return text_cell("file-unreadable");
   return column == 4 ? text_cell(file.path.filename().string()) : Cell{};
 }
 
 Cell DiagnosticsList::cell(std::size_t row, std::size_t column) const {
   if (row < notices().size()) {
     // The last that was told stands first.
-    if (column == 0) return text_cell("notice");
-    return column == 1 ? text_cell(notices()[notices().size() - 1 - row]) : Cell{};
+    if (column == kKind) return text_cell("notice");
+    return column == kWhat ? text_cell(notices()[notices().size() - 1 - row]) : Cell{};
   }
   const Remark& remark = remarks_[row - notices().size()];
   if (remark.note == nullptr) return unreadable_cell(remark, column);
   const Diagnostic& note = *remark.note;
-  if (column == 0) return text_cell(std::string(name(note.code)));
-  if (column == 1) return text_cell(note.text);
+  if (column == kWhat) return text_cell(note.text);
+  if (column == kKind) return text_cell(std::string(name(note.code)));
   if (column == 2 && remark.observation >= 0) {
     return text_cell(workspace().document.survey()->observations[static_cast<std::size_t>(remark.observation)].name);
   }

@@ -28,7 +28,9 @@ class DiagnosticsList : public DocumentRows {
     std::ptrdiff_t observation = -1;
   };
   [[nodiscard]] const std::vector<std::string>& notices() const { return workspace().document.notices(); }
-  void add(const Diagnostics& notes, std::ptrdiff_t observation);
+  /// Which remarks on decisions that were lost: those of the choices as they are now count alone.
+  enum class Lost { with, without, alone };
+  void add(const Diagnostics& notes, std::ptrdiff_t observation, Lost which = Lost::with);
   void add_observation(std::size_t index);
   [[nodiscard]] Cell unreadable_cell(const Remark& remark, std::size_t column) const;
 

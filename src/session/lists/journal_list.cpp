@@ -19,9 +19,9 @@ bool turns_back(const JournalLine& line) { return line.command == "undo" || line
 JournalList::JournalList(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::state}),
       titles_{{"Line", "", "in the journal's file", true},
+              {"What", "", "", false, true},
               {"Time", "UTC", "when it was done", false},
               {"Operator", "", "", false},
-              {"What", "", "", false},
               {"On", "", "observation and ping that it was done on", false},
               {"Undone", "", "", false}} {}
 
@@ -59,9 +59,9 @@ std::string JournalList::what(const JournalLine& line) const {
 Cell JournalList::cell(std::size_t row, std::size_t column) const {
   const JournalLine& one = line(row);
   if (column == 0) return count_cell(one.n);
-  if (column == 1) return time_cell(one.decided);
-  if (column == 2) return text_cell(one.operator_name);
-  if (column == 3) return text_cell(what(one));
+  if (column == 1) return text_cell(what(one));
+  if (column == 2) return time_cell(one.decided);
+  if (column == 3) return text_cell(one.operator_name);
   if (column == 5) return text_cell(undone_.contains(one.n) ? "undone" : "");
   const auto place = place_of(one);
   if (!place) return {};

@@ -35,6 +35,7 @@ TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {
   EXPECT_EQ(text("survey_tree", top[0], "Survey"), "obs-0001");
   EXPECT_EQ(text("survey_tree", top[0], "Pings"), std::to_string(TestSurvey::kPings));
   EXPECT_THAT(text("survey_tree", top[0], "Time"), HasSubstr(" \u2013 "));
+  EXPECT_LT(tree.cell(top[0], 1).brief.size(), text("survey_tree", top[0], "Time").size());
   EXPECT_THAT(text("survey_tree", top[0] + 1, "Survey"), HasSubstr(".raw"));
   EXPECT_EQ(tree.level(top[0] + 1), 1);
   EXPECT_EQ(tree.selected(), top[0]);
@@ -106,6 +107,37 @@ TEST_F(Lists, WhatWasToldStandsAmongTheDiagnostics) {
   for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {
     EXPECT_FALSE(text("diagnostics", row, "Kind").empty());
   }
+}
+
+// What is detected anew at an opening is there before it is measured: nothing is said to be lost meanwhile.
+TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
+  press("schools.detect_all");
+  document().settle();
+  ASSERT_GT(rows("schools").rows(), 0U);
+  rows("schools").select(0);
+  document().settle();
+  press("review.accept");
+  document().settle();
+  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  const int listening = document().changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::state && change != DocumentChange::measures) return;
+    if (document().survey() == nullptr || !document().choices().states.contains(0)) return;
+    for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {
+      EXPECT_NE(text("diagnostics", row, "Kind"), "decision-lost") << text("diagnostics", row, "What");
+    }
+  });
+  document().open({TestSurvey::easy().folder()});
+  while (!document().staged()) queue_.drain();  // the search begins with the first picture
+  document().cancel();
+  document().settle();
+  ASSERT_TRUE(document().product(0)) << "measured without the schools";
+  press("schools.detect_all");
+  document().settle();
+  document().changes().remove(listening);
+  EXPECT_EQ(text("schools", 0, "Status"), "accepted");
+  const std::string named = "accept school " + text("schools", 0, "School");
+  EXPECT_EQ(text("journal", 0, "What"), named) << "by the school that it is about, which was not there at first";
+  EXPECT_EQ(document().choices().undo_text, "Undo " + named);
 }
 
 TEST_F(Lists, ChoicesOfEarlierRunsAreSeenInTheWholeSurvey) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "session/lists/document_rows.h"
@@ -26,6 +27,7 @@ class SchoolPingTable : public DocumentRows {
   void select(std::size_t row) override;
   void open(std::size_t row) override { select(row); }
   [[nodiscard]] std::optional<std::size_t> selected() const override;
+  [[nodiscard]] std::string example_limit() const override { return "depth>80"; }
 
   [[nodiscard]] bool all() const { return all_; }
   void show_all(bool all);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "session/lists/document_rows.h"
@@ -22,6 +23,7 @@ class SchoolTable : public DocumentRows {
   void select(std::size_t row) override;
   void open(std::size_t row) override { select(row); }
   [[nodiscard]] std::optional<std::size_t> selected() const override;
+  [[nodiscard]] std::string example_limit() const override { return "depth>80"; }
   [[nodiscard]] bool faded(std::size_t row) const override { return schools_[row].decided().status == "rejected"; }
 
  protected:

@@ -20,7 +20,7 @@ std::string notes_text(std::size_t count) {
 
 Cell span_cell(TimeNs first, TimeNs last) {
   if (first == 0) return {};
-  return {span_text(first, last), static_cast<double>(first)};
+  return {span_text(first, last), static_cast<double>(first), span_brief(first, last)};
 }
 
 }  // namespace
@@ -28,9 +28,9 @@ Cell span_cell(TimeNs first, TimeNs last) {
 SurveyTree::SurveyTree(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state}),
       titles_{{"Survey", "", "observations, their files, and what is wrong with them", false},
+              {"Time", "UTC", "from the first ping to the last", false},
               {"Pings", "", "", true},
               {"Schools", "", "as far as they are known", true},
-              {"Time", "UTC", "from the first ping to the last", false},
               {"Remarks", "", "what is damaged or doubtful", false}} {}
 
 void SurveyTree::add_notes(const Diagnostics& notes, int level, std::optional<std::size_t> observation) {
@@ -103,9 +103,9 @@ void SurveyTree::make() {
 Cell SurveyTree::cell(std::size_t row, std::size_t column) const {
   const Row& one = rows_[row];
   if (column == 0) return text_cell(one.name);
-  if (column == 1) return one.pings;
-  if (column == 2) return one.schools;
-  if (column == 3) return one.time;
+  if (column == 1) return one.time;
+  if (column == 2) return one.pings;
+  if (column == 3) return one.schools;
   return text_cell(one.notes);
 }
 

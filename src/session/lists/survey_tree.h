@@ -20,6 +20,7 @@ class SurveyTree : public DocumentRows {
   [[nodiscard]] int level(std::size_t row) const override { return rows_[row].level; }
   void open(std::size_t row) override;
   [[nodiscard]] std::optional<std::size_t> selected() const override;
+  [[nodiscard]] std::string example_limit() const override { return "pings>100"; }
 
  protected:
   void make() override;

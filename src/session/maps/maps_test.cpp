@@ -195,6 +195,17 @@ TEST(StripModel, ShowsThePingsRoundTheOneOnShowAndAClickGoesToOne) {
   EXPECT_EQ(maps.strip.first(), 0);
 }
 
+// As it is in a window that was drawn together to the height of a small laptop.
+TEST(StripModel, InALowViewTheWordsAreSmallerAndThePingsAreThere) {
+  TestMaps maps;
+  for (const int height : {360, 160, 120, 108}) {
+    maps.see(maps.strip, {380, height});
+    EXPECT_EQ(maps.strip.problem(), "") << height;
+    ASSERT_TRUE(maps.strip.places()) << height;
+    EXPECT_GE(maps.strip.places()->panes.size(), 3U) << height;
+  }
+}
+
 TEST(StripModel, ScrollsByWheelAndDraggingAsFarAsThereArePings) {
   TestMaps maps;
   maps.see(maps.strip, {900, 260});

@@ -9,6 +9,7 @@
 
 #include "session/maps/dock_theme.h"
 #include "session/maps/strip_panels.h"
+#include "session/screen_theme.h"
 
 namespace sonar {
 namespace {
@@ -17,6 +18,15 @@ constexpr double kStill_px = 3.0;
 constexpr double kNarrowest_em = 7.0;  ///< of a pane
 constexpr double kAround_em = 12.0;    ///< of title, labels and scale, above and below the panes
 constexpr int kLeastPanes = 3;
+constexpr double kRows_em = 13.4;  ///< title, labels, scale and the lowest pane that the picture has
+constexpr double kLeastText_px = 8.0;
+
+/// A low strip has smaller words, rather than none.
+Theme strip_theme(PixelSize size, double scale, bool dark) {
+  Theme theme = dock_theme(size, scale, dark);
+  const double fits = std::clamp(size.height / kRows_em, kLeastText_px * scale, theme.text_px);
+  return scaled(std::move(theme), fits / theme.text_px);
+}
 
 }  // namespace
 
@@ -59,7 +69,7 @@ void StripModel::hear(DocumentChange change) {
 }
 
 int StripModel::panes() const {
-  const double em = dock_theme(size(), scale(), false).text_px;
+  const double em = strip_theme(size(), scale(), false).text_px;
   const double wide = size().width - 2.0 * em;
   const double high = std::max(kNarrowest_em * em, size().height - kAround_em * em);
   const int most = std::max(1, static_cast<int>(wide / (kNarrowest_em * em)));
@@ -122,7 +132,7 @@ LivePicture::Build StripModel::build() {
   return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
     const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
     const auto panels = strip_panels(wish, masks);
-    const Theme theme = dock_theme(size, wish.scale, wish.dark);
+    const Theme theme = strip_theme(size, wish.scale, wish.dark);
     const Sector& sector = wish.observation->sector();
     auto frame = propagation_view(sector, panels, wish.style, size, theme, strip_title(wish));
     if (!frame) return pass_on(frame);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -94,6 +95,21 @@ std::optional<std::size_t> school_of_voxel(const JournalState& state, std::int64
   return std::nullopt;
 }
 
+std::string too_weak(const Volume& filtered, const BeamGrid& grid, const GrowCommand& command) {
+  if (command.seeds.size() != 1) return {};
+  const SeedKey& seed = command.seeds.front();
+  const auto at = std::find(grid.channel.begin(), grid.channel.end(), seed.channel);
+  const auto counts = filtered.counts.view();
+  if (at == grid.channel.end()) return {};
+  const auto row = counts.row(static_cast<int>(at - grid.channel.begin()));
+  const auto sample = static_cast<std::size_t>(seed.sample);
+  if (seed.sample < 0 || sample >= row.size() || row[sample] == kNoData) return {};
+  if (any(filtered.flags.view().row(static_cast<int>(at - grid.channel.begin()))[sample] & kNeverMember)) return {};
+  const double sv_db = db_from_counts(row[sample]);
+  if (command.growth_curve.opacity(sv_db) > 0.0) return {};
+  return fmt::format("too weak to grow from: the growth curve is 0 at {:.1f} dB", sv_db);
+}
+
 Result<PingMask> try_growth(const GrowthTrial& trial) {
   const CommandGround& ground = trial.observation->ground();
   std::optional<std::size_t> school;
@@ -111,6 +127,9 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
   const bool needed = trial.command.to == GrowTo::take_away || trial.command.to == GrowTo::replace;
   const auto* there = needed ? in_ping(trial.state->schools[*school]->masks, trial.ping->ping_index) : nullptr;
   if (needed && there == nullptr) return fail(ErrorCode::bad_parameter, "the selected school is not in this ping");
+  if (auto why = too_weak(*ping.volume, trial.observation->grid(), trial.command); !why.empty()) {
+    return fail(ErrorCode::bad_parameter, std::move(why));
+  }
   ping.taken = taken_by_others(trial, school);
   auto grown = grow_seeds(ground, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
   if (!grown) return grown;

@@ -26,6 +26,10 @@ struct GrowthTrial {
 /// threads  pure
 [[nodiscard]] Result<PingMask> try_growth(const GrowthTrial& trial);
 
+/// Why a plain click's seed would grow nothing: the growth curve is 0 there, as over most of the water. Empty where it
+/// is not, or something else is in the way.
+[[nodiscard]] std::string too_weak(const Volume& filtered, const BeamGrid& grid, const GrowCommand& command);
+
 /// "1 204 voxels, 3.1e4 m3, mean -48.2 dB": mean of the measured members, linear, weighted by their volumes, the expected
 /// background taken off, as the table of schools has it.
 [[nodiscard]] std::string growth_text(const PingMask& mask, const StagedPing& ping, const Sector& sector);

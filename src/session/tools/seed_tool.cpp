@@ -132,6 +132,11 @@ void SeedTool::press(const Voxel& voxel, bool shift, bool control, bool double_p
   if (plain && school_under(voxel)) return select(voxel);
   auto command = command_at(*place_);
   if (!command) return document.tell(command.error().text);
+  if (!document.shown()->recalibrated()) {
+    if (auto why = too_weak(*document.staged()->filtered, document.shown()->grid(), *command); !why.empty()) {
+      return document.tell(std::move(why));
+    }
+  }
   act({observation, document.staged(), std::move(*command), false, 0, document.staged()->ping_index});
 }
 
