@@ -39,11 +39,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 2, "aae837000c9ff6f0127446493cea9c4a"},
-    {"detect", 6, "681309c9299f15e98a87e66bb0d9b74c"},
+    {"detect", 6, "634e39305aad8adff3e75299492312c3"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 7, "2f73bf74d34d954c6a720b20a012439e"},
-    {"summarise", 2, "8696eab71d8f488cf494afb2e72c363f"},
+    {"measure", 7, "3520aea999008bd6ca6973f4d0e9cceb"},
+    {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
 }};
 
 constexpr int kFans = 8;
