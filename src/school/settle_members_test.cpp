@@ -62,9 +62,7 @@ TEST(SettleMembers, APeakedSchoolIsNoLargerThanItsTruth) {
   EXPECT_GT(apparent_volume_ratio(15.0, most), 1.22);
 }
 
-TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) {
-  EXPECT_NEAR(apparent_volume_ratio(0.0, {}), 1.0, 0.05);
-}
+TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) { EXPECT_NEAR(apparent_volume_ratio(0.0, {}), 1.0, 0.05); }
 
 }  // namespace
 }  // namespace sonar

@@ -37,6 +37,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
        true,
        {},
        {{"tolerance_db", [mode] { return mode() != GrowMode::paper; }},
+        {"margin_db", [mode] { return mode() != GrowMode::paper; }},
         {"tolerance_opacity", [mode] { return mode() == GrowMode::paper; }}}},
       {"Schools",
        display,

@@ -11,8 +11,9 @@
 namespace sonar {
 namespace {
 
-bool same_tolerance(const GrowParams& a, const GrowParams& b) {
-  return a.tolerance_db == b.tolerance_db && a.tolerance_opacity == b.tolerance_opacity;
+/// How far down growths go.
+bool same_depth(const GrowParams& a, const GrowParams& b) {
+  return a.tolerance_db == b.tolerance_db && a.tolerance_opacity == b.tolerance_opacity && a.margin_db == b.margin_db;
 }
 
 }  // namespace
@@ -25,10 +26,10 @@ SeedTool::SeedTool(Workspace& workspace, Pulse& pulse)
   workspace.select.on_change([this, alive = std::weak_ptr<bool>(alive_)](const SelectParams& params) {
     if (alive.expired()) return;
     const GrowParams now = grow_params(params);
-    const bool tolerance = !same_tolerance(now, params_);
-    const bool changed = tolerance || now.mode != params_.mode || now.connectivity != params_.connectivity;
+    const bool depth = !same_depth(now, params_);
+    const bool changed = depth || now.mode != params_.mode || now.connectivity != params_.connectivity;
     params_ = now;
-    if (changed) parameters_changed(tolerance);
+    if (changed) parameters_changed(depth);
   });
 }
 
@@ -246,7 +247,7 @@ void SeedTool::take_made(const Pending& done) {
   }
   if (done.carry_on) return carry_on(done.observation, done.staged->ping_index, done.command.seeds.front());
   // The slider went on while the act was done.
-  if (!same_tolerance(params_, done.command.grow)) parameters_changed(true);
+  if (!same_depth(params_, done.command.grow)) parameters_changed(true);
 }
 
 // --- what is selected anew
