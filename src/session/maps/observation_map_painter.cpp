@@ -52,7 +52,11 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   // Those that are not measured yet are there as well.
   const std::size_t schools = wish.state ? wish.state->schools.size() : shown.schools.size();
   painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette, schools);
-  if (wish.product) add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected));
+  if (wish.product) {
+    const PingNavigation& current = shown.pings[static_cast<std::size_t>(wish.ping)];
+    add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected),
+                    current.has_position() ? base_->map.at(current.transducer) : std::nullopt);
+  }
   places->observation = observation_->index();
   places->map = map_;
   places->scale = wish.scale;
