@@ -21,7 +21,7 @@ struct Ping {
     for (int fan = 9; fan <= 10; ++fan) {
       for (int beam = 8; beam <= 17; ++beam) mask.runs.push_back({fan * 25 + beam, 420, 50});
     }
-    mask.confidence.assign(20 * 50, 255);
+    mask.confidence.assign(50 * mask.runs.size(), 255);
   }
   void echo(int fan, int first_beam, int last_beam, int first, int end, double db) {
     for (int beam = first_beam; beam <= last_beam; ++beam) {

@@ -84,7 +84,7 @@ void Choices::act(std::size_t observation, std::int64_t ping_index, Command comm
 /// What a step did is what its first line did.
 std::string Choices::step_name(std::int64_t n) const {
   const auto named = names_.find(n);
-  const std::string name = named == names_.end() ? std::string{} : named->second;
+  std::string name = named == names_.end() ? std::string{} : named->second;
   const auto of = std::find_if(place_.journal.lines.begin(), place_.journal.lines.end(),
                                [n](const JournalLine& line) { return line.n == n; });
   if (of == place_.journal.lines.end() || of->step == 0 || of->command != "detect") return name;

@@ -264,7 +264,7 @@ TEST(Commands, OnlyClicksAndPropagationsFromThereLeaveASchoolThatGrowsAgain) {
   grow.seeds = {seed_a()};
   PropagateCommand on;
   on.school = key_a(3);
-  const auto state_after = [&](std::vector<std::pair<int, Command>> acts) {
+  const auto state_after = [&](const std::vector<std::pair<int, Command>>& acts) {
     std::vector<JournalLine> lines;
     for (const auto& [ping, command] : acts) {
       lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));

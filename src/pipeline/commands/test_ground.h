@@ -27,7 +27,7 @@ struct Block {
 inline constexpr Block kA{1, 3, 2, 4, 30, 37};
 inline constexpr Block kB{1, 3, 2, 4, 44, 51};
 
-inline TimeNs ping_time(int ping) { return kBegin + 2 * ping * kSecondNs; }
+inline TimeNs ping_time(int ping) { return kBegin + 2 * kSecondNs * ping; }
 inline int channel_at(int fan, int beam) { return kFans * kBeams - 1 - (fan * kBeams + beam); }
 
 inline BeamGrid small_grid() {
@@ -36,8 +36,8 @@ inline BeamGrid small_grid() {
   for (int b = 0; b < kBeams; ++b) grid.azimuth_deg.push_back(255.0 + 4.0 * b);
   grid.frequency_hz.assign(kFans, 90000.0);
   for (int row = 0; row < kFans * kBeams; ++row) grid.channel.push_back(kFans * kBeams - 1 - row);
-  grid.vertical_width_deg.assign(kFans * kBeams, 6.0);
-  grid.horizontal_width_deg.assign(kFans * kBeams, 4.0);
+  grid.vertical_width_deg.assign(grid.channel.size(), 6.0);
+  grid.horizontal_width_deg.assign(grid.channel.size(), 4.0);
   return grid;
 }
 
