@@ -114,8 +114,8 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
     });
     std::vector<Detection> detections;
     watch.time("5 detect", [&] {
-      detections = detect(staged.filtered->counts.view(), staged.filtered->flags.view(), engine.sector(),
-                          staged.background(), recipe.detect);
+      detections = detect(staged.filtered->counts.view(), staged.sv.counts.view(), staged.filtered->flags.view(),
+                          engine.sector(), staged.background(), recipe.detect);
     });
   }
   watch.print();
