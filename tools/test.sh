@@ -10,6 +10,11 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
 export CTEST_OUTPUT_ON_FAILURE=1
 export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
+# The sanitizers themselves may find a symbolizer that they then refuse, and say so wherever a known leak is looked up.
+if command -v llvm-symbolizer >/dev/null; then
+  ASAN_SYMBOLIZER_PATH=$(readlink -f "$(command -v llvm-symbolizer)")
+  export ASAN_SYMBOLIZER_PATH
+fi
 unset DISPLAY WAYLAND_DISPLAY  # nothing here may need a display
 
 full=false
