@@ -47,7 +47,7 @@ inline ObservationProduct product(std::string name, int pings, Geographic start 
   p.grid = grid();
   for (int i = 0; i < pings; ++i) {
     PingNavigation n;
-    n.time = first + i * 5 * kSecondNs;
+    n.time = first + 5 * kSecondNs * i;
     n.transducer = destination(start, 20.0 * i, course_deg);
     n.heading_deg = course_deg;
     n.course_deg = course_deg;

@@ -81,7 +81,7 @@ std::vector<std::string> wrapped(const std::string& text, double width_px, doubl
   while (at < text.size()) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string word = text.substr(at, end - at);
-    const std::string longer = line.empty() ? word : line + " " + word;
+    const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
     if (!line.empty() && text_width_px(longer.c_str(), size_px) > width_px) {
       lines.push_back(line);
       line = word;
@@ -112,7 +112,7 @@ std::string time_span_text(TimeNs first, TimeNs last) {
 
 std::string schools_text(std::size_t shown, std::size_t left_out) {
   const std::size_t all = shown + left_out;
-  const std::string words = fmt::format("{} school{}", all, all == 1 ? "" : "s");
+  std::string words = fmt::format("{} school{}", all, all == 1 ? "" : "s");
   if (left_out == 0) return words;
   return shown == 0 ? words + ", not shown" : fmt::format("{} of {}", shown, words);
 }

@@ -74,7 +74,7 @@ TEST(MapLabels, ObservationsNamesLieOnNothing) {
   for (int i = 0; i < 4; ++i) {
     const Geographic start = destination({60.0, 5.0}, 50.0 * i, 80.0);
     all.push_back(map_example::product("obs-000" + std::to_string(i + 1), 60, start, 90.0 * i,
-                                       map_example::kStart + i * 3600 * kSecondNs));
+                                       map_example::kStart + 3600 * kSecondNs * i));
   }
   for (int id = 1; id <= 3; ++id) {
     map_example::add_school(all[3], id, destination({60.0, 5.0}, 110.0 * id, 90.0), 30, 31,

@@ -290,7 +290,7 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
   // The most that there is room for.
   const auto words_of = [&]() -> std::string {
     const bool above = style.aspect == MaskAspect::above;
-    const std::string scale_words = fmt::format("{:g} m", length_m);
+    std::string scale_words = fmt::format("{:g} m", length_m);
     for (const char* more :
          {above ? " · from above, bow up" : " · from the side, ship to the left; depths below the surface",
           above ? " · from above" : " · from the side, ship to the left", above ? " · above" : " · from the side"}) {

@@ -54,7 +54,8 @@ double degrees_of(const std::string& label) {
 
 /// Pixels from the graticule's own labels: straight lines between the outermost two.
 struct FromLabels {
-  double lat0, y0, lat1, y1, lon0, x0, lon1, x1;
+  double lat0 = 0.0, y0 = 0.0, lat1 = 0.0, y1 = 0.0;
+  double lon0 = 0.0, x0 = 0.0, lon1 = 0.0, x1 = 0.0;
   explicit FromLabels(const FrameDescription& frame) {
     std::vector<std::pair<double, double>> lats;
     std::vector<std::pair<double, double>> lons;

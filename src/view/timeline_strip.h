@@ -37,7 +37,7 @@ struct StripSpan {
 };
 
 struct Strip {
-  const TimelineObservation* observation;
+  const TimelineObservation* observation = nullptr;
   Along along;
   [[nodiscard]] StripSpan span() const {
     // The last ping takes its own room.

@@ -17,7 +17,8 @@ std::vector<PixelPoint> lit(const ObservationMapPlaces& places) {
   for (std::size_t i = 0; i < places.cells.size(); ++i) {
     if (places.cells[i] == 0) continue;
     const auto x = static_cast<double>(i % static_cast<std::size_t>(places.width)) + 0.5;
-    const auto y = static_cast<double>(i / static_cast<std::size_t>(places.width)) + 0.5;
+    const std::size_t row = i / static_cast<std::size_t>(places.width);
+    const auto y = static_cast<double>(row) + 0.5;
     out.push_back({places.map->place.x + x * places.cell_px, places.map->place.y + y * places.cell_px});
   }
   return out;

@@ -23,9 +23,9 @@ constexpr double kLeastText_px = 8.0;
 
 /// A low strip has smaller words, rather than none.
 Theme strip_theme(PixelSize size, double scale, bool dark) {
-  Theme theme = dock_theme(size, scale, dark);
+  const Theme theme = dock_theme(size, scale, dark);
   const double fits = std::clamp(size.height / kRows_em, kLeastText_px * scale, theme.text_px);
-  return scaled(std::move(theme), fits / theme.text_px);
+  return scaled(theme, fits / theme.text_px);
 }
 
 }  // namespace

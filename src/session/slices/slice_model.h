@@ -27,6 +27,8 @@ class SliceModel : public LivePicture {
  public:
   /// All outlive the model.
   SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, BrushTool& brush);
+  SliceModel(const SliceModel&) = delete;
+  SliceModel& operator=(const SliceModel&) = delete;
   ~SliceModel() override;
 
   void pointer(const PointerEvent& event) override;

@@ -26,6 +26,8 @@ class VolumeModel : public LivePicture {
  public:
   /// The workspace outlives the model. make: back-ends; empty = those of this machine
   explicit VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make = {});
+  VolumeModel(const VolumeModel&) = delete;
+  VolumeModel& operator=(const VolumeModel&) = delete;
   ~VolumeModel() override;
 
   void look_from(VolumeSide side);

@@ -40,6 +40,8 @@ class WatchedRenderer : public VolumeRenderer {
     ++watch_->made;
     watch_->threads.insert(this_thread());
   }
+  WatchedRenderer(const WatchedRenderer&) = delete;
+  WatchedRenderer& operator=(const WatchedRenderer&) = delete;
   ~WatchedRenderer() override {
     --watch_->living;
     watch_->threads.insert(this_thread());

@@ -91,6 +91,7 @@ class VolumeGround {
     return *painted(*frame, 1.0);
   }
 
+ protected:
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
   ChangeQueue queue_;
   Workspace workspace_{queue_, TestSurvey::options(journal_)};
