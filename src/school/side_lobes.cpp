@@ -103,6 +103,8 @@ bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& secto
   const double rise_db = params.side_lobe_rise_db;
   if (!(rise_db > 0.0)) return false;
   const int beams = sv.shape().beams;
+  // A school may fill a narrow sector from side to side.
+  if (beams < params.floor_beams) return false;
   const auto stands_out = [&](const FanLevels& levels) {
     std::vector<int> above;
     const std::size_t looks = look(mask, [&](int row, int sample) {

@@ -94,6 +94,14 @@ TEST(SideLobes, WhereMostBeamsAreShutNobodyKnows) {
   EXPECT_FALSE(ping.is_lobe());
 }
 
+TEST(SideLobes, ASchoolMayFillANarrowSector) {
+  Ping ping;
+  ping.seabed(-25.0);
+  DetectParams params;
+  params.floor_beams = 26;
+  EXPECT_FALSE(ping.is_lobe(params));
+}
+
 // The seabed lies deeper than the sector reaches at that range, and is seen further off.
 TEST(SideLobes, OfASeabedBelowTheSectorLieInTheLowestFan) {
   Ping ping;
