@@ -15,14 +15,6 @@ constexpr double kNothing_db = -200.0;
 
 double strength(double db) { return db > kNothing_db ? linear_from_db(db) : 0.0; }
 
-/// Vertical two-way pattern as a density over elevation, rad^-1.
-double vertical_density(BeamPattern pattern, const RowBeam& row, double elevation_rad) {
-  const double x = (elevation_rad - row.elevation_rad) / row.sigma_v_rad;
-  constexpr PatternPart kPart = PatternPart::vertical;
-  if (std::abs(x) > pattern_reach(pattern, kPart)) return 0.0;
-  return pattern_value(pattern, kPart, x) / (pattern_integral(pattern, kPart) * row.sigma_v_rad);
-}
-
 /// The sonar equation the other way: received power in dB re 1 W for Sv = 0 dB at range r.
 double power_db_at_zero_sv(const Beam& beam, double range_m) {
   const double wavelength_m = kSoundSpeed_mps / beam.frequency_hz;
@@ -83,51 +75,6 @@ Background make_background(const Layout& layout, const Scene& scene) {
     b.limits.push_back(limits(layout, row, scene.ship.transducer_depth_m));
   }
   return b;
-}
-
-Seabed::Seabed(const Layout& layout, const Scene& scene, const Point<Enu>& ship, double heading_rad)
-    : layout_(layout), strength_(strength(scene.water.seabed_db)) {
-  const Water& w = scene.water;
-  depth_m_ = w.seabed_depth_m + w.seabed_slope_east * ship.x + w.seabed_slope_north * ship.y;
-  const double below_m = std::max(1.0, depth_m_ - scene.ship.transducer_depth_m);
-  const auto sample_of = [&](double range_m, int count) {
-    const double sample = layout.range.sample_at(range_m);
-    return sample < count ? std::max(0, static_cast<int>(std::ceil(sample))) : count;
-  };
-  for (const RowBeam& row : layout.rows) {
-    Row& out = rows_.emplace_back();
-    out.first = out.last = out.limit = row.count;
-    if (strength_ <= 0.0) continue;
-    const double bearing = heading_rad + row.azimuth_rad;
-    const double slope = w.seabed_slope_east * std::sin(bearing) + w.seabed_slope_north * std::cos(bearing);
-    out.slope_rad = std::atan(slope);
-    out.distance_m = below_m * std::cos(out.slope_rad);
-    // A ray that points `down` below the horizon meets the plane at distance / sin(down - slope).
-    const auto meets = [&](double down) {
-      const double grazing = std::min(down - out.slope_rad, std::numbers::pi / 2.0);
-      return grazing > 0.0 ? sample_of(out.distance_m / std::sin(grazing), row.count) : row.count;
-    };
-    const double reach = pattern_reach(layout.pattern, PatternPart::vertical) * row.sigma_v_rad;
-    out.first = meets(-row.elevation_rad + reach);
-    out.last = std::max(out.first, meets(-row.elevation_rad - reach));
-    const double edge =
-        std::min(-row.elevation_rad + row.vertical_width_rad / 2.0 - out.slope_rad, std::numbers::pi / 2.0);
-    if (edge > 0.0) {
-      out.limit = sample_of(out.distance_m / std::sin(edge) - kSoundSpeed_mps * kPulseLength_s / 2.0, row.count);
-    }
-  }
-}
-
-double Seabed::sv(int row, int sample) const {
-  const Row& plane = rows_[static_cast<std::size_t>(row)];
-  if (sample < plane.first || sample >= plane.last) return 0.0;
-  const double range_m = layout_.range.range_m(sample);
-  if (range_m <= plane.distance_m) return 0.0;
-  const double sine = plane.distance_m / range_m;  // of the grazing angle; Lambert's law squares it
-  const double down = std::asin(sine) + plane.slope_rad;
-  return strength_ * sine * sine *
-         vertical_density(layout_.pattern, layout_.rows[static_cast<std::size_t>(row)], -down) /
-         (range_m * std::max(0.1, std::cos(down)));
 }
 
 }  // namespace sonar::synth

@@ -49,6 +49,13 @@ void record_grid(Layout& layout, BeamGrid grid) {
 
 }  // namespace
 
+double vertical_density(BeamPattern pattern, const RowBeam& row, double elevation_rad) {
+  const double x = (elevation_rad - row.elevation_rad) / row.sigma_v_rad;
+  constexpr PatternPart kPart = PatternPart::vertical;
+  if (std::abs(x) > pattern_reach(pattern, kPart)) return 0.0;
+  return pattern_value(pattern, kPart, x) / (pattern_integral(pattern, kPart) * row.sigma_v_rad);
+}
+
 std::vector<Beam> sounding_beams(std::vector<Beam> beams, BeamPattern pattern) {
   if (!has_own_beam_angle(pattern)) return beams;
   const double integral =

@@ -44,6 +44,9 @@ struct Layout {
 /// else the table's.
 [[nodiscard]] std::vector<Beam> sounding_beams(std::vector<Beam> beams, BeamPattern pattern);
 
+/// Vertical two-way pattern as a density over elevation, rad^-1; 0 beyond its reach.
+[[nodiscard]] double vertical_density(BeamPattern pattern, const RowBeam& row, double elevation_rad);
+
 [[nodiscard]] Layout make_layout(std::vector<Beam> beams, BeamPattern pattern = BeamPattern::gaussian);
 
 }  // namespace sonar::synth

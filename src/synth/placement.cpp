@@ -11,6 +11,7 @@
 #include "synth/background.h"
 #include "synth/layout.h"
 #include "synth/random.h"
+#include "synth/terrain.h"
 
 namespace sonar::synth {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kShallowestTop_m = 10.0;
 constexpr double kDeepestOfSeabed = 0.6;  ///< below this share of the water depth the seabed's echo is near
 constexpr double kHighestElevation_deg = -2.0;
 constexpr double kLowestElevation_deg = -40.0;
+constexpr int kRefinements = 8;  ///< of the place above a seabed that is not level
 constexpr double kInView_m = 700.0;
 constexpr double kClear_m = 20.0;      ///< between schools, beyond the larger one's size: the beams smear that far
 constexpr double kMostOfWindow = 0.6;  ///< a school's length, of what the sector is wide at its range
@@ -79,7 +81,11 @@ Point<Enu> level_velocity(double speed_mps, double course_deg) {
 class Placer {
  public:
   Placer(const SurveyParams& params, Scene& scene)
-      : params_(params), scene_(scene), level_(scene), random_(scene.seed, Purpose::placement, scene.observation) {
+      : params_(params),
+        scene_(scene),
+        level_(scene),
+        terrain_(scene),
+        random_(scene.seed, Purpose::placement, scene.observation) {
     for (const Body& body : scene.bodies) placed_.push_back({{body}, 0.0, body.shape.length_m, true});
   }
 
@@ -123,21 +129,40 @@ class Placer {
     spot.range_m = random_.uniform(params_.range_min_m, params_.range_max_m);
     spot.elevation_rad = rad_from_deg(random_.uniform(kLowestElevation_deg, kHighestElevation_deg));
     spot.size = draw_size(longest_m);
-    const double depth_m = scene_.ship.transducer_depth_m - spot.range_m * std::sin(spot.elevation_rad);
     const double half_m = spot.size.height_m / 2.0 * (1.0 + params_.raggedness);
+    const bool near_seabed = params_.above_seabed_max_m > 0.0;
+    if (near_seabed) {
+      const double above_m = random_.uniform(params_.above_seabed_min_m, params_.above_seabed_max_m);
+      spot.elevation_rad = elevation_above_seabed(spot, above_m + half_m);
+    }
+    const double depth_m = scene_.ship.transducer_depth_m - spot.range_m * std::sin(spot.elevation_rad);
     const double half_rad = std::atan(half_m / spot.range_m);
     const double window_m = 2.0 * spot.range_m * std::tan(rad_from_deg(30.0));
     const int row = level_.nearest_row(spot.elevation_rad);
     const double dimming_db = level_.dimming_db(row, spot.range_m, spot.size.width_m, spot.size.height_m);
     const double weakest_db =
         std::max(params_.sv_min_db, level_.sv_db(row, spot.range_m) + params_.above_background_db - dimming_db);
-    if (depth_m - half_m < kShallowestTop_m || depth_m + half_m > kDeepestOfSeabed * scene_.water.seabed_depth_m ||
+    const double deepest_m = near_seabed ? depth_m + half_m : kDeepestOfSeabed * scene_.water.seabed_depth_m;
+    if (depth_m - half_m < kShallowestTop_m || depth_m + half_m > deepest_m ||
         spot.elevation_rad + half_rad > rad_from_deg(-1.0) || spot.elevation_rad - half_rad < rad_from_deg(-44.0) ||
         spot.size.length_m > kMostOfWindow * window_m || weakest_db > params_.sv_max_db) {
       return std::nullopt;
     }
     spot.size.sv_db = random_.uniform(weakest_db, params_.sv_max_db);
     return spot;
+  }
+
+  /// Where a school is seen at its range when its centre is so far above the seabed.
+  [[nodiscard]] double elevation_above_seabed(const Spot& spot, double above_m) const {
+    const Point<Enu> ship = ship_at(scene_, spot.abeam_s);
+    const Point<Enu> port = level_velocity(1.0, scene_.ship.course_deg - 90.0);
+    double elevation_rad = spot.elevation_rad;
+    for (int i = 0; i < kRefinements; ++i) {
+      const Point<Enu> place = ship + port * (spot.range_m * std::cos(elevation_rad));
+      const double below_m = terrain_.depth_m(place) - above_m - scene_.ship.transducer_depth_m;
+      elevation_rad = -std::asin(std::clamp(below_m / spot.range_m, 0.0, 1.0));
+    }
+    return elevation_rad;
   }
 
   [[nodiscard]] Body body_at(const Spot& spot, const Point<Enu>& velocity) {
@@ -161,7 +186,8 @@ class Placer {
     if (!spot) return std::nullopt;
     const double speed_mps = draw_speed();
     Point<Enu> velocity = level_velocity(speed_mps, random_.uniform(0.0, 360.0));
-    velocity.z = random_.uniform(-0.02, 0.02);
+    // One that keeps to the seabed neither sinks into it nor rises.
+    velocity.z = params_.above_seabed_max_m > 0.0 ? 0.0 : random_.uniform(-0.02, 0.02);
     return School{{body_at(*spot, velocity)}, spot->abeam_s, spot->size.length_m, true};
   }
 
@@ -262,6 +288,7 @@ class Placer {
   const SurveyParams& params_;
   Scene& scene_;
   BackgroundLevel level_;
+  Terrain terrain_;
   RandomStream random_;
   std::vector<School> placed_;  ///< already in the scene
   std::vector<School> schools_;

@@ -74,8 +74,8 @@ Result<void> check(const SurveyParams& p) {
   if (auto ok = validate(p); !ok) return ok;
   const auto rising = [](double a, double b) { return a <= b; };
   if (!rising(p.length_min_m, p.length_max_m) || !rising(p.height_min_m, p.height_max_m) ||
-      !rising(p.range_min_m, p.range_max_m) || !rising(p.sv_min_db, p.sv_max_db) ||
-      !rising(p.own_speed_min_mps, p.own_speed_max_mps)) {
+      !rising(p.range_min_m, p.range_max_m) || !rising(p.above_seabed_min_m, p.above_seabed_max_m) ||
+      !rising(p.sv_min_db, p.sv_max_db) || !rising(p.own_speed_min_mps, p.own_speed_max_mps)) {
     return fail(ErrorCode::bad_parameter, "a range of the survey's parameters is upside down");
   }
   return {};

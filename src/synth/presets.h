@@ -29,7 +29,9 @@ struct SurveyParams {
   double height_max_m = 20.0;
   double range_min_m = 80.0;  ///< slant, when abeam
   double range_max_m = 400.0;
-  double sv_min_db = -50.0;  ///< of the heart
+  double above_seabed_min_m = 0.0;  ///< of the schools' lower ends where they keep to the seabed ...
+  double above_seabed_max_m = 0.0;  ///< ... that is, where this is not 0
+  double sv_min_db = -50.0;         ///< of the heart
   double sv_max_db = -35.0;
   double above_background_db = 10.0;  ///< a school's heart is at least this much above the background
   double own_speed_min_mps = 0.2;
@@ -64,6 +66,10 @@ void describe(Visitor& v, SurveyParams& p) {
   v.field("height_max_m", p.height_max_m, {.unit = "m", .min = 2, .max = 100, .text = "highest school"});
   v.field("range_min_m", p.range_min_m, {.unit = "m", .min = 20, .max = 490, .text = "nearest school when abeam"});
   v.field("range_max_m", p.range_max_m, {.unit = "m", .min = 20, .max = 490, .text = "farthest school when abeam"});
+  v.field("above_seabed_min_m", p.above_seabed_min_m,
+          {.unit = "m", .min = 0, .max = 200, .text = "schools that keep to the seabed: lower end so far above it"});
+  v.field("above_seabed_max_m", p.above_seabed_max_m,
+          {.unit = "m", .min = 0, .max = 200, .text = "... to so far; 0 = schools are anywhere in the upper water"});
   v.field("sv_min_db", p.sv_min_db, {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "weakest heart"});
   v.field("sv_max_db", p.sv_max_db, {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "strongest heart"});
   v.field("above_background_db", p.above_background_db,

@@ -23,7 +23,18 @@ namespace sonar::synth {
 }
 
 /// What a stream of random numbers is for; part of its key, so that no two purposes share numbers.
-enum class Purpose : std::uint32_t { speckle, body, ragged, placement, hot_beam, wall, impulse, lost, beam_noise };
+enum class Purpose : std::uint32_t {
+  speckle,
+  body,
+  ragged,
+  placement,
+  hot_beam,
+  wall,
+  impulse,
+  lost,
+  beam_noise,
+  relief
+};
 
 /// A stream of random numbers, one for each (seed, observation, ping, channel, purpose).
 class RandomStream {

@@ -24,6 +24,8 @@ struct Water {
   double seabed_depth_m = 260.0;       ///< at the scene's origin
   double seabed_slope_east = 0.0;      ///< metres deeper per metre
   double seabed_slope_north = 0.0;
+  double seabed_relief_m = 0.0;           ///< standard deviation of the depth about that plane
+  double seabed_relief_length_m = 150.0;  ///< the shortest hills from crest to crest; the longest are four times that
 };
 
 template <class Visitor>
@@ -39,6 +41,10 @@ void describe(Visitor& v, Water& p) {
           {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the east"});
   v.field("seabed_slope_north", p.seabed_slope_north,
           {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the north"});
+  v.field("seabed_relief_m", p.seabed_relief_m,
+          {.unit = "m", .min = 0, .max = 100, .text = "hills and hollows: standard deviation of the depth"});
+  v.field("seabed_relief_length_m", p.seabed_relief_length_m,
+          {.unit = "m", .min = 20, .max = 5000, .text = "the shortest hills from crest to crest"});
 }
 
 /// What the sonar adds. Levels are powers, rates are mean numbers of events in a ping.

@@ -10,6 +10,7 @@
 #include "geo/geodesic.h"
 #include "geo/map_projection.h"
 #include "synth/beam_table.h"
+#include "synth/terrain.h"
 
 namespace sonar::synth {
 namespace {
@@ -27,6 +28,7 @@ constexpr double kExact_m = 20'000.0;
 /// The course of an observation in its scene's plane.
 struct Course {
   const Scene* scene = nullptr;
+  Terrain terrain;
   Point<Enu> first;
   Point<Enu> last;
   double reach_m = 0.0;
@@ -46,10 +48,6 @@ struct Course {
     const double along = length2 > 0.0 ? ((p.x - first.x) * dx + (p.y - first.y) * dy) / length2 : 0.0;
     const double t = std::clamp(along, 0.0, 1.0);
     return std::hypot(p.x - first.x - t * dx, p.y - first.y - t * dy);
-  }
-  [[nodiscard]] double plane_m(const Point<Enu>& p) const {
-    const Water& w = scene->water;
-    return w.seabed_depth_m + w.seabed_slope_east * p.x + w.seabed_slope_north * p.y;
   }
 };
 
@@ -78,10 +76,10 @@ double depth_m(const std::vector<Course>& courses, const Geographic& place) {
     const double beyond = distance - course.reach_m;
     if (beyond < nearest_m) {
       nearest_m = beyond;
-      own_m = course.plane_m(p);
+      own_m = course.terrain.depth_m(p);
     }
     const double weight = 1.0 / std::max(1.0, beyond * beyond);
-    sum += weight * std::max(kShallowest_m, course.plane_m(p));
+    sum += weight * std::max(kShallowest_m, course.terrain.plane_m(p));
     weights += weight;
   }
   if (nearest_m <= 0.0) return own_m;
@@ -97,14 +95,11 @@ DepthGrid seabed_grid(const std::vector<Scene>& scenes) {
   std::vector<Geographic> places;
   double reach = 0.0;
   for (const Scene& scene : scenes) {
-    Course& c = courses.emplace_back();
-    c.scene = &scene;
-    c.first = ship_at(scene, 0.0);
-    c.last = ship_at(scene, scene.seconds_of(scene.pings));
-    c.reach_m = reach_m(scene);
-    reach = std::max(reach, c.reach_m);
-    places.push_back(to_geographic(c.first, scene.ship.origin));
-    places.push_back(to_geographic(c.last, scene.ship.origin));
+    const Point<Enu> first = ship_at(scene, 0.0);
+    courses.push_back({&scene, Terrain(scene), first, ship_at(scene, scene.seconds_of(scene.pings)), reach_m(scene)});
+    reach = std::max(reach, courses.back().reach_m);
+    places.push_back(to_geographic(first, scene.ship.origin));
+    places.push_back(to_geographic(courses.back().last, scene.ship.origin));
   }
   DepthGrid grid;
   grid.source = "SYNTHETIC seabed";

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "geo/geodesic.h"
-#include "synth/background.h"
 #include "synth/layout.h"
 #include "synth/presets.h"
+#include "synth/seabed.h"
 
 namespace sonar::synth {
 namespace {

@@ -13,6 +13,7 @@
 #include "synth/faults.h"
 #include "synth/field.h"
 #include "synth/layout.h"
+#include "synth/seabed.h"
 #include "synth/speckle.h"
 
 namespace sonar::synth {
