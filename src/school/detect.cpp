@@ -14,6 +14,7 @@
 #include "school/edges.h"
 #include "school/noise_reach.h"
 #include "school/reverberation.h"
+#include "school/seabed_contact.h"
 #include "school/settle_members.h"
 #include "school/side_lobes.h"
 #include "school/wave_front.h"
@@ -161,7 +162,8 @@ class PingDetector {
       if (is_wave_front(filtered, box_of(filtered, sv_.shape().beams), sector_, params_)) schools.clear();
     }
     for (MemberSettler::Settled& school : schools) {
-      Detection detection = describe_mask(std::move(school.mask), flags_, sector_);
+      PingMask free = free_of_seabed(std::move(school.mask), sv_, flags_, params_);
+      Detection detection = describe_mask(std::move(free), flags_, sector_);
       detection.reference_db = school.reference_db;
       detection.threshold_db = school.threshold_db;
       if (believable(detection)) found_.push_back(std::move(detection));
@@ -217,34 +219,10 @@ class PingDetector {
     const MaskEdges edges = mask_edges(detection.mask, flags_, sector_);
     if (edges.boundary_fraction > params_.max_boundary_faces) return false;
     if (edges.seabed_fraction > params_.max_seabed_faces) return false;
-    if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask)) return false;
+    if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask, sv_, flags_, params_)) return false;
     return !is_shell(detection) && !is_open_floor(detection) &&
            !is_wave_front(detection.mask, detection.box, sector_, params_) &&
            !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_);
-  }
-
-  /// The flank of the seabed's echo grows towards it; a school at the seabed is brightest inside itself.
-  [[nodiscard]] bool rises_to_seabed(const PingMask& mask) const {
-    double beside = 0.0;
-    double inside = 0.0;
-    int n_beside = 0;
-    int n_inside = 0;
-    for (const Run& run : mask.runs) {
-      const auto counts = sv_.row(run.row);
-      const auto flags = flags_.row(run.row);
-      int cut = run.end();  // the run's part beside the margin: the last samples before it
-      const bool at_seabed =
-          run.end() < sv_.shape().samples && any(flags[static_cast<std::size_t>(run.end())] & SampleFlags::seabed);
-      if (at_seabed) cut = std::max(run.first_sample, run.end() - params_.min_samples);
-      for (int s = run.first_sample; s < run.end(); ++s) {
-        const double sv = linear_from_count(counts[static_cast<std::size_t>(s)]);
-        (s < cut ? inside : beside) += sv;
-        ++(s < cut ? n_inside : n_beside);
-      }
-    }
-    if (n_beside == 0) return false;
-    if (n_inside == 0) return true;
-    return beside / n_beside > linear_from_db(params_.seabed_rise_db) * inside / n_inside;
   }
 
   /// A wall at constant range: all beams, thin, and flat.

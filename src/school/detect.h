@@ -34,8 +34,9 @@ struct DetectParams {
   int min_fans = 2;
   double max_flagged_members = 0.5;
   double max_boundary_faces = 0.3;
-  double max_seabed_faces = 0.8;
+  double max_seabed_faces = 0.4;
   double seabed_rise_db = 0.0;
+  double min_free_share = 0.5;
   double max_shell_thickness_m = 8.0;
   double shell_share = 0.9;
   double shell_bend = 2.0;
@@ -115,6 +116,11 @@ void describe(Visitor& v, DetectParams& p) {
            .min = -60,
            .max = 60,
            .text = "the seabed's own flank, not a school: members beside its margin are this much above the others"});
+  v.field("min_free_share", p.min_free_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "... or a school's with that flank below it, which is left out where at least this share remains"});
   v.field("max_shell_thickness_m", p.max_shell_thickness_m,
           {.unit = "m", .min = 0, .max = 100, .text = "what is thinner and spans the shell_share is a wall"});
   v.field("shell_share", p.shell_share,

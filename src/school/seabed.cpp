@@ -14,26 +14,13 @@
 #include "base/units.h"
 #include "model/school.h"
 #include "school/seabed_echoes.h"
+#include "school/seabed_hills.h"
+#include "school/seabed_plane.h"
 
 namespace sonar {
 namespace {
 
-/// Stands in where a grid tells no beam width.
-constexpr double kUnknownWidth_rad = 0.1;
 constexpr double kTwoWayHalfPower_db = 6.02;  ///< half a one-way -3 dB width off the axis
-
-struct Plane {
-  double offset = 0.0;
-  double slope_x = 0.0;
-  double slope_y = 0.0;
-  [[nodiscard]] double z(double x, double y) const { return offset + slope_x * x + slope_y * y; }
-  [[nodiscard]] double slope() const { return std::hypot(slope_x, slope_y); }
-  /// Range where a direction meets it; infinite where it never does.
-  [[nodiscard]] double range(const Point<Sonar>& u) const {
-    const double approach = u.z - slope_x * u.x - slope_y * u.y;
-    return approach > 1e-6 && offset > 0.0 ? offset / approach : std::numeric_limits<double>::infinity();
-  }
-};
 
 class SeabedFinder {
  public:
@@ -43,12 +30,13 @@ class SeabedFinder {
         sector_(water.sector),
         width_deg_(vertical_width_deg),
         params_(water.params),
-        echoes_(seabed_echoes(water)) {}
+        long_(long_echoes(water)),
+        echoes_(seabed_echoes(water, long_)) {}
 
   Seabed find() {
     Seabed seabed;
     seabed.first_sample.assign(sv_.shape().rows(), sv_.shape().samples);
-    const std::optional<Plane> plane = robust_plane();
+    const std::optional<SeabedPlane> plane = robust_plane();
     if (!plane) return seabed;
     const double seen = coverage(*plane);
     if (seen < params_.min_coverage) return seabed;
@@ -62,6 +50,7 @@ class SeabedFinder {
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
       seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, strength, row);
     }
+    if (params_.hills) find_hills(water_, long_, *plane, strength, width_deg_, seabed.first_sample);
     return seabed;
   }
 
@@ -73,7 +62,7 @@ class SeabedFinder {
     return std::max(params_.inlier_m, params_.inlier_share * range_m);
   }
 
-  [[nodiscard]] int support(const Plane& plane) const {
+  [[nodiscard]] int support(const SeabedPlane& plane) const {
     int beams = 0;
     int last_row = -1;
     for (const SeabedEcho& echo : echoes_) {
@@ -85,14 +74,14 @@ class SeabedFinder {
     return beams;
   }
 
-  [[nodiscard]] std::optional<Plane> through(const std::array<Point<Sonar>, 3>& p) const {
+  [[nodiscard]] std::optional<SeabedPlane> through(const std::array<Point<Sonar>, 3>& p) const {
     const double x1 = p[1].x - p[0].x;
     const double y1 = p[1].y - p[0].y;
     const double x2 = p[2].x - p[0].x;
     const double y2 = p[2].y - p[0].y;
     const double area = x1 * y2 - x2 * y1;
     if (std::abs(area) < params_.min_triangle_m2) return std::nullopt;
-    Plane plane;
+    SeabedPlane plane;
     plane.slope_x = ((p[1].z - p[0].z) * y2 - (p[2].z - p[0].z) * y1) / area;
     plane.slope_y = (x1 * (p[2].z - p[0].z) - x2 * (p[1].z - p[0].z)) / area;
     plane.offset = p[0].z - plane.slope_x * p[0].x - plane.slope_y * p[0].y;
@@ -100,7 +89,7 @@ class SeabedFinder {
   }
 
   /// The plane that most beams support, among planes through triples drawn by a fixed sequence; then least squares.
-  [[nodiscard]] std::optional<Plane> robust_plane() const {
+  [[nodiscard]] std::optional<SeabedPlane> robust_plane() const {
     const std::size_t n = echoes_.size();
     if (n < static_cast<std::size_t>(std::max(params_.min_inliers, 3))) return std::nullopt;
     const double steepest = std::tan(rad_from_deg(params_.max_slope_deg));
@@ -109,13 +98,13 @@ class SeabedFinder {
       state = state * 6364136223846793005ULL + 1442695040888963407ULL;
       return static_cast<std::size_t>((state >> 33) % n);
     };
-    std::optional<Plane> best;
+    std::optional<SeabedPlane> best;
     int most = 0;
     for (int trial = 0; trial < params_.trials; ++trial) {
       const std::array<Point<Sonar>, 3> p{echoes_[draw()].place, echoes_[draw()].place, echoes_[draw()].place};
-      std::optional<Plane> plane = through(p);
+      std::optional<SeabedPlane> plane = through(p);
       // every third trial a level plane: enough where few beams see the bottom
-      if (trial % 3 == 0) plane = Plane{p[0].z, 0.0, 0.0};
+      if (trial % 3 == 0) plane = SeabedPlane{p[0].z, 0.0, 0.0};
       if (!plane || plane->slope() > steepest || plane->offset <= 0.0) continue;
       const int beams = support(*plane);
       if (beams > most) {
@@ -125,7 +114,7 @@ class SeabedFinder {
     }
     if (most < params_.min_inliers) return std::nullopt;
     for (int round = 0; round < params_.refinements; ++round) {
-      const std::optional<Plane> better = least_squares(*best);
+      const std::optional<SeabedPlane> better = least_squares(*best);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
       if (support(*better) < most) break;
       best = better;
@@ -134,7 +123,7 @@ class SeabedFinder {
   }
 
   /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth.
-  [[nodiscard]] std::optional<Plane> least_squares(const Plane& start) const {
+  [[nodiscard]] std::optional<SeabedPlane> least_squares(const SeabedPlane& start) const {
     std::array<std::array<double, 4>, 3> m{};
     for (const SeabedEcho& echo : echoes_) {
       const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / inlier_m(echo.range_m);
@@ -152,32 +141,22 @@ class SeabedFinder {
         for (std::size_t j = i; j < 4; ++j) m[k][j] -= factor * m[i][j];
       }
     }
-    Plane plane;
+    SeabedPlane plane;
     plane.slope_y = m[2][3] / m[2][2];
     plane.slope_x = (m[1][3] - m[1][2] * plane.slope_y) / m[1][1];
     plane.offset = (m[0][3] - m[0][1] * plane.slope_x - m[0][2] * plane.slope_y) / m[0][0];
     return plane;
   }
 
-  [[nodiscard]] bool is_of(const SeabedEcho& echo, const Plane& plane) const {
+  [[nodiscard]] bool is_of(const SeabedEcho& echo, const SeabedPlane& plane) const {
     return std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) <= inlier_m(echo.range_m);
   }
 
-  /// How the echo's peak changes over a plane, dB: Lambert's law, and the patch that a beam lights up against the
-  /// volume that it fills (flat beams light up longer patches in larger volumes).
-  /// source  Sv of a surface: S_b x patch / volume
-  [[nodiscard]] static double lambert_db(const Plane& plane, const Point<Sonar>& u, double range_m) {
-    const double sine = (u.z - plane.slope_x * u.x - plane.slope_y * u.y) / std::hypot(1.0, plane.slope());
-    if (!(sine > 0.0)) return -std::numeric_limits<double>::infinity();
-    const double cosine = std::sqrt(std::max(1.0 - sine * sine, 0.01));
-    return db_from_linear(sine * sine / (range_m * cosine));
-  }
-
   /// What to add to lambert_db(): the median over the echoes that lie on the plane.
-  [[nodiscard]] double strength_db(const Plane& plane) const {
+  [[nodiscard]] double strength_db(const SeabedPlane& plane) const {
     std::vector<double> strengths;
     for (const SeabedEcho& echo : echoes_) {
-      if (is_of(echo, plane)) strengths.push_back(echo.peak_db - lambert_db(plane, axis(echo.row), echo.range_m));
+      if (is_of(echo, plane)) strengths.push_back(echo.peak_db - plane.lambert_db(axis(echo.row), echo.range_m));
     }
     const auto middle = strengths.begin() + std::ssize(strengths) / 2;
     std::nth_element(strengths.begin(), middle, strengths.end());
@@ -185,18 +164,18 @@ class SeabedFinder {
   }
 
   /// Whether a beam should see the plane: its peak comes clearly above what is loud at that range.
-  [[nodiscard]] bool visible(const Plane& plane, int row, double strength_db) const {
+  [[nodiscard]] bool visible(const SeabedPlane& plane, int row, double strength_db) const {
     const Point<Sonar> u = axis(row);
     const double range_m = plane.range(u);
     const int sample = std::clamp(static_cast<int>(sector_.range().sample_at(range_m)), 0, sv_.shape().samples - 1);
     const int limit = loud_limit(water_, row)(sample);
-    return strength_db + lambert_db(plane, u, range_m) >= db_from_counts(limit) + params_.visible_db;
+    return strength_db + plane.lambert_db(u, range_m) >= db_from_counts(limit) + params_.visible_db;
   }
 
   /// Share of the beams whose axis meets the plane well inside their range, and that a seabed so strong should show in,
   /// that have an echo there. Where the record ends soon behind the seabed few do: then a fan beyond counts as well, if
   /// (almost) all its beams see the plane.
-  [[nodiscard]] double coverage(const Plane& plane) const {
+  [[nodiscard]] double coverage(const SeabedPlane& plane) const {
     std::vector<bool> sees(sv_.shape().rows(), false);
     for (const SeabedEcho& echo : echoes_) {
       if (is_of(echo, plane)) sees[static_cast<std::size_t>(echo.row)] = true;
@@ -221,7 +200,7 @@ class SeabedFinder {
     return expected >= params_.min_inliers ? static_cast<double>(seen) / expected : 0.0;
   }
 
-  void bounds(const Plane& plane, Seabed& seabed) const {
+  void bounds(const SeabedPlane& plane, Seabed& seabed) const {
     seabed.min_x = seabed.min_y = std::numeric_limits<double>::infinity();
     seabed.max_x = seabed.max_y = -std::numeric_limits<double>::infinity();
     for (const SeabedEcho& echo : echoes_) {
@@ -239,7 +218,7 @@ class SeabedFinder {
     double loudest_m = std::numeric_limits<double>::infinity();
     double first_m = std::numeric_limits<double>::infinity();  ///< as loud as the onset
   };
-  [[nodiscard]] Expected expected(const Plane& plane, double strength_db, int row, double width_rad) const {
+  [[nodiscard]] Expected expected(const SeabedPlane& plane, double strength_db, int row, double width_rad) const {
     constexpr int kSteps = 24;
     Expected out;
     double best_db = -std::numeric_limits<double>::infinity();
@@ -250,7 +229,7 @@ class SeabedFinder {
       if (!std::isfinite(range_m)) continue;
       const double off_widths = off_rad / width_rad;
       const double level_db =
-          strength_db + lambert_db(plane, u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
+          strength_db + plane.lambert_db(u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
       if (level_db > best_db) {
         best_db = level_db;
         out.loudest_m = range_m;
@@ -262,7 +241,7 @@ class SeabedFinder {
 
   /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
   /// beam's lower flank could see it, and the margin before that.
-  [[nodiscard]] int onset(const Plane& plane, double strength_db, int row) const {
+  [[nodiscard]] int onset(const SeabedPlane& plane, double strength_db, int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int samples = sv_.shape().samples;
     const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : kUnknownWidth_rad;
@@ -294,7 +273,8 @@ class SeabedFinder {
   const Sector& sector_;
   const std::vector<double>& width_deg_;
   const SeabedParams& params_;
-  std::vector<SeabedEcho> echoes_;
+  std::vector<SeabedEcho> long_;    ///< of all beams
+  std::vector<SeabedEcho> echoes_;  ///< that may be the seabed
 };
 
 }  // namespace

@@ -36,6 +36,10 @@ struct SeabedParams {
   double reach_share = 0.9;
   double min_dip = 0.3;
   double onset_gap_m = 4.0;
+  bool hills = true;
+  double hill_step_m = 10.0;
+  double hill_behind_db = 8.0;
+  double hill_dip_db = 3.0;
   int trials = 300;
   int refinements = 5;
   double min_triangle_m2 = 25.0;
@@ -94,6 +98,19 @@ void describe(Visitor& v, SeabedParams& p) {
            .text = "sine of the depression of the flattest beams that should: others see a faint ramp"});
   v.field("onset_gap_m", p.onset_gap_m,
           {.unit = "m", .min = 0, .max = 100, .text = "a quiet stretch of this length ends the echo"});
+  v.field("hills", p.hills, {.text = "what rises out of the plane is seabed too where beams end at it"});
+  v.field("hill_step_m", p.hill_step_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 500,
+           .text = "no lower beam of that azimuth sees the seabed so much farther away than the hill"});
+  v.field("hill_behind_db", p.hill_behind_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "a beam that hears the plane at most so far below what it should ends there, not at a hill"});
+  v.field("hill_dip_db", p.hill_dip_db,
+          {.unit = "dB", .min = 0, .max = 60, .text = "... as an echo that rises so far out of the one before it"});
   v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
   v.field("refinements", p.refinements,
           {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});

@@ -20,11 +20,7 @@ class EchoFinder {
       : water_(water), sv_(water.sv), flags_(water.flags), sector_(water.sector), params_(water.params) {}
 
   std::vector<SeabedEcho> find() {
-    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      // grazing beams see the bottom as a faint ramp, whose top is not on their axis
-      if (beam_axis(sector_, row).z >= params_.min_dip) echoes_of(row);
-    }
-    drop_cut_echoes();
+    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) echoes_of(row);
     return std::move(echoes_);
   }
 
@@ -78,27 +74,8 @@ class EchoFinder {
       last = s;
     }
     const double range_m = sum / weight;
-    echoes_.push_back({row, last >= first_cut_off(), db_from_counts(peak), range_m, beam_axis(sector_, row) * range_m});
-  }
-
-  /// A cut echo may be a school's at the end of the beam, and its depth is but a bound. Where all of a fan shows echoes
-  /// there it is the seabed that begins, and the bound is all that the record tells; it is taken where nothing else is.
-  void drop_cut_echoes() {
-    const auto whole = std::count_if(echoes_.begin(), echoes_.end(), [](const SeabedEcho& echo) { return !echo.cut; });
-    if (whole >= params_.min_inliers) {
-      std::erase_if(echoes_, [](const SeabedEcho& echo) { return echo.cut; });
-      return;
-    }
-    std::vector<int> rows_with(static_cast<std::size_t>(sv_.shape().fans), 0);
-    int last_row = -1;
-    for (const SeabedEcho& echo : echoes_) {
-      if (echo.row != last_row) ++rows_with[static_cast<std::size_t>(echo.row / sector_.beams())];
-      last_row = echo.row;
-    }
-    std::erase_if(echoes_, [&](const SeabedEcho& echo) {
-      const int with = rows_with[static_cast<std::size_t>(echo.row / sector_.beams())];
-      return echo.cut && with < params_.whole_fan_share * sector_.beams();
-    });
+    echoes_.push_back(
+        {row, first, at, last >= first_cut_off(), db_from_counts(peak), range_m, beam_axis(sector_, row) * range_m});
   }
 
   [[nodiscard]] int first_cut_off() const {
@@ -113,6 +90,26 @@ class EchoFinder {
   const SeabedParams& params_;
   std::vector<SeabedEcho> echoes_;
 };
+
+/// A cut echo may be a school's at the end of the beam, and its depth is but a bound. Where all of a fan shows echoes
+/// there it is the seabed that begins, and the bound is all that the record tells; it is taken where nothing else is.
+void drop_cut_echoes(const SeabedWater& water, std::vector<SeabedEcho>& echoes) {
+  const auto whole = std::count_if(echoes.begin(), echoes.end(), [](const SeabedEcho& echo) { return !echo.cut; });
+  if (whole >= water.params.min_inliers) {
+    std::erase_if(echoes, [](const SeabedEcho& echo) { return echo.cut; });
+    return;
+  }
+  std::vector<int> rows_with(static_cast<std::size_t>(water.sv.shape().fans), 0);
+  int last_row = -1;
+  for (const SeabedEcho& echo : echoes) {
+    if (echo.row != last_row) ++rows_with[static_cast<std::size_t>(echo.row / water.sector.beams())];
+    last_row = echo.row;
+  }
+  std::erase_if(echoes, [&](const SeabedEcho& echo) {
+    const int with = rows_with[static_cast<std::size_t>(echo.row / water.sector.beams())];
+    return echo.cut && with < water.params.whole_fan_share * water.sector.beams();
+  });
+}
 
 }  // namespace
 
@@ -131,6 +128,14 @@ Point<Sonar> beam_axis(const Sector& sector, int row, double lower_by_rad) {
   return Sector::direction(std::max(elevation, -1.57), sector.azimuth_rad(row % sector.beams()));
 }
 
-std::vector<SeabedEcho> seabed_echoes(const SeabedWater& water) { return EchoFinder(water).find(); }
+std::vector<SeabedEcho> long_echoes(const SeabedWater& water) { return EchoFinder(water).find(); }
+
+std::vector<SeabedEcho> seabed_echoes(const SeabedWater& water, std::vector<SeabedEcho> echoes) {
+  // grazing beams see the bottom as a faint ramp, whose top is not on their axis
+  std::erase_if(echoes,
+                [&](const SeabedEcho& echo) { return beam_axis(water.sector, echo.row).z < water.params.min_dip; });
+  drop_cut_echoes(water, echoes);
+  return echoes;
+}
 
 }  // namespace sonar

@@ -37,6 +37,8 @@ struct LoudLimit {
 /// A long strong echo along one beam.
 struct SeabedEcho {
   int row = 0;
+  int first_sample = 0;
+  int peak_sample = 0;
   bool cut = false;  ///< still at its height where the beam ends: its middle lies there or beyond
   double peak_db = 0.0;
   double range_m = 0.0;  ///< of its strongest part
@@ -46,8 +48,14 @@ struct SeabedEcho {
 /// A beam's axis, or a direction so far below it; never beyond the vertical.
 [[nodiscard]] Point<Sonar> beam_axis(const Sector& sector, int row, double lower_by_rad = 0.0);
 
-/// What may be the seabed: long echoes with a clear rise before them, of beams that point down. Cut ones only where the
-/// record tells nothing else and where all of a fan shows echoes.
-[[nodiscard]] std::vector<SeabedEcho> seabed_echoes(const SeabedWater& water);
+/// Stands in where a grid tells no beam width.
+inline constexpr double kUnknownWidth_rad = 0.1;
+
+/// Long echoes with a clear rise before them, by row.
+[[nodiscard]] std::vector<SeabedEcho> long_echoes(const SeabedWater& water);
+
+/// Those of them that may be the seabed: of beams that point down. Cut ones only where the record tells nothing else and
+/// where all of a fan shows echoes.
+[[nodiscard]] std::vector<SeabedEcho> seabed_echoes(const SeabedWater& water, std::vector<SeabedEcho> echoes);
 
 }  // namespace sonar

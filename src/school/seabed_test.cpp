@@ -146,6 +146,46 @@ TEST(Seabed, NoBottomNoSeabed) {
   for (const int first : seabed.first_sample) EXPECT_EQ(first, 900);
 }
 
+// A wall that stands on the bottom, 80 m high and 200 m away in a third of the beams: what meets it sees no bottom.
+TEST(Seabed, AHillIsSeabedToo) {
+  BottomScene scene;
+  scene.add_bottom(150.0);
+  constexpr double kAway_m = 200.0;
+  const double sigma = rad_from_deg(test::kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  const double top_rad = -std::atan2(70.0, kAway_m);
+  const double foot_rad = -std::atan2(150.0, kAway_m);
+  const auto hidden = [&](double elevation_rad) { return elevation_rad > foot_rad && elevation_rad < top_rad; };
+  for (int f = 0; f < 20; ++f) {
+    for (int b = 8; b < 16; ++b) {
+      const double axis_rad = scene.sector.elevation_rad(f);
+      for (int s = 40; s < 900; ++s) {
+        const double r = scene.sector.range().range_m(s);
+        // behind the wall lies its shadow
+        if (r > kAway_m && r > 150.0 && hidden(-std::asin(150.0 / r))) scene.expected(f, b, s) = 0.0;
+        if (r < kAway_m) continue;
+        const double e = -std::acos(kAway_m / r);
+        const double off = (e - axis_rad) / sigma;
+        if (hidden(e)) scene.expected(f, b, s) += 3e-3 * std::exp(-0.5 * off * off);
+      }
+    }
+  }
+  const Seabed seabed = scene.look(9);
+  ASSERT_TRUE(seabed.found);
+  flag_seabed(seabed, scene.flags.view());
+  int left = 0;
+  for (std::size_t i = 0; i < scene.expected.shape().size(); ++i) {
+    left += scene.expected.all()[i] > 1e-5 && !any(scene.flags.all()[i] & SampleFlags::seabed) ? 1 : 0;
+  }
+
+  EXPECT_LE(left, 60);
+  // Its own beams end at it, those on either side at the bottom.
+  const auto ends_m = [&](int fan, int beam) {
+    return scene.sector.range().range_m(seabed.first_sample[static_cast<std::size_t>(fan * 25 + beam)]);
+  };
+  EXPECT_LT(ends_m(9, 12), 220.0);
+  EXPECT_GT(ends_m(9, 3), 270.0);
+}
+
 TEST(Seabed, ASchoolIsNone) {
   for (const auto& [elevation_deg, sv_db] :
        {std::pair{-40.0, -28.0}, {-30.0, -28.0}, {-15.0, -28.0}, {-40.0, -50.0}, {-30.0, -52.0}, {-25.0, -55.0}}) {
@@ -175,6 +215,32 @@ TEST(Seabed, ASchoolAboveTheBottomStays) {
   ASSERT_TRUE(seabed.found);
   for (const sonar::Run& run : truth.runs) {
     EXPECT_LE(run.end(), seabed.first_sample[static_cast<std::size_t>(run.row)]);
+  }
+}
+
+// It is no hill: the beams through it see the bottom behind it, those below it farther away.
+TEST(Seabed, ASchoolCloseToTheBottomIsNoHill) {
+  for (const double above_m : {20.0, 35.0}) {
+    BottomScene level;
+    level.add_bottom(150.0);
+    const Seabed without = level.look(10);
+    BottomScene scene;
+    scene.add_bottom(150.0);
+    test::Ellipsoid e;
+    e.half_x = 25.0;
+    e.half_y = 15.0;
+    e.half_z = 6.0;
+    const double depth_m = 150.0 - above_m - e.half_z;
+    e.centre = {0.0, -200.0, depth_m};
+    e.sv = linear_from_db(-25.0);
+    test::add_ellipsoid(scene.expected, scene.sector, e);
+    const Seabed seabed = scene.look(10);
+    ASSERT_TRUE(seabed.found);
+    int nearer = 0;
+    for (std::size_t row = 0; row < 500; ++row) {
+      nearer += seabed.first_sample[row] < without.first_sample[row] - 40 ? 1 : 0;
+    }
+    EXPECT_EQ(nearer, 0) << above_m;
   }
 }
 
