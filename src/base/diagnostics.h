@@ -18,7 +18,7 @@ enum class DiagnosticCode {
 
 /// One remark about bad or doubtful data; it travels with the value it concerns.
 struct Diagnostic {
-  DiagnosticCode code;
+  DiagnosticCode code{};
   std::string file;              ///< as the user named it; empty when no file is concerned
   std::int64_t offset = -1;      ///< byte offset, -1 = none
   std::int64_t ping_index = -1;  ///< in its observation, -1 = none

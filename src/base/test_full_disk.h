@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <signal.h>
 #include <sys/resource.h>
 
+#include <csignal>
 #include <cstdint>
 
 namespace sonar {

@@ -117,10 +117,12 @@ GeoExtent widened(const GeoExtent& e, double by_m) {
 struct MapProjection::State {
   explicit State(Choice choice) : chosen(std::move(choice)) {
     const auto inside = inside_library();
+    // NOLINTBEGIN(cppcoreguidelines-prefer-member-initializer): both are made inside the library's gate
     context = proj_context_create();
     SONAR_CHECK(context != nullptr);
     proj_log_level(context, PJ_LOG_NONE);
     projection = proj_create(context, chosen.definition.c_str());
+    // NOLINTEND(cppcoreguidelines-prefer-member-initializer)
     SONAR_CHECK(projection != nullptr);
   }
   ~State() {

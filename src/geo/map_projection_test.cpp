@@ -15,7 +15,7 @@ GeoExtent about(double lat, double lon, double half_lat, double half_lon) {
 }
 
 struct Case {
-  const char* begins;
+  const char* begins = "";
   GeoExtent extent;
 };
 

@@ -3,13 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
@@ -62,7 +62,8 @@ int owner(std::string_view file_name, std::string_view prefix_of_host) {
 tl::unexpected<Error> refused_write(std::string_view what, int error, const std::string& file) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
   return fail(full ? ErrorCode::no_space : ErrorCode::io,
-              error == 0 ? std::string(what) : fmt::format("{}: {}", what, std::strerror(error)), {.file = file});
+              error == 0 ? std::string(what) : fmt::format("{}: {}", what, std::generic_category().message(error)),
+              {.file = file});
 }
 
 AtomicFile::AtomicFile(fs::path target, fs::path temporary)

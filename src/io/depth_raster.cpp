@@ -8,7 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 #include <limits>
 #include <mutex>
 #include <numbers>
@@ -262,10 +262,7 @@ bool is_hdf_or_netcdf(const std::filesystem::path& path) {
   // The two magic words of netCDF-4 (HDF5) and of the classic formats.
   const auto head = [&] {
     std::array<char, 8> bytes{};
-    if (std::FILE* f = std::fopen(path.c_str(), "rb")) {
-      (void)std::fread(bytes.data(), 1, bytes.size(), f);
-      std::fclose(f);
-    }
+    std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
     return std::string(bytes.data(), bytes.size());
   }();
   return head.starts_with("CDF") || head.substr(1, 3) == "HDF";

@@ -38,11 +38,11 @@ class Raster : public testing::Test {
   Raster& operator=(const Raster&) = delete;
 
   struct Layout {
-    double west_deg;
-    double north_deg;
-    double step_deg;
-    int width;
-    int height;
+    double west_deg = 0.0;
+    double north_deg = 0.0;
+    double step_deg = 0.0;
+    int width = 0;
+    int height = 0;
     double sign = -1.0;  ///< -1 = elevations
     double none = -32767.0;
     int epsg = 4326;  ///< 0 = none
@@ -50,7 +50,7 @@ class Raster : public testing::Test {
 
   using Value = std::function<double(double x, double y)>;
   [[nodiscard]] fs::path tiff(const std::string& name, const Layout& l, const Value& value) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
     auto* out = driver->Create(path.c_str(), l.width, l.height, 1, GDT_Float32, nullptr);
     double g[6] = {l.west_deg, l.step_deg, 0.0, l.north_deg, 0.0, -l.step_deg};
@@ -85,7 +85,7 @@ class Raster : public testing::Test {
   };
   [[nodiscard]] fs::path netcdf_grid(const std::string& name, const Grid& g, double south, double step, int rows,
                                      int columns) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     std::vector<double> lat;
     std::vector<double> lon;
     std::vector<float> z;

@@ -2,7 +2,6 @@
 #include "io/try_apart.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,8 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
+#include <csignal>
 #include <optional>
+#include <system_error>
 
 #include "base/library_gate.h"
 
@@ -67,9 +67,9 @@ Result<void> try_apart(const std::function<void()>& body, const std::string& nam
   const unsigned little = std::max(1U, seconds / 12);
   for (const unsigned wait : {little, little, seconds}) {
     std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+    if (::pipe(ends.data()) != 0) return fail(ErrorCode::io, std::generic_category().message(errno), {.file = named});
     const std::optional<Ending> ending = one_try(body, ends, wait);
-    if (!ending) return fail(ErrorCode::io, std::strerror(errno), {.file = named});
+    if (!ending) return fail(ErrorCode::io, std::generic_category().message(errno), {.file = named});
     if (*ending == Ending::came_to_its_end) return {};
     if (*ending == Ending::broke) break;
   }

@@ -23,7 +23,7 @@ Result<void> write_picture_file(const std::string& bytes, const std::filesystem:
       const int error = errno;  // of the call below the stream, where there was one
       std::filesystem::remove(part, code);
       const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-      const std::string why = error == 0 ? std::string{} : std::string(": ") + std::strerror(error);
+      const std::string why = error == 0 ? std::string{} : std::string(": ") + std::generic_category().message(error);
       return fail(full ? ErrorCode::no_space : ErrorCode::io, "the picture cannot be written there" + why,
                   {file.string()});
     }

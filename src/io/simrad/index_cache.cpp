@@ -79,12 +79,14 @@ void store(const IndexCache& cache, const FileState& state, const RawIndex& inde
 }  // namespace
 
 IndexCache IndexCache::of_user() {
+  // NOLINTBEGIN(concurrency-mt-unsafe): nobody sets it
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
     return {fs::path(cache) / "sonar-explorer"};
   }
   if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
     return {fs::path(home) / ".cache" / "sonar-explorer"};
   }
+  // NOLINTEND(concurrency-mt-unsafe)
   return {};
 }
 

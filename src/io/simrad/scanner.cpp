@@ -102,7 +102,7 @@ Result<bool> Scanner::tail(const ByteSource& source, Notes& notes) {
   const std::uint64_t start = next_;
   if (start >= size_) return false;
   next_ = start + 1;
-  const auto found = resynchronise(source, true);
+  auto found = resynchronise(source, true);
   if (!found) return found;
   if (*found) {
     notes.add(DiagnosticCode::bad_length, start,

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace sonar {
@@ -15,7 +16,7 @@ namespace {
 tl::unexpected<Error> system_failure(const std::filesystem::path& path, const char* what, std::uint64_t offset) {
   const int reason = errno;
   return fail(reason == ENOSPC ? ErrorCode::no_space : ErrorCode::io,
-              fmt::format("cannot {}: {}", what, std::strerror(reason)),
+              fmt::format("cannot {}: {}", what, std::generic_category().message(reason)),
               {.file = path.string(), .offset = static_cast<std::int64_t>(offset)});
 }
 
