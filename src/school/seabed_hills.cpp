@@ -11,6 +11,8 @@
 namespace sonar {
 namespace {
 
+constexpr int kMostEmpty = 1;  ///< beams in which the ground may be too faint
+
 class HillFinder {
  public:
   HillFinder(const SeabedWater& water, const std::vector<SeabedEcho>& echoes, const SeabedPlane& plane,
@@ -48,19 +50,25 @@ class HillFinder {
 
   /// One azimuth from the lowest beam up.
   void climb(int beam, const std::vector<std::int32_t>& of_plane, std::vector<const SeabedEcho*>& hills) const {
+    int empty = 0;           // beams since the ground was seen
     double ground_m = -1.0;  // how far away it was seen; < 0 not yet: then a beam that lacks the plane tells
     for (int height = 0; height < sector_.fans(); ++height) {
       const int row = row_at(height, beam);
       const int plane_begin = of_plane[static_cast<std::size_t>(row)];
       const SeabedEcho* hill = strongest_before(row, plane_begin, ground_m);
       const double seen_m = plane_seen_at_m(row, plane_begin, hill);
+      ++empty;
       if (seen_m >= 0.0) {
         const Point<Sonar> u = beam_axis(sector_, row);
         ground_m = std::max(ground_m, seen_m * std::hypot(u.x, u.y));
+        empty = 0;
       } else if (hill != nullptr && (ground_m >= 0.0 || should_see_plane(row))) {
         hills.push_back(hill);
         ground_m = std::max(ground_m, away_m(*hill));
+        empty = 0;
       }
+      // Beams that see no ground look over it, beyond the record's end, and so do all above them.
+      if (ground_m >= 0.0 && empty > kMostEmpty) return;
     }
   }
 
