@@ -13,6 +13,7 @@
 #include "school/candidates.h"
 #include "school/edges.h"
 #include "school/noise_reach.h"
+#include "school/open_floor.h"
 #include "school/reverberation.h"
 #include "school/seabed_contact.h"
 #include "school/settle_members.h"
@@ -220,7 +221,7 @@ class PingDetector {
     if (edges.boundary_fraction > params_.max_boundary_faces) return false;
     if (edges.seabed_fraction > params_.max_seabed_faces) return false;
     if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask, sv_, flags_, params_)) return false;
-    return !is_shell(detection) && !is_open_floor(detection) &&
+    return !is_shell(detection) && !is_open_floor(detection, sector_, sv_, flags_, params_) &&
            !is_wave_front(detection.mask, detection.box, sector_, params_) &&
            !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_);
   }
@@ -233,53 +234,6 @@ class PingDetector {
     return detection.box.beams() >= params_.shell_share * sector_.beams() &&
            mean_run_m < params_.max_shell_thickness_m &&
            detection.box.samples() * spacing_m < params_.shell_bend * params_.max_shell_thickness_m;
-  }
-
-  /// A seabed of which too little is seen to fit a plane: all beams, and either a fan of it that the record's end cuts
-  /// off, or a lowest fan that sees it strongly and at one range throughout.
-  [[nodiscard]] bool is_open_floor(const Detection& detection) const {
-    if (sector_.beams() < params_.floor_beams || detection.box.beams() < params_.shell_share * sector_.beams())
-      return false;
-    return is_cut_off(detection.mask) ||
-           (detection.reference_db >= params_.floor_echo_db && lowest_fan_is_flat(detection.mask));
-  }
-
-  [[nodiscard]] bool is_cut_off(const PingMask& mask) const {
-    const int samples = sv_.shape().samples;
-    const int end = samples - std::max(2, static_cast<int>(params_.record_end_share * samples));
-    std::vector<int> beams(static_cast<std::size_t>(sector_.fans()), 0);
-    int last_row = -1;
-    for (const Run& run : mask.runs) {
-      if (run.end() < end || run.row == last_row) continue;
-      last_row = run.row;
-      ++beams[static_cast<std::size_t>(run.row / sector_.beams())];
-    }
-    return *std::max_element(beams.begin(), beams.end()) >= params_.cut_off_share * sector_.beams();
-  }
-
-  [[nodiscard]] bool lowest_fan_is_flat(const PingMask& mask) const {
-    const int top = sector_.fans() - 1;
-    const int lowest_fan = sector_.elevation_rad(0) <= sector_.elevation_rad(top) ? 0 : top;
-    std::vector<double> sum(static_cast<std::size_t>(sector_.beams()), 0.0);
-    std::vector<double> count(sum.size(), 0.0);
-    for (const Run& run : mask.runs) {
-      if (run.row / sector_.beams() != lowest_fan) continue;
-      const auto beam = static_cast<std::size_t>(run.row % sector_.beams());
-      const int middle = run.first_sample + run.count / 2;
-      sum[beam] += run.count * sector_.range().range_m(middle);
-      count[beam] += run.count;
-    }
-    std::vector<double> ranges_m;
-    for (std::size_t beam = 0; beam < sum.size(); ++beam) {
-      if (count[beam] > 0.0) ranges_m.push_back(sum[beam] / count[beam]);
-    }
-    if (static_cast<double>(ranges_m.size()) < params_.shell_share * sector_.beams()) return false;
-    std::sort(ranges_m.begin(), ranges_m.end());
-    const double middle_m = ranges_m[ranges_m.size() / 2];
-    const auto near = std::count_if(ranges_m.begin(), ranges_m.end(), [&](double r) {
-      return std::abs(r - middle_m) <= params_.floor_flat_share * middle_m;
-    });
-    return static_cast<double>(near) >= params_.shell_share * sector_.beams();
   }
 
   View3<const std::int16_t> sv_;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/open_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/units.h"
+
+namespace sonar {
+namespace {
+
+struct Water {
+  const Sector& sector;
+  View3<const std::int16_t> sv;
+  View3<const SampleFlags> flags;
+  const DetectParams& params;
+};
+
+/// Share of a fan's sound beams that reach a level from a sample on.
+double share_loud_at_end(const Water& water, int fan, int from, double level_db) {
+  const double level = counts_from_db(level_db);
+  int sound = 0;
+  int loud = 0;
+  for (int beam = 0; beam < water.sector.beams(); ++beam) {
+    const auto counts = water.sv.row(fan * water.sector.beams() + beam).subspan(static_cast<std::size_t>(from));
+    const auto flags = water.flags.row(fan * water.sector.beams() + beam).subspan(static_cast<std::size_t>(from));
+    bool any_sound = false;
+    bool any_loud = false;
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      if (any(flags[s] & (kFault | SampleFlags::surface))) continue;
+      any_sound = true;
+      any_loud = any_loud || counts[s] >= level;
+    }
+    sound += any_sound ? 1 : 0;
+    loud += any_loud ? 1 : 0;
+  }
+  return sound > 0 ? static_cast<double>(loud) / sound : 0.0;
+}
+
+/// Reaches the record's end in a fan of which most beams are as loud there: faulty beams may cut the seabed to pieces.
+bool is_cut_off(const Water& water, const Detection& detection) {
+  const int samples = water.sv.shape().samples;
+  const int end = samples - std::max(2, static_cast<int>(water.params.record_end_share * samples));
+  int judged = -1;
+  for (const Run& run : detection.mask.runs) {
+    const int fan = run.row / water.sector.beams();
+    if (run.end() < end || fan == judged) continue;
+    judged = fan;
+    if (share_loud_at_end(water, fan, end, detection.threshold_db) >= water.params.cut_off_share) return true;
+  }
+  return false;
+}
+
+bool lowest_fan_is_flat(const Water& water, const PingMask& mask) {
+  const int top = water.sector.fans() - 1;
+  const int lowest_fan = water.sector.elevation_rad(0) <= water.sector.elevation_rad(top) ? 0 : top;
+  std::vector<double> sum(static_cast<std::size_t>(water.sector.beams()), 0.0);
+  std::vector<double> count(sum.size(), 0.0);
+  for (const Run& run : mask.runs) {
+    if (run.row / water.sector.beams() != lowest_fan) continue;
+    const auto beam = static_cast<std::size_t>(run.row % water.sector.beams());
+    const int middle = run.first_sample + run.count / 2;
+    sum[beam] += run.count * water.sector.range().range_m(middle);
+    count[beam] += run.count;
+  }
+  std::vector<double> ranges_m;
+  for (std::size_t beam = 0; beam < sum.size(); ++beam) {
+    if (count[beam] > 0.0) ranges_m.push_back(sum[beam] / count[beam]);
+  }
+  if (static_cast<double>(ranges_m.size()) < water.params.shell_share * water.sector.beams()) return false;
+  std::sort(ranges_m.begin(), ranges_m.end());
+  const double middle_m = ranges_m[ranges_m.size() / 2];
+  const auto near = std::count_if(ranges_m.begin(), ranges_m.end(), [&](double r) {
+    return std::abs(r - middle_m) <= water.params.floor_flat_share * middle_m;
+  });
+  return static_cast<double>(near) >= water.params.shell_share * water.sector.beams();
+}
+
+}  // namespace
+
+bool is_open_floor(const Detection& detection, const Sector& sector, View3<const std::int16_t> sv,
+                   View3<const SampleFlags> flags, const DetectParams& params) {
+  if (sector.beams() < params.floor_beams) return false;
+  const Water water{sector, sv, flags, params};
+  return is_cut_off(water, detection) ||
+         (detection.box.beams() >= params.shell_share * sector.beams() &&
+          detection.reference_db >= params.floor_echo_db && lowest_fan_is_flat(water, detection.mask));
+}
+
+}  // namespace sonar
