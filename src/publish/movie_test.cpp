@@ -17,7 +17,7 @@ class Movie : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
   fs::path picture(const char* name, PixelSize size, Rgba8 colour) {
-    const fs::path file = folder_ / name;
+    fs::path file = folder_ / name;
     EXPECT_TRUE(write_pixels(Image(size, colour), file));
     return file;
   }

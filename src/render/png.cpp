@@ -29,7 +29,7 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
 }
 
 struct Reader {
-  const std::string* bytes;
+  const std::string* bytes = nullptr;
   std::size_t next = 0;
 };
 

@@ -27,11 +27,13 @@ VoxelIndex centre_voxel(const PingMask& mask, int beams) {
   double sample = 0.0;
   std::size_t i = 0;
   for (const Run& run : mask.runs) {
+    const int at_fan = run.row / beams;
+    const int at_beam = run.row % beams;
     for (int s = run.first_sample; s < run.end(); ++s, ++i) {
       const double w = mask.confidence[i];
       weight += w;
-      fan += w * (run.row / beams);
-      beam += w * (run.row % beams);
+      fan += w * at_fan;
+      beam += w * at_beam;
       sample += w * s;
     }
   }

@@ -69,10 +69,10 @@ struct Voyage {
         ping.detections.back().reference_db = balls[i].reference_db;
         who.push_back(static_cast<int>(i));
       }
-      pings_.push_back(std::move(ping));
+      recorded.push_back(std::move(ping));
       owner.push_back(std::move(who));
     }
-    tracks = track(pings_, sector, channel, {});
+    tracks = track(recorded, sector, channel, {});
   }
 
   /// The balls that a track was made of.
@@ -88,7 +88,7 @@ struct Voyage {
 
   Sector sector;
   Array3<SampleFlags> flags;
-  std::vector<DetectedPing> pings_;
+  std::vector<DetectedPing> recorded;
   std::vector<std::vector<int>> owner;
   Tracks tracks;
 };
@@ -201,9 +201,9 @@ TEST(Track, RecordsASplit) {
       ping.detections.push_back(describe_mask(a, flags.view(), voyage.sector));
       ping.detections.push_back(describe_mask(subtract(b, a), flags.view(), voyage.sector));
     }
-    voyage.pings_.push_back(std::move(ping));
+    voyage.recorded.push_back(std::move(ping));
   }
-  const Tracks tracks = track(voyage.pings_, voyage.sector, test::grid().channel, {});
+  const Tracks tracks = track(voyage.recorded, voyage.sector, test::grid().channel, {});
   ASSERT_EQ(tracks.schools.size(), 2U);
   const auto split = std::find_if(tracks.events.begin(), tracks.events.end(),
                                   [](const TrackEvent& e) { return e.kind == TrackEventKind::split; });
@@ -234,9 +234,9 @@ Tracks meeting(Voyage& voyage, int alone_before, const TrackParams& params,
       add(a);
       add(subtract(b, a));
     }
-    voyage.pings_.push_back(std::move(ping));
+    voyage.recorded.push_back(std::move(ping));
   }
-  return track(voyage.pings_, voyage.sector, test::grid().channel, params);
+  return track(voyage.recorded, voyage.sector, test::grid().channel, params);
 }
 
 TEST(Track, SchoolsThatMeetShareTheirDetection) {
@@ -246,17 +246,17 @@ TEST(Track, SchoolsThatMeetShareTheirDetection) {
   ASSERT_EQ(tracks.schools.size(), 2U);
   for (const SchoolTrack& school : tracks.schools) {
     EXPECT_EQ(school.pings.size(), 15U);
-    const PingMask first = mask_of(school.pings[0], voyage.pings_[0]);
+    const PingMask first = mask_of(school.pings[0], voyage.recorded[0]);
     const std::size_t own = dice(first, truth[0][0]) > 0.5 ? 0 : 1;
     for (const TrackedDetection& seen : school.pings) {
       const auto p = static_cast<std::size_t>(seen.ping_index);
-      EXPECT_GT(dice(mask_of(seen, voyage.pings_[p]), truth[p][own]), 0.75) << p;
+      EXPECT_GT(dice(mask_of(seen, voyage.recorded[p]), truth[p][own]), 0.75) << p;
     }
   }
   for (std::size_t p = 5; p <= 9; ++p) {
     EXPECT_EQ(overlap(tracks.schools[0].pings[p].part, tracks.schools[1].pings[p].part), 0U);
     EXPECT_EQ(tracks.schools[0].pings[p].part.voxels() + tracks.schools[1].pings[p].part.voxels(),
-              voyage.pings_[p].detections[0].mask.voxels());
+              voyage.recorded[p].detections[0].mask.voxels());
   }
 }
 
@@ -290,18 +290,18 @@ TEST(Track, SchoolsThatSwimThroughEachOtherKeepTheirWays) {
     for (const PingMask& seen : meet ? std::vector{unite(a, b)} : std::vector{a, b}) {
       if (!seen.empty()) ping.detections.push_back(describe_mask(seen, voyage.flags.view(), voyage.sector));
     }
-    voyage.pings_.push_back(std::move(ping));
+    voyage.recorded.push_back(std::move(ping));
   }
-  const Tracks tracks = track(voyage.pings_, voyage.sector, test::grid().channel, {});
+  const Tracks tracks = track(voyage.recorded, voyage.sector, test::grid().channel, {});
   ASSERT_EQ(tracks.schools.size(), 2U);
   for (const SchoolTrack& school : tracks.schools) {
     const PingMask first =
-        mask_of(school.pings[0], voyage.pings_[static_cast<std::size_t>(school.pings[0].ping_index)]);
+        mask_of(school.pings[0], voyage.recorded[static_cast<std::size_t>(school.pings[0].ping_index)]);
     const std::size_t own = dice(first, truth[static_cast<std::size_t>(school.pings[0].ping_index)][0]) > 0.5 ? 0 : 1;
     int shared = 0;
     for (const TrackedDetection& seen : school.pings) {
       const auto p = static_cast<std::size_t>(seen.ping_index);
-      const PingMask mask = mask_of(seen, voyage.pings_[p]);
+      const PingMask mask = mask_of(seen, voyage.recorded[p]);
       shared += seen.part.empty() ? 0 : 1;
       // Where one lies inside the other, half of the water is all that a part can be.
       const bool side_by_side = dice(truth[p][0], truth[p][1]) < 0.3;

@@ -19,6 +19,7 @@ namespace sonar::HWY_NAMESPACE {
 template <bool kPlain>
 class Packet {
  public:
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): as many of met_ as there are masks
   Packet(const TraceJob& job, const Rays& ray, V phase, V from, V last)
       : grid_(job.grid),
         optics_(job.optics),

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 
 /// Pixels of a packet: nearly square, so that its rays stay together.
-struct Pixels {
+struct Pixels {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in whole
   HWY_ALIGN float x[kLanes];
   HWY_ALIGN float y[kLanes];
   HWY_ALIGN float phase[kLanes];

@@ -34,7 +34,7 @@ inline constexpr int kGapsBit = 9;
 inline constexpr int kMaskBit = 10;
 inline constexpr int kEmptyBit = 11;  ///< distance above 0
 
-struct TraceGrid {
+struct TraceGrid {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in whole
   int fans, beams, samples;
   int cell_beams, cell_ranges;
   float first_m, spacing_m, per_spacing, nearest_m, farthest_m, surface_z_m;
@@ -71,7 +71,7 @@ struct CellColumns {
           reinterpret_cast<const float*>(table.entries.data())};
 }
 
-struct TraceView {
+struct TraceView {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in whole
   // In the fan frame; eye, right, up, forward, towards the light.
   std::array<float, 3> eye, right, up, forward, light;
   float pixel_scale;  ///< tan(half fov) / half height
@@ -90,7 +90,7 @@ struct TraceView {
   const float* opaque_m;
 };
 
-struct TraceJob {
+struct TraceJob {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in whole
   TraceGrid grid;
   TraceOptics optics;
   TraceView view;
