@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/units.h"
@@ -143,6 +144,10 @@ void time_run(const SurveyFiles& survey, const ObservationFiles& observation, co
 
 int main(int argc, char** argv) {
   using namespace sonar;
+  if (argc > 3 || (argc > 1 && argv[1][0] == '-')) {
+    fmt::print("usage: bench_stages [FOLDER [PINGS]]   a synthetic survey is made there; default: 120 pings\n");
+    return argc > 1 && std::string_view(argv[1]) == "--help" ? 0 : 2;
+  }
   const std::filesystem::path folder =
       argc > 1 ? argv[1] : (std::filesystem::temp_directory_path() / "sonar-bench-stages").string();
   Work work;

@@ -80,7 +80,7 @@ Result<PictureOptions> with(const PictureFileParams& params, PictureKind kind, P
   if (kind == PictureKind::slice_plane) {
     auto plane = plane_of(params);
     if (!plane) return fail(ErrorCode::bad_parameter, "these numbers make no plane: expected two places or a normal");
-    options.plane = std::move(*plane);
+    options.plane = *plane;
   }
   if (kind == PictureKind::volume) {
     if (!params.camera_of_window) options.camera.reset();

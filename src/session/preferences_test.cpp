@@ -153,6 +153,7 @@ TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {
   const fs::path folder = TestSurvey::easy().fresh();
   fs::create_directories(folder / "cruise");
   write(folder / "cruise" / "x.raw", "");
+  // NOLINTBEGIN(concurrency-mt-unsafe): no other thread is about
   ASSERT_EQ(::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1), 0);
   const auto of_folder = journal_folders_for(folder / "cruise");
   ASSERT_EQ(of_folder.size(), 2U);
@@ -168,6 +169,7 @@ TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {
   write(folder / "cruise-work", "");
   const auto place = place_journal(of_folder, {});
   ::unsetenv("XDG_STATE_HOME");
+  // NOLINTEND(concurrency-mt-unsafe)
   ASSERT_TRUE(place);
   EXPECT_EQ(place->path.parent_path(), of_folder[1]);
   ASSERT_EQ(place->notices.size(), 1U);

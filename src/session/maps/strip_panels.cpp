@@ -25,11 +25,12 @@ std::map<std::int64_t, std::string> endings(const JournalState& state) {
     if (note.code != DiagnosticCode::propagation_ended) continue;
     const int step = note.text.starts_with(kBackwards) ? -1 : 1;
     // Of several schools in the ping the youngest is the one that was carried on last.
-    for (auto school = state.schools.rbegin(); school != state.schools.rend(); ++school) {
-      if (in_ping((*school)->masks, note.ping_index) == nullptr) continue;
-      notes[end_of((*school)->masks, note.ping_index, step)] = fmt::format("{}, {}", school_title(**school), note.text);
-      break;
-    }
+    const auto youngest = std::find_if(state.schools.rbegin(), state.schools.rend(), [&](const auto& school) {
+      return in_ping(school->masks, note.ping_index) != nullptr;
+    });
+    if (youngest == state.schools.rend()) continue;
+    notes[end_of((*youngest)->masks, note.ping_index, step)] =
+        fmt::format("{}, {}", school_title(**youngest), note.text);
   }
   return notes;
 }
