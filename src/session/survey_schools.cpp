@@ -35,10 +35,12 @@ SlicePlaces middle_of(const PingMask& mask, int beams) {
   double all = 0.0;
   std::size_t at = 0;
   for (const Run& run : mask.runs) {
+    const int at_fan = run.row / beams;
+    const int at_beam = run.row % beams;
     double weight = 0.0;
     for (int i = 0; i < run.count; ++i) weight += mask.confidence[at++];
-    fan += weight * (run.row / beams);
-    beam += weight * (run.row % beams);
+    fan += weight * at_fan;
+    beam += weight * at_beam;
     all += weight;
   }
   if (!(all > 0.0)) return {};

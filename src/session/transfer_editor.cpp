@@ -179,7 +179,7 @@ LivePicture::Build TransferEditor::build() {
   };
 }
 
-void TransferEditor::set_points(std::vector<OpacityPoint> points) {
+void TransferEditor::set_points(const std::vector<OpacityPoint>& points) {
   if (growth_shown_()) {
     if (auto curve = growth_curve_of(points)) workspace_.growth_curve.set(std::move(*curve));
     return;

@@ -37,7 +37,7 @@ class TransferEditor : public LivePicture {
   enum class Grip : std::uint8_t { none, corner, low_limit, high_limit };
 
   [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
-  void set_points(std::vector<OpacityPoint> points);
+  void set_points(const std::vector<OpacityPoint>& points);
   void press(const PointerEvent& event);
   void drag(PixelPoint to);
   [[nodiscard]] std::optional<std::size_t> corner_at(PixelPoint at) const;

@@ -24,7 +24,9 @@ struct Bounds {
 struct Plain {
   View3<const std::int16_t> sv;
   View3<const SampleFlags> flags;
-  Bounds fans, beams, samples;
+  Bounds fans{};
+  Bounds beams{};
+  Bounds samples{};
 
   [[nodiscard]] bool outside_water(int f, int b, int s) const {
     return sv(f, b, s) == kNoData || any(flags(f, b, s) & (SampleFlags::near_field | SampleFlags::surface));

@@ -19,6 +19,7 @@
 #include "signal/median_strip.h"
 #include "signal/merge_network.h"
 
+// NOLINTBEGIN(misc-definitions-in-headers): one a target, each in a namespace of its own
 HWY_BEFORE_NAMESPACE();
 namespace sonar::HWY_NAMESPACE {
 
@@ -279,5 +280,6 @@ void MedianChunk(const MaskedBox& masked, int kernel_samples, int first_tile, in
 
 }  // namespace sonar::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+// NOLINTEND(misc-definitions-in-headers)
 
 #endif  // SONAR_SIGNAL_MEDIAN_STRIP_INL_H_

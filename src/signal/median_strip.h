@@ -54,6 +54,7 @@ class PlaneMemory {
  public:
   std::int16_t* at_least(std::size_t counts) {
     if (counts > size_) {
+      // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): its deleter knows the alignment
       memory_.reset(new (std::align_val_t{64}) std::int16_t[counts]);
       size_ = counts;
     }

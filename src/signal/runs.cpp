@@ -41,7 +41,7 @@ void append_from_bits(std::span<const std::uint64_t> bits, std::size_t start, st
 
 void append_runs(std::span<const std::int16_t> counts, std::int16_t limit, std::vector<SampleRun>& runs) {
   const std::size_t row_begin = runs.size();
-  std::array<std::uint64_t, kWords> bits;
+  std::array<std::uint64_t, kWords> bits;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   for (std::size_t start = 0; start < counts.size(); start += kWords * 64) {
     const auto piece = counts.subspan(start, std::min(kWords * 64, counts.size() - start));
     const auto words = std::span(bits).first((piece.size() + 63) / 64);
@@ -56,7 +56,7 @@ void append_runs(std::span<const std::int16_t> counts, std::span<const std::int1
                  std::vector<SampleRun>& runs) {
   const std::size_t row_begin = runs.size();
   const std::size_t size = std::min(counts.size(), limit.size());
-  std::array<std::uint64_t, kWords> bits;
+  std::array<std::uint64_t, kWords> bits;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   for (std::size_t start = 0; start < size; start += kWords * 64) {
     const std::size_t length = std::min(kWords * 64, size - start);
     const auto words = std::span(bits).first((length + 63) / 64);

@@ -28,6 +28,8 @@ class SyntheticSonar {
  public:
   explicit SyntheticSonar(Scene scene);
   ~SyntheticSonar();
+  SyntheticSonar(const SyntheticSonar&) = delete;
+  SyntheticSonar& operator=(const SyntheticSonar&) = delete;
   SyntheticSonar(SyntheticSonar&&) noexcept;
   SyntheticSonar& operator=(SyntheticSonar&&) noexcept;
 
