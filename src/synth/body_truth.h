@@ -22,8 +22,8 @@ class BodyMeasure {
 
  private:
   struct Part {
-    const Body* body;
-    const Scatterers* scatterers;
+    const Body* body = nullptr;
+    const Scatterers* scatterers = nullptr;
     Point<Enu> centre;
     Point<Enu> velocity;
   };

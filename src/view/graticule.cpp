@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ranges>
 
 #include "base/units.h"
 #include "view/shapes.h"
@@ -156,11 +157,12 @@ void add_graticule(FrameDescription& frame, const MapFrame& map, const Theme& th
   frame.items.emplace_back(rectangle_item(map.place, {0, 0, 0, 0}, theme.axis, theme.line_px));
   const double em = theme.text_px;
   double free_y = 1e9;
-  for (auto it = g.latitudes.rbegin(); it != g.latitudes.rend(); ++it) {
-    if (it->at.y > free_y || it->at.y < map.place.y || it->at.y > map.place.y + map.place.height) continue;
-    free_y = it->at.y - 1.6 * em;
-    frame.items.emplace_back(line_item({it->at.x - 0.35 * em, it->at.y}, it->at, theme.axis, theme.line_px));
-    frame.items.emplace_back(text_item({it->at.x - 0.6 * em, it->at.y}, it->text, em, theme.text, TextAnchor::right));
+  for (const Graticule::Label& label : std::views::reverse(g.latitudes)) {
+    const PixelPoint& at = label.at;
+    if (at.y > free_y || at.y < map.place.y || at.y > map.place.y + map.place.height) continue;
+    free_y = at.y - 1.6 * em;
+    frame.items.emplace_back(line_item({at.x - 0.35 * em, at.y}, at, theme.axis, theme.line_px));
+    frame.items.emplace_back(text_item({at.x - 0.6 * em, at.y}, label.text, em, theme.text, TextAnchor::right));
   }
   double free_x = -1e9;
   for (const Graticule::Label& label : g.longitudes) {

@@ -15,8 +15,10 @@ namespace {
 /// Blocks of known length, so that compilers make vectors of them.
 void take_larger(MaskMosaic::Cell* to, const MaskMosaic::Cell* from, int count) {
   constexpr int kBlock = 32;
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init): written before they are read
   std::array<MaskMosaic::Cell, kBlock> a;
   std::array<MaskMosaic::Cell, kBlock> b;
+  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
   int i = 0;
   for (; i + kBlock <= count; i += kBlock) {
     std::memcpy(a.data(), to + i, sizeof a);

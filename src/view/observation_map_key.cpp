@@ -17,7 +17,7 @@ namespace {
 
 PixelPoint middle(const PixelRect& at) { return {at.x + 0.5 * at.width, at.y + 0.5 * at.height}; }
 
-KeyEntry line(std::string text, Rgba8 colour, std::vector<double> dashes, double width_px) {
+KeyEntry line(std::string text, Rgba8 colour, const std::vector<double>& dashes, double width_px) {
   return {std::move(text), [=](FrameDescription& frame, const PixelRect& at) {
             const double y = middle(at).y;
             PathItem item = line_item({at.x, y}, {at.x + at.width, y}, colour, width_px);
