@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <variant>
 
 namespace sonar {
@@ -72,9 +73,9 @@ std::vector<std::int64_t> History::step_at_end(const std::vector<std::int64_t>& 
   const auto step = step_.find(list.back());
   if (step == step_.end()) return {list.back()};
   std::vector<std::int64_t> lines;
-  for (auto n = list.rbegin(); n != list.rend(); ++n) {
-    const auto of = step_.find(*n);
-    if (of != step_.end() && of->second == step->second) lines.push_back(*n);
+  for (const std::int64_t line : std::views::reverse(list)) {
+    const auto of = step_.find(line);
+    if (of != step_.end() && of->second == step->second) lines.push_back(line);
   }
   return lines;
 }

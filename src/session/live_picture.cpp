@@ -79,7 +79,7 @@ void LivePicture::update() {
       auto image = built.image ? Result<Image>(std::move(*built.image)) : painted(built.frame, built.scale);
       if (!image) return post([this, line = to_line(image.error())] { fail_with(line); });
       post([this, built = std::move(built), image = std::move(*image), asked_s]() mutable {
-        put(std::move(built), std::move(image), asked_s);
+        put(built, std::move(image), asked_s);
       });
     };
     if (auto done = within_memory([&] { return build_now(size, wanted, show); });
@@ -89,7 +89,7 @@ void LivePicture::update() {
   });
 }
 
-void LivePicture::put(Built built, Image image, double asked_s) {
+void LivePicture::put(const Built& built, Image image, double asked_s) {
   image_ = std::move(image);
   problem_.clear();
   latency_ms_ = 1e3 * (seconds_now() - asked_s);

@@ -104,7 +104,7 @@ class LivePicture {
   [[nodiscard]] ChangeQueue& queue() { return queue_; }
 
  private:
-  void put(Built built, Image image, double asked_s);
+  void put(const Built& built, Image image, double asked_s);
   void fail_with(std::string line);
 
   ChangeQueue& queue_;

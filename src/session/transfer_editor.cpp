@@ -209,7 +209,7 @@ void TransferEditor::press(const PointerEvent& event) {
   if (event.button == PointerButton::right) {
     if (!corner || all.size() <= 2) return;
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(*corner));
-    return set_points(std::move(all));
+    return set_points(all);
   }
   if (event.at.y >= colour_bar.y - 2) {
     const SvScale& scale = workspace_.display.values().scale;
@@ -224,7 +224,7 @@ void TransferEditor::press(const PointerEvent& event) {
   } else if (event.action == PointerAction::double_press) {
     all.push_back(point_at(event.at));
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.sv_db < b.sv_db; });
-    set_points(std::move(all));
+    set_points(all);
   }
 }
 
@@ -237,7 +237,7 @@ void TransferEditor::drag(PixelPoint to) {
     const double until = held_ + 1 == all.size() ? kLast_db : all[held_ + 1].sv_db - kApart_db;
     if (from < until) wanted.sv_db = std::clamp(wanted.sv_db, from, until);
     all[held_] = wanted;
-    return set_points(std::move(all));
+    return set_points(all);
   }
   DisplayParams params = workspace_.display.values();
   const double at_db = std::round(wanted.sv_db);
