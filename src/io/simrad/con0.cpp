@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -45,10 +46,24 @@ BeamConfig parse_block(std::span<const std::byte> block) {
   return beam;
 }
 
-bool has_bad_number(const BeamConfig& b) {
-  return std::isnan(b.frequency_hz) || std::isnan(b.gain_db) || std::isnan(b.equivalent_beam_angle_db) ||
-         std::isnan(b.width_alongship_deg) || std::isnan(b.width_athwartship_deg) || std::isnan(b.direction_deg[0]) ||
-         std::isnan(b.direction_deg[1]);
+/// Impossible numbers become NaN, unknown; whether there was one, or one that is not finite. What is 0 may be left unset.
+bool forget_impossible(BeamConfig& beam) {
+  bool bad = false;
+  const auto within = [&bad](double& value, double least, double most) {
+    if (value >= least && value <= most) return;
+    value = std::numeric_limits<double>::quiet_NaN();
+    bad = true;
+  };
+  within(beam.frequency_hz, 0.0, 5e6);
+  within(beam.gain_db, -20.0, 60.0);
+  within(beam.equivalent_beam_angle_db, -45.0, 11.0);  // 11 = all directions
+  within(beam.width_alongship_deg, 0.0, 360.0);
+  within(beam.width_athwartship_deg, 0.0, 360.0);
+  for (double* angle : {&beam.direction_deg[0], &beam.direction_deg[1]}) within(*angle, -360.0, 360.0);
+  for (double& gain : beam.gain_table_db) within(gain, -20.0, 60.0);
+  for (double& correction : beam.sa_correction_table_db) within(correction, -10.0, 10.0);
+  for (double& pulse : beam.pulse_length_s) within(pulse, 0.0, 1.0);
+  return bad;
 }
 
 bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
@@ -96,8 +111,8 @@ Con0 parse_con0(std::span<const std::byte> body) {
   for (std::int64_t i = 0; i < count; ++i) {
     config.beams.push_back(
         parse_block(body.subspan(kHeaderBytes + static_cast<std::size_t>(i) * kBlockBytes, kBlockBytes)));
-    if (con0.bad_numbers.empty() && has_bad_number(config.beams.back())) {
-      con0.bad_numbers = fmt::format("beam {} of CON0 has a number that is not finite", i + 1);
+    if (forget_impossible(config.beams.back()) && con0.bad_numbers.empty()) {
+      con0.bad_numbers = fmt::format("beam {} of CON0 has a number that is not finite or impossible", i + 1);
     }
   }
   return con0;

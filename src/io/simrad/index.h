@@ -19,7 +19,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 4;
+inline constexpr int kIndexVersion = 5;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {
@@ -65,6 +65,7 @@ struct PingEntry {
   std::int32_t max_samples = 0;
   std::uint16_t channels = 0;         ///< how many channels it has
   std::uint16_t silent_channels = 0;  ///< how many of them did not transmit, or a test signal
+  std::uint16_t odd_channels = 0;     ///< how many more were left out (odd_channels.h)
   std::uint16_t config = 0;           ///< index in RawIndex::configs
   std::uint16_t transmit = 0;         ///< index in RawIndex::transmits
 };

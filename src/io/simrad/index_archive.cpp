@@ -161,6 +161,7 @@ void fields(auto& io, Is<PingEntry> auto& p) {
   io(p.max_samples);
   io(p.channels);
   io(p.silent_channels);
+  io(p.odd_channels);
   io(p.config);
   io(p.transmit);
 }

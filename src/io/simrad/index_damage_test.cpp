@@ -122,6 +122,27 @@ TEST(RawDamage, ShortOrStrangeConfiguration) {
   EXPECT_EQ(codes(index_of(test::con0(infinite))), Codes{DiagnosticCode::bad_value});
 }
 
+// What is no number of a beam must not go into its Sv: it is unknown, and said to be.
+TEST(RawDamage, ImpossibleNumbersOfABeamAreUnknown) {
+  constexpr std::size_t kBeam = 16 + 516;
+  struct Hit {
+    std::size_t at;
+    float value;
+  };
+  for (const Hit& hit : {Hit{132, -5.0F}, Hit{136, 20'620.0F}, Hit{140, -98.0F}, Hit{140, -24'470.0F}, Hit{140, 1e30F},
+                         Hit{144, 6000.0F}, Hit{220, 3000.0F}, Hit{248, -25.0F}}) {
+    Bytes bytes = test::con0(test::small_ms70());
+    bytes.patch(kBeam + hit.at, hit.value);
+    const RawIndex index = index_of(bytes);
+    EXPECT_EQ(codes(index), Codes{DiagnosticCode::bad_value}) << hit.at << " " << hit.value;
+    const BeamConfig& beam = index.configs.at(0).beams.at(0);
+    const bool unknown = std::isnan(beam.frequency_hz) || std::isnan(beam.gain_db) ||
+                         std::isnan(beam.equivalent_beam_angle_db) || std::isnan(beam.width_alongship_deg) ||
+                         std::isnan(beam.gain_table_db[0]) || std::isnan(beam.sa_correction_table_db[0]);
+    EXPECT_TRUE(unknown) << hit.at << " " << hit.value;
+  }
+}
+
 TEST(RawDamage, ChannelsOfOneTimeFarApartAreDropped) {
   // Sparse: the source claims padding that is never looked at.
   class Sparse final : public ByteSource {

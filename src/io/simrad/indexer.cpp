@@ -24,28 +24,19 @@ namespace {
 constexpr std::size_t kMaxTypes = 64;
 constexpr std::size_t kMaxConfigs = 1000;
 constexpr int kMaxUndescribedChannels = 4096;
+constexpr std::size_t kLeastToWait = 8;  ///< channels
 // A sound speed that wavers by half a per mille and comes back makes so many sets.
 constexpr std::size_t kMostAlternating = 16;
 // Settings that change at every ping would otherwise cost more than the samples.
 constexpr std::size_t kMaxTransmitEntries = std::size_t{1} << 18;
 
-bool is_netcdf(std::span<const std::byte> head) {
-  constexpr std::array<unsigned char, 4> hdf5{0x89, 'H', 'D', 'F'};
-  return head.size() >= 4 && (std::memcmp(head.data(), hdf5.data(), 4) == 0 ||
-                              (std::memcmp(head.data(), "CDF", 3) == 0 && number_at<std::uint8_t>(head, 3) <= 5));
-}
-
 double known(double value) { return std::isnan(value) ? 0.0 : value; }
 
-ChannelTransmit transmit_of(const Raw0& raw) {
-  const ChannelPing& head = raw.head;
-  return {known(head.frequency_hz),
-          known(head.transmit_power_w),
-          known(head.pulse_length_s),
-          known(head.sample_interval_s),
-          known(head.sound_speed_mps),
-          known(head.absorption_db_per_m),
-          raw.end()};
+ChannelTransmit transmit_of(const ChannelPing& head, int count) {
+  return {known(head.frequency_hz),    known(head.transmit_power_w),
+          known(head.pulse_length_s),  known(head.sample_interval_s),
+          known(head.sound_speed_mps), known(head.absorption_db_per_m),
+          head.offset + count};
 }
 
 bool same_setting(const ChannelTransmit& a, const ChannelTransmit& b) {
@@ -60,28 +51,6 @@ std::string_view text_of(std::span<const std::byte> body) {
 }
 
 }  // namespace
-
-Result<RawFormat> detect_format(const ByteSource& source) {
-  std::array<std::byte, kHeadBytes> head{};
-  const auto got = source.read(0, head);
-  if (!got) return pass_on(got);
-  const auto bytes = std::span<const std::byte>(head).first(*got);
-  if (is_netcdf(bytes)) return RawFormat::sonar_netcdf4;
-  if (inspect_head(bytes) != Frame::sound) return RawFormat::unknown;
-  return std::memcmp(head.data() + 4, "XML0", 4) == 0 ? RawFormat::ek80 : RawFormat::simrad;
-}
-
-Result<bool> is_sonar_netcdf4(const ByteSource& source) {
-  constexpr std::size_t kLooked = std::size_t{1} << 20U;
-  const auto format = detect_format(source);
-  if (!format) return pass_on(format);
-  if (*format != RawFormat::sonar_netcdf4) return false;
-  std::string bytes(kLooked, '\0');
-  const auto got = source.read(0, std::as_writable_bytes(std::span(bytes)));
-  if (!got) return pass_on(got);
-  bytes.resize(*got);
-  return bytes.find("SONAR-netCDF4") != std::string::npos || bytes.find("sonar_convention") != std::string::npos;
-}
 
 Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
   if (!format_known_) {
@@ -118,7 +87,7 @@ Result<void> Indexer::finish(const ByteSource& source) {
         !done)
       return done;
   }
-  close_ping();
+  close_pings();
   if (bad_sentences_ > 0) {
     notes_.add(
         DiagnosticCode::bad_nmea, first_bad_sentence_,
@@ -178,7 +147,7 @@ void Indexer::take_con0(const Datagram& datagram) {
   if (!con0.bad_numbers.empty()) notes_.add(DiagnosticCode::bad_value, datagram.offset, con0.bad_numbers);
   if (con0.config.beams.empty() && !index_.configs.empty()) return;
   if (index_.configs.size() >= kMaxConfigs) return;
-  close_ping();
+  close_pings();
   if (config_used_) notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON0 differs from the one before");
   last_con0_.assign(datagram.body.begin(), datagram.body.end());
   index_.configs.push_back(std::move(con0.config));
@@ -193,7 +162,7 @@ void Indexer::take_con1(const Datagram& datagram) {
   }
   if (index_.configs.back().con1_xml == xml || index_.configs.size() >= kMaxConfigs) return;
   if (config_used_) {
-    close_ping();
+    close_pings();
     notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON1 differs from the one before");
     index_.configs.push_back(index_.configs.back());
     config_used_ = false;
@@ -231,73 +200,145 @@ bool Indexer::channel_exists(const Datagram& datagram, int channel) {
   return false;
 }
 
-bool Indexer::join_ping(const Datagram& datagram, const ChannelPing& head) {
-  const auto channel = static_cast<std::size_t>(head.channel);
+bool Indexer::join_ping(const Arrival& arrival) {
+  const auto channel = static_cast<std::size_t>(arrival.head.channel);
   if (seen_in_ping_.size() <= channel) seen_in_ping_.resize(channel + 1, 0);
-  if (!ping_open_ || datagram.time != ping_.time) {
+  if (!ping_open_ || arrival.time != ping_.time) {
     close_ping();
-    open_ping(datagram, head);
+    open_ping(arrival);
   } else if (seen_in_ping_[channel] == ping_number_) {
-    notes_.add(DiagnosticCode::repeated_channel, datagram.offset,
-               fmt::format("channel {} came before with the same time stamp", head.channel + 1));
+    notes_.add(DiagnosticCode::repeated_channel, arrival.offset,
+               fmt::format("channel {} came before with the same time stamp", channel + 1));
     return false;
-  } else if (datagram.end() - ping_.offset > kMaxPingBytes) {
-    notes_.add(DiagnosticCode::ping_too_long, datagram.offset,
-               fmt::format("the ping begins at byte {}; channel {} was dropped", ping_.offset, head.channel + 1));
+  } else if (arrival.end - ping_.offset > kMaxPingBytes) {
+    notes_.add(DiagnosticCode::ping_too_long, arrival.offset,
+               fmt::format("the ping begins at byte {}; channel {} was dropped", ping_.offset, channel + 1));
     return false;
   }
   seen_in_ping_[channel] = ping_number_;
   return true;
 }
 
-void Indexer::open_ping(const Datagram& datagram, const ChannelPing& head) {
+void Indexer::open_ping(const Arrival& arrival) {
+  const ChannelPing& head = arrival.head;
   ping_ = {};
-  ping_.time = datagram.time;
-  ping_.offset = datagram.offset;
+  ping_.time = arrival.time;
+  ping_.offset = arrival.offset;
   ping_.roll_deg = static_cast<float>(head.roll_deg);
   ping_.pitch_deg = static_cast<float>(head.pitch_deg);
   ping_.heave_m = static_cast<float>(head.heave_m);
   ping_.heading_deg = static_cast<float>(head.heading_deg);
   ping_.transducer_depth_m = static_cast<float>(head.transducer_depth_m);
   ping_.config = static_cast<std::uint16_t>(index_.configs.size() - 1);
-  ping_.min_samples = kMaxSamples;
-  ping_transmit_.clear();
+  open_.clear();
   ping_open_ = true;
   config_used_ = true;
   ++ping_number_;
 }
 
 void Indexer::take_raw0(const Datagram& datagram) {
-  const Raw0 raw = parse_raw0(datagram.body);
+  Raw0 raw = parse_raw0(datagram.body);
   if (raw.problem != nullptr) {
     notes_.add(raw.code, datagram.offset, fmt::format("channel {}: {}", raw.head.channel + 1, raw.problem));
     return;
   }
-  if (!channel_exists(datagram, raw.head.channel) || !join_ping(datagram, raw.head)) return;
+  if (!channel_exists(datagram, raw.head.channel)) return;
   if (raw.bad_attitude && !bad_attitude_noted_) {
     bad_attitude_noted_ = true;
     notes_.add(DiagnosticCode::bad_value, datagram.offset, "roll, pitch, heave or depth is impossible; 0 is taken");
   }
-  ping_.end = datagram.end();
-  ping_.min_samples = std::min(ping_.min_samples, raw.count());
-  ping_.max_samples = std::max(ping_.max_samples, raw.count());
-  ++ping_.channels;
-  if (is_silent(raw.head)) ++ping_.silent_channels;
-  ping_transmit_.emplace_back(raw.head.channel, transmit_of(raw));
+  const int count = raw.count();
+  arrive({datagram.time, datagram.offset, datagram.end(), std::move(raw.head), count});
+}
+
+/// Of a sounder with many channels a single one with a time stamp of its own says little: what comes behind it tells
+/// whether it begins a ping. Where its ping goes on, or its time lies outside what is before and behind it, the stamp is
+/// damaged; taken for a ping it would cut the observation.
+void Indexer::arrive(Arrival arrival) {
+  if (waiting_) {
+    const bool ping_goes_on = arrival.time == ping_.time;
+    const bool alone = arrival.time != waiting_->time;
+    const bool out_of_order = waiting_->time < ping_.time || waiting_->time > arrival.time;
+    if (ping_goes_on || (alone && out_of_order)) {
+      drop(*waiting_);
+    } else {
+      take(*waiting_);
+    }
+    waiting_.reset();
+  }
+  const bool many = index_.configs.back().beams.size() >= kLeastToWait;
+  if (many && ping_open_ && arrival.time != ping_.time) {
+    waiting_ = std::move(arrival);
+  } else {
+    take(arrival);
+  }
+}
+
+void Indexer::drop(const Arrival& arrival) {
+  notes_.add(DiagnosticCode::bad_time, arrival.offset,
+             fmt::format("channel {}: its time stamp is not that of its ping", arrival.head.channel + 1));
+}
+
+void Indexer::take(const Arrival& arrival) {
+  if (!join_ping(arrival)) return;
+  ping_.end = arrival.end;
+  open_.push_back({arrival.head.channel, transmit_of(arrival.head, arrival.count),
+                   sent_channel(arrival.head, arrival.count), arrival.count, is_silent(arrival.head), arrival.offset});
+}
+
+void Indexer::close_pings() {
+  if (waiting_) take(*waiting_);
+  waiting_.reset();
+  close_ping();
 }
 
 void Indexer::close_ping() {
   if (!ping_open_) return;
   ping_open_ = false;
+  leave_out_odd_channels();
+  ping_.min_samples = kMaxSamples;
+  for (const OpenChannel& channel : open_) {
+    ping_.min_samples = std::min(ping_.min_samples, channel.count);
+    ping_.max_samples = std::max(ping_.max_samples, channel.count);
+    if (channel.silent) ++ping_.silent_channels;
+  }
+  ping_.channels = static_cast<std::uint16_t>(open_.size());
   ping_.transmit = transmit_of_open_ping();
   index_.pings.push_back(ping_);
 }
 
+/// A channel that is sent otherwise than all others in every ping is no damage: from the second ping on it counts.
+void Indexer::leave_out_odd_channels() {
+  std::vector<SentChannel> sent;
+  sent.reserve(open_.size());
+  for (const OpenChannel& channel : open_) sent.push_back(channel.sent);
+  const std::vector<const char*> odd = odd_channels(sent);
+  std::map<int, ChannelTransmit> left_out;
+  for (std::size_t i = 0; i < odd.size(); ++i) {
+    if (odd[i] == nullptr) continue;
+    const OpenChannel& channel = open_[i];
+    const auto before = odd_before_.find(channel.channel);
+    const bool the_same = before != odd_before_.end() && same_setting(before->second, channel.transmit) &&
+                          before->second.max_samples == channel.transmit.max_samples;
+    left_out.emplace(channel.channel, channel.transmit);
+    if (the_same) continue;
+    notes_.add(DiagnosticCode::bad_value, channel.offset,
+               fmt::format("channel {}: its {} is not that of its ping", channel.channel + 1, odd[i]));
+    ++ping_.odd_channels;
+  }
+  if (ping_.odd_channels > 0) {
+    std::size_t i = 0;
+    std::erase_if(open_, [&](const OpenChannel&) { return odd[i++] != nullptr; });
+    ping_.odd_channels = static_cast<std::uint16_t>(left_out.size());
+  }
+  odd_before_ = std::move(left_out);
+}
+
 std::uint16_t Indexer::transmit_of_open_ping() {
   const auto fits = [&](const TransmitSet& set) {
-    return std::all_of(ping_transmit_.begin(), ping_transmit_.end(), [&](const auto& entry) {
-      const auto channel = static_cast<std::size_t>(entry.first);
-      return channel >= set.size() || !set[channel].seen() || same_setting(set[channel], entry.second);
+    return std::all_of(open_.begin(), open_.end(), [&](const OpenChannel& open) {
+      const auto channel = static_cast<std::size_t>(open.channel);
+      return channel >= set.size() || !set[channel].seen() || same_setting(set[channel], open.transmit);
     });
   };
   // Settings may alternate from ping to ping, and a sound speed that wavers comes back.
@@ -319,8 +360,9 @@ std::uint16_t Indexer::transmit_of_open_ping() {
     }
   }
   TransmitSet& set = sets[chosen];
-  for (const auto& [channel, transmit] : ping_transmit_) {
-    const auto c = static_cast<std::size_t>(channel);
+  for (const OpenChannel& open : open_) {
+    const ChannelTransmit& transmit = open.transmit;
+    const auto c = static_cast<std::size_t>(open.channel);
     if (c >= set.size()) {
       transmit_entries_ += c + 1 - set.size();
       set.resize(c + 1);

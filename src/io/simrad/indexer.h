@@ -3,13 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "io/byte_source.h"
 #include "io/simrad/index.h"
+#include "io/simrad/odd_channels.h"
 #include "io/simrad/raw0.h"
+#include "io/simrad/raw_format.h"
 #include "io/simrad/scanner.h"
 
 namespace sonar::simrad {
@@ -38,9 +42,23 @@ class Indexer {
   void take_raw0(const Datagram& datagram);
   void take_nme0(const Datagram& datagram);
   [[nodiscard]] bool channel_exists(const Datagram& datagram, int channel);
-  [[nodiscard]] bool join_ping(const Datagram& datagram, const ChannelPing& head);
-  void open_ping(const Datagram& datagram, const ChannelPing& head);
+  /// A sound RAW0, without its samples.
+  struct Arrival {
+    TimeNs time = 0;
+    std::uint64_t offset = 0;
+    std::uint64_t end = 0;
+    ChannelPing head;
+    int count = 0;
+  };
+  void arrive(Arrival arrival);
+  void take(const Arrival& arrival);
+  void drop(const Arrival& arrival);
+  [[nodiscard]] bool join_ping(const Arrival& arrival);
+  void open_ping(const Arrival& arrival);
+  /// Ends the open ping, and the one that a waiting channel begins.
+  void close_pings();
   void close_ping();
+  void leave_out_odd_channels();
   [[nodiscard]] std::uint16_t transmit_of_open_ping();
   void name_format();
 
@@ -54,21 +72,24 @@ class Indexer {
   bool ping_open_ = false;
   PingEntry ping_;
   std::uint64_t ping_number_ = 0;
-  std::vector<std::uint64_t> seen_in_ping_;                     ///< [channel] number of the ping it was last seen in
-  std::vector<std::pair<int, ChannelTransmit>> ping_transmit_;  ///< channels of the open ping
-  std::size_t transmit_entries_ = 0;                            ///< over all sets
+  std::vector<std::uint64_t> seen_in_ping_;  ///< [channel] number of the ping it was last seen in
+  struct OpenChannel {
+    int channel = 0;
+    ChannelTransmit transmit;
+    SentChannel sent;
+    int count = 0;
+    bool silent = false;
+    std::uint64_t offset = 0;  ///< of its datagram
+  };
+  std::vector<OpenChannel> open_;              ///< channels of the open ping
+  std::optional<Arrival> waiting_;             ///< begins the next ping, unless its time stamp is damaged
+  std::map<int, ChannelTransmit> odd_before_;  ///< what was left out of the last ping, by channel
+  std::size_t transmit_entries_ = 0;           ///< over all sets
   bool transmit_overflow_ = false;
 
   std::int64_t bad_sentences_ = 0;
   std::uint64_t first_bad_sentence_ = 0;
   bool bad_attitude_noted_ = false;
 };
-
-/// By the first bytes; unknown for what is none of the formats, and for fewer than 16 bytes.
-/// errors  io
-[[nodiscard]] Result<RawFormat> detect_format(const ByteSource& source);
-/// Whether a netCDF file says near its beginning that it follows SONAR-netCDF4: a depth raster or a product does not.
-/// errors  io
-[[nodiscard]] Result<bool> is_sonar_netcdf4(const ByteSource& source);
 
 }  // namespace sonar::simrad

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "io/simrad/datagram.h"
 #include "io/simrad/fields.h"
 #include "io/simrad/indexer.h"
+#include "io/simrad/odd_channels.h"
 #include "io/simrad/raw0.h"
 
 namespace sonar {
@@ -50,6 +52,16 @@ std::span<const std::int16_t> counts_of(std::span<const std::byte> power, Ping& 
   return {reinterpret_cast<const std::int16_t*>(bytes), count};
 }
 
+void leave_out_odd_channels(Ping& ping) {
+  std::vector<simrad::SentChannel> sent;
+  for (const ChannelPing& head : ping.channels) {
+    sent.push_back(simrad::sent_channel(head, static_cast<int>(head.power_count.size())));
+  }
+  const std::vector<const char*> odd = simrad::odd_channels(sent);
+  std::size_t i = 0;
+  std::erase_if(ping.channels, [&](const ChannelPing&) { return odd[i++] != nullptr; });
+}
+
 }  // namespace
 
 Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPool& pool) {
@@ -79,6 +91,7 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
     raw.head.power_count = counts_of(raw.power, ping, pool);
     ping.channels.insert(place, raw.head);
   });
+  if (entry.odd_channels > 0) leave_out_odd_channels(ping);
   if (ping.channels.empty()) {
     return fail(ErrorCode::format, "no sample data of this ping is here any more; the file has changed", where);
   }
