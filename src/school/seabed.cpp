@@ -298,7 +298,7 @@ void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
     const auto samples = flags.row(row);
     for (auto s = static_cast<std::size_t>(seabed.first_sample[static_cast<std::size_t>(row)]); s < samples.size();
          ++s) {
-      samples[s] |= SampleFlags::seabed;
+      if (!any(samples[s] & SampleFlags::lost)) samples[s] |= SampleFlags::seabed;
     }
   }
 }

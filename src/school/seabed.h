@@ -143,7 +143,7 @@ struct Seabed {
                                  const Background& background, const Sector& sector,
                                  const std::vector<double>& vertical_width_deg, const SeabedParams& params);
 
-/// Sets SampleFlags::seabed from first_sample to the end of each row.
+/// Sets SampleFlags::seabed from first_sample to the end of each row, where something was recorded.
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags);
 
 /// Depth of the seabed under a place, below the water line; NaN where none was seen near there.

@@ -38,11 +38,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
-    {"seabed", 3, "aae837000c9ff6f0127446493cea9c4a"},
+    {"seabed", 3, "a0498ac74835f1ca54950382a1b0ee95"},
     {"detect", 7, "634e39305aad8adff3e75299492312c3"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 7, "3520aea999008bd6ca6973f4d0e9cceb"},
+    {"measure", 7, "7e596962443e891e76381f2dc17efb51"},
     {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
 }};
 

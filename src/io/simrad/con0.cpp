@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "io/simrad/fields.h"

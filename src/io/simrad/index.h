@@ -66,6 +66,7 @@ struct PingEntry {
   std::uint16_t channels = 0;         ///< how many channels it has
   std::uint16_t silent_channels = 0;  ///< how many of them did not transmit, or a test signal
   std::uint16_t odd_channels = 0;     ///< how many more were left out (odd_channels.h)
+  bool all_beams = false;             ///< it has (nearly) all beams of its configuration
   std::uint16_t config = 0;           ///< index in RawIndex::configs
   std::uint16_t transmit = 0;         ///< index in RawIndex::transmits
 };

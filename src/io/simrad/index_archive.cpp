@@ -162,6 +162,7 @@ void fields(auto& io, Is<PingEntry> auto& p) {
   io(p.channels);
   io(p.silent_channels);
   io(p.odd_channels);
+  io(p.all_beams);
   io(p.config);
   io(p.transmit);
 }

@@ -25,6 +25,7 @@ constexpr std::size_t kMaxTypes = 64;
 constexpr std::size_t kMaxConfigs = 1000;
 constexpr int kMaxUndescribedChannels = 4096;
 constexpr std::size_t kLeastToWait = 8;  ///< channels
+constexpr double kNearlyAllBeams = 0.95;
 // A sound speed that wavers by half a per mille and comes back makes so many sets.
 constexpr std::size_t kMostAlternating = 16;
 // Settings that change at every ping would otherwise cost more than the samples.
@@ -309,10 +310,11 @@ void Indexer::close_ping() {
 
 /// A channel that is sent otherwise than all others in every ping is no damage: from the second ping on it counts.
 void Indexer::leave_out_odd_channels() {
+  const auto beams = static_cast<double>(index_.configs.at(ping_.config).beams.size());
+  ping_.all_beams = static_cast<double>(open_.size()) >= kNearlyAllBeams * beams;
   std::vector<SentChannel> sent;
-  sent.reserve(open_.size());
   for (const OpenChannel& channel : open_) sent.push_back(channel.sent);
-  const std::vector<const char*> odd = odd_channels(sent);
+  const std::vector<const char*> odd = odd_channels(sent, ping_.all_beams);
   std::map<int, ChannelTransmit> left_out;
   for (std::size_t i = 0; i < odd.size(); ++i) {
     if (odd[i] == nullptr) continue;

@@ -65,14 +65,18 @@ void mark_far(std::span<const SentChannel> channels, std::vector<const char*>& o
 }  // namespace
 
 SentChannel sent_channel(const ChannelPing& head, int count) {
-  return {head.frequency_hz,    head.transmit_power_w,    head.pulse_length_s, head.sample_interval_s,
-          head.sound_speed_mps, head.absorption_db_per_m, head.offset + count, head.offset > 0 && !head.reduced};
+  return {head.frequency_hz,       head.transmit_power_w,    head.pulse_length_s, head.sample_interval_s,
+          head.sound_speed_mps,    head.absorption_db_per_m, head.offset + count, head.offset > 0 && !head.reduced,
+          head.reduced.has_value()};
 }
 
-std::vector<const char*> odd_channels(std::span<const SentChannel> channels) {
+std::vector<const char*> odd_channels(std::span<const SentChannel> channels, bool all_beams) {
   std::vector<const char*> odd(channels.size(), nullptr);
   if (channels.size() < kLeastChannels) return odd;
-  for (const Value& value : kValues) mark(channels, value, odd);
+  const bool some = std::any_of(channels.begin(), channels.end(), [](const SentChannel& c) { return c.reduced; });
+  if (all_beams && !some) {
+    for (const Value& value : kValues) mark(channels, value, odd);
+  }
   mark_far(channels, odd);
   return odd;
 }

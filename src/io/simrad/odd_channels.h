@@ -18,6 +18,7 @@ struct SentChannel {
   double absorption_db_per_m = 0.0;
   int end = 0;
   bool shifted = false;  ///< has an offset that no reduction explains
+  bool reduced = false;  ///< of a file that keeps but some channels
 };
 [[nodiscard]] SentChannel sent_channel(const ChannelPing& head, int count);
 
@@ -25,7 +26,9 @@ struct SentChannel {
 /// nearly all share one or a few, or a row that its offset moves far beyond all others. A sounder sets many beams at
 /// once; one of hundreds that differs is damage, and would cut an observation in two or make every row as long as its own.
 /// Pings of fewer than eight channels are left as they are.
+/// all_beams  (nearly) all beams are here; where but some were kept, the one that is left of a fan is not odd, and only rows
+///            that lie far away are
 /// cost  sorts the channels six times
-[[nodiscard]] std::vector<const char*> odd_channels(std::span<const SentChannel> channels);
+[[nodiscard]] std::vector<const char*> odd_channels(std::span<const SentChannel> channels, bool all_beams);
 
 }  // namespace sonar::simrad

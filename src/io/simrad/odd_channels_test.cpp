@@ -100,6 +100,20 @@ TEST(OddChannels, OneThatIsAlwaysSentOtherwiseIsNoDamage) {
   EXPECT_EQ(codes(index).size(), 1U);
 }
 
+// Of a reduced ping few channels are left, and of a fan perhaps one.
+TEST(OddChannels, WhatIsLeftOfAFanIsNotOdd) {
+  Bytes file = test::con0(sounder());
+  for (int channel = 1; channel <= 11; ++channel) {
+    test::Raw0Spec spec;
+    spec.channel = channel;
+    spec.frequency_hz = channel > kChannels / 2 ? 90'000.0F : 100'000.0F;
+    file.add(test::raw0(kStart, spec, {1, 2, 3, 4}));
+  }
+  const RawIndex index = *index_raw(MemorySource("reduced.raw", file.data));
+  EXPECT_TRUE(index.diagnostics.empty());
+  EXPECT_EQ(index.pings.at(0).channels, 11);
+}
+
 TEST(OddChannels, AFrequencyForEachBeamIsNotOdd) {
   const RawIndex index = damaged(
       [](Sent& sent, int) { sent.spec.frequency_hz = 70'000.0F + 100.0F * static_cast<float>(sent.spec.channel); });

@@ -52,12 +52,12 @@ std::span<const std::int16_t> counts_of(std::span<const std::byte> power, Ping& 
   return {reinterpret_cast<const std::int16_t*>(bytes), count};
 }
 
-void leave_out_odd_channels(Ping& ping) {
+void leave_out_odd_channels(Ping& ping, bool all_beams) {
   std::vector<simrad::SentChannel> sent;
   for (const ChannelPing& head : ping.channels) {
     sent.push_back(simrad::sent_channel(head, static_cast<int>(head.power_count.size())));
   }
-  const std::vector<const char*> odd = simrad::odd_channels(sent);
+  const std::vector<const char*> odd = simrad::odd_channels(sent, all_beams);
   std::size_t i = 0;
   std::erase_if(ping.channels, [&](const ChannelPing&) { return odd[i++] != nullptr; });
 }
@@ -91,7 +91,7 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
     raw.head.power_count = counts_of(raw.power, ping, pool);
     ping.channels.insert(place, raw.head);
   });
-  if (entry.odd_channels > 0) leave_out_odd_channels(ping);
+  if (entry.odd_channels > 0) leave_out_odd_channels(ping, entry.all_beams);
   if (ping.channels.empty()) {
     return fail(ErrorCode::format, "no sample data of this ping is here any more; the file has changed", where);
   }
