@@ -15,6 +15,7 @@ if command -v llvm-symbolizer >/dev/null; then
   ASAN_SYMBOLIZER_PATH=$(readlink -f "$(command -v llvm-symbolizer)")
   export ASAN_SYMBOLIZER_PATH
 fi
+export TSAN_OPTIONS=suppressions=$PWD/tests/threads.supp:print_suppressions=0${ASAN_SYMBOLIZER_PATH:+:external_symbolizer_path=$ASAN_SYMBOLIZER_PATH}
 unset DISPLAY WAYLAND_DISPLAY  # nothing here may need a display
 
 full=false

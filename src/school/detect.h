@@ -168,8 +168,9 @@ void describe(Visitor& v, DetectParams& p) {
            .text = "ranges this near to their median, as a share of it, are one range: slope and roll included"});
   v.field("record_end_share", p.record_end_share,
           {.unit = "1", .min = 0, .max = 0.5, .text = "last share of the samples, where the record cuts echo off"});
-  v.field("cut_off_share", p.cut_off_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's sound beams as loud there that makes it the seabed"});
+  v.field(
+      "cut_off_share", p.cut_off_share,
+      {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's sound beams as loud there that makes it the seabed"});
   v.field("member_samples", p.member_samples,
           {.unit = "samples",
            .min = 0,
