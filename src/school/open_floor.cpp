@@ -39,7 +39,18 @@ double share_loud_at_end(const Water& water, int fan, int from, double level_db)
   return sound > 0 ? static_cast<double>(loud) / sound : 0.0;
 }
 
-/// Reaches the record's end in a fan of which most beams are as loud there: faulty beams may cut the seabed to pieces.
+/// Whether most sound beams of a fan and of each below it reach a level from a sample on.
+bool loud_down_from(const Water& water, int fan, int from, double level_db) {
+  const int top = water.sector.fans() - 1;
+  const int down = water.sector.elevation_rad(0) <= water.sector.elevation_rad(top) ? -1 : 1;
+  for (; fan >= 0 && fan <= top; fan += down) {
+    if (share_loud_at_end(water, fan, from, level_db) < water.params.cut_off_share) return false;
+  }
+  return true;
+}
+
+/// Reaches the record's end in a fan of which most beams are as loud there, and so are those of all fans below it: faulty
+/// beams may cut the seabed to pieces, but there is no water under it, as there is under a wide school.
 bool is_cut_off(const Water& water, const Detection& detection) {
   const int samples = water.sv.shape().samples;
   const int end = samples - std::max(2, static_cast<int>(water.params.record_end_share * samples));
@@ -48,7 +59,7 @@ bool is_cut_off(const Water& water, const Detection& detection) {
     const int fan = run.row / water.sector.beams();
     if (run.end() < end || fan == judged) continue;
     judged = fan;
-    if (share_loud_at_end(water, fan, end, detection.threshold_db) >= water.params.cut_off_share) return true;
+    if (loud_down_from(water, fan, end, detection.threshold_db)) return true;
   }
   return false;
 }

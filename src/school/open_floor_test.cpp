@@ -18,8 +18,8 @@ struct Floor {
   Floor() : sector(test::grid().sector(test::range_axis())), sv(Shape3{20, 25, kSamples}), flags(sv.shape()) {
     for (std::int16_t& count : sv.all()) count = static_cast<std::int16_t>(counts_from_db(-90.0));
   }
-  void add_echo(int first_beam, int end_beam, int first, int end) {
-    for (int fan = 0; fan < 2; ++fan) {
+  void add_echo(int first_beam, int end_beam, int first, int end, int lowest = 0) {
+    for (int fan = lowest; fan < lowest + 2; ++fan) {
       for (int beam = first_beam; beam < end_beam; ++beam) {
         for (int s = first; s < end; ++s) sv(fan, beam, s) = static_cast<std::int16_t>(counts_from_db(-31.0));
       }
@@ -30,9 +30,9 @@ struct Floor {
       for (SampleFlags& flag : flags.view().row(fan * 25 + beam)) flag |= reason;
     }
   }
-  [[nodiscard]] bool judged(int first_beam, int end_beam, int first, int end) const {
+  [[nodiscard]] bool judged(int first_beam, int end_beam, int first, int end, int lowest = 0) const {
     PingMask mask;
-    for (int fan = 0; fan < 2; ++fan) {
+    for (int fan = lowest; fan < lowest + 2; ++fan) {
       for (int beam = first_beam; beam < end_beam; ++beam) mask.runs.push_back({fan * 25 + beam, first, end - first});
     }
     mask.confidence.assign(static_cast<std::size_t>(2 * (end_beam - first_beam) * (end - first)), 255);
@@ -68,6 +68,13 @@ TEST(OpenFloor, ASchoolAtTheRecordsEndIsNone) {
   Floor floor;
   floor.add_echo(8, 14, 860, kSamples);
   EXPECT_FALSE(floor.judged(8, 14, 860, kSamples));
+}
+
+// Near the sonar the sector is narrow, and a school may fill most of it where the record ends.
+TEST(OpenFloor, NorIsAWideSchoolWithWaterUnderIt) {
+  Floor floor;
+  floor.add_echo(3, 22, 860, kSamples, 6);
+  EXPECT_FALSE(floor.judged(3, 22, 860, kSamples, 6));
 }
 
 TEST(OpenFloor, NorIsAnEchoThatEndsBefore) {

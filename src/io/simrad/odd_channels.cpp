@@ -8,7 +8,7 @@
 namespace sonar::simrad {
 namespace {
 
-constexpr std::size_t kLeastChannels = 8;
+constexpr std::size_t kLeastChannels = 10;
 constexpr double kNearlyAll = 0.9;
 constexpr double kFew = 0.01;
 constexpr int kLongRow = 16'384;  ///< shorter rows cost little, wherever they lie

@@ -25,7 +25,7 @@ struct SentChannel {
 /// For each channel of a ping what of it disagrees with the others, or nullptr: a value that (almost) no other has where
 /// nearly all share one or a few, or a row that its offset moves far beyond all others. A sounder sets many beams at
 /// once; one of hundreds that differs is damage, and would cut an observation in two or make every row as long as its own.
-/// Pings of fewer than eight channels are left as they are.
+/// Pings of fewer than ten channels are left as they are.
 /// all_beams  (nearly) all beams are here; where but some were kept, the one that is left of a fan is not odd, and only rows
 ///            that lie far away are
 /// cost  sorts the channels six times
