@@ -56,7 +56,7 @@ struct DetectParams {
   double member_percentile = 92.0;
   double peak_percentile = 99.5;
   double peak_above_db = 1.5;
-  double part_dip_db = 3.0;
+  double min_valley_db = 6.0;
   int rim_fans = 1;
   int rim_beams = 1;
   int rim_samples = 15;
@@ -188,11 +188,11 @@ void describe(Visitor& v, DetectParams& p) {
            .text = "share of a school's filtered voxels below its peak; 0 = no school has one"});
   v.field("peak_above_db", p.peak_above_db,
           {.unit = "dB", .min = 0, .max = 20, .text = "the reference lies so far above the filtered peak at least"});
-  v.field("part_dip_db", p.part_dip_db,
+  v.field("min_valley_db", p.min_valley_db,
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "water so far below the members' threshold parts schools that the filter had joined"});
+           .text = "two schools that the filter had joined: both stand so far above the valley between them"});
   v.field("rim_fans", p.rim_fans,
           {.unit = "fans", .min = 0, .max = 100, .text = "members lie no farther outside what the filtered data show"});
   v.field(

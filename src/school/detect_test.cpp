@@ -8,68 +8,12 @@
 #include "base/units.h"
 #include "model/school.h"
 #include "school/edges.h"
-#include "school/test_water.h"
+#include "school/test_scene.h"
 
 namespace sonar {
 namespace {
 
-struct Scene {
-  explicit Scene(double mounting_deg = 270.0)
-      : sector(test::grid(mounting_deg).sector(test::range_axis())),
-        expected(Shape3{20, 25, 900}),
-        flags(test::cropped_flags(expected.shape(), sector)),
-        flat(expected.shape()) {}
-
-  void add(double range_m, double elevation_deg, double azimuth_deg, double sv_db, Point<Sonar> half = {14, 9, 5}) {
-    test::Ellipsoid e;
-    e.centre = Sector::direction(rad_from_deg(elevation_deg), rad_from_deg(azimuth_deg)) * range_m;
-    e.half_x = half.x;
-    e.half_y = half.y;
-    e.half_z = half.z;
-    e.sv = linear_from_db(sv_db);
-    Array3<double> alone(expected.shape());
-    test::add_ellipsoid(alone, sector, e);
-    truths.push_back(test::truth_of(alone));
-    for (std::size_t i = 0; i < alone.shape().size(); ++i) expected.all()[i] += alone.all()[i];
-  }
-
-  std::vector<Detection> look(std::uint64_t seed, const DetectParams& params = {}) {
-    counts = test::counts_of(expected, seed);
-    disturb();
-    const Array3<std::int16_t> sv = test::filtered(counts, flags);
-    const Background background{flat.power_db, flat.calibration.view()};
-    return detect(sv.view(), std::as_const(counts).view(), flags.view(), sector, background, params);
-  }
-
-  /// The median of so many samples of a beam about one, where none is faulty.
-  [[nodiscard]] std::int16_t along_beam(int row, int sample, int samples) const {
-    const auto all = counts.view().row(row);
-    const int half = samples / 2;
-    const int first = std::max(0, sample - half);
-    const int end = std::min(static_cast<int>(all.size()), sample + half + 1);
-    std::vector<std::int16_t> window(all.begin() + first, all.begin() + end);
-    std::sort(window.begin(), window.end());
-    return window[window.size() / 2];
-  }
-
-  /// Overwritten samples carry their flag.
-  void disturb() {
-    for (int row = 0; row < 500; ++row) {
-      for (int s = 0; s < 900; ++s) {
-        if (any(flags.view().row(row)[static_cast<std::size_t>(s)] & kFault)) {
-          counts.view().row(row)[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(counts_from_db(-10.0));
-        }
-      }
-    }
-  }
-
-  Sector sector;
-  Array3<double> expected;
-  Array3<SampleFlags> flags;
-  Array3<std::int16_t> counts;
-  test::FlatBackground flat;
-  std::vector<PingMask> truths;
-};
+using test::Scene;
 
 double volume(const PingMask& mask, const Sector& sector) { return shape_of(mask, sector).volume_m3; }
 
@@ -299,26 +243,6 @@ TEST(Detect, SmallAndWeakSchoolsAreAsLargeAsTheyAre) {
         << above_noise_db;
     EXPECT_GT(dice(found[0].mask, scene.truths[0]), dice(as_filtered[0].mask, scene.truths[0])) << above_noise_db;
   }
-}
-
-// The filter's box of three beams bridges the 26 m of open water between two schools 48 m apart. Bodies that touch stay one.
-TEST(Detect, OpenWaterPartsSchoolsThatTheFilterJoins) {
-  Scene apart;
-  apart.add(240.0, -18.0, 261.0, -36.0, {11, 9, 6});
-  apart.add(240.0, -18.0, 273.0, -36.0, {11, 9, 6});
-  const std::vector<Detection> two = apart.look(31);
-  ASSERT_EQ(two.size(), 2U);
-  for (const PingMask& truth : apart.truths) {
-    EXPECT_GT(std::max(dice(two[0].mask, truth), dice(two[1].mask, truth)), 0.85);
-  }
-  EXPECT_EQ(overlap(two[0].mask, two[1].mask), 0U);
-  DetectParams by_filtered;
-  by_filtered.member_samples = 0;
-  EXPECT_LT(apart.look(31, by_filtered).size(), 2U);
-  Scene touching;
-  touching.add(240.0, -18.0, 263.5, -36.0, {11, 9, 6});
-  touching.add(240.0, -18.0, 268.5, -36.0, {11, 9, 6});
-  EXPECT_EQ(touching.look(32).size(), 1U);
 }
 
 TEST(Detect, SeabedIsNoMember) {

@@ -8,9 +8,23 @@
 
 #include "base/units.h"
 #include "school/beam_medians.h"
+#include "school/flood.h"
 #include "school/grow.h"
 
 namespace sonar {
+namespace {
+
+/// How finely valleys are sounded.
+constexpr double kLevelStep_db = 1.0;
+
+std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
+  std::vector<Run> runs;
+  for (const std::vector<Run>& part : parts) runs.insert(runs.end(), part.begin(), part.end());
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+}  // namespace
 
 MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
                              View3<const SampleFlags> flags, const Background& background, WaterLevels water,
@@ -76,40 +90,41 @@ MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double 
   return parts;
 }
 
-/// One group of pieces for each school, the strongest first.
-MemberSettler::Parts MemberSettler::grouped(const std::vector<Run>& part, double threshold_db,
-                                            const std::function<bool(const std::vector<Run>&)>& large) const {
-  const Parts all = pieces(part, threshold_db);
-  std::vector<std::pair<double, std::size_t>> tops;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!large(all[i])) continue;
-    const double top_db = reference(all[i]);
-    if (top_db >= threshold_db + params_.min_prominence_db) tops.emplace_back(-top_db, i);
-  }
-  Parts groups;
-  std::vector<bool> grouped(all.size(), false);
-  if (tops.size() > 1) {
-    std::sort(tops.begin(), tops.end());
-    const Parts lower = pieces(part, threshold_db - params_.part_dip_db);
-    for (const auto& [top, first] : tops) {
-      if (grouped[first]) continue;
-      const auto basin = std::find_if(lower.begin(), lower.end(),
-                                      [&, i = first](const auto& wide) { return share_a_voxel(wide, all[i]); });
-      std::vector<Run> group;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (grouped[i] || (i != first && (basin == lower.end() || !share_a_voxel(*basin, all[i])))) continue;
-        grouped[i] = true;
-        group.insert(group.end(), all[i].begin(), all[i].end());
-      }
-      groups.push_back(std::move(group));
+MemberSettler::Parts MemberSettler::hearts(const std::vector<Run>& part, double reference_db, double threshold_db,
+                                           const std::function<bool(const std::vector<Run>&)>& large) const {
+  std::vector<std::pair<double, std::vector<Run>>> found;
+  for (double level_db = std::max(reference_db - params_.min_valley_db, threshold_db);;
+       level_db = std::max(level_db - kLevelStep_db, threshold_db)) {
+    for (std::vector<Run>& piece : pieces(part, level_db)) {
+      const bool known = std::any_of(found.begin(), found.end(),
+                                     [&](const auto& heart) { return share_a_voxel(piece, heart.second); });
+      if (known || !large(piece)) continue;
+      const double top_db = reference(piece);
+      if (top_db >= level_db + params_.min_valley_db) found.emplace_back(top_db, std::move(piece));
     }
+    if (level_db <= threshold_db) break;
   }
-  if (groups.empty()) groups.emplace_back();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!grouped[i]) groups.front().insert(groups.front().end(), all[i].begin(), all[i].end());
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Parts hearts;
+  for (auto& [top_db, heart] : found) hearts.push_back(std::move(heart));
+  return hearts;
+}
+
+MemberSettler::Parts MemberSettler::shared_out(const std::vector<Run>& part, const Parts& hearts,
+                                               double threshold_db) const {
+  const std::vector<Run> all = joined(pieces(part, threshold_db));
+  if (hearts.size() < 2) return {all};
+  // Faint echo round a school leads its fragments to it.
+  const std::vector<Run> water = joined(pieces(part, threshold_db - params_.link_db));
+  Parts schools = flood(along_beams_.view(), water, hearts, params_.connectivity);
+  const std::vector<Run> reached = joined(schools);
+  for (std::vector<Run>& school : schools) school = common_runs(school, all);
+  for (const std::vector<Run>& fragment : connected_parts(all, filtered_.shape(), params_.connectivity)) {
+    if (share_a_voxel(fragment, reached)) continue;
+    schools.front().insert(schools.front().end(), fragment.begin(), fragment.end());
   }
-  for (std::vector<Run>& group : groups) std::sort(group.begin(), group.end());
-  return groups;
+  std::sort(schools.front().begin(), schools.front().end());
+  return schools;
 }
 
 std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>& part, double depth_db,
@@ -118,7 +133,7 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
   look_along_beams(box_round(part));
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
-  const Parts schools = grouped(part, threshold_db, large);
+  const Parts schools = shared_out(part, hearts(part, reference_db, threshold_db, large), threshold_db);
   std::vector<Settled> settled;
   for (const std::vector<Run>& school : schools) {
     // Beside a stronger one a school goes down to where the two part, as there.
@@ -160,6 +175,20 @@ bool share_a_voxel(const std::vector<Run>& a, const std::vector<Run>& b) {
     (a_first ? i : j)++;
   }
   return false;
+}
+
+std::vector<Run> common_runs(const std::vector<Run>& a, const std::vector<Run>& b) {
+  std::vector<Run> common;
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() && j != b.end()) {
+    const std::int32_t first = std::max(i->first_sample, j->first_sample);
+    const std::int32_t end = std::min(i->end(), j->end());
+    if (i->row == j->row && first < end) common.push_back({i->row, first, end - first});
+    const bool a_first = i->row != j->row ? i->row < j->row : i->end() < j->end();
+    (a_first ? i : j)++;
+  }
+  return common;
 }
 
 std::vector<std::vector<Run>> connected_parts(const std::vector<Run>& runs, const Shape3& shape,

@@ -33,7 +33,7 @@ class MemberSettler {
     double reference_db = 0.0;
     double threshold_db = 0.0;
   };
-  /// One school, or several where the filter bridged open water.
+  /// One school, or several where valleys part them: the filter's box of beams bridges open water.
   /// part      what hangs together in the filtered data
   /// depth_db  members lie no deeper below the reference
   /// large     whether so many voxels may be a school: others go with the first school
@@ -52,8 +52,11 @@ class MemberSettler {
   [[nodiscard]] double level(const std::vector<Run>& part) const;
   using Parts = std::vector<std::vector<Run>>;
   [[nodiscard]] Parts pieces(const std::vector<Run>& part, double threshold_db) const;
-  [[nodiscard]] Parts grouped(const std::vector<Run>& part, double threshold_db,
-                              const std::function<bool(const std::vector<Run>&)>& large) const;
+  /// Where each school is loudest: what stands min_valley_db above the valleys round it, the strongest first.
+  [[nodiscard]] Parts hearts(const std::vector<Run>& part, double reference_db, double threshold_db,
+                             const std::function<bool(const std::vector<Run>&)>& large) const;
+  /// The members of each school, in the order of their hearts; fragments that hang together with none go with the first.
+  [[nodiscard]] Parts shared_out(const std::vector<Run>& part, const Parts& hearts, double threshold_db) const;
   [[nodiscard]] Settled members(const std::vector<Run>& runs, double reference_db, double threshold_db,
                                 View3<std::uint8_t> claimed) const;
 
@@ -67,6 +70,9 @@ class MemberSettler {
 
 /// Whether two lists of runs, each sorted, have a voxel in common.
 [[nodiscard]] bool share_a_voxel(const std::vector<Run>& a, const std::vector<Run>& b);
+
+/// The voxels that two lists of runs, each sorted, have in common.
+[[nodiscard]] std::vector<Run> common_runs(const std::vector<Run>& a, const std::vector<Run>& b);
 
 /// The parts of runs that hang together, each sorted, in order of their first run.
 [[nodiscard]] std::vector<std::vector<Run>> connected_parts(const std::vector<Run>& runs, const Shape3& shape,

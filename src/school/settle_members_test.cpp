@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "school/detect.h"
 #include "school/mask_shape.h"
-#include "school/test_water.h"
+#include "school/test_scene.h"
 
 namespace sonar {
 namespace {
@@ -63,6 +63,62 @@ TEST(SettleMembers, APeakedSchoolIsNoLargerThanItsTruth) {
 }
 
 TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) { EXPECT_NEAR(apparent_volume_ratio(0.0, {}), 1.0, 0.05); }
+
+/// One detection for each of the scene's schools, which holds it and little else.
+void expect_schools_apart(const std::vector<Detection>& found, const test::Scene& scene, double least_dice) {
+  ASSERT_EQ(found.size(), scene.truths.size());
+  for (const PingMask& truth : scene.truths) {
+    double best = 0.0;
+    for (const Detection& school : found) best = std::max(best, dice(school.mask, truth));
+    EXPECT_GT(best, least_dice);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_EQ(overlap(found[i].mask, found[j].mask), 0U);
+  }
+}
+
+// The filter's box of three beams bridges the 26 m of open water between two schools 48 m apart. Bodies that touch stay one.
+TEST(SettleMembers, OpenWaterPartsSchoolsThatTheFilterJoins) {
+  test::Scene apart;
+  apart.add(240.0, -18.0, 261.0, -36.0, {11, 9, 6});
+  apart.add(240.0, -18.0, 273.0, -36.0, {11, 9, 6});
+  expect_schools_apart(apart.look(31), apart, 0.85);
+  DetectParams by_filtered;
+  by_filtered.member_samples = 0;
+  EXPECT_LT(apart.look(31, by_filtered).size(), 2U);
+  test::Scene touching;
+  touching.add(240.0, -18.0, 263.5, -36.0, {11, 9, 6});
+  touching.add(240.0, -18.0, 268.5, -36.0, {11, 9, 6});
+  EXPECT_EQ(touching.look(32).size(), 1U);
+}
+
+// One fan between two schools is free: the filter's box of three fans fills it. Their echo, spread by the beams, is still
+// within 10 dB of their tops there.
+TEST(SettleMembers, OneFreeFanPartsSchoolsOneAboveTheOther) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    test::Scene scene;
+    scene.add(200.0, -31.0, 270.0, -38.0, {12, 12, 4});
+    scene.add(200.0, -18.0, 270.0, -38.0, {12, 12, 4});
+    expect_schools_apart(scene.look(seed), scene, 0.8);
+    DetectParams deeper;
+    deeper.min_valley_db = 12.0;
+    EXPECT_EQ(scene.look(seed, deeper).size(), 1U);
+  }
+}
+
+// Lumps 6 dB above the rest of a school are no schools of their own.
+TEST(SettleMembers, ALumpySchoolStaysOne) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    test::Scene scene;
+    scene.add(200.0, -22.0, 270.0, -44.0, {45, 25, 22});
+    for (const double azimuth_deg : {263.0, 277.0}) {
+      for (const double elevation_deg : {-26.0, -18.0}) {
+        scene.add(200.0, elevation_deg, azimuth_deg, -45.0, {8, 8, 5});
+      }
+    }
+    EXPECT_EQ(scene.look(seed).size(), 1U) << seed;
+  }
+}
 
 }  // namespace
 }  // namespace sonar
