@@ -197,8 +197,8 @@ TEST(Detect, LeavesOthersVoxelsAlone) {
 // INTERFACES: f falls as 1 - (d/t)^2 to 0 at the threshold, d and t in dB below the reference.
 TEST(Detect, ConfidenceFallsToNothingAtTheThresholdThatIsPublished) {
   bool raised = false;
-  // fine steps, and neighbours whose echoes part between their thresholds
-  const DetectParams params{.tolerance_db = 20.0, .link_db = 0.0, .step_db = 1.0};
+  // fine steps, neighbours whose echoes part between their thresholds, and no valley to tell where
+  const DetectParams params{.tolerance_db = 20.0, .link_db = 0.0, .step_db = 1.0, .min_valley_db = 60.0};
   for (const double weak_db : {-45.0}) {
     for (const double apart_deg : {14.0, 15.0, 16.0, 17.0}) {
       Scene scene;

@@ -24,6 +24,23 @@ std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
   return runs;
 }
 
+/// Runs of what is not 0 within a box.
+std::vector<Run> set_runs(View3<std::uint8_t> marks, const IndexBox& box) {
+  std::vector<Run> runs;
+  for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
+    for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
+      const int row = fan * marks.shape().beams + beam;
+      const auto marked = marks.row(row);
+      for (int s = box.first_sample; s <= box.last_sample; ++s) {
+        if (marked[static_cast<std::size_t>(s)] == 0) continue;
+        if (runs.empty() || runs.back().row != row || runs.back().end() != s) runs.push_back({row, s, 0});
+        ++runs.back().count;
+      }
+    }
+  }
+  return runs;
+}
+
 }  // namespace
 
 MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
@@ -36,22 +53,22 @@ MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std
       along_beams_(filtered.shape(), kNoData),
       thresholder_(std::as_const(along_beams_).view(), flags, background, std::move(water), taken) {}
 
-IndexBox MemberSettler::box_round(const std::vector<Run>& part) const {
+IndexBox MemberSettler::box_round(const std::vector<Run>& part, int rims) const {
   PingMask mask;
   mask.runs = part;
   return box_of(mask, filtered_.shape().beams)
-      .enlarged(params_.rim_fans, params_.rim_beams, params_.rim_samples)
+      .enlarged(rims * params_.rim_fans, rims * params_.rim_beams, rims * params_.rim_samples)
       .clipped(filtered_.shape());
 }
 
-void MemberSettler::look_along_beams(const IndexBox& box) {
+void MemberSettler::look_along_beams() {
   std::vector<std::int16_t> medians;
-  for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
-    for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
+  for (int fan = box_.first_fan; fan <= box_.last_fan; ++fan) {
+    for (int beam = box_.first_beam; beam <= box_.last_beam; ++beam) {
       const int row = fan * filtered_.shape().beams + beam;
-      beam_medians(unfiltered_.row(row), flags_.row(row), filtered_.row(row), box.first_sample, box.last_sample + 1,
+      beam_medians(unfiltered_.row(row), flags_.row(row), filtered_.row(row), box_.first_sample, box_.last_sample + 1,
                    params_.member_samples / 2, medians);
-      std::copy(medians.begin(), medians.end(), along_beams_.view().row(row).begin() + box.first_sample);
+      std::copy(medians.begin(), medians.end(), along_beams_.view().row(row).begin() + box_.first_sample);
     }
   }
 }
@@ -84,61 +101,83 @@ double MemberSettler::level(const std::vector<Run>& part) const {
 }
 
 MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double threshold_db) const {
-  const std::vector<Run> all = thresholder_.above(box_round(part), threshold_db, params_.background_rest_db);
+  const std::vector<Run> all = thresholder_.above(box_, threshold_db, params_.background_rest_db);
   Parts parts = connected_parts(all, filtered_.shape(), params_.connectivity);
   std::erase_if(parts, [&](const std::vector<Run>& piece) { return !share_a_voxel(piece, part); });
   return parts;
 }
 
-MemberSettler::Parts MemberSettler::hearts(const std::vector<Run>& part, double reference_db, double threshold_db,
-                                           const std::function<bool(const std::vector<Run>&)>& large) const {
-  std::vector<std::pair<double, std::vector<Run>>> found;
-  for (double level_db = std::max(reference_db - params_.min_valley_db, threshold_db);;
-       level_db = std::max(level_db - kLevelStep_db, threshold_db)) {
-    for (std::vector<Run>& piece : pieces(part, level_db)) {
-      const bool known = std::any_of(found.begin(), found.end(),
-                                     [&](const auto& heart) { return share_a_voxel(piece, heart.second); });
-      if (known || !large(piece)) continue;
-      const double top_db = reference(piece);
-      if (top_db >= level_db + params_.min_valley_db) found.emplace_back(top_db, std::move(piece));
-    }
-    if (level_db <= threshold_db) break;
-  }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  Parts hearts;
-  for (auto& [top_db, heart] : found) hearts.push_back(std::move(heart));
-  return hearts;
+bool MemberSettler::has_crown(const std::vector<Run>& piece, double level_db,
+                              const std::function<bool(const std::vector<Run>&)>& large) const {
+  const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, params_.background_rest_db));
+  const Parts parts = connected_parts(above, filtered_.shape(), params_.connectivity);
+  return std::any_of(parts.begin(), parts.end(), large);
 }
 
-MemberSettler::Parts MemberSettler::shared_out(const std::vector<Run>& part, const Parts& hearts,
-                                               double threshold_db) const {
-  const std::vector<Run> all = joined(pieces(part, threshold_db));
-  if (hearts.size() < 2) return {all};
-  // Faint echo round a school leads its fragments to it.
-  const std::vector<Run> water = joined(pieces(part, threshold_db - params_.link_db));
-  Parts schools = flood(along_beams_.view(), water, hearts, params_.connectivity);
-  const std::vector<Run> reached = joined(schools);
-  for (std::vector<Run>& school : schools) school = common_runs(school, all);
-  for (const std::vector<Run>& fragment : connected_parts(all, filtered_.shape(), params_.connectivity)) {
-    if (share_a_voxel(fragment, reached)) continue;
-    schools.front().insert(schools.front().end(), fragment.begin(), fragment.end());
+std::vector<MemberSettler::Heart> MemberSettler::hearts(
+    const std::vector<Run>& part, double reference_db, double lowest_db, const std::vector<Run>& others,
+    const std::function<bool(const std::vector<Run>&)>& large) const {
+  std::vector<Heart> found;
+  for (double top_db = reference_db;; top_db = std::max(top_db - kLevelStep_db, lowest_db)) {
+    const double valley_db = top_db - params_.min_valley_db;
+    for (std::vector<Run>& piece : pieces(part, valley_db)) {
+      const bool known =
+          std::any_of(found.begin(), found.end(), [&](const Heart& heart) { return share_a_voxel(piece, heart.runs); });
+      if (known || !large(piece) || share_a_voxel(piece, others)) continue;
+      const double own_db = reference(piece);
+      if (own_db < top_db || !has_crown(piece, top_db - 0.5 * params_.min_valley_db, large)) continue;
+      found.push_back({own_db, valley_db, std::move(piece)});
+    }
+    if (top_db <= lowest_db) break;
   }
-  std::sort(schools.front().begin(), schools.front().end());
-  return schools;
+  std::stable_sort(found.begin(), found.end(), [](const Heart& a, const Heart& b) { return a.top_db > b.top_db; });
+  return found;
+}
+
+MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
+                                           const std::vector<Run>& others, double threshold_db) const {
+  Parts springs;
+  double bed_db = threshold_db;
+  for (const Heart& heart : hearts) {
+    springs.push_back(heart.runs);
+    bed_db = std::min({bed_db, heart.top_db - params_.tolerance_db, heart.valley_db});
+  }
+  // Faint echo round a school leads its fragments to it.
+  const std::vector<Run> bed = joined(pieces(part, bed_db - params_.link_db));
+  springs.push_back(common_runs(others, bed));
+  Parts waters = flood(along_beams_.view(), bed, springs, params_.connectivity);
+  const std::vector<Run> reached = joined(waters);
+  waters.pop_back();
+  for (const std::vector<Run>& fragment : pieces(part, threshold_db)) {
+    if (share_a_voxel(fragment, reached)) continue;
+    waters.front().insert(waters.front().end(), fragment.begin(), fragment.end());
+  }
+  std::sort(waters.front().begin(), waters.front().end());
+  return waters;
 }
 
 std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>& part, double depth_db,
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
-  look_along_beams(box_round(part));
+  // What stands out of a stronger neighbour's skirt alone: it is to be seen where that one lies.
+  box_ = box_round(part, depth_db < params_.tolerance_db ? 2 : 1);
+  look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
-  const Parts schools = shared_out(part, hearts(part, reference_db, threshold_db, large), threshold_db);
+  const std::vector<Run> others = set_runs(claimed, box_);
+  const std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
+  if (schools.empty() || (schools.size() == 1 && others.empty())) {
+    return {members(joined(pieces(part, threshold_db)), reference_db, threshold_db, claimed)};
+  }
+  // The flood knows where they part: none need stop above that.
+  const Parts sides = waters(part, schools, others, threshold_db);
   std::vector<Settled> settled;
-  for (const std::vector<Run>& school : schools) {
-    // Beside a stronger one a school goes down to where the two part, as there.
-    const double own_db = schools.size() == 1 ? reference_db : level(school);
-    settled.push_back(members(school, own_db, std::max(threshold_db, own_db - depth_db), claimed));
+  for (std::size_t i = 0; i < schools.size(); ++i) {
+    const auto above = [&](double level_db) {
+      return common_runs(sides[i], thresholder_.above(box_, level_db, params_.background_rest_db));
+    };
+    const double own_db = level(above(schools[i].top_db - params_.tolerance_db));
+    settled.push_back(members(above(own_db - params_.tolerance_db), own_db, own_db - params_.tolerance_db, claimed));
   }
   return settled;
 }

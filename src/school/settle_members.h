@@ -44,19 +44,33 @@ class MemberSettler {
                                             View3<std::uint8_t> claimed);
 
  private:
-  [[nodiscard]] IndexBox box_round(const std::vector<Run>& part) const;
-  void look_along_beams(const IndexBox& box);
+  using Parts = std::vector<std::vector<Run>>;
+
+  [[nodiscard]] IndexBox box_round(const std::vector<Run>& part, int rims) const;
+  void look_along_beams();
   [[nodiscard]] double reference(const std::vector<Run>& part) const;
   /// From where a school's members are counted down. Most schools are about as loud all through, and many beams' voxels
   /// tell how loud; of one whose echo rises towards its heart the filtered data show the peak.
   [[nodiscard]] double level(const std::vector<Run>& part) const;
-  using Parts = std::vector<std::vector<Run>>;
   [[nodiscard]] Parts pieces(const std::vector<Run>& part, double threshold_db) const;
+  struct Heart {
+    double top_db = 0.0;
+    double valley_db = 0.0;  ///< what its runs lie above
+    std::vector<Run> runs;
+  };
+  /// Fading makes peaks too, but no large ones.
+  [[nodiscard]] bool has_crown(const std::vector<Run>& piece, double level_db,
+                               const std::function<bool(const std::vector<Run>&)>& large) const;
   /// Where each school is loudest: what stands min_valley_db above the valleys round it, the strongest first.
-  [[nodiscard]] Parts hearts(const std::vector<Run>& part, double reference_db, double threshold_db,
-                             const std::function<bool(const std::vector<Run>&)>& large) const;
-  /// The members of each school, in the order of their hearts; fragments that hang together with none go with the first.
-  [[nodiscard]] Parts shared_out(const std::vector<Run>& part, const Parts& hearts, double threshold_db) const;
+  /// lowest_db  no heart's top lies deeper
+  /// others     water of schools that were found before: what hangs together with it is their flank
+  [[nodiscard]] std::vector<Heart> hearts(const std::vector<Run>& part, double reference_db, double lowest_db,
+                                          const std::vector<Run>& others,
+                                          const std::function<bool(const std::vector<Run>&)>& large) const;
+  /// Each heart's side of the valleys, down to the tolerance below its top; fragments above threshold_db to which no echo
+  /// leads go with the first.
+  [[nodiscard]] Parts waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
+                             const std::vector<Run>& others, double threshold_db) const;
   [[nodiscard]] Settled members(const std::vector<Run>& runs, double reference_db, double threshold_db,
                                 View3<std::uint8_t> claimed) const;
 
@@ -64,6 +78,7 @@ class MemberSettler {
   View3<const std::int16_t> unfiltered_;
   View3<const SampleFlags> flags_;
   const DetectParams& params_;
+  IndexBox box_;  ///< the water that is looked at
   Array3<std::int16_t> along_beams_;
   Thresholder thresholder_;
 };

@@ -100,9 +100,19 @@ TEST(SettleMembers, OneFreeFanPartsSchoolsOneAboveTheOther) {
     scene.add(200.0, -31.0, 270.0, -38.0, {12, 12, 4});
     scene.add(200.0, -18.0, 270.0, -38.0, {12, 12, 4});
     expect_schools_apart(scene.look(seed), scene, 0.8);
-    DetectParams deeper;
-    deeper.min_valley_db = 12.0;
-    EXPECT_EQ(scene.look(seed, deeper).size(), 1U);
+    DetectParams no_valleys;
+    no_valleys.min_valley_db = 60.0;
+    EXPECT_EQ(scene.look(seed, no_valleys).size(), 1U);
+  }
+}
+
+// A school 6 dB fainter than its neighbour is as large as if it were alone: down to 10 dB below its own top.
+TEST(SettleMembers, AFaintSchoolKeepsItsRimBesideALoudOne) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    test::Scene scene;
+    scene.add(200.0, -32.0, 270.0, -38.0, {12, 12, 4});
+    scene.add(200.0, -18.0, 270.0, -44.0, {12, 12, 4});
+    expect_schools_apart(scene.look(seed), scene, 0.8);
   }
 }
 

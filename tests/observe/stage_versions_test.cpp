@@ -39,7 +39,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 3, "a0498ac74835f1ca54950382a1b0ee95"},
-    {"detect", 7, "634e39305aad8adff3e75299492312c3"},
+    {"detect", 8, "634e39305aad8adff3e75299492312c3"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
     {"measure", 7, "7e596962443e891e76381f2dc17efb51"},
