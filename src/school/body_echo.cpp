@@ -19,7 +19,41 @@ namespace {
 /// Standard deviation of a two-way Gaussian beam from its one-way -3 dB width.
 double two_way_sigma_rad(double width_deg) { return rad_from_deg(width_deg) / (4.0 * std::sqrt(std::numbers::ln2)); }
 
-/// The water that holds the school's echo, without what belongs to others: the mask widened in beams and samples, and
+/// Sorted runs that may overlap or touch, as runs that do not.
+std::vector<Run> merged(const std::vector<Run>& runs) {
+  std::vector<Run> apart;
+  for (const Run& run : runs) {
+    Run* last = apart.empty() ? nullptr : &apart.back();
+    if (last != nullptr && last->row == run.row && run.first_sample <= last->end()) {
+      last->count = std::max(last->end(), run.end()) - last->first_sample;
+    } else {
+      apart.push_back(run);
+    }
+  }
+  return apart;
+}
+
+PingMask with_confidence(std::vector<Run> runs) {
+  PingMask mask;
+  std::size_t voxels = 0;
+  for (const Run& run : runs) voxels += static_cast<std::size_t>(run.count);
+  mask.runs = std::move(runs);
+  mask.confidence.assign(voxels, 1);
+  return mask;
+}
+
+/// A mask and the beams next to it: a loud school's echo there may be louder than a faint neighbour's own.
+PingMask with_flanks(const PingMask& mask, const Shape3& shape) {
+  std::vector<Run> all = mask.runs;
+  for (const Run& run : mask.runs) {
+    const NeighbourRows rows = neighbour_rows(run.row, shape, Connectivity::faces);
+    for (int n = 0; n < rows.count; ++n) all.push_back({rows.row[n], run.first_sample, run.count});
+  }
+  std::sort(all.begin(), all.end());
+  return with_confidence(merged(all));
+}
+
+/// The water that holds the school's echo, without what belongs to others and to their flanks: the mask widened in beams and samples, and
 /// that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the beam is not.
 std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   const Shape3 shape = ping.sv.shape();
@@ -35,15 +69,7 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
     }
   }
   std::sort(columns.begin(), columns.end());
-  std::vector<Run> wide;
-  for (const Run& run : columns) {
-    Run* last = wide.empty() ? nullptr : &wide.back();
-    if (last != nullptr && last->row == run.row && run.first_sample <= last->end()) {
-      last->count = std::max(last->end(), run.end()) - last->first_sample;
-    } else {
-      wide.push_back(run);
-    }
-  }
+  const std::vector<Run> wide = merged(columns);
   PingMask united;
   const int first_fan = std::max(0, box.first_fan - params.reach_fans);
   const int last_fan = std::min(shape.fans - 1, box.last_fan + params.reach_fans);
@@ -51,10 +77,7 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
     for (const Run& run : wide) united.runs.push_back({fan * shape.beams + run.row, run.first_sample, run.count});
   }
   if (ping.others == nullptr || ping.others->empty()) return std::move(united.runs);
-  for (const Run& run : united.runs) {
-    united.confidence.resize(united.confidence.size() + static_cast<std::size_t>(run.count), 1);
-  }
-  return subtract(united, *ping.others).runs;
+  return subtract(with_confidence(std::move(united.runs)), subtract(with_flanks(*ping.others, shape), mask)).runs;
 }
 
 /// What the background near the school is, as a multiple of the expected: its reverberation changes with range as no

@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 8, "634e39305aad8adff3e75299492312c3"},
     {"track", 5, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 7, "7e596962443e891e76381f2dc17efb51"},
+    {"measure", 8, "7e596962443e891e76381f2dc17efb51"},
     {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
 }};
 
