@@ -167,6 +167,7 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
   const std::vector<Run> others = set_runs(claimed, box_);
   const std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
   if (schools.empty() || (schools.size() == 1 && others.empty())) {
+    box_ = box_round(part, 1);
     return {members(joined(pieces(part, threshold_db)), reference_db, threshold_db, claimed)};
   }
   // The flood knows where they part: none need stop above that.
