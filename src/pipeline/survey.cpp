@@ -29,7 +29,7 @@ bool has_extension(const fs::path& path, std::string_view wanted) {
 bool is_sonar_netcdf4(const fs::path& path) {
   if (!has_extension(path, ".nc")) return false;
   const auto source = open_file(path);
-  return source && simrad::is_sonar_netcdf4(**source).value_or(false);
+  return source && simrad::detect_format(**source).value_or(RawFormat::unknown) == RawFormat::sonar_netcdf4;
 }
 
 Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {

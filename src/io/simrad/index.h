@@ -19,16 +19,17 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 5;
+inline constexpr int kIndexVersion = 6;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {
   simrad,         ///< CON0/RAW0/NME0 ...: EK60, ME70, MS70; read
   ek80,           ///< XML0/RAW3: recognised, framing counted, samples not read
-  sonar_netcdf4,  ///< HDF5 or classic netCDF: recognised, not read
+  sonar_netcdf4,  ///< HDF5 or classic netCDF that says so: recognised, not read
+  other_netcdf,   ///< or another: a product, a depth raster
   unknown,
 };
-inline constexpr std::array<std::string_view, 4> kRawFormatNames{"simrad-raw", "simrad-ek80", "sonar-netcdf4",
+inline constexpr std::array<std::string_view, 5> kRawFormatNames{"simrad-raw", "simrad-ek80", "sonar-netcdf4", "netcdf",
                                                                  "unknown"};
 [[nodiscard]] inline std::string_view name(RawFormat format) {
   return kRawFormatNames[static_cast<std::size_t>(format)];

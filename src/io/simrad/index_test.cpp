@@ -180,9 +180,12 @@ TEST(RawIndex, OtherFormatsAreNamed) {
   Bytes hdf5;
   hdf5.put(std::uint8_t{0x89}).text("HDF\r\n\x1a\n", 7).zeros(100);
   const RawIndex netcdf = index_of(hdf5);
-  EXPECT_EQ(netcdf.format, RawFormat::sonar_netcdf4);
+  EXPECT_EQ(netcdf.format, RawFormat::other_netcdf) << "a product or a depth raster";
   EXPECT_EQ(codes(netcdf), Codes{DiagnosticCode::format_not_read});
-  EXPECT_EQ(index_of(Bytes().text("CDF\x01", 4).zeros(40)).format, RawFormat::sonar_netcdf4);
+  EXPECT_EQ(index_of(Bytes().text("CDF\x01", 4).zeros(40)).format, RawFormat::other_netcdf);
+  const RawIndex sonar = index_of(hdf5.text("SONAR-netCDF4", 13));
+  EXPECT_EQ(sonar.format, RawFormat::sonar_netcdf4);
+  EXPECT_EQ(codes(sonar), Codes{DiagnosticCode::format_not_read});
 
   Bytes ek80 = test::datagram("XML0", kStart, Bytes().text("<Configuration/>", 16));
   ek80.add(test::datagram("RAW3", kStart, Bytes().zeros(140)));

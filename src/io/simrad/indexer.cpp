@@ -65,7 +65,7 @@ Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
     notes_.set_file(source.name());
     format_known_ = true;
   }
-  return index_.format != RawFormat::sonar_netcdf4;
+  return why_not_read(index_.format).empty();
 }
 
 Result<void> Indexer::refresh(const ByteSource& source) {
@@ -103,8 +103,8 @@ Result<void> Indexer::finish(const ByteSource& source) {
 }
 
 void Indexer::name_format() {
-  if (index_.format == RawFormat::sonar_netcdf4) {
-    notes_.add(DiagnosticCode::format_not_read, 0, "a netCDF file (SONAR-netCDF4); this version does not read it");
+  if (const std::string_view why = why_not_read(index_.format); !why.empty()) {
+    notes_.add(DiagnosticCode::format_not_read, 0, std::string(why));
     return;
   }
   const auto count = [&](const char* type) {

@@ -20,6 +20,17 @@ bool is_netcdf(std::span<const std::byte> head) {
                               (std::memcmp(head.data(), "CDF", 3) == 0 && number_at<std::uint8_t>(head, 3) <= 5));
 }
 
+Result<RawFormat> which_netcdf(const ByteSource& source) {
+  constexpr std::size_t kLooked = std::size_t{1} << 20U;
+  std::string bytes(kLooked, '\0');
+  const auto got = source.read(0, std::as_writable_bytes(std::span(bytes)));
+  if (!got) return pass_on(got);
+  bytes.resize(*got);
+  const bool says_so =
+      bytes.find("SONAR-netCDF4") != std::string::npos || bytes.find("sonar_convention") != std::string::npos;
+  return says_so ? RawFormat::sonar_netcdf4 : RawFormat::other_netcdf;
+}
+
 }  // namespace
 
 Result<RawFormat> detect_format(const ByteSource& source) {
@@ -27,21 +38,16 @@ Result<RawFormat> detect_format(const ByteSource& source) {
   const auto got = source.read(0, head);
   if (!got) return pass_on(got);
   const auto bytes = std::span<const std::byte>(head).first(*got);
-  if (is_netcdf(bytes)) return RawFormat::sonar_netcdf4;
+  if (is_netcdf(bytes)) return which_netcdf(source);
   if (inspect_head(bytes) != Frame::sound) return RawFormat::unknown;
   return std::memcmp(head.data() + 4, "XML0", 4) == 0 ? RawFormat::ek80 : RawFormat::simrad;
 }
 
-Result<bool> is_sonar_netcdf4(const ByteSource& source) {
-  constexpr std::size_t kLooked = std::size_t{1} << 20U;
-  const auto format = detect_format(source);
-  if (!format) return pass_on(format);
-  if (*format != RawFormat::sonar_netcdf4) return false;
-  std::string bytes(kLooked, '\0');
-  const auto got = source.read(0, std::as_writable_bytes(std::span(bytes)));
-  if (!got) return pass_on(got);
-  bytes.resize(*got);
-  return bytes.find("SONAR-netCDF4") != std::string::npos || bytes.find("sonar_convention") != std::string::npos;
+std::string_view why_not_read(RawFormat format) {
+  if (format == RawFormat::sonar_netcdf4) return "a netCDF file (SONAR-netCDF4); this version does not read it";
+  if (format == RawFormat::other_netcdf)
+    return "a netCDF file, but no recording: it does not say that it is SONAR-netCDF4";
+  return {};
 }
 
 }  // namespace sonar::simrad

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "base/result.h"
 #include "io/byte_source.h"
 #include "io/simrad/index.h"
 
 namespace sonar::simrad {
 
-/// By the first bytes; unknown for what is none of the formats, and for fewer than 16 bytes.
+/// By the first bytes, of netCDF by whether it says in its first MB that it follows SONAR-netCDF4; unknown for what is none of the formats, and for fewer than 16 bytes.
 /// errors  io
 [[nodiscard]] Result<RawFormat> detect_format(const ByteSource& source);
-/// Whether a netCDF file says near its beginning that it follows SONAR-netCDF4: a depth raster or a product does not.
-/// errors  io
-[[nodiscard]] Result<bool> is_sonar_netcdf4(const ByteSource& source);
+/// Why a netCDF file is not read; empty for formats that are looked into.
+[[nodiscard]] std::string_view why_not_read(RawFormat format);
 
 }  // namespace sonar::simrad
