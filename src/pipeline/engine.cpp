@@ -201,6 +201,17 @@ Volume Engine::calibrated(std::int64_t ping_index, const PowerVolume& power, con
   return volume;
 }
 
+MedianParams Engine::filter_box() const {
+  // Where beams hardly overlap, a school's next beam is no second look at it, and a box over beams would take it away.
+  return fitted(recipe_.median, grid().elevation_deg, grid().azimuth_deg, grid().vertical_width_deg,
+                grid().horizontal_width_deg);
+}
+
+DetectParams Engine::detect_params() const {
+  const MedianParams box = filter_box();
+  return for_filter(recipe_.detect, box.kernel_fans * box.kernel_beams);
+}
+
 Result<StagedPing> Engine::staged(std::int64_t ping_index) {
   const auto loaded = power(ping_index);
   if (!loaded) return pass_on(loaded);
@@ -209,10 +220,7 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
   ping.calibration = tables_.of((*loaded)->heads);
   ping.sv = calibrated(ping_index, **loaded, *ping.calibration);
   ping.filtered = std::make_shared<Volume>(Volume{Array3<std::int16_t>(ping.sv.counts.shape()), ping.sv.flags});
-  // Where beams hardly overlap, a school's next beam is no second look at it, and a box over beams would take it away.
-  const MedianParams box = fitted(recipe_.median, grid().elevation_deg, grid().azimuth_deg, grid().vertical_width_deg,
-                                  grid().horizontal_width_deg);
-  median_into(ping.sv.counts.view(), ping.sv.flags.view(), box, ping.filtered->counts.view());
+  median_into(ping.sv.counts.view(), ping.sv.flags.view(), filter_box(), ping.filtered->counts.view());
   for (const float level_db : background_db(ping_index)) {
     ping.background_db.push_back(static_cast<double>(level_db));
   }

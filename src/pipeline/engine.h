@@ -74,6 +74,9 @@ class Engine {
   /// Background of a ping by row, dB re 1 W, rounded to float as it is stored; empty where it is not subtracted.
   [[nodiscard]] std::vector<float> background_db(std::int64_t ping_index) const;
 
+  /// The recipe's, fitted to the filter's box.
+  [[nodiscard]] DetectParams detect_params() const;
+
   /// All stages up to the seabed. errors: as load_volume()
   [[nodiscard]] Result<StagedPing> staged(std::int64_t ping_index);
   /// Hands a ping's stages to a later kept_or_staged(), as long as there is room: measuring need not work out again what
@@ -86,6 +89,7 @@ class Engine {
 
  private:
   using Power = std::shared_ptr<const PowerVolume>;
+  [[nodiscard]] MedianParams filter_box() const;
   [[nodiscard]] Result<Power> power(std::int64_t ping_index);
   [[nodiscard]] std::vector<double> estimate(const PowerVolume& power) const;
   [[nodiscard]] PingGeometry ping_geometry(std::int64_t ping_index) const;

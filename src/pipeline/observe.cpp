@@ -45,6 +45,7 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
   std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
+  const DetectParams params = engine.detect_params();
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const std::int64_t ping_index = reach.first + i;
     DetectedPing& detected = pings[static_cast<std::size_t>(i)];
@@ -56,9 +57,8 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
-      detected.detections =
-          detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-                 engine.sector(), ping->background(), engine.recipe().detect);
+      detected.detections = detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(),
+                                   ping->filtered->flags.view(), engine.sector(), ping->background(), params);
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }

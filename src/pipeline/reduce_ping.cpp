@@ -25,8 +25,8 @@ struct Reach {
 
 /// Detection looks no further round a candidate than this, the samples of its filter left out.
 Reach detection_reach(const DetectParams& params) {
-  return {params.search_fans + params.rim_fans, params.search_beams + params.rim_beams,
-          params.search_samples + params.rim_samples + params.member_samples / 2};
+  return {params.search_fans + kMostRims * params.rim_fans, params.search_beams + kMostRims * params.rim_beams,
+          params.search_samples + kMostRims * params.rim_samples + params.member_samples / 2};
 }
 /// Detection takes candidates from no lower than this below its thresholds (the median's ln 2, rounded up).
 constexpr double kCandidateSlack_db = 2.0;
@@ -249,9 +249,9 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     std::vector<Detection> detected;
     std::vector<const PingMask*> deciding = masks;
     if (recipe.automatic && also.detections) {
-      detected =
-          detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
-                 std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(), recipe.detect);
+      detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
+                        std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(),
+                        engine.detect_params());
       for (const Detection& one : detected) deciding.push_back(&one.mask);
     }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,

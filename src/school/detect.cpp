@@ -261,6 +261,13 @@ std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int
   return PingDetector(sv, unfiltered, flags, sector, background, params, taken).run();
 }
 
+DetectParams for_filter(const DetectParams& params, int rows) {
+  constexpr int kRowsThatTell = 9;
+  DetectParams fitted = params;
+  if (rows < kRowsThatTell) fitted.peak_percentile = 0.0;
+  return fitted;
+}
+
 WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
                          const DetectParams& params) {
   if (noise.water != nullptr) return *noise.water;

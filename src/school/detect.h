@@ -215,6 +215,13 @@ void describe(Visitor& v, DetectParams& p) {
   v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
 }
 
+/// The parameters for data that the median filter looked at so many rows of beams for: of one or a few, the loudest
+/// voxels are not a school's peak but its fading, so that none has one.
+[[nodiscard]] DetectParams for_filter(const DetectParams& params, int rows);
+
+/// Members are looked for in so many rims round what the filtered data show, where a louder neighbour is beside it.
+inline constexpr int kMostRims = 2;
+
 /// What may be a school in one ping. Light-weight: association over pings reads nothing else.
 struct Detection {
   PingMask mask;

@@ -160,7 +160,7 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
   // What stands out of a stronger neighbour's skirt alone: it is to be seen where that one lies.
-  box_ = box_round(part, depth_db < params_.tolerance_db ? 2 : 1);
+  box_ = box_round(part, depth_db < params_.tolerance_db ? kMostRims : 1);
   look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;

@@ -35,7 +35,7 @@ Array3<double> peaked_school(const Sector& sector, double fall_db) {
   return expected;
 }
 
-double apparent_volume_ratio(double fall_db, const DetectParams& params) {
+double apparent_volume_ratio(double fall_db, const DetectParams& params, const MedianParams& box = {}) {
   const Sector sector = test::grid().sector(test::range_axis(kShape.samples));
   const Array3<SampleFlags> flags = test::cropped_flags(kShape, sector);
   const Array3<double> expected = peaked_school(sector, fall_db);
@@ -45,7 +45,8 @@ double apparent_volume_ratio(double fall_db, const DetectParams& params) {
   constexpr int kPings = 5;
   for (int ping = 1; ping <= kPings; ++ping) {
     const Array3<std::int16_t> counts = test::counts_of(expected, static_cast<std::uint64_t>(ping));
-    const Array3<std::int16_t> sv = test::filtered(counts, flags);
+    Array3<std::int16_t> sv(kShape);
+    median_into(counts.view(), flags.view(), box, sv.view());
     const auto schools =
         detect(sv.view(), counts.view(), flags.view(), sector, {flat.power_db, flat.calibration.view()}, params);
     EXPECT_EQ(schools.size(), 1U);
@@ -63,6 +64,14 @@ TEST(SettleMembers, APeakedSchoolIsNoLargerThanItsTruth) {
 }
 
 TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) { EXPECT_NEAR(apparent_volume_ratio(0.0, {}), 1.0, 0.05); }
+
+// Where beams are separate the filter looks along each alone: its loudest voxels are fading, 3 dB above the school.
+TEST(SettleMembers, ThePeakOfOneBeamsFilterIsNotTheSchools) {
+  const MedianParams one_beam{.kernel_fans = 1, .kernel_beams = 1};
+  EXPECT_NEAR(apparent_volume_ratio(0.0, for_filter({}, 1), one_beam), 1.0, 0.07);
+  EXPECT_LT(apparent_volume_ratio(0.0, {}, one_beam), 0.9);
+  EXPECT_EQ(for_filter({}, 9).peak_percentile, DetectParams().peak_percentile);
+}
 
 /// One detection for each of the scene's schools, which holds it and little else.
 void expect_schools_apart(const std::vector<Detection>& found, const test::Scene& scene, double least_dice) {

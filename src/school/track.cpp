@@ -137,10 +137,28 @@ class Tracker {
     const double gate = params_.gate_sigmas * params_.gate_sigmas;
     const double distance2 = track.motion.distance2(place, spread(p, d, true));
     if (!(distance2 <= gate)) return kForbidden;
-    // a cut coordinate lets everything through the gate: then only touching or a near centre will do
-    if (shared_m3 <= 0.0 && !(track.motion.distance2(place, spread(p, d, false)) <= gate)) return kForbidden;
+    // a cut coordinate lets everything through the gate: then only touching or a near body will do
+    if (shared_m3 <= 0.0 && !could_reach(track, p, d, place)) return kForbidden;
     const double overlap = std::min(1.0, shared_m3 / std::max(1e-9, std::min(track.volume_m3, d.volume_m3)));
     return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) + unlikeness(track, p, d);
+  }
+
+  /// Whether a body as large as the track's, from where it was last seen alone, can have come so far: a border hides what
+  /// lies beyond it, and moves no school.
+  [[nodiscard]] bool could_reach(const OpenTrack& track, std::size_t p, const Detection& d,
+                                 const Point<Enu>& place) const {
+    const double gate = params_.gate_sigmas * params_.gate_sigmas;
+    if (!(track.motion.distance2(place, spread(p, d, false)) <= gate)) return false;
+    const double dt = seconds_between(pings_[track.alone_ping].time, pings_[p].time);
+    const Point<Enu> way = track.motion.velocity() * dt;
+    const double swum_m = params_.unseen_speed_mps * dt;
+    Covariance3 extent = turned(d.covariance, frames_[p].heading_rad());
+    for (std::size_t k = 0; k < extent.size(); ++k) extent[k] += track.shape[k];
+    for (const std::size_t k : {std::size_t{0}, std::size_t{3}, std::size_t{5}}) {
+      extent[k] += swum_m * swum_m + params_.min_position_m * params_.min_position_m;
+    }
+    const Motion seen(track.alone_at + Point<Enu>{way.x, way.y, 0.0}, extent, 0.0);
+    return seen.distance2(place, {}) <= gate;
   }
 
   [[nodiscard]] double unlikeness(const OpenTrack& track, std::size_t p, const Detection& d) const {

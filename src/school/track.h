@@ -33,6 +33,7 @@ struct TrackParams {
   int split_pings = 3;
   double lost_cost = 1.0;
   double censored_m = 200.0;
+  double unseen_speed_mps = 1.0;
   int overlap_samples = 8;
   bool divide_joined = true;
   int divide_own_pings = 3;
@@ -76,6 +77,8 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "1", .min = 0, .max = 100, .text = "cost of each ping in which the school was not seen"});
   v.field("censored_m", p.censored_m,
           {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
+  v.field("unseen_speed_mps", p.unseen_speed_mps,
+          {.unit = "m s-1", .min = 0, .max = 20, .text = "... and how fast it may change all the same, per axis"});
   v.field("overlap_samples", p.overlap_samples,
           {.unit = "samples", .min = 1, .max = 1000, .text = "overlaps are counted at every so-manyth sample"});
   v.field("divide_joined", p.divide_joined,

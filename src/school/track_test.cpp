@@ -158,6 +158,17 @@ std::size_t schools_round_pause(double pause_s, const TrackParams& params) {
   return track(pings, at_rest.sector, test::grid().channel, params).schools.size();
 }
 
+// Where the upper border cuts a school off nobody knows how high it reaches; it is no reason to go on 100 m below.
+TEST(Track, ASchoolCutOffByABorderDoesNotLeapToAnother) {
+  Voyage voyage;
+  std::set<std::pair<int, int>> unseen;
+  for (int p = 0; p < 10; ++p) unseen.insert({p, p < 5 ? 1 : 0});
+  voyage.sail({{{-150.0, 60.0, -6.0}, {}}, {{-150.0, 60.0, -105.0}, {}}}, 10, unseen);
+  ASSERT_NE(voyage.recorded[4].detections.at(0).edge_flags & kEdgeTopFan, 0);
+  ASSERT_EQ(voyage.tracks.schools.size(), 2U);
+  for (const SchoolTrack& school : voyage.tracks.schools) EXPECT_EQ(school.pings.size(), 5U);
+}
+
 TEST(Track, DoesNotJoinAcrossAPauseOfHours) {
   TrackParams params;
   EXPECT_EQ(schools_round_pause(5.0, params), 1U);

@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "geo/frames.h"
 #include "observed_survey.h"
+#include "pipeline/engine.h"
 
 namespace sonar {
 namespace {
@@ -88,6 +89,15 @@ TEST_F(ObservedShip, SilentPingsAreNeitherMeasuredNorInTheWay) {
   EXPECT_TRUE(has(*clicked));
   EXPECT_FALSE(has(*clicked + 1));
   EXPECT_TRUE(has(*clicked + 2));
+}
+
+// Beams of less than their spacing: the filter looks along each alone, and detection takes nothing of it for a peak.
+TEST_F(ObservedShip, SeparateBeamsTellNoPeak) {
+  ObservationFiles narrow = observation();
+  for (double& width_deg : narrow.grid->vertical_width_deg) width_deg = 2.0;
+  for (double& width_deg : narrow.grid->horizontal_width_deg) width_deg = 2.0;
+  EXPECT_EQ(Engine(*survey_, observation(), {}).detect_params().peak_percentile, DetectParams().peak_percentile);
+  EXPECT_EQ(Engine(*survey_, narrow, {}).detect_params().peak_percentile, 0.0);
 }
 
 // By hand from each row of the stabilised sonar: its place relative to the ship, turned by a roll of 5 degrees port up and
