@@ -56,7 +56,7 @@ struct DetectParams {
   double member_percentile = 92.0;
   double peak_percentile = 99.5;
   double peak_above_db = 1.5;
-  double min_valley_db = 6.0;
+  double min_valley_db = 5.0;
   int rim_fans = 1;
   int rim_beams = 1;
   int rim_samples = 15;

@@ -16,6 +16,8 @@ namespace {
 
 /// How finely valleys are sounded.
 constexpr double kLevelStep_db = 1.0;
+/// A neighbour reaches at most so many searches farther than the part that led to it.
+constexpr int kMostWidenings = 6;
 
 std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
   std::vector<Run> runs;
@@ -134,6 +136,21 @@ std::vector<MemberSettler::Heart> MemberSettler::hearts(
   return found;
 }
 
+bool MemberSettler::cut_by_box(const std::vector<Heart>& hearts) const {
+  const IndexBox whole = IndexBox::whole(filtered_.shape());
+  return std::any_of(hearts.begin(), hearts.end(), [&](const Heart& heart) {
+    PingMask mask;
+    mask.runs = heart.runs;
+    const IndexBox box = box_of(mask, filtered_.shape().beams);
+    const auto cut = [](int at, int end, int border) { return at == end && end != border; };
+    return cut(box.first_fan, box_.first_fan, whole.first_fan) || cut(box.last_fan, box_.last_fan, whole.last_fan) ||
+           cut(box.first_beam, box_.first_beam, whole.first_beam) ||
+           cut(box.last_beam, box_.last_beam, whole.last_beam) ||
+           cut(box.first_sample, box_.first_sample, whole.first_sample) ||
+           cut(box.last_sample, box_.last_sample, whole.last_sample);
+  });
+}
+
 MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
                                            const std::vector<Run>& others, double threshold_db) const {
   Parts springs;
@@ -164,8 +181,15 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
   look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
-  const std::vector<Run> others = set_runs(claimed, box_);
-  const std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
+  std::vector<Run> others = set_runs(claimed, box_);
+  std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
+  // The part ends where the search for one school ended, and so may its neighbour's piece.
+  for (int times = 0; times < kMostWidenings && schools.size() > 1 && cut_by_box(schools); ++times) {
+    box_ = box_.enlarged(params_.search_fans, params_.search_beams, params_.search_samples).clipped(filtered_.shape());
+    look_along_beams();
+    others = set_runs(claimed, box_);
+    schools = hearts(part, reference_db, threshold_db, others, large);
+  }
   if (schools.empty() || (schools.size() == 1 && others.empty())) {
     box_ = box_round(part, 1);
     return {members(joined(pieces(part, threshold_db)), reference_db, threshold_db, claimed)};

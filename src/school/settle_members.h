@@ -67,6 +67,8 @@ class MemberSettler {
   [[nodiscard]] std::vector<Heart> hearts(const std::vector<Run>& part, double reference_db, double lowest_db,
                                           const std::vector<Run>& others,
                                           const std::function<bool(const std::vector<Run>&)>& large) const;
+  /// Whether one of them goes on where the water that is looked at ends.
+  [[nodiscard]] bool cut_by_box(const std::vector<Heart>& hearts) const;
   /// Each heart's side of the valleys, down to the tolerance below its top; fragments above threshold_db to which no echo
   /// leads go with the first.
   [[nodiscard]] Parts waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
