@@ -120,6 +120,11 @@ int simulate(const SimulateOptions& o) {
   if (!made) return report(naming_option(made.error()));
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
              static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
+  const std::int64_t wanted = std::int64_t{params->observations} * params->schools;
+  if (params->preset != synth::Preset::demo && made->schools < wanted) {
+    fmt::print(stderr, "sonarx: {}: {} of {} schools had room where the sonar sees them; more pings have more room\n",
+               o.out, made->schools, wanted);
+  }
   return kExitDone;
 }
 

@@ -99,6 +99,15 @@ class SmallSurvey(Case):
         (truth / "obs-0002.nc").rename(truth / "obs-0001.nc")
         self.one_line_error("score", folder / "out", "--truth", truth, code=1, names=folder / "out")
 
+    def test_schools_that_found_no_room_are_told(self):
+        folder = self.fresh("full")
+        code, out, error = sonarx.run("simulate", folder / "survey", "--preset", "easy", "--observations", "1", "--pings", "2",
+                                      "--schools", "60")
+        self.assertEqual(code, 0, error)
+        schools = len(sonarx.read_csv(folder / "survey" / "truth" / "schools.csv"))
+        self.assertLess(schools, 60)
+        self.assertIn(f"{schools} of 60 schools had room", error)
+
     def test_nothing_is_simulated_beneath_raw_files(self):
         before = sonarx.snapshot(SURVEY)
         for inner in (SURVEY / "inner", SURVEY / "a" / "b"):
