@@ -54,12 +54,14 @@ bool loud_down_from(const Water& water, int fan, int from, double level_db) {
 bool is_cut_off(const Water& water, const Detection& detection) {
   const int samples = water.sv.shape().samples;
   const int end = samples - std::max(2, static_cast<int>(water.params.record_end_share * samples));
+  // A faint school's threshold may lie in the noise, which all beams reach.
+  const double loud_db = std::max(detection.threshold_db, detection.reference_db - water.params.min_prominence_db);
   int judged = -1;
   for (const Run& run : detection.mask.runs) {
     const int fan = run.row / water.sector.beams();
     if (run.end() < end || fan == judged) continue;
     judged = fan;
-    if (loud_down_from(water, fan, end, detection.threshold_db)) return true;
+    if (loud_down_from(water, fan, end, loud_db)) return true;
   }
   return false;
 }

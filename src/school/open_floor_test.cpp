@@ -77,6 +77,14 @@ TEST(OpenFloor, NorIsAWideSchoolWithWaterUnderIt) {
   EXPECT_FALSE(floor.judged(3, 22, 860, kSamples, 6));
 }
 
+// Its threshold is 10 dB below its own level; the noise of all beams may reach that.
+TEST(OpenFloor, NorIsASchoolThatStandsBarelyOutOfTheNoise) {
+  Floor floor;
+  for (std::int16_t& count : floor.sv.all()) count = static_cast<std::int16_t>(counts_from_db(-40.0));
+  floor.add_echo(8, 14, 860, kSamples);
+  EXPECT_FALSE(floor.judged(8, 14, 860, kSamples));
+}
+
 TEST(OpenFloor, NorIsAnEchoThatEndsBefore) {
   Floor floor;
   floor.add_echo(0, 20, 700, 760);
