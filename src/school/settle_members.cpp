@@ -201,7 +201,9 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
     const auto above = [&](double level_db) {
       return common_runs(sides[i], thresholder_.above(box_, level_db, params_.background_rest_db));
     };
-    const double own_db = level(above(schools[i].top_db - params_.tolerance_db));
+    const std::vector<Run> loud = above(schools[i].top_db - params_.tolerance_db);
+    // With the background taken off, less than the tolerance may be left of it.
+    const double own_db = level(loud.empty() ? schools[i].runs : loud);
     settled.push_back(members(above(own_db - params_.tolerance_db), own_db, own_db - params_.tolerance_db, claimed));
   }
   return settled;
