@@ -46,8 +46,9 @@ if ((EUID != 0)); then
     echo "setup.sh: run it as root, or install sudo" >&2
     exit 1
   fi
-  # Without a terminal nobody can type a password: fail at once instead of waiting.
-  if [[ -t 0 ]]; then as_root=(sudo "${as_root[@]}"); else as_root=(sudo -n "${as_root[@]}"); fi
+  # Without a terminal nobody can type a password: fail at once instead of waiting. sudo asks on the terminal itself, whatever
+  # standard input is.
+  if { : </dev/tty; } 2>/dev/null; then as_root=(sudo "${as_root[@]}"); else as_root=(sudo -n "${as_root[@]}"); fi
 fi
 echo "installing ${#missing[@]} packages: ${missing[*]}"
 "${as_root[@]}" apt-get -q -o Acquire::Retries=3 update </dev/null

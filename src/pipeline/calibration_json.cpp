@@ -16,6 +16,21 @@ namespace {
 constexpr int kMaxChannels = 100'000;
 constexpr double kMostDecibels = 100.0;
 
+/// Numbers under known names; null is unknown.
+Result<void> check_entry(const nlohmann::json& entry, std::size_t index) {
+  if (!entry.is_object())
+    return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected an object", index));
+  for (const auto& [name, value] : entry.items()) {
+    if (name != "channel" && name != "gain_db" && name != "sa_correction_db" && name != "extra_factor_db") {
+      return fail(ErrorCode::format, fmt::format("beam_calibration[{}].{}: no such parameter", index, name));
+    }
+    if (!value.is_number() && !value.is_null()) {
+      return fail(ErrorCode::format, fmt::format("beam_calibration[{}].{}: expected a number", index, name));
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 nlohmann::json beams_to_json(const std::vector<BeamCalibration>& beams) {
@@ -33,12 +48,12 @@ Result<std::vector<BeamCalibration>> beams_from_json(const nlohmann::json& list)
   if (!list.is_array()) return fail(ErrorCode::format, "beam_calibration: expected an array");
   std::vector<BeamCalibration> beams;
   for (const auto& entry : list) {
+    if (auto sound = check_entry(entry, beams.size()); !sound) return pass_on(sound);
     const auto number = [&](const char* member) {
-      if (!entry.is_object() || !entry.contains(member)) return kUnknown;
-      return entry[member].is_number() ? entry[member].get<double>() : kUnknown;
+      return entry.contains(member) && entry[member].is_number() ? entry[member].get<double>() : kUnknown;
     };
     const double channel = number("channel");
-    if (!(channel >= 0 && channel < kMaxChannels)) {
+    if (!(channel >= 0 && channel < kMaxChannels && channel == std::floor(channel))) {
       return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected a channel", beams.size()));
     }
     beams.push_back(

@@ -105,6 +105,16 @@ Result<Recipe> named_recipe(const std::string& path_or_preset) {
 Result<void> take_calibration_table(Recipe& recipe, const CsvTable& table) {
   const std::string& path = table.file;
   std::vector<BeamCalibration> beams;
+  for (const std::string& name : table.header) {
+    if (name == "channel" || name == "gain_db" || name == "sa_correction_db" || name == "extra_factor_db") continue;
+    return fail(ErrorCode::format,
+                fmt::format("line 1: column '{}' is none of channel, gain_db, sa_correction_db, extra_factor_db", name),
+                {path});
+  }
+  if (table.header.size() < 2) {
+    return fail(ErrorCode::format, "line 1: expected gain_db, sa_correction_db or extra_factor_db beside channel",
+                {path});
+  }
   const auto channel = table.require_column("channel");
   if (!channel) return pass_on(channel);
   for (const CsvRecord& record : table.records) {

@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/csv_table.h"
+#include "pipeline/calibration_json.h"
+
 namespace sonar {
 namespace {
 
@@ -84,6 +87,33 @@ TEST(Recipe, CalibrationStandsInsideByContent) {
   EXPECT_EQ(again->calibration.beams[0], recipe.calibration.beams[0]);
   EXPECT_TRUE(std::isnan(again->calibration.beams[1].gain_db));
   EXPECT_NE(recipe_hash(recipe), recipe_hash(Recipe{}));
+}
+
+Result<void> taken(const std::string& csv) {
+  Recipe recipe;
+  const auto table = parse_csv(csv, "gains.csv");
+  if (!table) return pass_on(table);
+  return take_calibration_table(recipe, *table);
+}
+
+// A column that nobody reads is a calibration that nobody applies.
+TEST(Recipe, CalibrationsWithOtherColumnsAreRefused) {
+  EXPECT_TRUE(taken("channel,gain_db\n0,25.5\n"));
+  EXPECT_TRUE(taken("channel,gain_db,sa_correction_db,extra_factor_db\n0,25.5,,0\n"));
+  const auto misspelt = taken("channel,gain_dB,sa_correction_db,extra_factor_db\n0,20,0,0\n");
+  ASSERT_FALSE(misspelt);
+  EXPECT_EQ(to_line(misspelt.error()),
+            "gains.csv: line 1: column 'gain_dB' is none of channel, gain_db, sa_correction_db, extra_factor_db");
+  EXPECT_FALSE(taken("channel\n0\n"));
+}
+
+TEST(Recipe, BeamCalibrationsAreNumbersUnderKnownNames) {
+  using nlohmann::json;
+  EXPECT_TRUE(beams_from_json(json::parse(R"([{"channel": 0, "gain_db": 30, "sa_correction_db": null}])")));
+  for (const char* wrong : {R"([{"channel": 0, "gian_db": 30}])", R"([{"channel": 0.7, "gain_db": 30}])",
+                            R"([{"channel": 0, "gain_db": "30"}])", R"([{"gain_db": 30}])", R"([7])"}) {
+    EXPECT_FALSE(beams_from_json(json::parse(wrong))) << wrong;
+  }
 }
 
 }  // namespace

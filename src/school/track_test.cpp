@@ -224,6 +224,28 @@ TEST(Track, RecordsASplit) {
   EXPECT_EQ(to_text(*split), "ping " + std::to_string(split->ping_index) + ": school 2 split from school 1");
 }
 
+TEST(Track, RecordsAMergeAndADeath) {
+  // two balls that come together and stay so
+  Voyage voyage;
+  for (int p = 0; p < 14; ++p) {
+    DetectedPing ping{p, p * 5 * kSecondNs, ship_at(p), {}};
+    const double apart = std::max(0.0, 5.0 * (8 - p));
+    const PingMask a = ball_mask({{-150.0, 80.0 - apart, -40.0}, {}}, voyage.sector, ping.placement, {60.0, 4.0}, 0.0);
+    const PingMask b =
+        ball_mask({{-150.0, 95.0 + apart, -40.0}, {}, 10.0}, voyage.sector, ping.placement, {60.0, 4.0}, 0.0);
+    for (const PingMask& mask : p < 8 ? std::vector{a, subtract(b, a)} : std::vector{unite(a, b)}) {
+      ping.detections.push_back(describe_mask(mask, voyage.flags.view(), voyage.sector));
+    }
+    voyage.recorded.push_back(std::move(ping));
+  }
+  const Tracks tracks = track(voyage.recorded, voyage.sector, test::grid().channel, {.divide_joined = false});
+  ASSERT_EQ(tracks.schools.size(), 2U);
+  std::set<std::string> said;
+  for (const TrackEvent& event : tracks.events) said.insert(to_text(event));
+  EXPECT_TRUE(said.contains("ping 8: school 2 merged into school 1"));
+  EXPECT_TRUE(said.contains("ping 7: school 2 last seen"));
+}
+
 /// Two balls that move towards each other, touch for some pings and part again on their own ways.
 Tracks meeting(Voyage& voyage, int alone_before, const TrackParams& params,
                std::vector<std::array<PingMask, 2>>& truth) {
