@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "io/simrad/ek80_channels.h"
 #include "io/simrad/ping_reader.h"
 
 namespace sonar {
@@ -17,6 +18,12 @@ std::string sounder_of(const RawIndex& index) {
     if (name.empty()) name = config.sounder_name;
   }
   return name;
+}
+
+/// 0 where the file cannot be read again.
+std::int64_t ek80_channel_count(const SurveyFile& file) {
+  const auto source = open_file(file.path);
+  return source ? simrad::ek80_channels(**source).value_or(0) : 0;
 }
 
 void add_pings(const RawIndex& index, FileInfo& info) {
@@ -46,6 +53,7 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   for (const SounderConfig& config : index.configs) {
     info.channels = std::max(info.channels, static_cast<std::int64_t>(config.beams.size()));
   }
+  if (index.format == RawFormat::ek80) info.channels = ek80_channel_count(file);
   add_pings(index, info);
   std::vector<const NavSeries*> series;
   for (const NavSeries& s : index.navigation) series.push_back(&s);
