@@ -168,9 +168,10 @@ std::optional<double> nmea_heading(const NmeaSentence& s) {
   if (s.type == "HDT") return wrap_360(*value);
   if (s.type == "THS" && s.field(2) != "V") return wrap_360(*value);
   if (s.type != "HDG") return std::nullopt;
-  const auto deviation = signed_by(nmea_number(s.field(2)), s.field(3), 'E', 'W');
-  const auto variation = signed_by(nmea_number(s.field(4)), s.field(5), 'E', 'W');
-  return wrap_360(*value + deviation.value_or(0.0) + variation.value_or(0.0));
+  const double deviation = signed_by(nmea_number(s.field(2)), s.field(3), 'E', 'W').value_or(0.0);
+  const double variation = signed_by(nmea_number(s.field(4)), s.field(5), 'E', 'W').value_or(0.0);
+  if (std::abs(deviation) > 180.0 || std::abs(variation) > 180.0) return std::nullopt;
+  return wrap_360(*value + deviation + variation);
 }
 
 std::optional<NmeaVelocity> nmea_velocity(const NmeaSentence& s) {

@@ -75,6 +75,9 @@ TEST(Nmea, Headings) {
   EXPECT_FALSE(nmea_heading(parsed("$INHDT,720,T")));
   // Magnetic 358, deviation 1 W, variation 5 E: 358 - 1 + 5 = 2.
   EXPECT_NEAR(*nmea_heading(parsed("$HCHDG,358,1,W,5,E")), 2.0, 1e-12);
+  EXPECT_FALSE(nmea_heading(parsed("$HCHDG,358,17777777777777777777777777,W,5,E"))) << "no compass deviates so far";
+  EXPECT_FALSE(nmea_heading(parsed("$HCHDG,358,1,W,181,E")));
+  EXPECT_EQ(nmea_heading(parsed("$HCHDG,0,0.00000000000000000001,W,,")), 0.0);
 }
 
 TEST(Nmea, Velocities) {
