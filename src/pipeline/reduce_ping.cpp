@@ -23,7 +23,8 @@ struct Reach {
   int samples = 0;
 };
 
-/// Detection looks no further round a candidate than this, the samples of its filter left out.
+/// Detection looks no further round a candidate than this, the samples of its filter left out; where schools meet it looks
+/// on along the neighbour, whose own surroundings are kept as well.
 Reach detection_reach(const DetectParams& params) {
   return {params.search_fans + kMostRims * params.rim_fans, params.search_beams + kMostRims * params.rim_beams,
           params.search_samples + kMostRims * params.rim_samples + params.member_samples / 2};

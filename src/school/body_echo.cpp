@@ -53,8 +53,9 @@ PingMask with_flanks(const PingMask& mask, const Shape3& shape) {
   return with_confidence(merged(all));
 }
 
-/// The water that holds the school's echo, without what belongs to others and to their flanks: the mask widened in beams and samples, and
-/// that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the beam is not.
+/// The water that holds the school's echo, without what belongs to others and to their flanks: the mask widened in beams
+/// and samples, and that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the
+/// beam is not.
 std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   const Shape3 shape = ping.sv.shape();
   const IndexBox box = box_of(mask, shape.beams);

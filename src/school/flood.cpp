@@ -2,7 +2,6 @@
 #include "school/flood.h"
 
 #include <cstddef>
-#include <functional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -13,8 +12,8 @@
 namespace sonar {
 namespace {
 
-constexpr int kLand = -2;
-constexpr int kDry = -1;
+constexpr int kLand = -2;  ///< no flood goes there
+constexpr int kDry = -1;   ///< no flood was there yet
 
 class Flood {
  public:
