@@ -224,7 +224,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::vector<std::vector<Measured>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
-  const double area = two_way_area(engine.grid(), beam_angles(engine));
+  const double area = two_way_area(engine.grid(), beam_angles(engine), engine.recipe().measure);
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
     if (const auto* kept = kept_rows(before, ping_index, refs)) {

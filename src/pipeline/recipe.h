@@ -13,7 +13,7 @@
 #include "model/transfer_function.h"
 #include "pipeline/merge_params.h"
 #include "pipeline/survey.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 #include "school/grow.h"
 #include "school/measure_params.h"
 #include "school/propagate_paper.h"

@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
+#include "school/background.h"
 #include "school/candidates.h"
 #include "school/detect.h"
 #include "school/runs.h"
@@ -26,11 +27,12 @@ struct Reach {
 /// Detection looks no further round a candidate than this, the samples of its filter left out; where schools meet it looks
 /// on along the neighbour, whose own surroundings are kept as well.
 Reach detection_reach(const DetectParams& params) {
-  return {params.search_fans + kMostRims * params.rim_fans, params.search_beams + kMostRims * params.rim_beams,
-          params.search_samples + kMostRims * params.rim_samples + params.member_samples / 2};
+  return {params.search_fans + params.max_rims * params.rim_fans,
+          params.search_beams + params.max_rims * params.rim_beams,
+          params.search_samples + params.max_rims * params.rim_samples + params.member_samples / 2};
 }
-/// Detection takes candidates from no lower than this below its thresholds (the median's ln 2, rounded up).
-constexpr double kCandidateSlack_db = 2.0;
+/// Detection takes candidates from no lower than this below its thresholds.
+const double kCandidateSlack_db = std::ceil(-kMedianOfMean_db);
 
 bool meet(const IndexBox& a, const IndexBox& b) {
   return a.first_fan <= b.last_fan && b.first_fan <= a.last_fan && a.first_beam <= b.last_beam &&

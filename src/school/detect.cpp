@@ -23,9 +23,6 @@
 namespace sonar {
 namespace {
 
-/// Noise that fluctuates by more is no noise, or was not filtered.
-constexpr double kMostRise_db = 6.0;
-
 using Runs = std::vector<Run>;
 
 IndexBox box_of_runs(const Runs& runs, int beams) {
@@ -261,25 +258,12 @@ std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int
   return PingDetector(sv, unfiltered, flags, sector, background, params, taken).run();
 }
 
-DetectParams for_filter(const DetectParams& params, int rows) {
-  constexpr int kRowsThatTell = 9;
-  DetectParams fitted = params;
-  if (rows < kRowsThatTell) fitted.peak_percentile = 0.0;
-  return fitted;
-}
-
 WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
                          const DetectParams& params) {
   if (noise.water != nullptr) return *noise.water;
-  // Quieter water changes nothing: candidates lie above the floor anyhow.
-  const double least_db = params.floor_db - params.background_margin_db + kMedianOfMean_db;
-  const auto least = static_cast<int>(counts_from_db(least_db));
   WaterLevels water;
-  water.reverberation = reverberation_counts(sv, flags, noise, params.water_share, least);
-  if (params.noise_sigmas > 0.0) {
-    const auto most = static_cast<int>(counts_from_db(params.background_margin_db + kMostRise_db));
-    water.noise_reach = noise_reach(sv, flags, noise, water.reverberation, params.noise_sigmas, least, most);
-  }
+  water.reverberation = reverberation_counts(sv, flags, noise, params);
+  if (params.noise_sigmas > 0.0) water.noise_reach = noise_reach(sv, flags, noise, water.reverberation, params);
   return water;
 }
 

@@ -18,7 +18,11 @@ struct MeasureParams {
   double min_fan_share = 0.5;
   bool find_beam_shape = true;
   double beam_gaussian_share = 0.5;
+  int beam_shapes = 5;
   bool use_beam_angle = true;
+  double beam_angle_least_db = 0.3;
+  double beam_angle_spread_db = 1.0;
+  double alike_evidence = 5.0;
   double beam_pedestal = 0.1;
   int height_pool_pings = 10;
   double min_height_evidence = 0.7;
@@ -57,6 +61,9 @@ void describe(Visitor& v, MeasureParams& p) {
           {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is sound"});
   v.field("find_beam_shape", p.find_beam_shape,
           {.text = "the shape of beam that fits all schools of an observation best; off = as beam_gaussian_share"});
+  v.field(
+      "beam_shapes", p.beam_shapes,
+      {.unit = "1", .min = 2, .max = 100, .text = "... of so many, evenly spaced from a uniform line to a Gaussian"});
   v.field("beam_gaussian_share", p.beam_gaussian_share,
           {.unit = "1",
            .min = 0,
@@ -64,6 +71,21 @@ void describe(Visitor& v, MeasureParams& p) {
            .text = "the beam's flanks: 1 = Gaussian (a shaded array), 0 = a uniform line array's, between = a mean"});
   v.field("use_beam_angle", p.use_beam_angle,
           {.text = "the file's equivalent beam angles tell how much wider than it receives the sonar sends"});
+  v.field("beam_angle_least_db", p.beam_angle_least_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "... where they differ by this from what the widths give; so much more than can be is rounding"});
+  v.field("beam_angle_spread_db", p.beam_angle_spread_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "... and by no more from beam to beam: angles copied from one to all tell nothing"});
+  v.field("alike_evidence", p.alike_evidence,
+          {.unit = "1",
+           .min = 0,
+           .max = 1000,
+           .text = "it sends wider along the fan, or both ways alike where that is likelier by this log-likelihood"});
   v.field("beam_pedestal", p.beam_pedestal,
           {.unit = "1",
            .min = 0.0001,

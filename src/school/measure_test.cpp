@@ -44,7 +44,7 @@ struct Ping {
     in.grid = &grid;
     in.background = {flat.power_db, flat.calibration.view()};
     in.placement = placement;
-    in.two_way_area = two_way_area(grid, beam_angle_db);
+    in.two_way_area = two_way_area(grid, beam_angle_db, {});
     return measure(in, mask, params);
   }
 

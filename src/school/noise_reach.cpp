@@ -12,7 +12,6 @@ namespace sonar {
 namespace {
 
 constexpr int kStep = 16;  ///< samples between two looks: neighbours share most of the filter's box
-constexpr std::size_t kEnough = 1000;
 
 int quantile(std::vector<int>& values, double share) {
   const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -23,7 +22,8 @@ int quantile(std::vector<int>& values, double share) {
 }  // namespace
 
 std::int16_t noise_reach(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
-                         std::span<const std::int16_t> reverberation, double sigmas, int least, int most) {
+                         std::span<const std::int16_t> reverberation, const DetectParams& params) {
+  const int least = least_background(params);
   std::vector<int> above;
   const int samples = sv.shape().samples;
   for (int row = 0; row < static_cast<int>(sv.shape().rows()); ++row) {
@@ -39,11 +39,12 @@ std::int16_t noise_reach(View3<const std::int16_t> sv, View3<const SampleFlags> 
       if (level >= least) above.push_back(counts[s] - level);
     }
   }
-  if (above.size() < kEnough) return kMinCount;
+  if (above.size() < static_cast<std::size_t>(params.noise_min_samples)) return kMinCount;
   const int middle = quantile(above, 0.5);
-  const int low = quantile(above, 0.16);
-  const double reach = middle + sigmas * (middle - low);
-  return static_cast<std::int16_t>(std::clamp(reach, double{kMinCount}, static_cast<double>(most)));
+  const int low = quantile(above, params.noise_low_percentile / 100.0);
+  const double reach = middle + params.noise_sigmas * (middle - low);
+  const double most = std::trunc(counts_from_db(params.background_margin_db + params.noise_most_db));
+  return static_cast<std::int16_t>(std::clamp(reach, double{kMinCount}, most));
 }
 
 }  // namespace sonar

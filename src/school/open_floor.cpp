@@ -53,7 +53,9 @@ bool loud_down_from(const Water& water, int fan, int from, double level_db) {
 /// beams may cut the seabed to pieces, but there is no water under it, as there is under a wide school.
 bool is_cut_off(const Water& water, const Detection& detection) {
   const int samples = water.sv.shape().samples;
-  const int end = samples - std::max(2, static_cast<int>(water.params.record_end_share * samples));
+  const int cut_off =
+      std::max(water.params.record_end_samples, static_cast<int>(water.params.record_end_share * samples));
+  const int end = std::max(0, samples - cut_off);
   // A faint school's threshold may lie in the noise, which all beams reach.
   const double loud_db = std::max(detection.threshold_db, detection.reference_db - water.params.min_prominence_db);
   int judged = -1;

@@ -11,14 +11,10 @@ namespace sonar {
 namespace {
 
 constexpr int kStep = 8;  ///< samples between two looks: the filter is longer than that
-/// Fewer open beams could be one school's.
-constexpr double kOpenShare = 0.3;
-/// Above the filtered noise, which fluctuates by less.
-constexpr double kAboveNoise_db = 1.0;
 
 /// From which count on a sample of each row stands out of its beam's noise, less the beam's calibration.
-std::vector<int> noise_limits(const Background& noise, std::size_t rows) {
-  const double median_db = db_from_linear(std::numbers::ln2) + kAboveNoise_db;
+std::vector<int> noise_limits(const Background& noise, double above_db, std::size_t rows) {
+  const double median_db = db_from_linear(std::numbers::ln2) + above_db;
   std::vector<int> limits(rows, kMinCount);
   for (std::size_t row = 0; row < rows; ++row) {
     if (!noise.known(static_cast<int>(row))) continue;
@@ -31,6 +27,7 @@ struct Water {
   View3<const std::int16_t> sv;
   View3<const SampleFlags> flags;
   const Background& noise;
+  const DetectParams& params;
   std::vector<int> noise_limit;  ///< [row]
 
   [[nodiscard]] bool stands_out(int row, std::size_t sample, int count) const {
@@ -39,10 +36,10 @@ struct Water {
   }
 };
 
-/// The share's quantile of what is open at one sample; kMinCount where that is no louder than least.
-std::int16_t level_at(const Water& water, std::size_t sample, double share, int least,
-                      std::vector<std::int16_t>& values) {
-  const auto& [sv, flags, noise, noise_limit] = water;
+/// The water_share quantile of what is open at one sample; kMinCount where that is no louder than least.
+std::int16_t level_at(const Water& water, std::size_t sample, int least, std::vector<std::int16_t>& values) {
+  const auto& [sv, flags, noise, params, noise_limit] = water;
+  const double share = params.water_share;
   values.clear();
   std::size_t loud = 0;
   for (int row = 0; row < static_cast<int>(sv.shape().rows()); ++row) {
@@ -53,7 +50,7 @@ std::int16_t level_at(const Water& water, std::size_t sample, double share, int 
     loud += is_loud ? 1 : 0;
   }
   const auto open = static_cast<double>(values.size());
-  if (open < kOpenShare * static_cast<double>(sv.shape().rows())) return kMinCount;
+  if (open < params.water_open_share * static_cast<double>(sv.shape().rows())) return kMinCount;
   if (static_cast<double>(loud) <= (1.0 - share) * open) return kMinCount;
   const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * open);
   std::nth_element(values.begin(), rank, values.end());
@@ -63,16 +60,15 @@ std::int16_t level_at(const Water& water, std::size_t sample, double share, int 
 }  // namespace
 
 std::vector<std::int16_t> reverberation_counts(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                                               const Background& noise, double share, int least) {
+                                               const Background& noise, const DetectParams& params) {
   const int samples = sv.shape().samples;
   std::vector<std::int16_t> level(static_cast<std::size_t>(samples), kMinCount);
-  if (!(share > 0.0) || !(share < 1.0)) return level;
+  if (!(params.water_share > 0.0) || !(params.water_share < 1.0)) return level;
   std::vector<std::int16_t> values;
   values.reserve(sv.shape().rows());
-  const Water water{sv, flags, noise, noise_limits(noise, sv.shape().rows())};
-  const auto look = [&](int sample) {
-    return int{level_at(water, static_cast<std::size_t>(sample), share, least, values)};
-  };
+  const Water water{sv, flags, noise, params, noise_limits(noise, params.water_above_noise_db, sv.shape().rows())};
+  const int least = least_background(params);
+  const auto look = [&](int sample) { return int{level_at(water, static_cast<std::size_t>(sample), least, values)}; };
   int here = samples > 0 ? look(0) : kMinCount;
   for (int first = 0; first < samples; first += kStep) {
     const int next = first + kStep < samples ? look(first + kStep) : here;

@@ -244,7 +244,7 @@ class SeabedFinder {
   [[nodiscard]] int onset(const SeabedPlane& plane, double strength_db, int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int samples = sv_.shape().samples;
-    const double width = r < width_deg_.size() ? rad_from_deg(width_deg_[r]) : kUnknownWidth_rad;
+    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
     const RangeAxis& axis_m = sector_.range();
     const double nearest_m = plane.range(axis(row, params_.edge_widths * width));
     const double on_axis_m = plane.range(axis(row));

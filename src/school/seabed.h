@@ -27,11 +27,13 @@ struct SeabedParams {
   int min_inliers = 20;
   double onset_db = -60.0;
   double edge_widths = 1.4;
+  double unknown_width_deg = 5.7;
   double margin_m = 5.0;
   double near_peak_db = 2.0;
   double before_share = 0.25;
   int before_samples = 4;
   double record_end_share = 0.025;
+  int record_end_samples = 2;
   double whole_fan_share = 0.9;
   double reach_share = 0.9;
   double min_dip = 0.3;
@@ -40,6 +42,7 @@ struct SeabedParams {
   double hill_step_m = 10.0;
   double hill_behind_db = 8.0;
   double hill_dip_db = 3.0;
+  int hill_gap_beams = 1;
   int trials = 300;
   int refinements = 5;
   double min_triangle_m2 = 25.0;
@@ -75,6 +78,8 @@ void describe(Visitor& v, SeabedParams& p) {
            .min = 0,
            .max = 5,
            .text = "beams see the seabed this many vertical beam widths below their axis, not more"});
+  v.field("unknown_width_deg", p.unknown_width_deg,
+          {.unit = "deg", .min = 0.1, .max = 90, .text = "... each so wide where the file tells none"});
   v.field("margin_m", p.margin_m, {.unit = "m", .min = 0, .max = 200, .text = "water above the seabed left out"});
   v.field("near_peak_db", p.near_peak_db,
           {.unit = "dB",
@@ -87,6 +92,8 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "samples", .min = 1, .max = 10000, .text = "... or at least so far"});
   v.field("record_end_share", p.record_end_share,
           {.unit = "1", .min = 0, .max = 0.5, .text = "an echo at its peak in this last share of the samples is cut"});
+  v.field("record_end_samples", p.record_end_samples,
+          {.unit = "samples", .min = 1, .max = 10000, .text = "... or in so many at least"});
   v.field("whole_fan_share", p.whole_fan_share,
           {.unit = "1", .min = 0, .max = 1, .text = "no school fills so large a share of a fan at one depth"});
   v.field("reach_share", p.reach_share,
@@ -111,6 +118,11 @@ void describe(Visitor& v, SeabedParams& p) {
            .text = "a beam that hears the plane at most so far below what it should ends there, not at a hill"});
   v.field("hill_dip_db", p.hill_dip_db,
           {.unit = "dB", .min = 0, .max = 60, .text = "... as an echo that rises so far out of the one before it"});
+  v.field("hill_gap_beams", p.hill_gap_beams,
+          {.unit = "beams",
+           .min = 0,
+           .max = 1000,
+           .text = "beams one above the other in which the ground may be too faint; above more there is none"});
   v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
   v.field("refinements", p.refinements,
           {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});

@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "model/mask.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 
 namespace sonar {
 

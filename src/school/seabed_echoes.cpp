@@ -80,7 +80,7 @@ class EchoFinder {
 
   [[nodiscard]] int first_cut_off() const {
     const int samples = sv_.shape().samples;
-    return samples - std::max(2, static_cast<int>(params_.record_end_share * samples));
+    return samples - std::max(params_.record_end_samples, static_cast<int>(params_.record_end_share * samples));
   }
 
   const SeabedWater& water_;

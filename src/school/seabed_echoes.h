@@ -48,9 +48,6 @@ struct SeabedEcho {
 /// A beam's axis, or a direction so far below it; never beyond the vertical.
 [[nodiscard]] Point<Sonar> beam_axis(const Sector& sector, int row, double lower_by_rad = 0.0);
 
-/// Stands in where a grid tells no beam width.
-inline constexpr double kUnknownWidth_rad = 0.1;
-
 /// Long echoes with a clear rise before them, by row.
 [[nodiscard]] std::vector<SeabedEcho> long_echoes(const SeabedWater& water);
 

@@ -11,8 +11,6 @@
 namespace sonar {
 namespace {
 
-constexpr int kMostEmpty = 1;  ///< beams in which the ground may be too faint
-
 class HillFinder {
  public:
   HillFinder(const SeabedWater& water, const std::vector<SeabedEcho>& echoes, const SeabedPlane& plane,
@@ -68,7 +66,7 @@ class HillFinder {
         empty = 0;
       }
       // Beams that see no ground look over it, beyond the record's end, and so do all above them.
-      if (ground_m >= 0.0 && empty > kMostEmpty) return;
+      if (ground_m >= 0.0 && empty > params_.hill_gap_beams) return;
     }
   }
 
@@ -137,7 +135,7 @@ class HillFinder {
   [[nodiscard]] bool hears(int fan, const SeabedEcho& hill) const {
     constexpr double kPerWidth_db = 4.0 * 6.02;  // a Gaussian beam, both ways
     const auto row = static_cast<std::size_t>(hill.row);
-    const double width_rad = row < width_deg_.size() ? rad_from_deg(width_deg_[row]) : kUnknownWidth_rad;
+    const double width_rad = rad_from_deg(row < width_deg_.size() ? width_deg_[row] : params_.unknown_width_deg);
     const double off = (sector_.elevation_rad(fan) - sector_.elevation_rad(hill.row / sector_.beams())) / width_rad;
     return std::abs(off) <= params_.edge_widths && hill.peak_db - kPerWidth_db * off * off >= params_.onset_db;
   }

@@ -14,11 +14,6 @@
 namespace sonar {
 namespace {
 
-/// How finely valleys are sounded.
-constexpr double kLevelStep_db = 1.0;
-/// A neighbour reaches at most so many searches farther than the part that led to it.
-constexpr int kMostWidenings = 6;
-
 std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
   std::vector<Run> runs;
   for (const std::vector<Run>& part : parts) runs.insert(runs.end(), part.begin(), part.end());
@@ -120,14 +115,15 @@ std::vector<MemberSettler::Heart> MemberSettler::hearts(
     const std::vector<Run>& part, double reference_db, double lowest_db, const std::vector<Run>& others,
     const std::function<bool(const std::vector<Run>&)>& large) const {
   std::vector<Heart> found;
-  for (double top_db = reference_db;; top_db = std::max(top_db - kLevelStep_db, lowest_db)) {
+  for (double top_db = reference_db;; top_db = std::max(top_db - params_.valley_step_db, lowest_db)) {
     const double valley_db = top_db - params_.min_valley_db;
     for (std::vector<Run>& piece : pieces(part, valley_db)) {
       const bool known =
           std::any_of(found.begin(), found.end(), [&](const Heart& heart) { return share_a_voxel(piece, heart.runs); });
       if (known || !large(piece) || share_a_voxel(piece, others)) continue;
       const double own_db = reference(piece);
-      if (own_db < top_db || !has_crown(piece, top_db - 0.5 * params_.min_valley_db, large)) continue;
+      if (own_db < top_db || !has_crown(piece, top_db - (1.0 - params_.crown_share) * params_.min_valley_db, large))
+        continue;
       found.push_back({own_db, valley_db, std::move(piece)});
     }
     if (top_db <= lowest_db) break;
@@ -177,14 +173,14 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
   // What stands out of a stronger neighbour's skirt alone: it is to be seen where that one lies.
-  box_ = box_round(part, depth_db < params_.tolerance_db ? kMostRims : 1);
+  box_ = box_round(part, depth_db < params_.tolerance_db ? params_.max_rims : 1);
   look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
   std::vector<Run> others = set_runs(claimed, box_);
   std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
   // The part ends where the search for one school ended, and so may its neighbour's piece.
-  for (int times = 0; times < kMostWidenings && schools.size() > 1 && cut_by_box(schools); ++times) {
+  for (int times = 0; times < params_.max_searches && schools.size() > 1 && cut_by_box(schools); ++times) {
     box_ = box_.enlarged(params_.search_fans, params_.search_beams, params_.search_samples).clipped(filtered_.shape());
     look_along_beams();
     others = set_runs(claimed, box_);

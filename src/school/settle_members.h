@@ -10,7 +10,7 @@
 #include "model/mask.h"
 #include "school/background.h"
 #include "school/candidates.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 #include "school/runs.h"
 
 namespace sonar {

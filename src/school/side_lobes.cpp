@@ -16,8 +16,8 @@ constexpr int kStep = 4;  ///< samples between two looks: the filter is longer t
 class FanLevels {
  public:
   /// seabed  whether it counts, as louder than anything
-  FanLevels(const IndexBox& box, View3<const std::int16_t> sv, View3<const SampleFlags> flags, double share,
-            bool seabed)
+  FanLevels(const IndexBox& box, View3<const std::int16_t> sv, View3<const SampleFlags> flags,
+            const DetectParams& params, bool seabed)
       : box_(box), steps_((box.samples() - 1) / kStep + 1) {
     std::vector<std::int16_t> values;
     for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
@@ -33,21 +33,21 @@ class FanLevels {
             values.push_back(count);
           }
         }
-        levels_.push_back(quantile(values, sv.shape().beams, share));
+        levels_.push_back(quantile(values, sv.shape().beams, params));
       }
     }
   }
-  /// The quantile over a fan's open beams; kNoData where fewer than half are.
+  /// The quantile over a fan's open beams; kNoData where too few are.
   [[nodiscard]] int at(int fan, int sample) const {
     const int step = (sample - box_.first_sample) / kStep;
     return levels_[static_cast<std::size_t>((fan - box_.first_fan) * steps_ + step)];
   }
 
  private:
-  static std::int16_t quantile(std::vector<std::int16_t>& values, int beams, double share) {
-    if (2 * static_cast<int>(values.size()) < beams) return kNoData;
+  static std::int16_t quantile(std::vector<std::int16_t>& values, int beams, const DetectParams& params) {
+    if (static_cast<double>(values.size()) < params.side_lobe_known_share * beams || values.empty()) return kNoData;
     const auto last = static_cast<double>(values.size() - 1);
-    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(share * last);
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(params.side_lobe_share * last);
     std::nth_element(values.begin(), rank, values.end());
     return *rank;
   }
@@ -78,9 +78,9 @@ bool borders_on(const IndexBox& box, bool top, SampleFlags what, const Sector& s
   return false;
 }
 
-/// Median of what is known of a mask's looks, dB; otherwise where that is less than half of them.
-double median_db(std::vector<int>& counts, std::size_t looks, double otherwise) {
-  if (2 * counts.size() < looks || counts.empty()) return otherwise;
+/// Median of what is known of a mask's looks, dB; otherwise where that is too small a share of them.
+double median_db(std::vector<int>& counts, std::size_t looks, double known_share, double otherwise) {
+  if (static_cast<double>(counts.size()) < known_share * static_cast<double>(looks) || counts.empty()) return otherwise;
   const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
   std::nth_element(counts.begin(), middle, counts.end());
   return db_from_counts(*middle);
@@ -111,14 +111,14 @@ bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& secto
       const int level = levels.at(row / beams, sample);
       if (level != kNoData) above.push_back(sv.row(row)[static_cast<std::size_t>(sample)] - level);
     });
-    return median_db(above, looks, rise_db) >= rise_db;
+    return median_db(above, looks, params.side_lobe_known_share, rise_db) >= rise_db;
   };
   // Where the sector ends above the seabed, that sets in at other ranges in other beams.
   if (borders_on(box, false, SampleFlags::seabed, sector, flags) &&
-      !stands_out(FanLevels(box, sv, flags, params.side_lobe_share, true))) {
+      !stands_out(FanLevels(box, sv, flags, params, true))) {
     return true;
   }
-  if (stands_out(FanLevels(box, sv, flags, params.side_lobe_share, false))) return false;
+  if (stands_out(FanLevels(box, sv, flags, params, false))) return false;
   if (borders_on(box, true, SampleFlags::surface, sector, flags)) return true;
   std::vector<int> below;
   const std::size_t looks = look(mask, [&](int row, int sample) {
@@ -126,7 +126,7 @@ bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& secto
     const int seabed = seabed_at(sv, flags, row % beams, s);
     if (seabed != kNoData) below.push_back(seabed - sv.row(row)[s]);
   });
-  return median_db(below, looks, 0.0) >= params.side_lobe_below_db;
+  return median_db(below, looks, params.side_lobe_known_share, 0.0) >= params.side_lobe_below_db;
 }
 
 }  // namespace sonar

@@ -7,7 +7,7 @@
 #include "base/sample_flags.h"
 #include "geo/sector.h"
 #include "model/mask.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 
 namespace sonar {
 

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "school/candidates.h"
+#include "school/detect.h"
 
 namespace sonar {
 

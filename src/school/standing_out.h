@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "school/background.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 #include "school/filtered_ping.h"
 #include "school/runs.h"
 

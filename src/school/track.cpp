@@ -243,7 +243,7 @@ class Tracker {
 
   /// Whether a detection is about as large as its owner and another school were that was seen more than once.
   [[nodiscard]] bool holds_both(std::size_t p, std::size_t d, int owner, const OpenTrack& other) const {
-    if (owner < 0 || other.own_pings < 2) return false;
+    if (owner < 0 || other.own_pings < params_.divide_both_pings) return false;
     const double both_m3 = open_[static_cast<std::size_t>(owner)].volume_m3 + other.volume_m3;
     return pings_[p].detections[d].volume_m3 > params_.divide_both_share * both_m3;
   }

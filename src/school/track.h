@@ -39,6 +39,7 @@ struct TrackParams {
   int divide_own_pings = 3;
   double divide_least_share = 0.25;
   double divide_both_share = 0.7;
+  int divide_both_pings = 2;
 };
 
 template <class Visitor>
@@ -87,11 +88,13 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "pings", .min = 1, .max = 100, .text = "each was seen alone so often before"});
   v.field("divide_least_share", p.divide_least_share,
           {.unit = "1", .min = 0, .max = 1, .text = "... and gets at least this share of its volume when last alone"});
+  v.field("divide_both_pings", p.divide_both_pings,
+          {.unit = "pings", .min = 1, .max = 100, .text = "... or so often, which is enough ..."});
   v.field("divide_both_share", p.divide_both_share,
           {.unit = "1",
            .min = 0,
            .max = 10,
-           .text = "two pings alone are enough where the detection is this share of both schools' volumes or more"});
+           .text = "... where the detection is this share of both schools' volumes or more"});
 }
 
 /// The detections of one ping, for association.

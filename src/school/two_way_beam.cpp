@@ -2,7 +2,6 @@
 #include "school/two_way_beam.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -12,14 +11,8 @@
 namespace sonar {
 namespace {
 
-/// Equivalent beam angles are worked out from apertures or measured, seldom better than this.
-constexpr double kLikeness_db = 0.3;
-/// Over the beams of a sonar; copied ones differ by more as soon as the widths do.
-constexpr double kMostSpread_db = 1.0;
 /// Sending everywhere, a uniform line's two-way integral is 3/2 of its square's.
 constexpr double kMostOfLine = 1.5;
-/// Of a log-likelihood. One school in one ping tells as much or a little more, a survey of some schools hundreds.
-constexpr double kClearly = 5.0;
 constexpr int kHalvings = 40;  ///< to the last digit but a few
 
 /// Solid angle of a two-way beam that is the square of a one-way beam, over the product of its -3 dB widths. For the
@@ -54,7 +47,7 @@ BeamShape shape_of(double gaussian_share, double vertical, double level, double 
 
 }  // namespace
 
-double two_way_area(const BeamGrid& grid, std::span<const double> psi_db) {
+double two_way_area(const BeamGrid& grid, std::span<const double> psi_db, const MeasureParams& params) {
   const std::size_t rows = grid.vertical_width_deg.size();
   if (rows == 0 || psi_db.size() != rows || grid.horizontal_width_deg.size() != rows) return 1.0;
   double sum = 0.0;
@@ -69,15 +62,17 @@ double two_way_area(const BeamGrid& grid, std::span<const double> psi_db) {
     sum += excess;
   }
   const double mean = sum / static_cast<double>(rows);
-  if (most - least > kMostSpread_db || mean < kLikeness_db) return 1.0;
-  if (mean > 2.0 * db_from_linear(kMostOfLine) + kLikeness_db) return 1.0;
+  if (most - least > params.beam_angle_spread_db || mean < params.beam_angle_least_db) return 1.0;
+  if (mean > 2.0 * db_from_linear(kMostOfLine) + params.beam_angle_least_db) return 1.0;
   return linear_from_db(mean);
 }
 
 std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area) {
-  static constexpr std::array<double, 5> kShares = {0.0, 0.25, 0.5, 0.75, 1.0};
-  std::vector<double> shares(kShares.begin(), kShares.end());
-  if (!params.find_beam_shape) shares = {params.beam_gaussian_share};
+  std::vector<double> shares{params.beam_gaussian_share};
+  if (params.find_beam_shape) {
+    shares.resize(static_cast<std::size_t>(params.beam_shapes));
+    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = static_cast<double>(i) / (params.beam_shapes - 1);
+  }
   const bool wider = params.use_beam_angle && area > 1.0;
   std::vector<BeamShape> shapes;
   for (const double share : shares) {
@@ -88,7 +83,7 @@ std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area) {
   if (!wider || !params.find_beam_shape) return shapes;
   for (const double share : shares) {
     const double alike = std::min(std::sqrt(area), widening(share, 0.0));
-    shapes.push_back(shape_of(share, alike, alike, kClearly));
+    shapes.push_back(shape_of(share, alike, alike, params.alike_evidence));
   }
   return shapes;
 }

@@ -12,9 +12,10 @@ namespace sonar {
 /// Solid angle of the two-way beams over that of beams which send as narrowly as they receive: 1 = as narrowly, up to
 /// 2.25 where the transmit beam is wide both ways. From the sounder's equivalent beam angles, one number for all beams.
 /// psi_db  [fan][beam] equivalent two-way beam angle, dB re 1 sr
+/// params  beam_angle_*
 /// out     1 where the angles say nothing: missing, out of what any transmit beam could make of the -3 dB widths, or of
 ///         another pattern over the beams than the widths (copied from one beam to all, say)
-[[nodiscard]] double two_way_area(const BeamGrid& grid, std::span<const double> psi_db);
+[[nodiscard]] double two_way_area(const BeamGrid& grid, std::span<const double> psi_db, const MeasureParams& params);
 
 /// One shape of beam that a school's echo is held against.
 struct BeamShape {

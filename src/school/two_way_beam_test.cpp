@@ -36,7 +36,7 @@ TEST(TwoWayArea, IsOneForBeamsThatSendAsTheyReceive) {
   const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.9});
   for (const double square_db : {kSquareGaussian_db, kSquareLine_db}) {
     const std::vector<double> psi_db{widths_db(6.6, 3.4) + square_db, widths_db(7.2, 2.9) + square_db};
-    EXPECT_EQ(two_way_area(grid, psi_db), 1.0);
+    EXPECT_EQ(two_way_area(grid, psi_db, {}), 1.0);
   }
 }
 
@@ -45,27 +45,27 @@ TEST(TwoWayArea, IsWhatTheWideTransmitBeamMakesOfThem) {
   const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.9});
   const double wide_db = kSquareGaussian_db + db_from_linear(std::numbers::sqrt2);
   const std::vector<double> psi_db{widths_db(6.6, 3.4) + wide_db, widths_db(7.2, 2.9) + wide_db};
-  EXPECT_NEAR(two_way_area(grid, psi_db), std::numbers::sqrt2, 0.002);
+  EXPECT_NEAR(two_way_area(grid, psi_db, {}), std::numbers::sqrt2, 0.002);
 }
 
 TEST(TwoWayArea, IsOneWhereTheBeamAngleIsNoEvidence) {
   const BeamGrid grid = grid_of({6.6, 7.2}, {3.4, 2.0});
   const double wide_db = -1.0;
   const std::vector<double> sound{widths_db(6.6, 3.4) + wide_db, widths_db(7.2, 2.0) + wide_db};
-  ASSERT_GT(two_way_area(grid, sound), 1.3);
-  EXPECT_EQ(two_way_area(grid, {}), 1.0);
-  EXPECT_EQ(two_way_area(grid, std::vector{0.0, 0.0}), 1.0) << "not filled in";
-  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], std::numeric_limits<double>::quiet_NaN()}), 1.0);
-  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], sound[0]}), 1.0) << "copied though the widths differ";
-  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] + 5.0, sound[1] + 5.0}), 1.0) << "wider than any beam";
-  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] - 9.0, sound[1] - 9.0}), 1.0) << "narrower than both ways";
-  EXPECT_EQ(two_way_area(grid_of({6.6, 0.0}, {3.4, 2.0}), sound), 1.0) << "a width is missing";
+  ASSERT_GT(two_way_area(grid, sound, {}), 1.3);
+  EXPECT_EQ(two_way_area(grid, {}, {}), 1.0);
+  EXPECT_EQ(two_way_area(grid, std::vector{0.0, 0.0}, {}), 1.0) << "not filled in";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], std::numeric_limits<double>::quiet_NaN()}, {}), 1.0);
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0], sound[0]}, {}), 1.0) << "copied though the widths differ";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] + 5.0, sound[1] + 5.0}, {}), 1.0) << "wider than any beam";
+  EXPECT_EQ(two_way_area(grid, std::vector{sound[0] - 9.0, sound[1] - 9.0}, {}), 1.0) << "narrower than both ways";
+  EXPECT_EQ(two_way_area(grid_of({6.6, 0.0}, {3.4, 2.0}), sound, {}), 1.0) << "a width is missing";
 }
 
 // Fans 0, 10 and 19, beam 12, of a recorded MS70: from what neither pattern has down to nearly the square of one.
 TEST(TwoWayArea, IsOneWhereTheBeamAngleGoesItsOwnWay) {
   const BeamGrid grid = grid_of({6.994, 6.370, 7.235}, {2.709, 3.250, 3.963});
-  EXPECT_EQ(two_way_area(grid, std::vector{-18.83, -22.73, -22.67}), 1.0);
+  EXPECT_EQ(two_way_area(grid, std::vector{-18.83, -22.73, -22.67}, {}), 1.0);
 }
 
 double integral_of(const BeamShape& shape) {

@@ -3,7 +3,7 @@
 
 #include "geo/sector.h"
 #include "model/mask.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 
 namespace sonar {
 
