@@ -29,7 +29,11 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
         auto recipe = read_recipe(arguments->validate);
         if (recipe && !arguments->calibration.empty())
           recipe = chosen_recipe(arguments->validate, arguments->calibration);
-        if (!recipe) return sonar::report(recipe.error());
+        // Whatever is wrong with it, the verb was used rightly.
+        if (!recipe) {
+          sonar::report(recipe.error());
+          return kExitFailed;
+        }
         fmt::print("{}: a sound recipe, hash {}\n", arguments->validate, recipe_hash(*recipe));
         return kExitDone;
       }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <system_error>
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int16_t kMissing = -20000;
 constexpr std::size_t kFlushBytes = 4U << 20U;
+constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
 
 /// A ping that stays.
 struct KeptPing {
@@ -201,6 +203,17 @@ Result<std::vector<Reduced>> choose(const SurveyFiles& survey, std::span<const O
   return observations;
 }
 
+/// What the schools' own samples take; what is kept beside them comes on top.
+std::uint64_t least_bytes(const std::vector<Reduced>& observations) {
+  std::uint64_t bytes = kLeastFreeBytes;
+  for (const Reduced& observation : observations) {
+    for (const auto& [index, ping] : observation.pings) {
+      for (const PingMask* mask : ping.masks) bytes += mask->voxels() * sizeof(std::int16_t);
+    }
+  }
+  return bytes;
+}
+
 std::map<std::uint32_t, KeptOfFile> by_file(const SurveyFiles& survey, const std::vector<Reduced>& observations) {
   std::map<std::uint32_t, KeptOfFile> kept;
   for (const Reduced& observation : observations) {
@@ -220,6 +233,7 @@ Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const Ob
   if (auto checked = require_outside_raw(survey, dest); !checked) return pass_on(checked);
   auto observations = choose(survey, products, recipe, params);
   if (!observations) return pass_on(observations);
+  if (auto space = require_free_space(dest, least_bytes(*observations)); !space) return pass_on(space);
   const auto kept = by_file(survey, *observations);
   std::error_code error;
   fs::create_directories(dest, error);
