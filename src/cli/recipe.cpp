@@ -9,45 +9,56 @@
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/verb.h"
+#include "pipeline/parameter_table.h"
 
 namespace sonar {
+namespace {
+
+struct RecipeOptions {
+  std::string preset = "default";
+  std::string validate;
+  std::string calibration;
+  bool describe = false;
+};
+
+int check(const RecipeOptions& o) {
+  auto recipe = read_recipe(o.validate);
+  if (recipe && !o.calibration.empty()) recipe = chosen_recipe(o.validate, o.calibration);
+  if (!recipe) {
+    report(recipe.error());
+    return kExitFailed;  // whatever is wrong with it, the verb was used rightly
+  }
+  fmt::print("{}: a sound recipe, hash {}\n", o.validate, recipe_hash(*recipe));
+  return kExitDone;
+}
+
+int print(const RecipeOptions& o) {
+  auto recipe = recipe_preset(o.preset);
+  if (!recipe) return report(recipe.error());
+  if (!o.calibration.empty()) {
+    if (auto taken = take_calibration_file(*recipe, o.calibration); !taken) return report(taken.error());
+  }
+  if (o.describe) {
+    ParameterTable table("Beside all stages");
+    describe(table, *recipe);
+    fmt::print("{}", table.markdown());
+  } else {
+    fmt::print("{}", recipe_text(*recipe));
+  }
+  return kExitDone;
+}
+
+}  // namespace
 
 void add_recipe(CLI::App& app, VerbRunner& run) {
-  struct Arguments {
-    std::string preset = "default";
-    std::string validate;
-    std::string calibration;
-  };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto o = std::make_shared<RecipeOptions>();
   CLI::App* verb = app.add_subcommand("recipe", "Print or check the parameters of every stage");
-  verb->add_option("--preset", arguments->preset, "default, or paper: the 2007 paper to the letter");
-  verb->add_option("--validate", arguments->validate, "Check this recipe file");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
-  verb->callback([arguments, &run] {
-    run = [arguments] {
-      if (!arguments->validate.empty()) {
-        auto recipe = read_recipe(arguments->validate);
-        if (recipe && !arguments->calibration.empty())
-          recipe = chosen_recipe(arguments->validate, arguments->calibration);
-        // Whatever is wrong with it, the verb was used rightly.
-        if (!recipe) {
-          sonar::report(recipe.error());
-          return kExitFailed;
-        }
-        fmt::print("{}: a sound recipe, hash {}\n", arguments->validate, recipe_hash(*recipe));
-        return kExitDone;
-      }
-      auto recipe = recipe_preset(arguments->preset);
-      if (recipe && !arguments->calibration.empty()) {
-        if (auto taken = take_calibration_file(*recipe, arguments->calibration); !taken) {
-          return sonar::report(taken.error());
-        }
-      }
-      if (!recipe) return sonar::report(recipe.error());
-      fmt::print("{}", recipe_text(*recipe));
-      return kExitDone;
-    };
-  });
+  verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
+  CLI::Option* validate = verb->add_option("--validate", o->validate, "Check this recipe file");
+  verb->add_option("--calibration", o->calibration, kCalibrationHelp);
+  verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
+      ->excludes(validate);
+  verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });
 }
 
 }  // namespace sonar

@@ -15,6 +15,7 @@
 #include "cli/verb.h"
 #include "pipeline/json_file.h"
 #include "pipeline/json_parameters.h"
+#include "pipeline/parameter_table.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -34,6 +35,7 @@ struct SimulateOptions {
   std::string beam_pattern;
   std::string params;
   bool print_params = false;
+  bool describe = false;
   bool no_fish = false;
   bool force = false;
   int jobs = 0;
@@ -109,6 +111,12 @@ int simulate(const SimulateOptions& o) {
     fmt::print("{}\n", writer.json().dump(2));
     return kExitDone;
   }
+  if (o.describe) {
+    ParameterTable table("The survey");
+    describe(table, *params);
+    fmt::print("{}", table.markdown());
+    return kExitDone;
+  }
   if (o.out.empty())
     return report({ErrorCode::usage, "OUT is required: the folder to write into; see sonarx simulate --help", {}});
   if (auto clear = require_not_beneath_raw(o.out); !clear) return report(clear.error());
@@ -151,6 +159,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
       ->check(CLI::IsMember({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
   verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
+  verb->add_flag("--describe", o->describe, "The same with unit, range and meaning of each, as Markdown tables");
   verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");
   verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
