@@ -84,13 +84,14 @@ bool lowest_fan_is_flat(const Water& water, const PingMask& mask) {
   for (std::size_t beam = 0; beam < sum.size(); ++beam) {
     if (count[beam] > 0.0) ranges_m.push_back(sum[beam] / count[beam]);
   }
-  if (static_cast<double>(ranges_m.size()) < water.params.shell_share * water.sector.beams()) return false;
+  const double wanted = water.params.shell_share * water.sector.beams();
+  if (ranges_m.empty() || static_cast<double>(ranges_m.size()) < wanted) return false;
   std::sort(ranges_m.begin(), ranges_m.end());
   const double middle_m = ranges_m[ranges_m.size() / 2];
   const auto near = std::count_if(ranges_m.begin(), ranges_m.end(), [&](double r) {
     return std::abs(r - middle_m) <= water.params.floor_flat_share * middle_m;
   });
-  return static_cast<double>(near) >= water.params.shell_share * water.sector.beams();
+  return static_cast<double>(near) >= wanted;
 }
 
 }  // namespace
