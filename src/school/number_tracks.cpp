@@ -6,6 +6,7 @@
 
 #include "school/open_track.h"
 #include "school/runs.h"
+#include "school/stays_with_ship.h"
 
 namespace sonar {
 namespace {
@@ -43,7 +44,8 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
                      std::span<const DetectedPing> pings, std::span<const int> channel, const TrackParams& params) {
   std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
   for (const OpenTrack& track : closed) {
-    if (confirmed(track, params)) order.emplace_back(order_key(track, pings, channel), &track);
+    if (!confirmed(track, params) || stays_with_ship(track.pings, pings, params)) continue;
+    order.emplace_back(order_key(track, pings, channel), &track);
   }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   Tracks tracks;

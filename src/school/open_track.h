@@ -52,7 +52,7 @@ void divide_again(std::span<OpenTrack> open, std::span<const std::size_t> parted
                   std::size_t p, std::span<const DetectedPing> pings, std::span<const PingFrame> frames,
                   const Sector& sector, double least_m);
 
-/// Drops the tracks that were not seen often enough, numbers the others by (first ping, channel, sample) and renames the
+/// Drops the tracks that were not seen often enough or that stay with the ship, numbers the others by (first ping, channel, sample) and renames the
 /// events.
 /// closed  all tracks
 /// pings, channel, params  as track()

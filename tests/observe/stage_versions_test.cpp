@@ -40,7 +40,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 3, "a0498ac74835f1ca54950382a1b0ee95"},
     {"detect", 8, "634e39305aad8adff3e75299492312c3"},
-    {"track", 6, "91393a19123f317dd64eee83037c0240"},
+    {"track", 7, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
     {"measure", 8, "7e596962443e891e76381f2dc17efb51"},
     {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
