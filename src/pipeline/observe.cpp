@@ -57,8 +57,9 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     if (!ping) {
       problems[static_cast<std::size_t>(i)] = ping.error().text;
     } else {
-      detected.detections = detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(),
-                                   ping->filtered->flags.view(), engine.sector(), ping->background(), params);
+      detected.detections =
+          detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
+                 engine.sector(), ping->background(), params, ping->seabed.open);
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }

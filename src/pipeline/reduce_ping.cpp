@@ -213,6 +213,8 @@ void fill_record(const PowerVolume& whole, const std::vector<int>& row_of_channe
       record.recorded_samples = told[row] < 0 ? samples : std::min(told[row], samples);
     }
     record.seabed_sample = seabed.found ? seabed.first_sample[row] : samples;
+    if (!seabed.open.empty()) record.open_first = seabed.open[row].first;
+    if (!seabed.open.empty()) record.open_end = seabed.open[row].end;
   }
 }
 
@@ -254,7 +256,7 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     if (recipe.automatic && also.detections) {
       detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
                         std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(),
-                        engine.detect_params());
+                        engine.detect_params(), seabed.open);
       for (const Detection& one : detected) deciding.push_back(&one.mask);
     }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,

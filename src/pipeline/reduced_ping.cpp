@@ -104,6 +104,9 @@ Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> r
   seabed.first_sample.assign(row_of_channel.size(), samples);
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
     seabed.first_sample[static_cast<std::size_t>(row)] = std::min(record.seabed_sample, samples);
+    if (record.open_end <= record.open_first) return;
+    seabed.open.resize(row_of_channel.size());
+    seabed.open[static_cast<std::size_t>(row)] = {record.open_first, std::min(record.open_end, samples)};
   });
   return seabed;
 }
@@ -113,7 +116,10 @@ void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
     const auto row_flags = flags.row(row);
     const auto end = std::min(row_flags.size(), static_cast<std::size_t>(record.recorded_samples));
-    for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) row_flags[s] |= SampleFlags::seabed;
+    const Stretch open{record.open_first, record.open_end};
+    for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) {
+      if (!open.holds(static_cast<std::int32_t>(s))) row_flags[s] |= SampleFlags::seabed;
+    }
   });
 }
 

@@ -190,7 +190,7 @@ TEST(Detect, LeavesOthersVoxelsAlone) {
   const Array3<std::int16_t> sv = test::filtered(counts, scene.flags);
   const Background background{scene.flat.power_db, scene.flat.calibration.view()};
   const auto found =
-      detect(sv.view(), counts.view(), scene.flags.view(), scene.sector, background, {}, &scene.truths[0]);
+      detect(sv.view(), counts.view(), scene.flags.view(), scene.sector, background, {}, {}, &scene.truths[0]);
   for (const Detection& d : found) EXPECT_EQ(overlap(d.mask, scene.truths[0]), 0U);
 }
 

@@ -14,6 +14,7 @@
 #include "base/units.h"
 #include "model/school.h"
 #include "school/seabed_echoes.h"
+#include "school/seabed_flank.h"
 #include "school/seabed_hills.h"
 #include "school/seabed_plane.h"
 
@@ -50,7 +51,9 @@ class SeabedFinder {
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
       seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, strength, row);
     }
+    const std::vector<std::int32_t> of_plane = seabed.first_sample;
     if (params_.hills) find_hills(water_, long_, *plane, strength, width_deg_, seabed.first_sample);
+    open_flank(water_, ground_of(*plane, strength, of_plane, seabed.first_sample), seabed);
     return seabed;
   }
 
@@ -268,6 +271,54 @@ class SeabedFinder {
     return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
   }
 
+  /// What is known of the ground in each beam; beams that hills end have no more to tell.
+  [[nodiscard]] Ground ground_of(const SeabedPlane& plane, double strength_db,
+                                 const std::vector<std::int32_t>& of_plane,
+                                 const std::vector<std::int32_t>& with_hills) const {
+    Ground ground{plane, roughness_m(plane), {}, {}};
+    for (int row = 0; row < static_cast<int>(of_plane.size()); ++row) {
+      const auto r = static_cast<std::size_t>(row);
+      ground.loudest.push_back(with_hills[r] == of_plane[r] ? loudest_sample(plane, strength_db, row) : -1);
+      ground.first.push_back(ground_sample(plane, row));
+    }
+    return ground;
+  }
+
+  /// Of the ground about the plane: spread of the depths of each beam's echo that is nearest to it.
+  [[nodiscard]] double roughness_m(const SeabedPlane& plane) const {
+    std::vector<double> nearest;
+    int row = -1;
+    for (const SeabedEcho& echo : echoes_) {
+      const double off_m = std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z);
+      if (echo.row != row) nearest.push_back(off_m);
+      if (off_m < nearest.back()) nearest.back() = off_m;
+      row = echo.row;
+    }
+    constexpr double kOneSigma = 0.6827;
+    const auto last = static_cast<double>(nearest.size() - 1);
+    const auto rank = nearest.begin() + static_cast<std::ptrdiff_t>(kOneSigma * last);
+    std::nth_element(nearest.begin(), rank, nearest.end());
+    return *rank;
+  }
+
+  /// Where along a beam the plane is loudest; may lie beyond the record.
+  [[nodiscard]] int loudest_sample(const SeabedPlane& plane, double strength_db, int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
+    const double range_m = expected(plane, strength_db, row, width).loudest_m;
+    const double sample = sector_.range().sample_at(range_m);
+    return sample < 1e6 ? static_cast<int>(sample) : -1;
+  }
+  /// From where on a beam's axis is within the margin of the plane.
+  [[nodiscard]] int ground_sample(const SeabedPlane& plane, int row) const {
+    const Point<Sonar> u = axis(row);
+    const double range_m = plane.range(u);
+    const double steep = u.z - plane.slope_x * u.x - plane.slope_y * u.y;
+    if (!std::isfinite(range_m) || !(steep > 0.0)) return sv_.shape().samples;
+    const double sample = sector_.range().sample_at(range_m - params_.margin_m / steep);
+    return static_cast<int>(std::clamp(sample, 0.0, static_cast<double>(sv_.shape().samples)));
+  }
+
   const SeabedWater& water_;
   View3<const std::int16_t> sv_;
   const Sector& sector_;
@@ -294,10 +345,12 @@ Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
   if (!seabed.found) return;
   SONAR_CHECK(seabed.first_sample.size() == flags.shape().rows());
+  const bool is_open = !seabed.open.empty();
   for (int row = 0; row < static_cast<int>(flags.shape().rows()); ++row) {
     const auto samples = flags.row(row);
     for (auto s = static_cast<std::size_t>(seabed.first_sample[static_cast<std::size_t>(row)]); s < samples.size();
          ++s) {
+      if (is_open && seabed.open[static_cast<std::size_t>(row)].holds(static_cast<std::int32_t>(s))) continue;
       if (!any(samples[s] & SampleFlags::lost)) samples[s] |= SampleFlags::seabed;
     }
   }

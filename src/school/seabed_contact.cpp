@@ -14,8 +14,9 @@ namespace {
 /// Mean of a mask's last samples before the seabed's margin, and of the others.
 class Contact {
  public:
-  Contact(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const DetectParams& params)
-      : sv_(sv), flags_(flags), params_(params) {}
+  Contact(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const DetectParams& params,
+          std::span<const Stretch> freed)
+      : sv_(sv), flags_(flags), params_(params), freed_(freed) {}
 
   void add(const Run& run) {
     const auto counts = sv_.row(run.row);
@@ -23,7 +24,8 @@ class Contact {
     int cut = run.end();
     const bool at_seabed =
         run.end() < sv_.shape().samples && any(flags[static_cast<std::size_t>(run.end())] & SampleFlags::seabed);
-    if (at_seabed) cut = std::max(run.first_sample, run.end() - params_.min_samples);
+    const bool is_free = !freed_.empty() && !freed_[static_cast<std::size_t>(run.row)].empty();
+    if (at_seabed && !is_free) cut = std::max(run.first_sample, run.end() - params_.min_samples);
     for (int s = run.first_sample; s < run.end(); ++s) {
       const double sv = linear_from_count(counts[static_cast<std::size_t>(s)]);
       (s < cut ? inside_ : beside_) += sv;
@@ -41,6 +43,7 @@ class Contact {
   View3<const std::int16_t> sv_;
   View3<const SampleFlags> flags_;
   const DetectParams& params_;
+  std::span<const Stretch> freed_;
   double beside_ = 0.0;
   double inside_ = 0.0;
   int n_beside_ = 0;
@@ -50,18 +53,18 @@ class Contact {
 }  // namespace
 
 bool rises_to_seabed(const PingMask& mask, View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                     const DetectParams& params) {
-  Contact contact(sv, flags, params);
+                     const DetectParams& params, std::span<const Stretch> freed) {
+  Contact contact(sv, flags, params, freed);
   for (const Run& run : mask.runs) contact.add(run);
   return contact.rises();
 }
 
 PingMask free_of_seabed(PingMask mask, View3<const std::int16_t> sv, View3<const SampleFlags> flags,
-                        const DetectParams& params) {
+                        const DetectParams& params, std::span<const Stretch> freed) {
   std::vector<bool> rising(sv.shape().rows(), false);
   bool none = true;
   for (const Run& run : mask.runs) {
-    Contact contact(sv, flags, params);
+    Contact contact(sv, flags, params, freed);
     contact.add(run);
     if (!contact.rises()) continue;
     rising[static_cast<std::size_t>(run.row)] = true;

@@ -49,6 +49,8 @@ ReducedRow reduced_row_at(std::span<const std::byte> bytes, std::size_t at) {
   row.background_db = number_at<float>(bytes, at);
   row.seabed_sample = std::clamp(number_at<std::int32_t>(bytes, at + 4), 0, kMaxSamples);
   row.recorded_samples = std::clamp(number_at<std::int32_t>(bytes, at + 8), 0, kMaxSamples);
+  row.open_first = std::clamp(number_at<std::int32_t>(bytes, at + 12), 0, kMaxSamples);
+  row.open_end = std::clamp(number_at<std::int32_t>(bytes, at + 16), 0, kMaxSamples);
   return row;
 }
 

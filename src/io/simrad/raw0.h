@@ -14,9 +14,9 @@ inline constexpr std::size_t kRaw0HeadBytes = 72;
 /// No channel has more samples, offset included; an allocation per sample stays bounded.
 inline constexpr int kMaxSamples = 1 << 20;
 
-/// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's three members, little-endian.
-inline constexpr std::string_view kReducedMark = "SXR1";
-inline constexpr std::size_t kReducedBytes = 16;
+/// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's five members, little-endian.
+inline constexpr std::string_view kReducedMark = "SXR2";
+inline constexpr std::size_t kReducedBytes = 24;
 /// Behind that, in one channel of a ping, what there is of these three in this order:
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
@@ -26,9 +26,9 @@ inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
 inline constexpr std::string_view kReducedWaterMark = "SXW1";
 inline constexpr std::size_t kReducedWaterHeadBytes = 12;
 /// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.
-inline constexpr std::string_view kReducedShortMark = "SXL1";
+inline constexpr std::string_view kReducedShortMark = "SXL2";
 inline constexpr std::size_t kReducedShortHeadBytes = 8;
-inline constexpr std::size_t kReducedShortBytes = 16;
+inline constexpr std::size_t kReducedShortBytes = 24;
 
 struct Raw0 {
   ChannelPing head;                  ///< power_count is left empty: the bytes need not be aligned

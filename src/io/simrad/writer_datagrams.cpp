@@ -91,6 +91,8 @@ void put_reduced_row(RawBytes& out, const ReducedRow& row) {
   put_f32(out, row.background_db);
   put(out, row.seabed_sample);
   put(out, row.recorded_samples);
+  put(out, row.open_first);
+  put(out, row.open_end);
 }
 
 /// What reduced files hold behind a channel's samples.
