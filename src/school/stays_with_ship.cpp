@@ -12,8 +12,6 @@
 namespace sonar {
 namespace {
 
-constexpr std::int32_t kCutAboveOrBelow =
-    kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
 constexpr std::int32_t kCutAside = kEdgeFore | kEdgeAft;
 
 struct Sight {
@@ -50,7 +48,7 @@ bool stays_with_ship(std::span<const TrackedDetection> tracked, std::span<const 
   for (const TrackedDetection& there : tracked) {
     const auto ping = std::ranges::lower_bound(pings, there.ping_index, {}, index_of);
     const Detection& detection = ping->detections[static_cast<std::size_t>(there.detections.front())];
-    if ((detection.edge_flags & kCutAboveOrBelow) == 0 || (detection.edge_flags & kCutAside) != 0) return false;
+    if ((detection.edge_flags & kCutAside) != 0) return false;
     const PingFrame frame(ping->placement, pings.front().placement.transducer);
     const auto since = static_cast<double>(ping->time - pings.front().time) / static_cast<double>(kSecondNs);
     sights.push_back({since, detection.centre, frame.to_world({})});

@@ -40,8 +40,8 @@ struct TrackParams {
   double divide_least_share = 0.25;
   double divide_both_share = 0.7;
   int divide_both_pings = 2;
-  double ship_drift_share = 0.2;
-  double ship_least_mps = 2.0;
+  double ship_drift_share = 0.3;
+  double ship_least_mps = 3.0;
   double ship_least_m = 20.0;
 };
 
@@ -98,13 +98,11 @@ void describe(Visitor& v, TrackParams& p) {
            .min = 0,
            .max = 10,
            .text = "... where the detection is this share of both schools' volumes or more"});
-  v.field(
-      "ship_drift_share", p.ship_drift_share,
-      {.unit = "1",
-       .min = 0,
-       .max = 1,
-       .text =
-           "no school: cut above or below in all pings, and moves by less beside the ship than this share of its way"});
+  v.field("ship_drift_share", p.ship_drift_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "no school: moves by less beside the ship than this share of the ship's way; 0 = not looked at"});
   v.field("ship_least_mps", p.ship_least_mps,
           {.unit = "m s-1", .min = 0, .max = 20, .text = "... of a ship that is at least so fast; fish are not"});
   v.field("ship_least_m", p.ship_least_m, {.unit = "m", .min = 0, .max = 100000, .text = "... and went so far"});
