@@ -119,17 +119,32 @@ class SeabedFinder {
     for (int round = 0; round < params_.refinements; ++round) {
       const std::optional<SeabedPlane> better = least_squares(*best);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
-      if (support(*better) < most) break;
+      if (support(*better) < params_.fit_support * most) break;
       best = better;
     }
     return best;
   }
 
-  /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth.
+  /// How far echoes lie from a plane, as a share of what an inlier may: most of them, schools' own and hills aside.
+  [[nodiscard]] double median_off(const SeabedPlane& plane) const {
+    std::vector<double> off;
+    for (const SeabedEcho& echo : echoes_) {
+      const double share = std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z) / inlier_m(echo.range_m);
+      if (share < 1.0) off.push_back(share);
+    }
+    if (off.empty()) return 1.0;
+    const auto middle = off.begin() + std::ssize(off) / 2;
+    std::nth_element(off.begin(), middle, off.end());
+    return *middle;
+  }
+
+  /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth, scaled by the median distance: echo
+  /// of a school over a smooth seabed has no say.
   [[nodiscard]] std::optional<SeabedPlane> least_squares(const SeabedPlane& start) const {
     std::array<std::array<double, 4>, 3> m{};
+    const double reach = std::clamp(params_.fit_spreads * median_off(start), params_.fit_least_share, 1.0);
     for (const SeabedEcho& echo : echoes_) {
-      const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / inlier_m(echo.range_m);
+      const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / (reach * inlier_m(echo.range_m));
       if (std::abs(off) >= 1.0) continue;
       const double w = (1.0 - off * off) * (1.0 - off * off) / inlier_m(echo.range_m);
       const std::array<double, 4> v{1.0, echo.place.x, echo.place.y, echo.place.z};

@@ -57,6 +57,9 @@ struct SeabedParams {
   int hill_gap_beams = 1;
   int trials = 300;
   int refinements = 5;
+  double fit_spreads = 7.0;
+  double fit_least_share = 0.2;
+  double fit_support = 0.9;
   double min_triangle_m2 = 25.0;
 };
 
@@ -181,6 +184,19 @@ void describe(Visitor& v, SeabedParams& p) {
   v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
   v.field("refinements", p.refinements,
           {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});
+  v.field("fit_spreads", p.fit_spreads,
+          {.unit = "1",
+           .min = 0.1,
+           .max = 1000,
+           .text = "... in which echoes farther off than so many times their median distance have no say"});
+  v.field("fit_least_share", p.fit_least_share,
+          {.unit = "1",
+           .min = 0.01,
+           .max = 1,
+           .text = "... if they are farther off than this share of what an inlier may be"});
+  v.field(
+      "fit_support", p.fit_support,
+      {.unit = "1", .min = 0, .max = 1, .text = "... a fit that loses more than the rest of the beams is not taken"});
   v.field("min_triangle_m2", p.min_triangle_m2,
           {.unit = "m2", .min = 0, .max = 10000, .text = "three echoes on less tell no slope (twice the area)"});
 }

@@ -131,6 +131,25 @@ TEST(Seabed, TheRingingBehindTheCropIsNone) {
   EXPECT_FALSE(scene.look(8).found);
 }
 
+// Its echo is as long and loud as the seabed's, and to one side.
+TEST(Seabed, ASchoolAboveASmoothBottomDoesNotTiltIt) {
+  BottomScene scene;
+  scene.add_lambert_bottom(83.0, -30.0);
+  for (int f = 3; f < 9; ++f) {
+    for (int b = 14; b < 24; ++b) {
+      for (int s = 40; s < 900; ++s) {
+        const double z = -std::sin(scene.sector.elevation_rad(f)) * scene.sector.range().range_m(s);
+        if (z > 66.0 && z < 77.0) scene.expected(f, b, s) += linear_from_db(-38.0);
+      }
+    }
+  }
+  const Seabed seabed = scene.look(9);
+  ASSERT_TRUE(seabed.found);
+  for (const double x : {-60.0, 0.0, 60.0}) {
+    EXPECT_NEAR(bottom_depth_m(seabed, {x, -100.0, 0.0}, {}, 0.3, 20.0), 83.0, 3.0) << x;
+  }
+}
+
 TEST(Seabed, FollowsASlope) {
   BottomScene scene;
   scene.add_bottom(120.0, -0.1);  // deeper to port
