@@ -117,9 +117,12 @@ class SeabedFinder {
     }
     if (most < params_.min_inliers) return std::nullopt;
     for (int round = 0; round < params_.refinements; ++round) {
-      const std::optional<SeabedPlane> better = least_squares(*best);
+      const double reach = std::clamp(params_.fit_spreads * median_off(*best), params_.fit_least_share, 1.0);
+      const std::optional<SeabedPlane> better = least_squares(*best, reach);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
-      if (support(*better) < params_.fit_support * most) break;
+      // about a smooth seabed what is lost may be a school; over hills all that supports the plane is seabed
+      const bool smooth = params_.fit_spreads * median_off(*better) < 1.0;
+      if (support(*better) < (smooth ? params_.fit_support : 1.0) * most) break;
       best = better;
     }
     return best;
@@ -140,9 +143,8 @@ class SeabedFinder {
 
   /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth, scaled by the median distance: echo
   /// of a school over a smooth seabed has no say.
-  [[nodiscard]] std::optional<SeabedPlane> least_squares(const SeabedPlane& start) const {
+  [[nodiscard]] std::optional<SeabedPlane> least_squares(const SeabedPlane& start, double reach) const {
     std::array<std::array<double, 4>, 3> m{};
-    const double reach = std::clamp(params_.fit_spreads * median_off(start), params_.fit_least_share, 1.0);
     for (const SeabedEcho& echo : echoes_) {
       const double off = (start.z(echo.place.x, echo.place.y) - echo.place.z) / (reach * inlier_m(echo.range_m));
       if (std::abs(off) >= 1.0) continue;
