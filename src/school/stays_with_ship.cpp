@@ -18,6 +18,7 @@ struct Sight {
   double time_s = 0.0;
   Point<Sonar> seen;  ///< from the ship
   Point<Enu> ship;
+  Point<Enu> there;  ///< the same over ground
 };
 
 /// Slope of a coordinate over time, by least squares.
@@ -51,12 +52,15 @@ bool stays_with_ship(std::span<const TrackedDetection> tracked, std::span<const 
     if ((detection.edge_flags & kCutAside) != 0) return false;
     const PingFrame frame(ping->placement, pings.front().placement.transducer);
     const auto since = static_cast<double>(ping->time - pings.front().time) / static_cast<double>(kSecondNs);
-    sights.push_back({since, detection.centre, frame.to_world({})});
+    sights.push_back({since, detection.centre, frame.to_world({}), frame.to_world(detection.centre)});
   }
   const Point<Enu> way = sights.back().ship - sights.front().ship;
   const double way_m = std::hypot(way.x, way.y);
+  const Point<Enu> its_way = sights.back().there - sights.front().there;
   const double took_s = sights.back().time_s - sights.front().time_s;
   if (way_m < params.ship_least_m || way_m < params.ship_least_mps * took_s) return false;
+  // a ship that circles a school keeps it abeam
+  if (std::hypot(its_way.x, its_way.y) < (1.0 - params.ship_drift_share) * way_m) return false;
   const double drift_mps = std::hypot(rate(sights, [](const Sight& s) { return s.seen.x; }),
                                       rate(sights, [](const Sight& s) { return s.seen.y; }));
   return drift_mps * took_s <= params.ship_drift_share * way_m;

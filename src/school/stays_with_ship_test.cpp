@@ -48,13 +48,18 @@ TEST(StaysWithShip, TheSeabedInTheLowestFanDoes) {
   EXPECT_TRUE(stays({}));
   EXPECT_TRUE(stays({.drift_mps = {0.2, 0.3, 0.0}})) << "its middle wanders a little";
   EXPECT_TRUE(stays({.drift_mps = {0.0, 0.0, 0.5}})) << "the seabed sinks";
-  EXPECT_TRUE(stays({.turn_deg = 5.0})) << "and it turns with the ship";
+  EXPECT_TRUE(stays({.turn_deg = 1.0})) << "and it turns with the ship";
   EXPECT_TRUE(stays({.edges = 0})) << "side lobes hear what lies under the ship";
 }
 
 TEST(StaysWithShip, WhatIsPassedDoesNot) {
   EXPECT_FALSE(stays({.drift_mps = {-3.1, 0.0, 0.0}})) << "at rest";
   EXPECT_FALSE(stays({.drift_mps = {-1.1, 0.0, 0.0}})) << "swims 2 m/s with the ship";
+}
+
+TEST(StaysWithShip, ASchoolThatTheShipCirclesDoesNot) {
+  // 15.5 m a ping on a circle of 200 m round it: 4.44 degrees to port, where it stays abeam.
+  for (const int pings : {3, 5, 10, 40}) EXPECT_FALSE(stays({.turn_deg = -4.44}, pings)) << pings;
 }
 
 TEST(StaysWithShip, WhatTellsNothingIsLeftAlone) {
