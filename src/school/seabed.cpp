@@ -21,8 +21,6 @@
 namespace sonar {
 namespace {
 
-/// About a smooth seabed most echoes lie within this share of what an inlier may.
-constexpr double kSmoothShare = 0.243;
 constexpr double kTwoWayHalfPower_db = 6.02;  ///< half a one-way -3 dB width off the axis
 
 class SeabedFinder {
@@ -123,7 +121,7 @@ class SeabedFinder {
       const std::optional<SeabedPlane> better = least_squares(*best, reach);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
       // about a smooth seabed what is lost may be a school; over hills all that supports the plane is seabed
-      const bool smooth = median_off(*better) < kSmoothShare;
+      const bool smooth = median_off(*better) < params_.fit_smooth_share;
       if (support(*better) < (smooth ? params_.fit_support : 1.0) * most) break;
       best = better;
     }

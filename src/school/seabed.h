@@ -60,6 +60,7 @@ struct SeabedParams {
   double fit_spreads = 7.0;
   double fit_least_share = 0.2;
   double fit_support = 0.9;
+  double fit_smooth_share = 0.243;
   double min_triangle_m2 = 25.0;
 };
 
@@ -197,6 +198,13 @@ void describe(Visitor& v, SeabedParams& p) {
   v.field(
       "fit_support", p.fit_support,
       {.unit = "1", .min = 0, .max = 1, .text = "... a fit that loses more than the rest of the beams is not taken"});
+  v.field(
+      "fit_smooth_share", p.fit_smooth_share,
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .text =
+           "... but where their median distance is a larger share of what an inlier may be, none may be lost: hills"});
   v.field("min_triangle_m2", p.min_triangle_m2,
           {.unit = "m2", .min = 0, .max = 10000, .text = "three echoes on less tell no slope (twice the area)"});
 }
