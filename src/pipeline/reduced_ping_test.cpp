@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/units.h"
 #include "io/simrad/raw0.h"
@@ -90,6 +94,50 @@ TEST(ReducedPing, record_survives_the_file) {
   bytes.clear();
   ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
   EXPECT_FALSE(simrad::parse_raw0(std::span(bytes).subspan(16, bytes.size() - 20)).head.reduced);
+}
+
+/// The record as it was written before there were open stretches: mark ends in 1, the row's last two members, which
+/// begin so many bytes behind it, are not there.
+std::vector<std::byte> without_open(std::span<const std::byte> record, std::string_view mark, std::ptrdiff_t open) {
+  const auto wanted = std::as_bytes(std::span(mark));
+  const auto at = std::search(record.begin(), record.end(), wanted.begin(), wanted.end());
+  std::vector<std::byte> out(record.begin(), at + open);
+  out.insert(out.end(), at + open + 8, record.end());
+  out[static_cast<std::size_t>(at - record.begin()) + mark.size() - 1] = std::byte{'1'};
+  return out;
+}
+
+TEST(ReducedPing, open_stretches_survive_and_files_without_them_are_read) {
+  ChannelPing p = head(2, {-151.25F, 700, 1324, 750, 800});
+  const std::vector<std::int16_t> counts = {-12000};
+  p.power_count = counts;
+  p.reduced_seabed = ReducedSeabed{151.0, 0.0, 0.0, -80.0, 90.0, -400.0, -30.0};
+  p.reduced_short = {{0, {-149.5F, 900, 950, 910, 920}}};
+  RawBytes bytes;
+  ASSERT_TRUE(append_raw0(bytes, 1'700'000'000'000'000'000, p));
+  const std::vector<std::byte> written(bytes.begin() + 16, bytes.end() - 4);
+  const ChannelPing now = simrad::parse_raw0(written).head;
+  EXPECT_EQ(now.reduced, p.reduced);
+  EXPECT_EQ(now.reduced_short, p.reduced_short);
+  const std::vector<int> row_of_channel{2, 1, 0};
+  const Seabed seabed = reduced_seabed(std::vector{now}, row_of_channel, 1324);
+  ASSERT_EQ(seabed.open.size(), 3U);
+  EXPECT_EQ(seabed.open[0].first, 750);
+  EXPECT_EQ(seabed.open[0].end, 800);
+  EXPECT_EQ(seabed.open[2].end, 920);
+  Array3<SampleFlags> flags({1, 3, 1324});
+  flag_reduced_seabed(std::vector{now}, row_of_channel, flags.view());
+  for (const auto& [sample, is_seabed] :
+       {std::pair{699, false}, {749, true}, {750, false}, {799, false}, {800, true}}) {
+    EXPECT_EQ(any(flags(0, 0, sample) & SampleFlags::seabed), is_seabed) << sample;
+  }
+
+  const std::vector<std::byte> earlier =
+      without_open(without_open(written, simrad::kReducedMark, 16), simrad::kReducedShortMark, 24);
+  const ChannelPing then = simrad::parse_raw0(earlier).head;
+  EXPECT_EQ(then.reduced, (ReducedRow{-151.25F, 700, 1324}));
+  EXPECT_EQ(then.reduced_seabed, p.reduced_seabed);
+  EXPECT_EQ(then.reduced_short, (std::vector<ReducedChannel>{{0, {-149.5F, 900, 950}}}));
 }
 
 TEST(ReducedPing, what_was_left_out_is_water_and_what_was_faulty_is_lost) {

@@ -44,20 +44,25 @@ bool begins_with(std::span<const std::byte> bytes, std::string_view mark) {
   return bytes.size() >= wanted.size() && std::equal(wanted.begin(), wanted.end(), bytes.begin());
 }
 
-ReducedRow reduced_row_at(std::span<const std::byte> bytes, std::size_t at) {
+ReducedRow reduced_row_at(std::span<const std::byte> bytes, std::size_t at, bool with_open) {
   ReducedRow row;
   row.background_db = number_at<float>(bytes, at);
   row.seabed_sample = std::clamp(number_at<std::int32_t>(bytes, at + 4), 0, kMaxSamples);
   row.recorded_samples = std::clamp(number_at<std::int32_t>(bytes, at + 8), 0, kMaxSamples);
+  if (!with_open) return row;
   row.open_first = std::clamp(number_at<std::int32_t>(bytes, at + 12), 0, kMaxSamples);
   row.open_end = std::clamp(number_at<std::int32_t>(bytes, at + 16), 0, kMaxSamples);
   return row;
 }
 
-/// The extension of reduced files, where there is one.
-std::optional<ReducedRow> parse_reduced(std::span<const std::byte> rest) {
-  if (rest.size() < kReducedBytes || !begins_with(rest, kReducedMark)) return std::nullopt;
-  return reduced_row_at(rest, 4);
+/// The extension of reduced files, where there is one; rest goes on behind it.
+std::optional<ReducedRow> parse_reduced(std::span<const std::byte>& rest) {
+  const bool earlier = begins_with(rest, kReducedMark1);
+  const std::size_t bytes = kReducedBytes - (earlier ? kOpenBytes : 0);
+  if (rest.size() < bytes || !(earlier || begins_with(rest, kReducedMark))) return std::nullopt;
+  const ReducedRow row = reduced_row_at(rest, 4, !earlier);
+  rest = rest.subspan(bytes);
+  return row;
 }
 
 /// The water's levels, as far as they are there.
@@ -77,16 +82,18 @@ std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) 
 /// The beams that were left out and end early, as far as they are there.
 std::vector<ReducedChannel> parse_reduced_short(std::span<const std::byte> rest) {
   std::vector<ReducedChannel> out;
-  if (rest.size() < kReducedShortHeadBytes || !begins_with(rest, kReducedShortMark)) return out;
+  const bool earlier = begins_with(rest, kReducedShortMark1);
+  const std::size_t bytes = kReducedShortBytes - (earlier ? kOpenBytes : 0);
+  if (rest.size() < kReducedShortHeadBytes || !(earlier || begins_with(rest, kReducedShortMark))) return out;
   const auto told = static_cast<std::size_t>(std::max(number_at<std::int32_t>(rest, 4), 0));
   rest = rest.subspan(kReducedShortHeadBytes);
-  const std::size_t count = std::min(told, rest.size() / kReducedShortBytes);
+  const std::size_t count = std::min(told, rest.size() / bytes);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = i * kReducedShortBytes;
+    const std::size_t at = i * bytes;
     const auto number = number_at<std::int32_t>(rest, at);
     // RAW0 itself can name no other.
     if (number < 1 || number > std::numeric_limits<std::int16_t>::max()) continue;
-    out.push_back({number - 1, reduced_row_at(rest, at + 4)});
+    out.push_back({number - 1, reduced_row_at(rest, at + 4, !earlier)});
   }
   return out;
 }
@@ -168,9 +175,9 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
   }
   if ((head.mode & 1) == 0) return unusable(raw, "no power samples in this mode", DiagnosticCode::no_power);
   raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
-  const auto behind = body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count)));
+  auto behind = body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count)));
   head.reduced = parse_reduced(behind);
-  if (head.reduced) parse_reduced_ping(behind.subspan(kReducedBytes), head);
+  if (head.reduced) parse_reduced_ping(behind, head);
   return raw;
 }
 

@@ -17,6 +17,9 @@ inline constexpr int kMaxSamples = 1 << 20;
 /// Extension of RAW0 in reduced files, behind the samples: this mark, then ReducedRow's five members, little-endian.
 inline constexpr std::string_view kReducedMark = "SXR2";
 inline constexpr std::size_t kReducedBytes = 24;
+/// Files that were reduced earlier tell no open stretches, the last two members of each row.
+inline constexpr std::string_view kReducedMark1 = "SXR1";
+inline constexpr std::size_t kOpenBytes = 8;
 /// Behind that, in one channel of a ping, what there is of these three in this order:
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
@@ -27,6 +30,7 @@ inline constexpr std::string_view kReducedWaterMark = "SXW1";
 inline constexpr std::size_t kReducedWaterHeadBytes = 12;
 /// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.
 inline constexpr std::string_view kReducedShortMark = "SXL2";
+inline constexpr std::string_view kReducedShortMark1 = "SXL1";
 inline constexpr std::size_t kReducedShortHeadBytes = 8;
 inline constexpr std::size_t kReducedShortBytes = 24;
 
