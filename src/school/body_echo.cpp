@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "school/echo_row.h"
 #include "school/runs.h"
 #include "school/two_way_beam.h"
 
@@ -124,38 +125,6 @@ std::vector<double> background_factors(const MeasureInput& ping, const std::vect
   return factors;
 }
 
-/// Echo at one sample; faulty samples are filled from the filtered volume.
-class EchoRow {
- public:
-  EchoRow(const MeasureInput& ping, int row, double background_factor)
-      : sv_(ping.sv.row(row)),
-        flags_(ping.flags.row(row)),
-        background_(ping.background, row),
-        background_factor_(background_factor) {
-    if (ping.filtered.data() != nullptr) filtered_ = ping.filtered.row(row);
-  }
-  /// Echo and the background in it; false where nothing is known.
-  [[nodiscard]] bool at(int sample, double& echo, double& background) const {
-    const auto i = static_cast<std::size_t>(sample);
-    if (any(flags_[i] & kNeverMember)) return false;
-    background = background_factor_ * background_(sample);
-    if (!any(flags_[i] & kFault) && sv_[i] != kNoData) {
-      echo = linear_from_count(sv_[i]);
-      return true;
-    }
-    if (filtered_.empty() || filtered_[i] == kNoData) return false;
-    echo = linear_from_count(filtered_[i]) / std::numbers::ln2;  // median of Rayleigh fading
-    return true;
-  }
-
- private:
-  std::span<const std::int16_t> sv_;
-  std::span<const SampleFlags> flags_;
-  std::span<const std::int16_t> filtered_;
-  RowBackground background_;
-  double background_factor_;
-};
-
 struct Moments {
   double weight = 0.0;
   Vector3 first{};
@@ -259,6 +228,7 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
   out.mean_range2_m2 = m.range2 / m.weight;
   out.two_way_area = ping.two_way_area;
   out.known = true;
+  out.along = range_profile(ping, mask, factors);
   const std::vector<FanEcho> fans = profile(sums, *ping.sector, params.min_fan_share);
   for (const BeamShape& shape : beam_shapes(params, ping.two_way_area)) {
     const BeamModel beam{shape.gaussian_share, params.beam_pedestal, shape.transmit_ratio};

@@ -5,6 +5,7 @@
 
 #include "geo/frames.h"
 #include "model/mask.h"
+#include "school/density_profile.h"
 #include "school/mask_shape.h"
 #include "school/measure_input.h"
 #include "school/measure_params.h"
@@ -22,6 +23,7 @@ struct BodyEcho {
   double two_way_area = 1.0;  ///< MeasureInput's
   Point<Sonar> centre;        ///< m
   double mean_range2_m2 = 0;  ///< echo-weighted mean of range squared
+  RangeProfile along;
   /// [shape of the beam] as beam_shapes(params, two_way_area); empty ones = too few fans to tell
   std::vector<HeightLikelihood> heights;
 };

@@ -33,7 +33,7 @@ void correct_selection(Covariance3& total, const Covariance3& blur, const Point<
 
 }  // namespace
 
-BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
+BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam, double shape_variance,
                    const MeasureParams& params) {
   BodySize size;
   if (!echo.known) return size;
@@ -49,7 +49,7 @@ BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const 
   const HorizontalAxes axes = horizontal_axes(body, 0.0);
   const double level_blur = (blur[0] + blur[3]) / 2.0;
   const auto extent = [&](double variance, double least_variance) {
-    const double size_m = 2.0 * std::sqrt(params.shape_variance * std::max(variance, 0.0));
+    const double size_m = 2.0 * std::sqrt(shape_variance * std::max(variance, 0.0));
     return variance > least_variance && size_m >= params.floor_extent_m ? size_m : kUnknown;
   };
   size.length_m = extent(axes.major_variance, params.min_level_share * level_blur);

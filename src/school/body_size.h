@@ -15,10 +15,11 @@ struct BodySize {
   double height_m = kUnknown;
 };
 
-/// The extents of a uniform ellipsoid of the echo's second moments less those of beam and pulse.
+/// The extents of an ellipsoid of the echo's second moments less those of beam and pulse.
 /// heights  how likely which height is, by this ping alone or with its neighbours
 /// beam     the shape for which the heights are that likely
+/// shape_variance  square of a half axis over the variance along it: density_profile.h
 [[nodiscard]] BodySize body_size(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
-                                 const MeasureParams& params);
+                                 double shape_variance, const MeasureParams& params);
 
 }  // namespace sonar

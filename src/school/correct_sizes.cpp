@@ -59,6 +59,16 @@ HeightLikelihood heights_near(const SchoolThroughPings& pings, std::size_t shape
   return sum;
 }
 
+/// What a ping and its neighbours tell of how the density falls off. Those that see the school cut have no say.
+double shape_near(const SchoolThroughPings& pings, std::int64_t centre, const MeasureParams& params) {
+  std::vector<RangeProfile> sights;
+  for (const MeasuredSchool* ping : pings) {
+    if (std::abs(ping->row.ping_index - centre) > params.height_pool_pings) continue;
+    if ((ping->row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) sights.push_back(ping->body.along);
+  }
+  return shape_variance(sights, params);
+}
+
 constexpr std::int64_t kNoPing = -1;
 constexpr std::int64_t kAllPings = std::numeric_limits<std::int64_t>::max();
 
@@ -102,7 +112,8 @@ std::vector<SchoolPingRow> correct_sizes(const std::vector<SchoolThroughPings>& 
     for (const MeasuredSchool* ping : school) {
       rows.push_back(ping->row);
       const HeightLikelihood heights = heights_near(school, shape, ping->row.ping_index, params.height_pool_pings);
-      measure_body(body_size(ping->body, heights, shapes[shape], params), rows.back());
+      const double variance = shape_near(school, ping->row.ping_index, params);
+      measure_body(body_size(ping->body, heights, shapes[shape], variance, params), rows.back());
     }
   }
   return rows;

@@ -82,6 +82,7 @@ struct Ellipsoid {
   double half_z = 5.0;
   double sv = 1e-4;
   Beams beams = Beams::gaussian;
+  double (*density)(double) = nullptr;  ///< of the distance from heart (0) to rim (1), times sv; none = 1
 };
 
 /// Expected sv of one ellipsoid: beams and nothing else.
@@ -103,7 +104,8 @@ inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellips
     const double elevation = std::asin(-p.z / r);
     const auto sample = static_cast<int>(std::lround(sector.range().sample_at(r)));
     if (sample < 0 || sample >= sector.range().count) continue;
-    const double weight = e.sv * volume / points / (r * r * dr) / (integral * sigma_v * sigma_h);
+    const double density = e.density == nullptr ? 1.0 : e.density(std::sqrt(x * x + y * y + z * z));
+    const double weight = density * e.sv * volume / points / (r * r * dr) / (integral * sigma_v * sigma_h);
     for (int f = 0; f < sector.fans(); ++f) {
       const double de = (elevation - sector.elevation_rad(f)) / sigma_v;
       if (std::abs(de) > kReach_sigmas) continue;

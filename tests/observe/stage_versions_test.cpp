@@ -42,7 +42,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 9, "634e39305aad8adff3e75299492312c3"},
     {"track", 7, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 8, "7e596962443e891e76381f2dc17efb51"},
+    {"measure", 9, "70f66b11be8b54a45e217fcb74cd8b58"},
     {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
 }};
 
