@@ -116,7 +116,7 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
     std::vector<Detection> detections;
     watch.time("5 detect", [&] {
       detections = detect(staged.filtered->counts.view(), staged.sv.counts.view(), staged.filtered->flags.view(),
-                          engine.sector(), staged.background(), recipe.detect);
+                          engine.sector(), staged.background(), recipe.detect, staged.seabed);
     });
   }
   watch.print();

@@ -59,7 +59,7 @@ std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, Observatio
     } else {
       detected.detections =
           detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-                 engine.sector(), ping->background(), params, ping->seabed.open);
+                 engine.sector(), ping->background(), params, ping->seabed);
       ping->sv.flags = {};  // measuring looks at those with the seabed
       if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
     }

@@ -256,7 +256,7 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     if (recipe.automatic && also.detections) {
       detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
                         std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(),
-                        engine.detect_params(), seabed.open);
+                        engine.detect_params(), seabed);
       for (const Detection& one : detected) deciding.push_back(&one.mask);
     }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,

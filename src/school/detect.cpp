@@ -12,6 +12,7 @@
 #include "model/school.h"
 #include "school/candidates.h"
 #include "school/edges.h"
+#include "school/nadir_ring.h"
 #include "school/noise_reach.h"
 #include "school/open_floor.h"
 #include "school/reverberation.h"
@@ -34,15 +35,15 @@ IndexBox box_of_runs(const Runs& runs, int beams) {
 class PingDetector {
  public:
   PingDetector(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered, View3<const SampleFlags> flags,
-               const Sector& sector, const Background& background, const DetectParams& params,
-               std::span<const Stretch> freed, const PingMask* taken)
+               const Sector& sector, const Background& background, const DetectParams& params, const Seabed& seabed,
+               const PingMask* taken)
       : sv_(sv),
         unfiltered_(unfiltered),
         flags_(flags),
         sector_(sector),
         background_(background),
         params_(params),
-        freed_(freed),
+        seabed_(seabed),
         taken_(taken),
         water_(water_levels(sv, flags, background, params)),
         thresholder_(sv, flags, background, water_, taken),
@@ -162,7 +163,7 @@ class PingDetector {
       if (is_wave_front(filtered, box_of(filtered, sv_.shape().beams), sector_, params_)) schools.clear();
     }
     for (MemberSettler::Settled& school : schools) {
-      PingMask free = free_of_seabed(std::move(school.mask), sv_, flags_, params_, freed_);
+      PingMask free = free_of_seabed(std::move(school.mask), sv_, flags_, params_, seabed_.open);
       Detection detection = describe_mask(std::move(free), flags_, sector_);
       detection.reference_db = school.reference_db;
       detection.threshold_db = school.threshold_db;
@@ -219,18 +220,20 @@ class PingDetector {
     const MaskEdges edges = mask_edges(detection.mask, flags_, sector_);
     if (edges.boundary_fraction > params_.max_boundary_faces) return false;
     if (edges.seabed_fraction > max_seabed_faces(detection.mask)) return false;
-    if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask, sv_, flags_, params_, freed_)) return false;
+    if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask, sv_, flags_, params_, seabed_.open))
+      return false;
     return !is_shell(detection) && !is_open_floor(detection, sector_, sv_, flags_, params_) &&
            !is_wave_front(detection.mask, detection.box, sector_, params_) &&
-           !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_);
+           !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_) &&
+           !is_nadir_ring(detection.mask, detection.box, seabed_, sector_, sv_, flags_, params_);
   }
 
   /// Of what stands out of the seabed's flank all faces may lie at what is left of that.
   [[nodiscard]] double max_seabed_faces(const PingMask& mask) const {
-    if (freed_.empty()) return params_.max_seabed_faces;
+    if (seabed_.open.empty()) return params_.max_seabed_faces;
     double freed = 0.0;
     for (const Run& run : mask.runs) {
-      if (!freed_[static_cast<std::size_t>(run.row)].empty()) freed += run.count;
+      if (!seabed_.open[static_cast<std::size_t>(run.row)].empty()) freed += run.count;
     }
     const double share = freed / static_cast<double>(mask.voxels());
     return params_.max_seabed_faces + (1.0 - params_.max_seabed_faces) * share;
@@ -252,7 +255,7 @@ class PingDetector {
   const Sector& sector_;
   const Background& background_;
   const DetectParams& params_;
-  std::span<const Stretch> freed_;
+  const Seabed& seabed_;
   const PingMask* taken_;
   WaterLevels water_;
   Thresholder thresholder_;
@@ -265,12 +268,12 @@ class PingDetector {
 
 std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered,
                               View3<const SampleFlags> flags, const Sector& sector, const Background& background,
-                              const DetectParams& params, std::span<const Stretch> freed, const PingMask* taken) {
-  SONAR_CHECK(freed.empty() || freed.size() == sv.shape().rows());
+                              const DetectParams& params, const Seabed& seabed, const PingMask* taken) {
+  SONAR_CHECK(seabed.open.empty() || seabed.open.size() == sv.shape().rows());
   SONAR_CHECK(sv.shape() == flags.shape() && sv.shape() == unfiltered.shape());
   SONAR_CHECK(sv.shape().fans == sector.fans() && sv.shape().beams == sector.beams() &&
               sv.shape().samples == sector.range().count);
-  return PingDetector(sv, unfiltered, flags, sector, background, params, freed, taken).run();
+  return PingDetector(sv, unfiltered, flags, sector, background, params, seabed, taken).run();
 }
 
 WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,

@@ -37,7 +37,7 @@ struct Detection {
 /// unfiltered  same shape: settles which voxels are theirs (settle_members.h)
 /// flags       same shape, seabed included; kNeverMember voxels are never members
 /// background  of the unfiltered samples; rows without one use the floor alone
-/// freed       [row] Seabed::open
+/// seabed      of this ping; flags hold its echo
 /// taken       voxels that a human gave to schools; null = none
 /// out         sorted by first voxel; no voxel in two
 /// threads     pure
@@ -45,7 +45,7 @@ struct Detection {
 [[nodiscard]] std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered,
                                             View3<const SampleFlags> flags, const Sector& sector,
                                             const Background& background, const DetectParams& params,
-                                            std::span<const Stretch> freed = {}, const PingMask* taken = nullptr);
+                                            const Seabed& seabed = {}, const PingMask* taken = nullptr);
 
 /// What detection takes for background beside the mean noise: the noise's own record of it, or else
 /// reverberation_counts() and noise_reach().

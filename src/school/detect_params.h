@@ -42,6 +42,11 @@ struct DetectParams {
   double side_lobe_share = 0.25;
   double side_lobe_below_db = 12.0;
   double side_lobe_known_share = 0.5;
+  double ring_rise_db = 3.0;
+  double ring_before = 0.03;
+  double ring_reach = 0.07;
+  double ring_inside_share = 0.8;
+  double ring_clear_db = 12.0;
   int floor_beams = 8;
   double floor_echo_db = -30.0;
   double floor_flat_share = 0.06;
@@ -176,6 +181,20 @@ void describe(Visitor& v, DetectParams& p) {
            .min = 0,
            .max = 1,
            .text = "... judged where so large a share of those beams, or of the voxels, is known"});
+  v.field("ring_rise_db", p.ring_rise_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "where fans become so much louder at the seabed's nearest range they hear it there; 0 = never"});
+  v.field("ring_before", p.ring_before,
+          {.unit = "1", .min = 0, .max = 0.5, .text = "... from this share of the range before it"});
+  v.field("ring_reach", p.ring_reach,
+          {.unit = "1", .min = 0, .max = 0.5, .text = "... to this share of the range behind it"});
+  v.field(
+      "ring_inside_share", p.ring_inside_share,
+      {.unit = "1", .min = 0, .max = 1, .text = "... and what lies there with this share of its voxels is no school"});
+  v.field("ring_clear_db", p.ring_clear_db,
+          {.unit = "dB", .min = 0, .max = 100, .text = "... unless it stands so far out of its fans"});
   v.field("floor_beams", p.floor_beams,
           {.unit = "beams", .min = 1, .max = 1000, .text = "a school may fill fans of fewer beams; no seabed there"});
   v.field("floor_echo_db", p.floor_echo_db,

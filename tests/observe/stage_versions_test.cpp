@@ -39,7 +39,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
     {"seabed", 4, "a0498ac74835f1ca54950382a1b0ee95"},
-    {"detect", 9, "634e39305aad8adff3e75299492312c3"},
+    {"detect", 10, "634e39305aad8adff3e75299492312c3"},
     {"track", 7, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
     {"measure", 9, "70f66b11be8b54a45e217fcb74cd8b58"},
@@ -115,7 +115,7 @@ std::vector<DetectedPing> detected(Engine& engine, std::map<std::string, Digest>
     found.placement = engine.placement(i);
     found.detections =
         detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-               engine.sector(), ping->background(), engine.recipe().detect);
+               engine.sector(), ping->background(), engine.recipe().detect, ping->seabed);
     for (const Detection& detection : found.detections) digests["detect"].mask(detection.mask);
     pings.push_back(std::move(found));
   }
