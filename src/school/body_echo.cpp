@@ -17,6 +17,8 @@
 namespace sonar {
 namespace {
 
+constexpr int kFlankBeams = 2;  ///< so far beside a loud school's mask its echo may still be above the background
+
 /// Standard deviation of a two-way Gaussian beam from its one-way -3 dB width.
 double two_way_sigma_rad(double width_deg) { return rad_from_deg(width_deg) / (4.0 * std::sqrt(std::numbers::ln2)); }
 
@@ -82,11 +84,28 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
   return subtract(with_confidence(std::move(united.runs)), subtract(with_flanks(*ping.others, shape), mask)).runs;
 }
 
+/// [beam x samples + sample] Where other schools' echo is no background, in any fan: the beam's flanks are high.
+std::vector<bool> heard_of_others(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
+  const Shape3 shape = ping.sv.shape();
+  std::vector<bool> loud(static_cast<std::size_t>(shape.beams) * static_cast<std::size_t>(shape.samples), false);
+  if (ping.others == nullptr) return loud;
+  for (const Run& run : subtract(*ping.others, mask).runs) {
+    const int beam = run.row % shape.beams;
+    const int first = std::max(0, run.first_sample - params.reach_samples);
+    const int end = std::min(shape.samples, run.end() + params.reach_samples);
+    for (int b = std::max(0, beam - kFlankBeams); b <= std::min(shape.beams - 1, beam + kFlankBeams); ++b) {
+      const auto row = loud.begin() + static_cast<std::ptrdiff_t>(b) * shape.samples;
+      std::fill(row + first, row + end, true);
+    }
+  }
+  return loud;
+}
+
 /// What the background near the school is, as a multiple of the expected: its reverberation changes with range as no
 /// beam's average does, and in the far flanks of the beam a tenth too much looks like a lower school.
 /// out  [fan], from the median over the samples just before and behind the stretch
 std::vector<double> background_factors(const MeasureInput& ping, const std::vector<Run>& runs,
-                                       const MeasureParams& params) {
+                                       const std::vector<bool>& loud, const MeasureParams& params) {
   const Shape3 shape = ping.sv.shape();
   std::vector<std::vector<double>> offsets(static_cast<std::size_t>(shape.fans));
   const auto collect = [&](int row, int first, int end) {
@@ -95,9 +114,10 @@ std::vector<double> background_factors(const MeasureInput& ping, const std::vect
     const auto flags = ping.flags.row(row);
     const auto calibration = ping.background.calibration.row(row);
     const double power = ping.background.power_counts(row);
+    const auto is_loud = loud.begin() + static_cast<std::ptrdiff_t>(row % shape.beams) * shape.samples;
     for (int s = std::max(first, 0); s < std::min(end, shape.samples); ++s) {
       const auto i = static_cast<std::size_t>(s);
-      if (any(flags[i] & kNotFiltered) || counts[i] == kNoData || calibration[i] == kNoData) continue;
+      if (is_loud[s] || any(flags[i] & kNotFiltered) || counts[i] == kNoData || calibration[i] == kNoData) continue;
       offsets[static_cast<std::size_t>(row / shape.beams)].push_back(counts[i] - calibration[i] - power);
     }
   };
@@ -141,6 +161,7 @@ struct FanSum {
   double background = 0.0;
   double shells = 0.0;
   double whole = 0.0;  ///< as shells, invalid samples included
+  double heard = 0.0;  ///< as shells, without what the filtered volume stands in for
   double sigma = 0.0;
   int samples = 0;
 };
@@ -162,6 +183,7 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
     sum.echo += shell * sv;
     sum.background += shell * background;
     sum.shells += shell;
+    if (echo.heard(s)) sum.heard += shell;
     ++sum.samples;
     const double range = sector.range().range_m(s);
     const double w = (sv - background) * shell;
@@ -190,12 +212,12 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
   add_square(m.blur, along, w0 * solid_angle * ping.pulse_m * ping.pulse_m / 12.0);
 }
 
-/// Fans of which enough of the stretch is there.
+/// Fans of which enough of the stretch was heard: what stands in for a fan that is missing is its neighbours' echo.
 std::vector<FanEcho> profile(const std::vector<FanSum>& sums, const Sector& sector, double least_share) {
   std::vector<FanEcho> fans;
   for (std::size_t fan = 0; fan < sums.size(); ++fan) {
     const FanSum& sum = sums[fan];
-    if (!(sum.echo > 0.0) || sum.shells < least_share * sum.whole) continue;
+    if (!(sum.echo > 0.0) || sum.heard < least_share * sum.whole) continue;
     fans.push_back({sector.elevation_rad(static_cast<int>(fan)), sum.sigma, sum.echo / sum.shells,
                     sum.background / sum.shells, static_cast<double>(sum.samples)});
   }
@@ -208,7 +230,7 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
   Moments m;
   std::vector<FanSum> sums(static_cast<std::size_t>(ping.sector->fans()));
   const std::vector<Run> stretch = surroundings(ping, mask, params);
-  const std::vector<double> factors = background_factors(ping, stretch, params);
+  const std::vector<double> factors = background_factors(ping, stretch, heard_of_others(ping, mask, params), params);
   for (const Run& run : stretch) {
     const auto fan = static_cast<std::size_t>(run.row / ping.sector->beams());
     add_row(m, sums[fan], ping, run, factors[fan]);

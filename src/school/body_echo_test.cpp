@@ -5,7 +5,7 @@
 
 #include "school/correct_sizes.h"
 #include "school/measure.h"
-#include "school/test_water.h"
+#include "school/test_ping.h"
 
 namespace sonar {
 namespace {
@@ -32,13 +32,14 @@ test::Ellipsoid loud_body() {
 
 /// Sizes of the faint body.
 /// others  what belongs to its neighbour
-SchoolPingRow measured_beside(const Array3<double>& faint, const Array3<double>& loud, const PingMask& others) {
+SchoolPingRow measured_beside(const Array3<double>& faint, const Array3<double>& loud, const PingMask& others,
+                              bool speckle = false) {
   const BeamGrid grid = test::grid();
   const Sector sector = grid.sector(test::range_axis());
   const Array3<SampleFlags> flags = test::cropped_flags(kShape, sector);
   Array3<double> expected = faint;
   for (std::size_t i = 0; i < kShape.size(); ++i) expected.all()[i] += loud.all()[i];
-  const Array3<std::int16_t> counts = test::counts_of(expected, 1, false);
+  const Array3<std::int16_t> counts = test::counts_of(expected, 1, speckle);
   const Array3<std::int16_t> filtered = test::filtered(counts, flags);
   const test::FlatBackground flat(kShape);
   MeasureInput in;
@@ -69,6 +70,49 @@ TEST(BodyEcho, ALoudNeighboursFlankIsNotTheSchools) {
   ASSERT_NEAR(alone.height_corrected_m / 14.0, 1.0, 0.15);
   EXPECT_NEAR(beside.height_corrected_m / alone.height_corrected_m, 1.0, 0.2);
   EXPECT_NEAR(beside.volume_corrected_m3 / alone.volume_corrected_m3, 1.0, 0.2);
+}
+
+// The background near a school is looked for where a louder one's echo may be.
+TEST(BodyEcho, ALouderSchoolBehindIsNoBackground) {
+  test::Ellipsoid faint = faint_body();
+  faint.sv = 3e-8;  // 15 dB above the background
+  test::Ellipsoid loud = faint;
+  loud.centre = Sector::direction(rad_from_deg(-29.0), rad_from_deg(268.0)) * 205.0;
+  loud.half_y = 18.0;
+  loud.sv = 1.5e-7;
+  const BeamGrid grid = test::grid();
+  const Sector sector = grid.sector(test::range_axis());
+  Array3<double> one(kShape);
+  Array3<double> other(kShape);
+  const Array3<double> none(kShape);
+  test::add_ellipsoid(one, sector, faint);
+  test::add_ellipsoid(other, sector, loud);
+  const SchoolPingRow alone = measured_beside(one, none, PingMask{}, true);
+  const SchoolPingRow beside = measured_beside(one, other, test::truth_of(other), true);
+  EXPECT_NEAR(beside.volume_corrected_m3 / alone.volume_corrected_m3, 1.0, 0.1);
+  EXPECT_LT(measured_beside(one, other, PingMask{}, true).volume_corrected_m3, 0.85 * alone.volume_corrected_m3);
+}
+
+// The filter's values there are the neighbouring fans', and would make the body higher than it is.
+TEST(BodyEcho, AMissingFanTellsNoHeight) {
+  test::MeasuredPing whole;
+  test::Ellipsoid e = faint_body();
+  e.centre = Sector::direction(rad_from_deg(-20.0), rad_from_deg(265.0)) * 200.0;
+  e.half_z = 9.0;
+  whole.add(e);
+  const SchoolPingRow expected = whole.measured(2);
+  for (const int fan : {10, 11, 12}) {
+    test::MeasuredPing ping = whole;
+    for (int beam = 0; beam < 25; ++beam) {
+      for (int s = 0; s < 900; ++s) {
+        ping.flags(fan, beam, s) |= SampleFlags::lost;
+        ping.expected(fan, beam, s) = 0.0;
+      }
+    }
+    const SchoolPingRow got = ping.measured(2);
+    EXPECT_NEAR(got.height_corrected_m / expected.height_corrected_m, 1.0, 0.2) << fan;
+    EXPECT_NEAR(got.volume_corrected_m3 / expected.volume_corrected_m3, 1.0, 0.25) << fan;
+  }
 }
 
 }  // namespace

@@ -23,12 +23,17 @@ class EchoRow {
         background_factor_(background_factor) {
     if (ping.filtered.data() != nullptr) filtered_ = ping.filtered.row(row);
   }
+  /// Whether the sample itself is sound, so that nothing stands in for it.
+  [[nodiscard]] bool heard(int sample) const {
+    const auto i = static_cast<std::size_t>(sample);
+    return !any(flags_[i] & (kFault | kNeverMember)) && sv_[i] != kNoData;
+  }
   /// Echo and the background in it; false where nothing is known.
   [[nodiscard]] bool at(int sample, double& echo, double& background) const {
     const auto i = static_cast<std::size_t>(sample);
     if (any(flags_[i] & kNeverMember)) return false;
     background = background_factor_ * background_(sample);
-    if (!any(flags_[i] & kFault) && sv_[i] != kNoData) {
+    if (heard(sample)) {
       echo = linear_from_count(sv_[i]);
       return true;
     }

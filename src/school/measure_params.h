@@ -76,7 +76,7 @@ void describe(Visitor& v, MeasureParams& p) {
   v.field("max_ring_factor", p.max_ring_factor,
           {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of local and estimated background, either way"});
   v.field("min_fan_share", p.min_fan_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is sound"});
+          {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is heard"});
   v.field("find_beam_shape", p.find_beam_shape,
           {.text = "the shape of beam that fits all schools of an observation best; off = as beam_gaussian_share"});
   v.field(

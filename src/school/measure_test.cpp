@@ -11,60 +11,12 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "school/correct_sizes.h"
-#include "school/test_water.h"
-#include "school/two_way_beam.h"
+#include "school/test_ping.h"
 
 namespace sonar {
 namespace {
 
-struct Ping {
-  explicit Ping(double mounting_deg = 270.0)
-      : grid(test::grid(mounting_deg)),
-        sector(grid.sector(test::range_axis())),
-        expected(Shape3{20, 25, 900}),
-        flags(test::cropped_flags(expected.shape(), sector)),
-        flat(expected.shape()) {
-    placement.transducer = {60.0, 4.0};
-    placement.transducer_depth_m = 7.0;
-  }
-
-  void add(const test::Ellipsoid& e) {
-    test::add_ellipsoid(expected, sector, e);
-    mask = test::truth_of(expected);
-  }
-
-  MeasuredSchool seen(std::uint64_t seed, bool speckle = true) {
-    counts = test::counts_of(expected, seed, speckle);
-    filtered = test::filtered(counts, flags);
-    MeasureInput in;
-    in.sv = counts.view();
-    in.filtered = filtered.view();
-    in.flags = flags.view();
-    in.sector = &sector;
-    in.grid = &grid;
-    in.background = {flat.power_db, flat.calibration.view()};
-    in.placement = placement;
-    in.two_way_area = two_way_area(grid, beam_angle_db, {});
-    return measure(in, mask, params);
-  }
-
-  SchoolPingRow measured(std::uint64_t seed, bool speckle = true) {
-    const MeasuredSchool one = seen(seed, speckle);
-    return correct_sizes({{&one}}, params).front();
-  }
-
-  MeasureParams params;
-  std::vector<double> beam_angle_db;  ///< none = the file has none
-  BeamGrid grid;
-  Sector sector;
-  Array3<double> expected;
-  Array3<SampleFlags> flags;
-  test::FlatBackground flat;
-  Placement placement;
-  PingMask mask;
-  Array3<std::int16_t> counts;
-  Array3<std::int16_t> filtered;
-};
+using Ping = test::MeasuredPing;
 
 test::Ellipsoid ellipsoid(double range_m, double elevation_deg, double azimuth_deg) {
   test::Ellipsoid e;
