@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@ struct NavSample {
   TimeNs time = 0;  ///< the datagram's, not the sentence's
   double first = 0.0;
   double second = 0.0;
+  std::uint16_t clock_run = 0;  ///< how often before it the file's pings went back in time
   friend bool operator==(const NavSample&, const NavSample&) = default;
 };
 
@@ -34,6 +36,22 @@ struct NavSeries {
 };
 
 /// Files what a sentence says into the series it belongs to; invalid values are left out.
-void add_sentence(std::vector<NavSeries>& series, const NmeaSentence& sentence, TimeNs time);
+void add_sentence(std::vector<NavSeries>& series, const NmeaSentence& sentence, TimeNs time,
+                  std::uint16_t clock_run = 0);
+
+/// Whoever sets a recorder's clock back writes the same times twice: what was said under one clock tells nothing of
+/// pings under the other.
+class ClockRuns {
+ public:
+  [[nodiscard]] std::uint16_t run() const { return run_; }
+  /// To be called for each ping in file order. One that is earlier than the ping before begins a run, and of what was
+  /// said since that ping so does what is earlier than it.
+  void begin_ping(TimeNs time, std::vector<NavSeries>& series);
+
+ private:
+  std::uint16_t run_ = 0;
+  std::optional<TimeNs> last_;
+  std::vector<std::size_t> samples_at_last_;  ///< [series]
+};
 
 }  // namespace sonar

@@ -12,6 +12,8 @@
 
 #include "base/check.h"
 #include "base/hash.h"
+#include "pipeline/clock_runs.h"
+#include "pipeline/observation_notes.h"
 #include "pipeline/sound_speeds.h"
 
 namespace sonar {
@@ -19,9 +21,6 @@ namespace {
 
 // One ping on its grid may take this many samples; a hostile channel must not ask for more.
 constexpr std::int64_t kMaxVolumeSamples = std::int64_t{1} << 27;
-
-// At 300 m a beam that is 2 degrees off lies 10 m off.
-constexpr double kLargeAttitude_deg = 2.0;
 
 TimeNs ns_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
 
@@ -229,50 +228,11 @@ void complete_range(const SurveyFiles& survey, ObservationFiles& observation, co
   }
 }
 
-/// Marks pings none of whose channels transmitted.
-void mark_silent_pings(const SurveyFiles& survey, ObservationFiles& observation) {
-  std::int64_t silent = 0;
-  std::int64_t first = -1;
-  for (std::size_t i = 0; i < observation.pings.size(); ++i) {
-    const std::vector<SurveyPing> parts = survey.parts(observation.pings[i]);
-    const bool is_silent = std::all_of(parts.begin(), parts.end(), [&](const SurveyPing& part) {
-      return survey.entry(part).silent_channels >= survey.entry(part).channels;
-    });
-    if (!is_silent) continue;
-    observation.navigation[i].bad = true;
-    if (silent++ == 0) first = static_cast<std::int64_t>(i);
-  }
-  if (silent == 0) return;
-  observation.diagnostics.push_back(
-      {DiagnosticCode::passive_pings, "", -1, first,
-       fmt::format("{} of {} pings were made without transmitting, or as a test; they are bad, the first here", silent,
-                   observation.pings.size())});
-}
-
 /// Beam directions with azimuths that count clockwise, whichever way the file counts them.
 SounderConfig with_sense(SounderConfig config, BeamAzimuthSense sense) {
   if (sense == BeamAzimuthSense::clockwise) return config;
   for (BeamConfig& beam : config.beams) beam.direction_deg[1] = -beam.direction_deg[1];
   return config;
-}
-
-/// Beams of a sounder that nobody knows, on a ship that rolls: whether they are stabilised is a guess.
-void note_unused_attitude(ObservationFiles& observation) {
-  if (observation.config.kind != SounderKind::unknown || !observation.grid) return;
-  const auto largest = [&](double PingNavigation::*angle_deg) {
-    double most = 0.0;
-    for (const PingNavigation& ping : observation.navigation) most = std::max(most, std::abs(ping.*angle_deg));
-    return most;
-  };
-  const double roll_deg = largest(&PingNavigation::roll_deg);
-  const double pitch_deg = largest(&PingNavigation::pitch_deg);
-  if (std::max(roll_deg, pitch_deg) < kLargeAttitude_deg) return;
-  observation.diagnostics.push_back(
-      {DiagnosticCode::attitude_unused, "", -1, -1,
-       fmt::format(
-           "sounder '{}' is not known; its beams were taken as stabilised although the ship rolls by up to {:.1f} "
-           "and pitches by up to {:.1f} degrees: navigation.beams_stabilised says otherwise",
-           observation.config.sounder_name, roll_deg, pitch_deg)});
 }
 
 }  // namespace
@@ -328,28 +288,26 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   complete_range(survey, observation, params);
 
   std::vector<PingMotion> motions;
-  std::vector<const NavSeries*> series;
-  std::vector<std::uint32_t> file_of_series;
+  ClockRunsOfFiles runs;
   for (const SurveyPing& ping : observation.pings) {
     motions.push_back(ping_attitude(survey.entry(ping)));
     auto& files = observation.files;
     for (const SurveyPing& part : survey.parts(ping)) {
       if (std::find(files.rbegin(), files.rend(), part.file) == files.rend()) files.push_back(part.file);
+      runs[part.file].insert(survey.entry(part).clock_run);
     }
   }
-  for (const std::uint32_t file : observation.files) {
-    for (const NavSeries& s : survey.files[file].index.navigation) series.push_back(&s);
-    file_of_series.resize(series.size(), file);
-  }
-  Navigation placed = navigate(series, motions, observation.config, navigation);
+  const SaidToPings said(survey, observation.files, runs);
+  Navigation placed = navigate(said.series(), motions, observation.config, navigation);
   observation.navigation = std::move(placed.pings);
   if (!params.use_passive_pings) mark_silent_pings(survey, observation);
+  note_missing_channels(survey, observation);
   if (navigation.beams_stabilised) note_unused_attitude(observation);
   observation.talkers = std::move(placed.talkers);
   observation.gps_minus_clock_s = placed.gps_minus_clock_s;
   for (Diagnostic& note : placed.diagnostics) {
     if (note.code == DiagnosticCode::position_jump && placed.first_jump) {
-      note.file = survey.files[file_of_series[*placed.first_jump]].index.name;
+      note.file = survey.files[said.file_of(*placed.first_jump)].index.name;
     }
     observation.diagnostics.push_back(std::move(note));
   }

@@ -19,7 +19,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 6;
+inline constexpr int kIndexVersion = 7;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {
@@ -67,6 +67,8 @@ struct PingEntry {
   std::uint16_t channels = 0;         ///< how many channels it has
   std::uint16_t silent_channels = 0;  ///< how many of them did not transmit, or a test signal
   std::uint16_t odd_channels = 0;     ///< how many more were left out (odd_channels.h)
+  std::uint16_t clock_run = 0;        ///< how often pings before it in the file went back in time
+  bool reduced = false;               ///< a reduced file's: channels are left out on purpose
   bool all_beams = false;             ///< it has (nearly) all beams of its configuration
   std::uint16_t config = 0;           ///< index in RawIndex::configs
   std::uint16_t transmit = 0;         ///< index in RawIndex::transmits

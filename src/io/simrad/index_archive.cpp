@@ -122,6 +122,7 @@ void fields(auto& io, Is<NavSample> auto& s) {
   io(s.time);
   io(s.first);
   io(s.second);
+  io(s.clock_run);
 }
 
 void fields(auto& io, Is<NavSeries> auto& s) {
@@ -162,6 +163,8 @@ void fields(auto& io, Is<PingEntry> auto& p) {
   io(p.channels);
   io(p.silent_channels);
   io(p.odd_channels);
+  io(p.clock_run);
+  io(p.reduced);
   io(p.all_beams);
   io(p.config);
   io(p.transmit);

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 
-#include "base/hash.h"
 #include "io/nmea.h"
 #include "io/simrad/con0.h"
 #include "io/simrad/con1.h"
@@ -184,7 +183,7 @@ void Indexer::take_nme0(const Datagram& datagram) {
     if (bad_sentences_++ == 0) first_bad_sentence_ = datagram.offset;
     return;
   }
-  add_sentence(index_.navigation, *sentence, datagram.time);
+  add_sentence(index_.navigation, *sentence, datagram.time, clock_runs_.run());
 }
 
 bool Indexer::channel_exists(const Datagram& datagram, int channel) {
@@ -222,7 +221,10 @@ bool Indexer::join_ping(const Arrival& arrival) {
 
 void Indexer::open_ping(const Arrival& arrival) {
   const ChannelPing& head = arrival.head;
+  clock_runs_.begin_ping(arrival.time, index_.navigation);
   ping_ = {};
+  ping_.clock_run = clock_runs_.run();
+  ping_.reduced = head.reduced.has_value();
   ping_.time = arrival.time;
   ping_.offset = arrival.offset;
   ping_.roll_deg = static_cast<float>(head.roll_deg);
@@ -377,19 +379,6 @@ std::uint16_t Indexer::transmit_of_open_ping() {
 }
 
 }  // namespace simrad
-
-Result<std::string> content_hash(const ByteSource& source) {
-  constexpr std::size_t kBlock = 2U << 20U;
-  Hasher hasher;
-  std::vector<std::byte> bytes(kBlock);
-  for (std::uint64_t offset = 0;;) {
-    const auto got = source.read(offset, bytes);
-    if (!got) return pass_on(got);
-    hasher.add(std::span<const std::byte>(bytes).first(*got));
-    offset += *got;
-    if (*got < bytes.size()) return to_hex(hasher.value());
-  }
-}
 
 Result<RawIndex> index_raw(const ByteSource& source) {
   simrad::Indexer indexer;

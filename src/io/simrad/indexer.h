@@ -72,6 +72,7 @@ class Indexer {
   bool ping_open_ = false;
   PingEntry ping_;
   std::uint64_t ping_number_ = 0;
+  ClockRuns clock_runs_;
   std::vector<std::uint64_t> seen_in_ping_;  ///< [channel] number of the ping it was last seen in
   struct OpenChannel {
     int channel = 0;
