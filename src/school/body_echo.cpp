@@ -17,8 +17,6 @@
 namespace sonar {
 namespace {
 
-constexpr int kFlankBeams = 2;  ///< so far beside a loud school's mask its echo may still be above the background
-
 /// Standard deviation of a two-way Gaussian beam from its one-way -3 dB width.
 double two_way_sigma_rad(double width_deg) { return rad_from_deg(width_deg) / (4.0 * std::sqrt(std::numbers::ln2)); }
 
@@ -93,7 +91,9 @@ std::vector<bool> heard_of_others(const MeasureInput& ping, const PingMask& mask
     const int beam = run.row % shape.beams;
     const int first = std::max(0, run.first_sample - params.reach_samples);
     const int end = std::min(shape.samples, run.end() + params.reach_samples);
-    for (int b = std::max(0, beam - kFlankBeams); b <= std::min(shape.beams - 1, beam + kFlankBeams); ++b) {
+    const int first_beam = std::max(0, beam - params.others_beams);
+    const int last_beam = std::min(shape.beams - 1, beam + params.others_beams);
+    for (int b = first_beam; b <= last_beam; ++b) {
       const auto row = loud.begin() + static_cast<std::ptrdiff_t>(b) * shape.samples;
       std::fill(row + first, row + end, true);
     }
@@ -250,7 +250,7 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
   out.mean_range2_m2 = m.range2 / m.weight;
   out.two_way_area = ping.two_way_area;
   out.known = true;
-  out.along = range_profile(ping, mask, factors);
+  out.along = range_profile(ping, mask, factors, params);
   const std::vector<FanEcho> fans = profile(sums, *ping.sector, params.min_fan_share);
   for (const BeamShape& shape : beam_shapes(params, ping.two_way_area)) {
     const BeamModel beam{shape.gaussian_share, params.beam_pedestal, shape.transmit_ratio};

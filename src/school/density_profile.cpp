@@ -36,8 +36,7 @@ void add_run(Moments& moments, const MeasureInput& ping, const Run& run, double 
 }
 
 /// Of the body, whose cumulants and those of a rectangular pulse add up to the echo's. Unknown if little is left.
-double kurtosis_of(const Moments& moments, double pulse_m) {
-  constexpr double kLeastLeft = 0.25;  // of the variance: below it the fourth moment is the pulse's
+double kurtosis_of(const Moments& moments, double pulse_m, double least_share) {
   const double mean = moments[1] / moments[0];
   const double second = moments[2] / moments[0];
   const double third = moments[3] / moments[0];
@@ -47,7 +46,7 @@ double kurtosis_of(const Moments& moments, double pulse_m) {
   const double fourth_central = fourth - 4.0 * mean * third + 6.0 * square * second - 3.0 * square * square;
   const double pulse2 = pulse_m * pulse_m;
   const double body = variance - pulse2 / 12.0;
-  if (!(moments[0] > 0.0) || !(body > kLeastLeft * variance)) return kUnknown;
+  if (!(moments[0] > 0.0) || !(body > least_share * variance)) return kUnknown;
   const double fourth_cumulant = fourth_central - 3.0 * variance * variance + pulse2 * pulse2 / 120.0;
   return 3.0 + fourth_cumulant / (body * body);
 }
@@ -94,7 +93,8 @@ struct Bodies {
 
 }  // namespace
 
-RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask, std::span<const double> background_factors) {
+RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask, std::span<const double> background_factors,
+                           const MeasureParams& params) {
   RangeProfile profile;
   if (mask.runs.empty()) return profile;
   const RangeAxis& range = ping.sector->range();
@@ -104,7 +104,7 @@ RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask, std::
     const auto fan = static_cast<std::size_t>(run.row / ping.sector->beams());
     add_run(moments, ping, run, background_factors[fan], about_m);
   }
-  profile.kurtosis = kurtosis_of(moments, ping.pulse_m);
+  profile.kurtosis = kurtosis_of(moments, ping.pulse_m, params.density_least_share);
   profile.looks = static_cast<double>(mask.voxels()) * range.spacing_m / std::max(range.spacing_m, ping.pulse_m);
   return profile;
 }

@@ -20,7 +20,7 @@ struct RangeProfile {
 /// background_factors  [fan] of the background near the school, as a multiple of the expected
 /// out                 unknown where pulse is all that is seen
 [[nodiscard]] RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask,
-                                         std::span<const double> background_factors);
+                                         std::span<const double> background_factors, const MeasureParams& params);
 
 /// Square of an ellipsoid's half axis over the variance of its echo along it: 5 with an even density, more with a dense
 /// heart, less if hollow.

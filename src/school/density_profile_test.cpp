@@ -153,12 +153,12 @@ TEST(DensityProfile, WhatIsNoLongerThanThePulseTellsNothing) {
   mask.confidence.assign(4, 255);
   const std::vector<double> factors(20, 1.0);
   in.pulse_m = 0.1;
-  EXPECT_TRUE(std::isfinite(range_profile(in, mask, factors).kurtosis));
-  EXPECT_NEAR(range_profile(in, mask, factors).looks, 4.0, 1e-9);
+  EXPECT_TRUE(std::isfinite(range_profile(in, mask, factors, MeasureParams{}).kurtosis));
+  EXPECT_NEAR(range_profile(in, mask, factors, MeasureParams{}).looks, 4.0, 1e-9);
   in.pulse_m = 2.0;
-  EXPECT_TRUE(std::isnan(range_profile(in, mask, factors).kurtosis));
-  EXPECT_LT(range_profile(in, mask, factors).looks, 1.0);
-  EXPECT_TRUE(std::isnan(range_profile(in, PingMask{}, factors).kurtosis));
+  EXPECT_TRUE(std::isnan(range_profile(in, mask, factors, MeasureParams{}).kurtosis));
+  EXPECT_LT(range_profile(in, mask, factors, MeasureParams{}).looks, 1.0);
+  EXPECT_TRUE(std::isnan(range_profile(in, PingMask{}, factors, MeasureParams{}).kurtosis));
 }
 
 }  // namespace

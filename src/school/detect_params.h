@@ -43,6 +43,8 @@ struct DetectParams {
   double side_lobe_below_db = 12.0;
   double side_lobe_known_share = 0.5;
   double ring_rise_db = 3.0;
+  double ring_water_first = 0.15;
+  double ring_water_end = 0.06;
   double ring_before = 0.03;
   double ring_reach = 0.07;
   double ring_inside_share = 0.8;
@@ -186,8 +188,15 @@ void describe(Visitor& v, DetectParams& p) {
            .min = 0,
            .max = 60,
            .text = "where fans become so much louder at the seabed's nearest range they hear it there; 0 = never"});
+  v.field("ring_water_first", p.ring_water_first,
+          {.unit = "1", .min = 0, .max = 1, .text = "... than in the water from this share of the range before it"});
+  v.field("ring_water_end", p.ring_water_end,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "... to this share before it: the filter spreads the ring over what is nearer"});
   v.field("ring_before", p.ring_before,
-          {.unit = "1", .min = 0, .max = 0.5, .text = "... from this share of the range before it"});
+          {.unit = "1", .min = 0, .max = 0.5, .text = "... the ring goes from this share of the range before it"});
   v.field("ring_reach", p.ring_reach,
           {.unit = "1", .min = 0, .max = 0.5, .text = "... to this share of the range behind it"});
   v.field(

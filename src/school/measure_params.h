@@ -11,9 +11,11 @@ struct MeasureParams {
   double density_looks = 400.0;
   double density_tolerance = 0.06;
   double density_most_db = 10.0;
+  double density_least_share = 0.25;
   int reach_fans = 2;
   int reach_beams = 1;
   int reach_samples = 6;
+  int others_beams = 2;
   double floor_extent_m = 1.0;
   int ring_gap_samples = 12;
   int ring_samples = 64;
@@ -56,12 +58,22 @@ void describe(Visitor& v, MeasureParams& p) {
            .text = "... a kurtosis of the echo so near that of an even density is one: ragged rims do as much"});
   v.field("density_most_db", p.density_most_db,
           {.unit = "dB", .min = 0, .max = 30, .text = "... and heart and rim differ by no more"});
+  v.field("density_least_share", p.density_least_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "... where the body makes this share of the echo's variance along range; the pulse makes the rest"});
   v.field("reach_fans", p.reach_fans,
           {.unit = "fans", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
   v.field("reach_beams", p.reach_beams,
           {.unit = "beams", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
   v.field("reach_samples", p.reach_samples,
           {.unit = "samples", .min = 0, .max = 1000, .text = "corrected sizes use echo so far beyond the mask"});
+  v.field("others_beams", p.others_beams,
+          {.unit = "beams",
+           .min = 0,
+           .max = 100,
+           .text = "the echo so far beside another school is no background; reach_samples before and behind it"});
   v.field("floor_extent_m", p.floor_extent_m,
           {.unit = "m", .min = 0.01, .max = 100, .text = "a smaller corrected extent is not told"});
   v.field("ring_gap_samples", p.ring_gap_samples,

@@ -12,9 +12,6 @@ namespace sonar {
 namespace {
 
 constexpr int kStep = 4;  ///< samples between two looks: the filter is longer than that
-/// The water before the ring, as shares of its range: the filter spreads the ring over what is nearer.
-constexpr double kBeforeFirst = 0.85;
-constexpr double kBeforeEnd = 0.94;
 
 std::int16_t median_of(std::vector<std::int16_t>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -66,13 +63,15 @@ bool is_nadir_ring(const PingMask& mask, const IndexBox& box, const Seabed& seab
   };
   const int first = sample_at(1.0 - params.ring_before);
   const int end = sample_at(1.0 + params.ring_reach);
+  const int water_first = sample_at(1.0 - params.ring_water_first);
+  const int water_end = sample_at(1.0 - params.ring_water_end);
   if (share_within(mask, first, end) < params.ring_inside_share) return false;
   FanLevel level(sv, flags, params);
   std::vector<std::int16_t> rises;
   std::vector<std::int16_t> before;
   for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
     before.clear();
-    for (int s = sample_at(kBeforeFirst); s < sample_at(kBeforeEnd); s += kStep) {
+    for (int s = water_first; s < water_end; s += kStep) {
       if (const std::int16_t count = level(fan, s); count != kNoData) before.push_back(count);
     }
     int most = kNoData;
