@@ -104,6 +104,8 @@ TEST(Errors, OneLineSaysWhere) {
   EXPECT_EQ(to_line({ErrorCode::format, "expected RAW0", {"a.raw", 12, 3}}), "a.raw: byte 12: ping 3: expected RAW0");
   EXPECT_EQ(to_line({ErrorCode::io, "no such file", {"a.raw", -1, -1}}), "a.raw: no such file");
   EXPECT_EQ(to_line({ErrorCode::usage, "what?", {}}), "what?");
+  EXPECT_EQ(to_line({ErrorCode::io, "gone", {"two\nlines \x1b[31m\x7f Trom\xc3\xb8", 7}}),
+            "two?lines ?[31m? Trom\xc3\xb8: byte 7: gone");
 }
 
 TEST(Errors, PassOn) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sonar {
 
 std::string_view name(ErrorCode code) {
@@ -33,12 +35,18 @@ std::string_view name(ErrorCode code) {
   return "unknown";
 }
 
+std::string printable(std::string text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
+}
+
 std::string to_line(const Error& error) {
   std::string line;
   if (!error.where.file.empty()) line += error.where.file + ": ";
   if (error.where.offset >= 0) line += fmt::format("byte {}: ", error.where.offset);
   if (error.where.ping >= 0) line += fmt::format("ping {}: ", error.where.ping);
-  return line + error.text;
+  return printable(line + error.text);
 }
 
 }  // namespace sonar

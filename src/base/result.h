@@ -40,7 +40,10 @@ struct Error {
 /// Short name of a code, as it stands in messages and JSON.
 [[nodiscard]] std::string_view name(ErrorCode code);
 
-/// The one line a user sees: "file: byte 12: ping 3: text".
+/// A file's name may hold line ends and a terminal's commands: control characters as '?'.
+[[nodiscard]] std::string printable(std::string text);
+
+/// The one line a user sees: "file: byte 12: ping 3: text", printable.
 [[nodiscard]] std::string to_line(const Error& error);
 
 /// A value, or the reason why there is none.

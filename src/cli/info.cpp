@@ -35,7 +35,7 @@ int run_info(const InfoOptions& options) {
   for (const FileInfo& file : info->files) {
     if (file.readable) continue;
     const std::string why = file.notes.empty() ? "could not be read" : file.notes.back().text;
-    std::fprintf(stderr, "sonarx: %s: %s\n", file.path.c_str(), why.c_str());
+    std::fprintf(stderr, "sonarx: %s\n", to_line({ErrorCode::format, why, {file.path}}).c_str());
   }
   return info->all_readable() ? kExitDone : kExitPartly;
 }

@@ -160,7 +160,7 @@ void print_failures(const SurveyFiles& survey, const RunReport& report) {
                to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
   }
   for (const RunFailure& failure : report.failures) {
-    fmt::print(stderr, "{}: {}\n", failure.observation, to_line(failure.error));
+    fmt::print(stderr, "{}: {}\n", printable(failure.observation), to_line(failure.error));
   }
 }
 

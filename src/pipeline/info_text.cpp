@@ -73,17 +73,17 @@ std::string notes_text(const Diagnostics& notes) {
   std::string text;
   for (const Diagnostic& note : notes) {
     const std::string place = note.offset >= 0 ? fmt::format("byte {}: ", note.offset) : std::string();
-    text += fmt::format("  note {}: {}{}\n", name(note.code), place, note.text);
+    text += fmt::format("  note {}: {}{}\n", name(note.code), place, printable(note.text));
   }
   return text;
 }
 
 std::string file_text(const FileInfo& file) {
-  std::string text = fmt::format("{}\n  {}{}{}, {} bytes\n", file.path, file.format, file.sounder.empty() ? "" : ", ",
-                                 file.sounder, file.size);
+  std::string text = fmt::format("{}\n  {}{}{}, {} bytes\n", printable(file.path), file.format,
+                                 file.sounder.empty() ? "" : ", ", printable(file.sounder), file.size);
   if (!file.datagrams.empty()) {
     text += "  datagrams:";
-    for (const auto& [type, count] : file.datagrams) text += fmt::format(" {} {}", type, count);
+    for (const auto& [type, count] : file.datagrams) text += fmt::format(" {} {}", printable(type), count);
     text += '\n';
   }
   if (file.pings > 0) {
@@ -107,9 +107,9 @@ std::string observation_text(const SurveyInfo::Observation& o) {
   const std::string grid =
       o.grid ? fmt::format("{} fans x {} beams", o.grid->first, o.grid->second) : std::string("no grid");
   std::string text =
-      fmt::format("{}: {}, {} pings, {}, {} to {}{}\n", o.name, o.sounder, o.pings, grid, iso_time(o.first_time),
-                  iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
-  for (const std::string& file : o.files) text += fmt::format("  {}\n", file);
+      fmt::format("{}: {}, {} pings, {}, {} to {}{}\n", printable(o.name), printable(o.sounder), o.pings, grid,
+                  iso_time(o.first_time), iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
+  for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));
   return text + notes_text(o.notes);
 }
 
