@@ -47,7 +47,7 @@ struct DetectParams {
   double ring_water_end = 0.06;
   double ring_before = 0.03;
   double ring_reach = 0.07;
-  double ring_inside_share = 0.8;
+  double ring_inside_share = 0.6;
   double ring_clear_db = 12.0;
   int floor_beams = 8;
   double floor_echo_db = -30.0;

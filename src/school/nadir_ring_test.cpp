@@ -84,6 +84,15 @@ TEST(NadirRing, OfQuietFansThereIsNone) {
   EXPECT_FALSE(ping.is_ring());
 }
 
+TEST(NadirRing, NoiseFraysItsEdge) {
+  Ping ping;
+  ping.school(0.0, 10.0, -62.0);  // 7 of 10 m are the ring's
+  EXPECT_TRUE(ping.is_ring());
+  DetectParams strict;
+  strict.ring_inside_share = 0.8;
+  EXPECT_FALSE(ping.is_ring(strict));
+}
+
 TEST(NadirRing, ASchoolReachesBeyondIt) {
   Ping ping;
   ping.school(-15.0, 10.0, -62.0);
