@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "synth/presets.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "geo/geodesic.h"
 #include "synth/demo.h"
@@ -72,11 +76,21 @@ void demo(SurveyParams& p) {
 
 Result<void> check(const SurveyParams& p) {
   if (auto ok = validate(p); !ok) return ok;
-  const auto rising = [](double a, double b) { return a <= b; };
-  if (!rising(p.length_min_m, p.length_max_m) || !rising(p.height_min_m, p.height_max_m) ||
-      !rising(p.range_min_m, p.range_max_m) || !rising(p.above_seabed_min_m, p.above_seabed_max_m) ||
-      !rising(p.sv_min_db, p.sv_max_db) || !rising(p.own_speed_min_mps, p.own_speed_max_mps)) {
-    return fail(ErrorCode::bad_parameter, "a range of the survey's parameters is upside down");
+  struct Span {
+    std::string_view least_name, most_name;
+    double least, most;
+  };
+  const std::array<Span, 6> spans{
+      {{"length_min_m", "length_max_m", p.length_min_m, p.length_max_m},
+       {"height_min_m", "height_max_m", p.height_min_m, p.height_max_m},
+       {"range_min_m", "range_max_m", p.range_min_m, p.range_max_m},
+       {"above_seabed_min_m", "above_seabed_max_m", p.above_seabed_min_m, p.above_seabed_max_m},
+       {"sv_min_db", "sv_max_db", p.sv_min_db, p.sv_max_db},
+       {"own_speed_min_mps", "own_speed_max_mps", p.own_speed_min_mps, p.own_speed_max_mps}}};
+  for (const Span& span : spans) {
+    if (span.least <= span.most) continue;
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("{} = {} is more than {} = {}", span.least_name, span.least, span.most_name, span.most));
   }
   return {};
 }

@@ -128,6 +128,16 @@ TEST_F(Simulate, RefusesAFolderWithRawFiles) {
   EXPECT_EQ(no_pings.error().code, ErrorCode::bad_parameter);
 }
 
+TEST_F(Simulate, NamesTheRangeThatIsUpsideDown) {
+  Work work(1);
+  SurveyParams params = small();
+  params.own_speed_max_mps = 0.1;
+  params.own_speed_min_mps = 0.2;
+  const auto refused = simulate_survey(folder_, params, ms70_beams(), false, "test", work);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text, "own_speed_min_mps = 0.2 is more than own_speed_max_mps = 0.1");
+}
+
 TEST_F(Simulate, TheTruthsTablesAndMasksAgree) {
   Work work(2);
   SurveyParams params = survey_params(Preset::easy);
