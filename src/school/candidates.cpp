@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "school/recorded_ends.h"
 
 namespace sonar {
 namespace {
@@ -48,7 +49,12 @@ int median_of_mean_counts() {
 
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
                          WaterLevels water, const PingMask* taken)
-    : sv_(sv), flags_(flags), background_(background), water_(std::move(water)), taken_(taken) {
+    : sv_(sv),
+      flags_(flags),
+      background_(background),
+      water_(std::move(water)),
+      taken_(taken),
+      ends_(recorded_ends(flags)) {
   water_.reverberation.resize(static_cast<std::size_t>(sv.shape().samples), kMinCount);
   if (taken_ != nullptr) taken_rows_ = index_rows(taken_->runs, sv.shape().rows());
 }
@@ -86,9 +92,10 @@ std::vector<Run> Thresholder::candidates(double floor_db, double margin_db) cons
       const int quiet = quiet_limit[static_cast<std::size_t>(s)];
       return table != nullptr ? std::max(quiet, level + table[s]) : quiet;
     };
+    const int recorded = ends_[static_cast<std::size_t>(row / shape.beams)];
     int start = -1;
-    for (int block = 0; block < shape.samples; block += kBlock) {
-      const int end = std::min(block + kBlock, shape.samples);
+    for (int block = 0; block < recorded; block += kBlock) {
+      const int end = std::min(block + kBlock, recorded);
       if (start < 0 && end - block == kBlock) {
         int hit = 0;
         for (int j = 0; j < kBlock; ++j) hit |= counts[block + j] >= floor ? 1 : 0;
@@ -103,7 +110,7 @@ std::vector<Run> Thresholder::candidates(double floor_db, double margin_db) cons
         }
       }
     }
-    if (start >= 0) cut(row, start, shape.samples, runs);
+    if (start >= 0) cut(row, start, recorded, runs);
   }
   return runs;
 }
@@ -113,6 +120,7 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
   const int rest = rounded_counts(counts_from_db(rest_db));
   std::vector<Run> runs;
   for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
+    const int last = std::min(box.last_sample, ends_[static_cast<std::size_t>(fan)] - 1);
     for (int beam = box.first_beam; beam <= box.last_beam; ++beam) {
       const int row = fan * sv_.shape().beams + beam;
       const auto counts = sv_.row(row);
@@ -125,10 +133,10 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
         return std::max(level_sum(level, median), median - median_of_mean_counts() + rest);
       };
       int start = -1;
-      for (int s = box.first_sample; s <= box.last_sample + 1; ++s) {
+      for (int s = box.first_sample; s <= last + 1; ++s) {
         const auto i = static_cast<std::size_t>(s);
-        const bool member = s <= box.last_sample && counts[i] >= level && counts[i] != kNoData &&
-                            !any(flags[i] & kNeverMember) && counts[i] >= limit(i);
+        const bool member = s <= last && counts[i] >= level && counts[i] != kNoData && !any(flags[i] & kNeverMember) &&
+                            counts[i] >= limit(i);
         if (member && start < 0) start = s;
         if (!member && start >= 0) {
           cut(row, start, s, runs);

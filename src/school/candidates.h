@@ -37,6 +37,7 @@ class Thresholder {
   WaterLevels water_;
   const PingMask* taken_;
   std::vector<int> taken_rows_;
+  std::vector<int> ends_;  ///< [fan], recorded_ends()
 };
 
 }  // namespace sonar

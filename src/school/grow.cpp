@@ -11,6 +11,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "school/mask_edit.h"
+#include "school/recorded_ends.h"
 
 namespace sonar {
 namespace {
@@ -34,6 +35,7 @@ class LazyRuns {
         box_(limits.box ? limits.box->clipped(sv.shape()) : IndexBox::whole(sv.shape())),
         taken_(limits.taken),
         inside_(limits.inside),
+        ends_(recorded_ends(flags)),
         known_(sv.shape().rows(), false),
         rows_(sv.shape().rows()) {
     if (taken_ != nullptr) taken_rows_ = index_rows(taken_->runs, sv.shape().rows());
@@ -64,6 +66,7 @@ class LazyRuns {
   void extract(int row, int first, int last, std::vector<FrontRun>& runs) const {
     const auto counts = sv_.row(row);
     const auto flags = flags_.row(row);
+    last = std::min(last, ends_[static_cast<std::size_t>(row / sv_.shape().beams)] - 1);
     int start = -1;
     for (int s = first; s <= last + 1; ++s) {
       const auto i = static_cast<std::size_t>(s);
@@ -95,6 +98,7 @@ class LazyRuns {
   IndexBox box_;
   const PingMask* taken_;
   const PingMask* inside_;
+  std::vector<int> ends_;  ///< [fan]
   std::vector<int> taken_rows_;
   std::vector<int> inside_rows_;
   std::vector<bool> known_;
@@ -198,7 +202,8 @@ Result<PingMask> grow_from_click(View3<const std::int16_t> sv, View3<const Sampl
   if (any(flags.row(seed.row)[static_cast<std::size_t>(seed.sample)] & kNeverMember)) {
     return refuse("lies in the near field, at the surface or beyond the seabed");
   }
-  if (count == kNoData) return refuse("has no data");
+  const int end = recorded_ends(flags)[static_cast<std::size_t>(seed.row / shape.beams)];
+  if (count == kNoData || seed.sample >= end) return refuse("has no data");
   const std::vector<float> opacity = growth_curve.table_i16();
   const double centre = static_cast<double>(opacity[static_cast<std::size_t>(count + 32768)]);
   if (!(centre > 0.0)) return refuse(fmt::format("has opacity 0 ({:.1f} dB)", db_from_counts(count)));

@@ -73,7 +73,8 @@ struct GrowLimits {
 
 /// Flood fill by runs along range; a row is thresholded when the front first touches it.
 /// sv       [fan][beam][sample], median-filtered Sv counts
-/// flags    same shape; kNeverMember voxels are never members, faulty ones are where the filter gave them a value
+/// flags    same shape; kNeverMember voxels and those behind recorded_ends() are never members, faulty ones are where the
+///          filter gave them a value
 /// seeds    voxels that are no members start nothing
 /// out      everything connected to a seed; empty where no seed is a member
 /// threads  pure

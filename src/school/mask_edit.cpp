@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "school/recorded_ends.h"
+
 namespace sonar {
 namespace {
 
@@ -39,6 +41,7 @@ class Block {
 
   /// All voxels that are not 0 and may be members.
   [[nodiscard]] PingMask mask(View3<const SampleFlags> flags) const {
+    const std::vector<int> ends = recorded_ends(flags);
     PingMask out;
     for (int f = 0; f < shape().fans; ++f) {
       for (int b = 0; b < shape().beams; ++b) {
@@ -48,7 +51,7 @@ class Block {
           const int fan = f + box_.first_fan;
           const int beam = b + box_.first_beam;
           const int sample = s + box_.first_sample;
-          if (any(flags(fan, beam, sample) & kNeverMember)) continue;
+          if (sample >= ends[static_cast<std::size_t>(fan)] || any(flags(fan, beam, sample) & kNeverMember)) continue;
           const int row = fan * grid_.beams + beam;
           if (!out.runs.empty() && out.runs.back().row == row && out.runs.back().end() == sample) {
             ++out.runs.back().count;
@@ -116,12 +119,14 @@ bool mostly_member(const Block& block, int fan, int beam, int sample) {
 
 PingMask brushed(std::vector<Run> runs, View3<const SampleFlags> flags) {
   std::sort(runs.begin(), runs.end());
+  const std::vector<int> ends = recorded_ends(flags);
   PingMask out;
   for (const Run& run : runs) {
     const auto of_row = flags.row(run.row);
+    const std::int32_t end = std::min(run.end(), ends[static_cast<std::size_t>(run.row / flags.shape().beams)]);
     std::int32_t first = run.first_sample;
     if (!out.runs.empty() && out.runs.back().row == run.row) first = std::max(first, out.runs.back().end());
-    for (std::int32_t s = first; s < run.end(); ++s) {
+    for (std::int32_t s = first; s < end; ++s) {
       if (any(of_row[static_cast<std::size_t>(s)] & kNeverMember)) continue;
       if (!out.runs.empty() && out.runs.back().row == run.row && out.runs.back().end() == s) {
         ++out.runs.back().count;

@@ -11,7 +11,7 @@
 namespace sonar {
 
 // What a human does to a mask by hand. Voxels that come in have confidence 1 (255), those that stay keep theirs;
-// kNeverMember voxels never come in. All functions are pure.
+// kNeverMember voxels and those that no beam of the fan recorded never come in. All functions are pure.
 
 /// A mask from runs in any order that may overlap.
 /// flags   [fan][beam][sample]; every run lies inside
