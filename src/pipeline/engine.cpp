@@ -161,8 +161,12 @@ std::vector<float> Engine::background_db(std::int64_t ping_index) const {
     if (!estimated.empty()) window.push_back(estimated);
   }
   if (window.empty()) return {};
-  const std::vector<double> combined =
-      combine_background(window, static_cast<std::size_t>(grid().fans() * grid().beams()), recipe_.background);
+  const auto rows = static_cast<std::size_t>(grid().fans() * grid().beams());
+  std::vector<double> combined = combine_background(window, rows, recipe_.background);
+  const auto& own = estimates_[static_cast<std::size_t>(ping_index)];
+  if (!own.empty()) {
+    keep_quieter(combine_background({&own, 1}, rows, recipe_.background), recipe_.background_window.quiet_db, combined);
+  }
   std::vector<float> rounded(combined.size());
   std::transform(combined.begin(), combined.end(), rounded.begin(), [](double v) { return static_cast<float>(v); });
   return rounded;

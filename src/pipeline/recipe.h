@@ -62,6 +62,7 @@ void describe(Visitor& v, CalibrationParams& p) {
 struct BackgroundWindowParams {
   bool enabled = true;
   int pings_each_side = 5;
+  double quiet_db = 6.0;
 };
 
 template <class Visitor>
@@ -72,6 +73,12 @@ void describe(Visitor& v, BackgroundWindowParams& p) {
            .min = 0,
            .max = 100,
            .text = "the background is the median over so many pings before and after"});
+  v.field(
+      "quiet_db", p.quiet_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 100,
+       .text = "a beam that is so much quieter in the ping itself was disturbed in the others: its own level counts"});
 }
 
 /// Every parameter of every stage: what makes one run's science equal to another's. Jobs, paths, cache and display are

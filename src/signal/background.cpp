@@ -18,12 +18,11 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using Row = std::span<const std::int16_t>;
 
-/// in  row with kNoData where samples are flagged; it lies below all data, so ranks are shifted by its number
-double low_quantile_db(Row row, const BackgroundParams& params) {
-  std::size_t recorded = row.size();
-  while (recorded > 0 && row[recorded - 1] == kNoData) --recorded;
-  const auto far = static_cast<std::size_t>(std::ceil(params.far_fraction * static_cast<double>(recorded)));
-  const Row used = row.first(recorded).last(std::min(far, recorded));
+/// The far part of a row, and its last half and quarter.
+constexpr std::size_t kFarParts = 3;
+
+/// in  samples with kNoData where they are flagged; it lies below all data, so ranks are shifted by its number
+double low_quantile_db(Row used, const BackgroundParams& params) {
   const std::size_t data = count_data(used);
   if (data == 0 || data < static_cast<std::size_t>(params.minimum_samples)) return kUnknown;
   const auto rank = std::min(data - 1, static_cast<std::size_t>(params.quantile * static_cast<double>(data)));
@@ -31,6 +30,17 @@ double low_quantile_db(Row row, const BackgroundParams& params) {
   // The sample of this rank lies on average at this quantile of the distribution.
   const double p = static_cast<double>(rank + 1) / static_cast<double>(data + 1);
   return db_from_counts(value) - 10.0 * std::log10(-std::log1p(-p));
+}
+
+void far_levels_db(Row row, const BackgroundParams& params, std::span<double> level_db) {
+  std::size_t recorded = row.size();
+  while (recorded > 0 && row[recorded - 1] == kNoData) --recorded;
+  double share = params.far_fraction;
+  for (double& level : level_db) {
+    const auto far = static_cast<std::size_t>(std::ceil(share * static_cast<double>(recorded)));
+    level = low_quantile_db(row.first(recorded).last(std::min(far, recorded)), params);
+    share /= 2.0;
+  }
 }
 
 /// Mean power of each block of a row, of which half at least is sound.
@@ -62,6 +72,19 @@ double linear_mean_db(std::span<const double> known_db) {
   return db_from_linear(sum / static_cast<double>(known_db.size()));
 }
 
+/// Whether most beams go down that far from the whole of their far part to its weakest end. One beam may have heard a
+/// school or the surface before it was quiet; what all hear is water.
+bool falls(std::span<const double> whole_db, std::span<const double> weakest_db, double fall_db) {
+  std::size_t known = 0;
+  std::size_t falling = 0;
+  for (std::size_t row = 0; row < whole_db.size(); ++row) {
+    if (std::isnan(whole_db[row])) continue;
+    ++known;
+    falling += weakest_db[row] < whole_db[row] - fall_db ? 1U : 0U;
+  }
+  return 2 * falling > known;
+}
+
 /// The count at or just above a level; outside the range of counts its end.
 std::int16_t count_from_db(double db) {
   return static_cast<std::int16_t>(std::lround(std::clamp<double>(counts_from_db(db), kMinCount, kMaxCount)));
@@ -76,7 +99,7 @@ std::vector<double> background_power_db(View3<const std::int16_t> power, View3<c
   const auto samples = static_cast<std::size_t>(power.shape().samples);
   const bool by_blocks = params.method == BackgroundMethod::de_robertis;
   const auto block = static_cast<std::size_t>(params.block_samples);
-  const std::size_t figures = by_blocks ? (samples + block - 1) / block : 1;
+  const std::size_t figures = by_blocks ? (samples + block - 1) / block : kFarParts;
   std::vector<double> level_db(rows * figures, kUnknown);
   std::vector<std::int16_t> sound(samples);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -84,7 +107,7 @@ std::vector<double> background_power_db(View3<const std::int16_t> power, View3<c
     copy_unflagged(power.row(index), flags.row(index), kNotFiltered, 0, sound);
     const std::span<double> out = std::span(level_db).subspan(row * figures, figures);
     if (!by_blocks) {
-      out.front() = low_quantile_db(sound, params);
+      far_levels_db(sound, params, out);
     } else if (count_data(sound) >= static_cast<std::size_t>(params.minimum_samples)) {
       block_means_db(sound, block, out);
     }
@@ -96,7 +119,9 @@ std::vector<double> combine_background(std::span<const std::vector<double>> ping
                                        const BackgroundParams& params) {
   if (pings.empty() || rows == 0) return {};
   const std::size_t figures = pings.front().size() / rows;
-  std::vector<double> combined(rows, kUnknown);
+  const bool by_blocks = params.method == BackgroundMethod::de_robertis;
+  std::vector<double> weakest(rows, kUnknown);
+  std::vector<double> whole(rows, kUnknown);
   std::vector<double> known;
   for (std::size_t i = 0; i < rows * figures; ++i) {
     known.clear();
@@ -105,14 +130,18 @@ std::vector<double> combine_background(std::span<const std::vector<double>> ping
       if (!std::isnan(ping[i])) known.push_back(ping[i]);
     }
     if (known.empty()) continue;
-    double& level_db = combined[i / figures];
-    if (params.method == BackgroundMethod::low_quantile) {
-      level_db = median_level_db(known);
-    } else {
-      level_db = std::fmin(level_db, std::min(linear_mean_db(known), params.maximum_db));
-    }
+    const double level_db = by_blocks ? std::min(linear_mean_db(known), params.maximum_db) : median_level_db(known);
+    weakest[i / figures] = std::fmin(weakest[i / figures], level_db);
+    if (i % figures == 0) whole[i / figures] = level_db;
   }
-  return combined;
+  return by_blocks || falls(whole, weakest, params.fall_db) ? weakest : whole;
+}
+
+void keep_quieter(std::span<const double> own_db, double quiet_db, std::span<double> level_db) {
+  SONAR_CHECK(own_db.size() == level_db.size());
+  for (std::size_t row = 0; row < own_db.size(); ++row) {
+    if (own_db[row] < level_db[row] - quiet_db) level_db[row] = own_db[row];
+  }
 }
 
 std::vector<double> noise_sv_db(double level_db, std::span<const std::int16_t> table) {

@@ -19,6 +19,7 @@ struct BackgroundParams {
   BackgroundMethod method = BackgroundMethod::low_quantile;
   double quantile = 0.2;
   double far_fraction = 0.75;
+  double fall_db = 1.5;
   int minimum_samples = 64;
   int block_samples = 26;
   double maximum_db = 0.0;
@@ -32,6 +33,13 @@ void describe(Visitor& v, BackgroundParams& p) {
   v.field("quantile", p.quantile, {.unit = "", .min = 0.01, .max = 0.9, .text = "low_quantile: which quantile"});
   v.field("far_fraction", p.far_fraction,
           {.unit = "", .min = 0.05, .max = 1, .text = "share of the beam, counted from its far end, that is used"});
+  v.field(
+      "fall_db", p.fall_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 100,
+       .text = "low_quantile: where most beams are so much weaker in the last half or quarter of that part, that is "
+               "their level: what fades along all beams is water, and noise does not"});
   v.field("minimum_samples", p.minimum_samples,
           {.unit = "samples", .min = 1, .max = 100000, .text = "fewer sound samples leave the background unknown"});
   v.field("block_samples", p.block_samples,
@@ -40,7 +48,8 @@ void describe(Visitor& v, BackgroundParams& p) {
           {.unit = "dB re 1 W", .min = -300, .max = 100, .text = "de_robertis: no background above this"});
 }
 
-/// What one ping tells of each beam's background, without the flagged samples: with low_quantile its level, with
+/// What one ping tells of each beam's background, without the flagged samples: with low_quantile the levels of its far
+/// part and of that part's last half and last quarter, with
 /// de_robertis the mean power of each block of range, block by block. Only combine_background() makes levels of both:
 /// the weakest block of a single ping is weak by chance (4 dB below the mean, of blocks of 10 m).
 /// in      power [fan][beam][sample], counts re 1 W; flags, same shape
@@ -50,13 +59,19 @@ void describe(Visitor& v, BackgroundParams& p) {
 [[nodiscard]] std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
                                                       const BackgroundParams& params);
 
-/// Level of each row over pings. low_quantile: the median; de_robertis: blocks averaged over pings, and of these the
+/// Level of each row over pings. low_quantile: the median, of the whole far part unless most beams' ends lie lower; de_robertis: blocks averaged over pings, and of these the
 /// weakest, not above maximum_db. NaN are left out, a row without any stays NaN.
 /// in      one estimate per ping, all of one length, as background_power_db() gives them with the same params
 /// rows    of the grid
 /// out     [row]
 [[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
                                                      const BackgroundParams& params);
+
+/// Where a ping's own level lies so much below that of the pings round it, these were disturbed (a beam full of lost
+/// packets) and its own stands.
+/// in      own_db [row], of the ping alone; NaN tells nothing
+/// out     level_db [row]
+void keep_quieter(std::span<const double> own_db, double quiet_db, std::span<double> level_db);
 
 /// Sv of the background at each sample: its power plus what the sonar equation adds there.
 /// in      level_db of the row, table = sv_table() of the row

@@ -42,6 +42,30 @@ TEST(background, low_quantile_finds_the_noise_under_schools) {
   EXPECT_NEAR(level_db[6], -121.0, 1.5);
 }
 
+// Water of one Sv all along the beam, louder than the noise up to the record's end: its power falls by spreading and
+// absorption. What is taken for noise may lie no higher than what comes from the last sixth.
+TEST(background, water_that_fades_along_the_beam_is_no_noise) {
+  auto ping = noise_ping({4, 5, 1320}, 0.0, 5);
+  const auto water_db = [](int s) {
+    const double range_m = 0.27 * (s + 1);
+    return -80.0 - 20.0 * std::log10(range_m) - 2.0 * 0.03 * range_m;
+  };
+  for (int row = 0; row < 20; ++row) {
+    for (int s = 0; s < 1320; ++s) {
+      std::int16_t& count = ping.view().row(row)[static_cast<std::size_t>(s)];
+      count = static_cast<std::int16_t>(count + counts_from_db(water_db(s)));
+    }
+  }
+  const Array3<SampleFlags> flags(ping.shape());
+  const auto level_db = [&](double fall_db) {
+    const BackgroundParams params{.fall_db = fall_db};
+    const std::vector<std::vector<double>> pings{background_power_db(ping.view(), flags.view(), params)};
+    return combine_background(pings, 20, params);
+  };
+  for (const double level : level_db(BackgroundParams{}.fall_db)) EXPECT_LT(level, water_db(1100));
+  for (const double level : level_db(100.0)) EXPECT_GT(level, water_db(1100) + 2.0);
+}
+
 TEST(background, flagged_and_missing_samples_do_not_count) {
   auto ping = noise_ping({1, 2, 1320}, -123.0, 2);
   Array3<SampleFlags> flags(ping.shape());
@@ -89,6 +113,32 @@ TEST(background, de_robertis_finds_the_noise_over_twenty_pings) {
     pings.push_back(background_power_db(ping.view(), Array3<SampleFlags>(ping.shape()).view(), params));
   }
   for (const double level : combine_background(pings, 4, params)) EXPECT_NEAR(level, -123.4, 0.4);
+}
+
+// One beam is hot in seven of eleven pings, so that their median is; its quiet pings are quiet, its hot ones hot.
+TEST(background, a_ping_is_no_louder_than_itself) {
+  std::vector<std::vector<double>> pings;
+  for (std::uint32_t seed = 1; seed <= 11; ++seed) {
+    auto ping = noise_ping({1, 2, 1320}, -157.0, seed);
+    for (int s = 0; seed <= 7 && s < 1320; ++s) ping(0, 1, s) = static_cast<std::int16_t>(ping(0, 1, s) + 3500);
+    pings.push_back(background_power_db(ping.view(), Array3<SampleFlags>(ping.shape()).view(), {}));
+  }
+  for (const auto& [ping, loud] : {std::pair<std::size_t, bool>{0, true}, {10, false}}) {
+    std::vector<double> level_db = combine_background(pings, 2, {});
+    EXPECT_GT(level_db[1], -120.0);
+    const double steady_db = level_db[0];
+    keep_quieter(combine_background({&pings[ping], 1}, 2, {}), 6.0, level_db);
+    EXPECT_EQ(level_db[0], steady_db);  // a single ping's scatter is no quiet
+    if (loud) {
+      EXPECT_GT(level_db[1], -120.0);
+    } else {
+      EXPECT_NEAR(level_db[1], -157.0, 1.2);
+    }
+  }
+  std::vector<double> unknown{kNaN, -150.0};
+  keep_quieter(std::array{-170.0, kNaN}, 6.0, unknown);
+  EXPECT_TRUE(std::isnan(unknown[0]));
+  EXPECT_EQ(unknown[1], -150.0);
 }
 
 TEST(background, median_over_pings) {
