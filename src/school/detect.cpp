@@ -224,7 +224,7 @@ class PingDetector {
       return false;
     return !is_shell(detection) && !is_open_floor(detection, sector_, sv_, flags_, params_) &&
            !is_wave_front(detection.mask, detection.box, sector_, params_) &&
-           !is_side_lobe(detection.mask, detection.box, sector_, sv_, flags_, params_) &&
+           !is_side_lobe(detection.mask, detection.box, sector_, sv_, unfiltered_, flags_, params_) &&
            !is_nadir_ring(detection.mask, detection.box, seabed_, sector_, sv_, flags_, params_);
   }
 

@@ -41,6 +41,7 @@ struct DetectParams {
   double side_lobe_rise_db = 4.0;
   double side_lobe_share = 0.25;
   double side_lobe_below_db = 12.0;
+  int side_lobe_fans = 4;
   double side_lobe_known_share = 0.5;
   double ring_rise_db = 3.0;
   double ring_water_first = 0.15;
@@ -177,7 +178,12 @@ void describe(Visitor& v, DetectParams& p) {
       "side_lobe_share", p.side_lobe_share,
       {.unit = "1", .min = 0, .max = 1, .text = "share of a fan's beams below the level that it must stand out of"});
   v.field("side_lobe_below_db", p.side_lobe_below_db,
-          {.unit = "dB", .min = 0, .max = 100, .text = "the seabed's echo is so much stronger than its side lobes"});
+          {.unit = "dB",
+           .min = 0,
+           .max = 100,
+           .text = "the seabed's echo, and the surface's, is so much stronger than its side lobes"});
+  v.field("side_lobe_fans", p.side_lobe_fans,
+          {.unit = "fans", .min = 0, .max = 1000, .text = "... the surface's in fans no further off than this"});
   v.field("side_lobe_known_share", p.side_lobe_known_share,
           {.unit = "1",
            .min = 0,

@@ -57,14 +57,20 @@ class FanLevels {
   std::vector<std::int16_t> levels_;
 };
 
-/// The strongest echo that is the seabed's at a sample of a beam, whatever the fan; kNoData = none.
-int seabed_at(View3<const std::int16_t> sv, View3<const SampleFlags> flags, int beam, std::size_t sample) {
-  int most = kNoData;
-  for (int fan = 0; fan < sv.shape().fans; ++fan) {
-    if (any(flags.row(fan, beam)[sample] & SampleFlags::seabed)) most = std::max<int>(most, sv.row(fan, beam)[sample]);
+/// The strongest echo in so many fans of a beam that is the seabed's, or the surface's, at a sample; kNoData = none.
+struct Strongest {
+  View3<const std::int16_t> counts;
+  View3<const SampleFlags> flags;
+  SampleFlags what;
+
+  [[nodiscard]] int at(int first_fan, int last_fan, int beam, std::size_t sample) const {
+    int most = kNoData;
+    for (int fan = std::max(first_fan, 0); fan <= std::min(last_fan, counts.shape().fans - 1); ++fan) {
+      if (any(flags.row(fan, beam)[sample] & what)) most = std::max<int>(most, counts.row(fan, beam)[sample]);
+    }
+    return most;
   }
-  return most;
-}
+};
 
 /// Whether a box has part in an outermost fan of the sector, beyond which lies what that fan shows further off.
 bool borders_on(const IndexBox& box, bool top, SampleFlags what, const Sector& sector, View3<const SampleFlags> flags) {
@@ -99,7 +105,7 @@ std::size_t look(const PingMask& mask, Visit&& visit) {
 }  // namespace
 
 bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& sector, View3<const std::int16_t> sv,
-                  View3<const SampleFlags> flags, const DetectParams& params) {
+                  View3<const std::int16_t> unfiltered, View3<const SampleFlags> flags, const DetectParams& params) {
   const double rise_db = params.side_lobe_rise_db;
   if (!(rise_db > 0.0)) return false;
   const int beams = sv.shape().beams;
@@ -120,13 +126,20 @@ bool is_side_lobe(const PingMask& mask, const IndexBox& box, const Sector& secto
   }
   if (stands_out(FanLevels(box, sv, flags, params, false))) return false;
   if (borders_on(box, true, SampleFlags::surface, sector, flags)) return true;
-  std::vector<int> below;
-  const std::size_t looks = look(mask, [&](int row, int sample) {
-    const auto s = static_cast<std::size_t>(sample);
-    const int seabed = seabed_at(sv, flags, row % beams, s);
-    if (seabed != kNoData) below.push_back(seabed - sv.row(row)[s]);
-  });
-  return median_db(below, looks, params.side_lobe_known_share, 0.0) >= params.side_lobe_below_db;
+  const auto far_below = [&](const Strongest& strongest, int first_fan, int last_fan) {
+    std::vector<int> below;
+    const std::size_t looks = look(mask, [&](int row, int sample) {
+      const auto s = static_cast<std::size_t>(sample);
+      const int most = strongest.at(first_fan, last_fan, row % beams, s);
+      if (most != kNoData) below.push_back(most - sv.row(row)[s]);
+    });
+    return median_db(below, looks, params.side_lobe_known_share, 0.0) >= params.side_lobe_below_db;
+  };
+  if (far_below({sv, flags, SampleFlags::seabed}, 0, sv.shape().fans - 1)) return true;
+  // The surface shuts the topmost fan from close by on, whatever lies far below: only lobes beside the main one count.
+  // It is shut before the filter, which gives nothing there.
+  const int reach = params.side_lobe_fans;
+  return far_below({unfiltered, flags, SampleFlags::surface}, box.first_fan - reach, box.last_fan + reach);
 }
 
 }  // namespace sonar

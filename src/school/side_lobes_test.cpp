@@ -38,7 +38,7 @@ struct Ping {
     flag(4, 380, 520, SampleFlags::seabed);
   }
   [[nodiscard]] bool is_lobe(const DetectParams& params = {}) const {
-    return is_side_lobe(mask, box_of(mask, 25), sector, sv.view(), flags.view(), params);
+    return is_side_lobe(mask, box_of(mask, 25), sector, sv.view(), sv.view(), flags.view(), params);
   }
 
   Sector sector;
@@ -131,6 +131,25 @@ TEST(SideLobes, OfTheSurfaceLieInTheTopmostFan) {
   // A sonar that looks nowhere near the surface has none.
   high.flags = Array3<SampleFlags>(kShape);
   EXPECT_FALSE(high.is_lobe());
+}
+
+// Fans below those that the surface shuts hear it in their side lobes: all beams alike, and far below what the shut fans
+// hear. A school there stands out of its fans, and far below the surface there is none of it.
+TEST(SideLobes, OfTheSurfaceLieInFansBelowTheShutOnes) {
+  Ping ping;
+  ping.echo(13, 0, 24, 380, 520, -25.0);
+  EXPECT_FALSE(ping.is_lobe());
+  ping.flag(13, 380, 520, SampleFlags::surface);
+  EXPECT_TRUE(ping.is_lobe());
+  DetectParams near;
+  near.side_lobe_fans = 2;
+  EXPECT_FALSE(ping.is_lobe(near));
+  Ping school = ping;
+  for (int fan = 9; fan <= 10; ++fan) school.echo(fan, 8, 17, 420, 470, -52.0);
+  EXPECT_FALSE(school.is_lobe());
+  Ping calm = ping;
+  calm.echo(13, 0, 24, 380, 520, -50.0);
+  EXPECT_FALSE(calm.is_lobe());
 }
 
 }  // namespace
