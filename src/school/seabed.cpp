@@ -37,10 +37,9 @@ class SeabedFinder {
   Seabed find() {
     Seabed seabed;
     seabed.first_sample.assign(sv_.shape().rows(), sv_.shape().samples);
-    const std::optional<SeabedPlane> plane = robust_plane();
+    double seen = 0.0;
+    const std::optional<SeabedPlane> plane = seen_plane(seen);
     if (!plane) return seabed;
-    const double seen = coverage(*plane);
-    if (seen < params_.min_coverage) return seabed;
     seabed.found = true;
     seabed.offset_m = plane->offset;
     seabed.slope_x = plane->slope_x;
@@ -77,18 +76,22 @@ class SeabedFinder {
     return beams;
   }
 
-  [[nodiscard]] std::optional<SeabedPlane> through(const std::array<Point<Sonar>, 3>& p) const {
-    const double x1 = p[1].x - p[0].x;
-    const double y1 = p[1].y - p[0].y;
-    const double x2 = p[2].x - p[0].x;
-    const double y2 = p[2].y - p[0].y;
-    const double area = x1 * y2 - x2 * y1;
-    if (std::abs(area) < params_.min_triangle_m2) return std::nullopt;
-    SeabedPlane plane;
-    plane.slope_x = ((p[1].z - p[0].z) * y2 - (p[2].z - p[0].z) * y1) / area;
-    plane.slope_y = (x1 * (p[2].z - p[0].z) - x2 * (p[1].z - p[0].z)) / area;
-    plane.offset = p[0].z - plane.slope_x * p[0].x - plane.slope_y * p[0].y;
-    return plane;
+  /// The first plane that is seen wherever it should be. Schools of many beams at one depth support a plane of their own
+  /// better than a seabed that only the lowest fans reach: what lies on a plane that is not seen is left out of the next.
+  [[nodiscard]] std::optional<SeabedPlane> seen_plane(double& seen) {
+    const std::vector<SeabedEcho> all = echoes_;
+    for (int tried = 0; tried < params_.planes; ++tried) {
+      const std::vector<SeabedEcho> left = echoes_;
+      const std::optional<SeabedPlane> plane = robust_plane();
+      echoes_ = all;
+      if (!plane) break;
+      seen = coverage(*plane);
+      if (seen >= params_.min_coverage) return plane;
+      echoes_ = left;
+      std::erase_if(echoes_, [&](const SeabedEcho& echo) { return is_of(echo, *plane); });
+    }
+    echoes_ = all;
+    return std::nullopt;
   }
 
   /// The plane that most beams support, among planes through triples drawn by a fixed sequence; then least squares.
@@ -105,7 +108,7 @@ class SeabedFinder {
     int most = 0;
     for (int trial = 0; trial < params_.trials; ++trial) {
       const std::array<Point<Sonar>, 3> p{echoes_[draw()].place, echoes_[draw()].place, echoes_[draw()].place};
-      std::optional<SeabedPlane> plane = through(p);
+      std::optional<SeabedPlane> plane = plane_through(p, params_.min_triangle_m2);
       // every third trial a level plane: enough where few beams see the bottom
       if (trial % 3 == 0) plane = SeabedPlane{p[0].z, 0.0, 0.0};
       if (!plane || plane->slope() > steepest || plane->offset <= 0.0) continue;

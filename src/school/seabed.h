@@ -42,6 +42,7 @@ struct SeabedParams {
   double flank_share = 0.5;
   int flank_beams = 8;
   double flank_least_m = 4.0;
+  double flank_lift_m = 2.0;
   double flank_slack_m = 3.0;
   int flank_rows = 4;
   double flank_dip_db = 4.0;
@@ -55,6 +56,7 @@ struct SeabedParams {
   double hill_behind_db = 8.0;
   double hill_dip_db = 3.0;
   int hill_gap_beams = 1;
+  int planes = 3;
   int trials = 300;
   int refinements = 5;
   double fit_spreads = 7.0;
@@ -138,6 +140,11 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "m", .min = 0, .max = 1000, .text = "... along so much of the beam"});
   v.field("flank_slack_m", p.flank_slack_m,
           {.unit = "m", .min = 0, .max = 100, .text = "... and with the seabed so much nearer"});
+  v.field("flank_lift_m", p.flank_lift_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 100,
+           .text = "... and with the ground so much higher: flat beams meet that far nearer"});
   v.field("flank_rows", p.flank_rows,
           {.unit = "beams", .min = 1, .max = 100000, .text = "... in so many beams that hang together"});
   v.field("flank_dip_db", p.flank_dip_db,
@@ -182,6 +189,8 @@ void describe(Visitor& v, SeabedParams& p) {
            .min = 0,
            .max = 1000,
            .text = "beams one above the other in which the ground may be too faint; above more there is none"});
+  v.field("planes", p.planes,
+          {.unit = "1", .min = 1, .max = 100, .text = "so many are looked for until one is seen where it should be"});
   v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
   v.field("refinements", p.refinements,
           {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});

@@ -98,6 +98,24 @@ TEST(SeabedFlank, IsNoSchoolWhereItHardlyStandsOut) {
   EXPECT_TRUE(water.opened().open.empty());
 }
 
+// Half a dozen metres nearer along beams that look 20 degrees down is two metres higher.
+TEST(SeabedFlank, IsNoSchoolWhereTheGroundIsALittleHigher) {
+  const auto shifted = [](double lift_m) {
+    Water water;
+    water.params.flank_lift_m = lift_m;
+    constexpr int kNearer = 24;
+    for (int f = 9; f < 12; ++f) {
+      for (int b = 18; b < 25; ++b) {
+        const auto row = water.sv.view().row(f, b);
+        std::copy(row.begin() + kNearer, row.end(), row.begin());
+      }
+    }
+    return water.opened().open.empty();
+  };
+  EXPECT_TRUE(shifted(SeabedParams{}.flank_lift_m));
+  EXPECT_FALSE(shifted(0.0));
+}
+
 TEST(SeabedFlank, IsNoSchoolInOneBeam) {
   Water water;
   water.add(1, 1, 50, 20, -30.0);

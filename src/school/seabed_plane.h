@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/units.h"
 #include "geo/frames.h"
@@ -32,5 +34,20 @@ struct SeabedPlane {
     return db_from_linear(sine * sine / (range_m * cosine));
   }
 };
+
+/// The plane through three places; none where the triangle between them, seen from above, is smaller than half of an area.
+[[nodiscard]] inline std::optional<SeabedPlane> plane_through(const std::array<Point<Sonar>, 3>& p, double least_m2) {
+  const double x1 = p[1].x - p[0].x;
+  const double y1 = p[1].y - p[0].y;
+  const double x2 = p[2].x - p[0].x;
+  const double y2 = p[2].y - p[0].y;
+  const double area = x1 * y2 - x2 * y1;
+  if (std::abs(area) < least_m2) return std::nullopt;
+  SeabedPlane plane;
+  plane.slope_x = ((p[1].z - p[0].z) * y2 - (p[2].z - p[0].z) * y1) / area;
+  plane.slope_y = (x1 * (p[2].z - p[0].z) - x2 * (p[1].z - p[0].z)) / area;
+  plane.offset = p[0].z - plane.slope_x * p[0].x - plane.slope_y * p[0].y;
+  return plane;
+}
 
 }  // namespace sonar

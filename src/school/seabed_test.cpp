@@ -94,6 +94,31 @@ TEST(Seabed, TwoFansSeeItBeforeTheRecordEnds) {
   EXPECT_NEAR(bottom_depth_m(seabed, place, {}, 0.3, 20.0), depth_m, 8.0);
 }
 
+// More beams see echo at one depth than see the seabed; but a seabed there all beams would see.
+TEST(Seabed, SchoolsAtOneDepthAreNone) {
+  BottomScene scene;
+  const double end_m = scene.sector.range().range_m(899);
+  const double depth_m = 0.95 * end_m * -std::sin(scene.sector.elevation_rad(1));
+  scene.add_bottom(depth_m);
+  for (int f = 6; f < 12; ++f) {
+    for (int b = 0; b < 25; ++b) {
+      const double range_m = 60.0 / -std::sin(scene.sector.elevation_rad(f));
+      const int at = static_cast<int>(scene.sector.range().sample_at(range_m));
+      for (int s = at - 50; s < at + 50; ++s) scene.expected(f, b, s) += 1e-2;
+    }
+  }
+  const Seabed seabed = scene.look(8);
+  ASSERT_TRUE(seabed.found);
+  const Point<Sonar> place = Sector::direction(scene.sector.elevation_rad(0), rad_from_deg(270.0)) * (0.9 * end_m);
+  EXPECT_NEAR(bottom_depth_m(seabed, place, {}, 0.3, 20.0), depth_m, 8.0);
+  SeabedParams one;
+  one.planes = 1;
+  const Array3<std::int16_t> sv = test::filtered(test::counts_of(scene.expected, 8), scene.flags);
+  const Seabed first =
+      find_seabed(sv.view(), scene.flags.view(), {}, scene.sector, test::grid().vertical_width_deg, one);
+  EXPECT_FALSE(first.found) << first.offset_m << ' ' << first.confidence;
+}
+
 // Mud gives -25 to -40 dB by Lambert's law, rock -10: all of it is seabed as far as it would be taken for fish.
 TEST(Seabed, WeakAndStrongBottomsAreFound) {
   for (const double depth_m : {80.0, 150.0, 220.0}) {
