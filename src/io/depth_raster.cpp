@@ -305,7 +305,8 @@ Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const Geo
   return read();
 }
 
-Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid) {
+Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid,
+                                const std::string& description) {
   register_drivers();
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
@@ -333,6 +334,7 @@ Result<void> write_depth_raster(const std::filesystem::path& target, const Depth
     wgs84.importFromEPSG(4326);
     out->SetGeoTransform(g.data());
     out->SetSpatialRef(&wgs84);
+    if (!description.empty()) out->SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", description.c_str());
     GDALRasterBand& band = *out->GetRasterBand(1);
     band.SetNoDataValue(static_cast<double>(kNoDataWritten));
     band.SetDescription("elevation");

@@ -35,7 +35,9 @@ struct DepthRasterOptions {
 
 /// Writes a grid as GeoTIFF, EPSG:4326, elevation in metres (negative below the sea), NoData -32767, deflated; whole or
 /// not at all. Equal grids give equal bytes.
+/// description  the file's own words of where the depths are from; empty = none
 /// errors  io, no_space
-[[nodiscard]] Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid);
+[[nodiscard]] Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid,
+                                              const std::string& description = {});
 
 }  // namespace sonar

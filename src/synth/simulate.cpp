@@ -213,7 +213,8 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   }
   if (auto closed = files.close(); !closed) return pass_on(closed);
   if (auto done = truth.finish(); !done) return pass_on(done);
-  if (auto done = write_depth_raster(out / "truth" / "depth.tif", seabed_grid(*scenes)); !done) return pass_on(done);
+  const std::filesystem::path depths = out / "truth" / "depth.tif";
+  if (auto done = write_depth_raster(depths, seabed_grid(*scenes), "SYNTHETIC seabed"); !done) return pass_on(done);
   result.files = files.files();
   result.bytes = files.bytes();
   result.schools = truth.schools();

@@ -112,6 +112,16 @@ TEST_F(Simulate, TheSameSeedGivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_FALSE(a == tree(folder_ / "c"));
 }
 
+TEST_F(Simulate, EveryFileSaysThatItIsSynthetic) {
+  Work work(1);
+  ASSERT_TRUE(simulate_survey(folder_, small(), ms70_beams(), false, "test", work));
+  const auto files = tree(folder_);
+  for (const char* name : {"schools.csv", "school_pings.csv", "bodies.csv", "obs-0001.nc", "depth.tif"}) {
+    EXPECT_EQ(files.count(std::string("truth/") + name), 1U) << name;
+  }
+  for (const auto& [name, bytes] : files) EXPECT_NE(bytes.find("SYNTHETIC"), std::string::npos) << name;
+}
+
 TEST_F(Simulate, RefusesAFolderWithRawFiles) {
   Work work(1);
   SurveyParams params = small();

@@ -15,6 +15,27 @@ bool by_school_and_ping(std::int64_t id_a, std::int64_t ping_a, std::int64_t id_
   return std::tie(id_a, ping_a) < std::tie(id_b, ping_b);
 }
 
+/// A row of the truth's tables says itself that no sea was looked into.
+template <class Row>
+struct SyntheticRow {
+  Row row;
+};
+
+template <class Visitor, class Row>
+void columns(Visitor& v, SyntheticRow<Row>& marked) {
+  columns(v, marked.row);
+  std::string source = "SYNTHETIC";
+  v("source", "", source);
+}
+
+template <class Row>
+Result<void> write_truth(const std::filesystem::path& path, const std::vector<Row>& rows) {
+  std::vector<SyntheticRow<Row>> marked;
+  marked.reserve(rows.size());
+  for (const Row& row : rows) marked.push_back({row});
+  return write_csv_rows(path, marked);
+}
+
 template <class Row>
 void append(std::vector<Row>& all, std::vector<Row> more) {
   for (Row& row : more) all.push_back(std::move(row));
@@ -65,9 +86,9 @@ Result<void> SurveyTruth::add(ObservationTruth observation, const SyntheticSonar
 }
 
 Result<void> SurveyTruth::finish() {
-  if (auto written = write_csv_rows(folder_ / "schools.csv", schools_); !written) return written;
-  if (auto written = write_csv_rows(folder_ / "school_pings.csv", school_pings_); !written) return written;
-  return write_csv_rows(folder_ / "bodies.csv", bodies_);
+  if (auto written = write_truth(folder_ / "schools.csv", schools_); !written) return written;
+  if (auto written = write_truth(folder_ / "school_pings.csv", school_pings_); !written) return written;
+  return write_truth(folder_ / "bodies.csv", bodies_);
 }
 
 }  // namespace sonar::synth
