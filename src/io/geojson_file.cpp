@@ -44,14 +44,28 @@ std::string value_text(const TableColumn& column, std::size_t row) {
   return text.empty() ? "null" : json_text(text);
 }
 
+/// RFC 7946, 3.1.6: exterior rings run anticlockwise, holes clockwise. Some readers take the wrong side else.
+class RightHanded : public OGRDefaultGeometryVisitor {
+ public:
+  using OGRDefaultGeometryVisitor::visit;
+  void visit(OGRPolygon* polygon) override {
+    bool exterior = true;
+    for (OGRLinearRing* ring : *polygon) {
+      if ((ring->isClockwise() != 0) == exterior) ring->reverseWindingOrder();
+      exterior = false;
+    }
+  }
+};
+
 std::string geometry_text(const OGRGeometry* geometry) {
   if (geometry == nullptr || geometry->IsEmpty()) return "null";
+  const std::unique_ptr<OGRGeometry> turned(geometry->clone());
+  RightHanded right_handed;
+  turned->accept(&right_handed);
   CPLStringList options;
   options.SetNameValue("COORDINATE_PRECISION", "8");
-  // The library's interface for C takes no const, and changes nothing.
-  OGRGeometryH handle = OGRGeometry::ToHandle(const_cast<OGRGeometry*>(geometry));
   const std::unique_ptr<char, decltype([](char* text) { CPLFree(text); })> text(
-      OGR_G_ExportToJsonEx(handle, options.List()));
+      OGR_G_ExportToJsonEx(OGRGeometry::ToHandle(turned.get()), options.List()));
   return text ? text.get() : "null";
 }
 
@@ -67,10 +81,7 @@ Result<GeoJsonFile> GeoJsonFile::create(const std::filesystem::path& target, std
   if (!stream) return refused_write("cannot write", errno, target.string());
   GeoJsonFile made(target, std::move(*file), std::move(stream));
   auto begun =
-      made.write(fmt::format("{{\n\"type\": \"FeatureCollection\",\n\"name\": {},\n\"crs\": {{ \"type\": \"name\", "
-                             "\"properties\": {{ \"name\": \"urn:ogc:def:crs:OGC:1.3:CRS84\" }} }},\n"
-                             "\"features\": [",
-                             json_text(layer)));
+      made.write(fmt::format("{{\n\"type\": \"FeatureCollection\",\n\"name\": {},\n\"features\": [", json_text(layer)));
   if (!begun) return pass_on(begun);
   return made;
 }

@@ -215,6 +215,29 @@ TEST_F(Map, geojson_has_a_file_for_each_layer) {
   EXPECT_EQ(first_of(data->GetLayer(0))->GetFieldAsString("first_time_utc"), std::string("2023/11/14 22:13:24.123+00"));
 }
 
+/// RFC 7946: longitudes and latitudes of WGS 84 without saying so, and rings to the right hand.
+TEST_F(Map, geojson_keeps_to_its_standard) {
+  const fs::path folder = write(sample(), "geojson", MapFormat::geojson);
+  int rings = 0;
+  for (const char* name : kLayers) {
+    const fs::path file = folder / (std::string(name) + ".geojson");
+    EXPECT_EQ(read_file(file)->find("\"crs\""), std::string::npos) << name;
+    const auto data = open(file);
+    ASSERT_TRUE(data) << name;
+    for (const auto& feature : *data->GetLayer(0)) {
+      const OGRGeometry* geometry = feature->GetGeometryRef();
+      if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPolygon) continue;
+      bool exterior = true;
+      for (const OGRLinearRing* ring : *geometry->toPolygon()) {
+        EXPECT_EQ(ring->isClockwise() == 0, exterior) << name;
+        exterior = false;
+        ++rings;
+      }
+    }
+  }
+  EXPECT_GT(rings, 3);
+}
+
 TEST_F(Map, geojson_says_null_and_iso_times) {
   ObservationProduct p = sample();
   p.schools[0].comment = "a \"b\"\\\n";
