@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
 #include "cli/exit_codes.h"
+#include "cli/naming_option.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 
@@ -22,6 +24,12 @@ struct ExportArguments {
   int jobs = 0;
 };
 
+constexpr std::array<OptionOf, 5> kOptions{{{"margin_samples", "--margin-samples"},
+                                            {"margin_beams", "--margin-beams"},
+                                            {"margin_fans", "--margin-fans"},
+                                            {"margin_pings", "--margin-pings"},
+                                            {"coarsen_beams", "--coarsen"}}};
+
 int run_export(const ExportArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
@@ -29,7 +37,7 @@ int run_export(const ExportArguments& arguments) {
   const ExportOptions options{arguments.out, arguments.format, arguments.dest, arguments.survey, arguments.reduce};
   const auto files = export_products(options, work);
   clear_progress();
-  if (!files) return report(files.error());
+  if (!files) return report(naming_option(files.error(), kOptions));
   for (const auto& file : *files) fmt::print("{}\n", file.string());
   return kExitDone;
 }
@@ -51,7 +59,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("--margin-fans", arguments->reduce.margin_fans, "raw-reduced: the same in fans");
   verb->add_option("--margin-pings", arguments->reduce.margin_pings,
                    "raw-reduced: pings that hold none of a school, before and after it");
-  verb->add_option("--coarsen", arguments->reduce.coarsen_samples,
+  verb->add_option("--coarsen", arguments->reduce.coarsen_beams,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return run_export(*arguments); }; });

@@ -221,6 +221,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   line.ping_time = clicked->survey.ping_time(*clicked->observation, static_cast<std::size_t>(clicked->ping_index));
   line.args = to_json(clicked->command);
   if (auto own = require_own_folder(arguments.out, line); !own) return report(own.error());
+  if (auto space = require_free_space(arguments.out, kLeastFreeBytes); !space) return report(space.error());
   RunOptions options;
   options.out = arguments.out;
   const ObserveOptions observe_options{{}, {&line, 1}, SONAR_VERSION};

@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "cli/exit_codes.h"
+#include "cli/naming_option.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "pipeline/json_file.h"
@@ -80,21 +80,13 @@ Result<synth::SurveyParams> parameters(const SimulateOptions& o) {
   return p;
 }
 
-/// The option that a parameter outside its range was given by stands in the message.
-Error naming_option(Error error) {
-  constexpr std::array<std::array<std::string_view, 2>, 7> kOptions{{{"seed", "--seed"},
-                                                                     {"observations", "--observations"},
-                                                                     {"pings", "--pings"},
-                                                                     {"schools", "--schools"},
-                                                                     {"speed_knots", "--speed-knots"},
-                                                                     {"noise.scale", "--noise"},
-                                                                     {"file_mb", "--file-mb"}}};
-  for (const auto& [field, option] : kOptions) {
-    const std::string begins = fmt::format("{} = ", field);
-    if (error.text.starts_with(begins)) error.text.replace(0, begins.size(), fmt::format("{}: ", option));
-  }
-  return error;
-}
+constexpr std::array<OptionOf, 7> kOptions{{{"seed", "--seed"},
+                                            {"observations", "--observations"},
+                                            {"pings", "--pings"},
+                                            {"schools", "--schools"},
+                                            {"speed_knots", "--speed-knots"},
+                                            {"noise.scale", "--noise"},
+                                            {"file_mb", "--file-mb"}}};
 
 int simulate(const SimulateOptions& o) {
   std::vector<synth::Beam> beams = synth::ms70_beams();
@@ -125,7 +117,7 @@ int simulate(const SimulateOptions& o) {
   show_progress(work);
   const auto made = synth::simulate_survey(o.out, *params, beams, o.force, SONAR_VERSION, work);
   clear_progress();
-  if (!made) return report(naming_option(made.error()));
+  if (!made) return report(naming_option(made.error(), kOptions));
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
              static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
   const std::int64_t wanted = std::int64_t{params->observations} * params->schools;

@@ -48,6 +48,9 @@ Result<void> write_file(const std::filesystem::path& target, std::string_view by
 /// errors  not_found, io, format (too large)
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t limit_bytes = 1ULL << 30);
 
+/// What is asked for before work begins that ends in a product or two, tables and a map.
+inline constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
+
 /// Refuses when the disk that holds `folder` (or its nearest existing parent) has less than `bytes` free.
 /// errors  no_space, io
 Result<void> require_free_space(const std::filesystem::path& folder, std::uint64_t bytes);

@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr std::int16_t kMissing = -20000;
 constexpr std::size_t kFlushBytes = 4U << 20U;
-constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
 
 /// A ping that stays.
 struct KeptPing {

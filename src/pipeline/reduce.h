@@ -21,7 +21,7 @@ struct ReduceParams {
   int margin_beams = 0;
   int margin_fans = 0;
   int margin_pings = 4;
-  int coarsen_samples = 0;
+  int coarsen_beams = 0;
 };
 
 template <class Visitor>
@@ -37,8 +37,8 @@ void describe(Visitor& v, ReduceParams& p) {
            .min = 0,
            .max = 100000,
            .text = "pings before and after each school that hold none of it: they begin and end its track as before"});
-  v.field("coarsen_samples", p.coarsen_samples,
-          {.unit = "samples",
+  v.field("coarsen_beams", p.coarsen_beams,
+          {.unit = "beams",
            .min = 0,
            .max = 10000,
            .text = "of the rest keep the mean of so many neighbouring beams of a fan as one; 0 = nothing of the rest"});

@@ -270,7 +270,7 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);
   }
   if (also.ends) keep_last_samples(whole->volume.counts, out.counts);
-  if (params.coarsen_samples > 0) keep_coarse(whole->volume.counts, params.coarsen_samples, out.counts);
+  if (params.coarsen_beams > 0) keep_coarse(whole->volume.counts, params.coarsen_beams, out.counts);
   const std::vector<int> row_of_channel = engine.grid().row_of_channel();
   fill_record(*whole, row_of_channel, seabed, engine.background_db(ping_index), out);
   note_short_beams(*whole, row_of_channel, out);

@@ -10,12 +10,6 @@
 #include "io/product.h"
 
 namespace sonar {
-namespace {
-
-/// What is asked for before work begins: tables, map and a product or two.
-constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
-
-}  // namespace
 
 Result<std::vector<std::filesystem::path>> write_products(const SurveyFiles& survey,
                                                           const std::filesystem::path& folder,

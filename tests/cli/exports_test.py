@@ -145,6 +145,12 @@ class Exports(Case):
         self.sonarx("run", survey, "--out", out)
         self.assert_reduced_twice_is_the_same("crowd", survey, out)
 
+    def test_reduced_raw_names_the_option_that_is_wrong(self):
+        code, _, err = sonarx.run("export", OUT, "--to", "raw-reduced", "--survey", SURVEY, "--dest",
+                                  self.fresh("export-wrong"), "--coarsen", "-1")
+        self.assertEqual(code, 2, err)
+        self.assertEqual(err, "sonarx: --coarsen: -1 is outside 0 .. 10000 beams\n")
+
     def test_reduced_raw_needs_the_survey(self):
         code, _, err = sonarx.run("export", OUT, "--to", "raw-reduced", "--dest", self.fresh("export-none"))
         self.assertEqual(code, 2, err)
