@@ -71,7 +71,7 @@ void note_lost_choices(Opened& opened) {
     if (found) continue;
     opened.survey.diagnostics.push_back(
         {DiagnosticCode::decision_lost, opened.plan.session, -1, -1,
-         fmt::format("line {} ({}): the survey has no ping of {}", line.n, line.command, iso_time(line.ping_time))});
+         fmt::format("choice {} ({}): the survey has no ping of {}", line.n, line.command, iso_time(line.ping_time))});
   }
 }
 
@@ -137,18 +137,27 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
   return write_file(options.out / "plan.json", plan_text(opened.plan));
 }
 
+/// Why a file gave nothing; empty where it did.
+std::string why_not_read(const RawIndex& index) {
+  if (index.format == RawFormat::simrad) {
+    const bool unusable = index.pings.empty() && index.datagrams.count("RAW0") > 0;
+    return unusable ? "none of its samples could be used; sonarx info tells why" : "";
+  }
+  for (const Diagnostic& note : index.diagnostics) {
+    if (note.code == DiagnosticCode::not_recognised || note.code == DiagnosticCode::format_not_read) return note.text;
+  }
+  return fmt::format("format {} is not read by this version", name(index.format));
+}
+
 /// Files that gave nothing, each with the reason.
 std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
   std::vector<RunFailure> failures;
   for (const SurveyFile& file : survey.files) {
-    const std::string name = file.path.filename().string();
+    const std::string why = why_not_read(file.index);
     if (file.error) {
-      failures.push_back({name, *file.error});
-    } else if (file.index.format != RawFormat::simrad) {
-      const std::string format(sonar::name(file.index.format));
-      failures.push_back({name, {ErrorCode::unsupported, "format " + format + " is not read by this version", {}}});
-    } else if (file.index.pings.empty() && file.index.datagrams.count("RAW0") > 0) {
-      failures.push_back({name, {ErrorCode::format, "none of its samples could be used; sonarx info tells why", {}}});
+      failures.push_back({"", *file.error});
+    } else if (!why.empty()) {
+      failures.push_back({"", {ErrorCode::format, why, {file.path.string(), 0}}});
     }
   }
   return failures;
@@ -160,7 +169,8 @@ void print_failures(const SurveyFiles& survey, const RunReport& report) {
                to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
   }
   for (const RunFailure& failure : report.failures) {
-    fmt::print(stderr, "{}: {}\n", printable(failure.observation), to_line(failure.error));
+    const std::string of = failure.observation.empty() ? "" : printable(failure.observation) + ": ";
+    fmt::print(stderr, "sonarx: {}{}\n", of, to_line(failure.error));
   }
 }
 

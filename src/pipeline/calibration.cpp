@@ -31,10 +31,14 @@ GainPair gain_of(const BeamConfig& beam, double pulse_length_s, double tolerance
   return {beam.gain_db, 0.0, false};
 }
 
+bool tells_absorption(const ChannelPing& head) {
+  return head.absorption_db_per_m > 0.0 && std::isfinite(head.absorption_db_per_m);
+}
+
 double absorption_of(const ChannelPing& head, const CalibrationParams& params) {
   switch (params.absorption) {
     case AbsorptionSource::file:
-      if (head.absorption_db_per_m > 0.0 && std::isfinite(head.absorption_db_per_m)) return head.absorption_db_per_m;
+      if (tells_absorption(head)) return head.absorption_db_per_m;
       break;
     case AbsorptionSource::ainslie_mccolm:
       return absorption_ainslie_mccolm(head.frequency_hz, params.water);
@@ -181,7 +185,21 @@ Diagnostics CalibrationTables::diagnostics() const {
          fmt::format("channel {}: gain, power, pulse, frequency or beam angle is missing; not used", channel)});
   }
   note_unmatched_gains(sound, notes);
+  note_computed_absorption(sound, notes);
   return notes;
+}
+
+void CalibrationTables::note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const {
+  if (params_.absorption != AbsorptionSource::file) return;
+  const auto computed =
+      std::count_if(channels.begin(), channels.end(), [&](std::size_t c) { return !tells_absorption(first_head(c)); });
+  if (computed == 0) return;
+  const WaterProperties& water = params_.water;
+  notes.push_back(
+      {DiagnosticCode::absorption_computed, "", -1, -1,
+       fmt::format("{} of {} channels: the files tell no absorption; Francois & Garrison's for {:g} C, {:g} "
+                   "psu, {:g} m and pH {:g} is taken",
+                   computed, channels.size(), water.temperature_c, water.salinity_psu, water.depth_m, water.ph)});
 }
 
 }  // namespace sonar

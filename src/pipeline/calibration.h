@@ -44,6 +44,7 @@ class CalibrationTables {
   [[nodiscard]] const BeamCalibration* user_values(int channel) const;
   [[nodiscard]] ChannelPing first_head(std::size_t channel) const;
   void note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const;
+  void note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const;
 
   const ObservationFiles& observation_;
   CalibrationParams params_;

@@ -16,9 +16,11 @@ namespace {
 constexpr double kUnknownGain = std::numeric_limits<double>::quiet_NaN();
 
 /// Six beams whose gain table has a pulse of 2 ms alone, with -1.5 dB of sa correction.
-SurveyFiles pinged_with(double pulse_s) {
+SurveyFiles pinged_with(double pulse_s, float absorption_db_per_m = test::Raw0Spec{}.absorption_db_per_m) {
   const test::TemporaryFolder folder;
-  folder.write("a.raw", test::small_file(1, test::kStart, {.pulse_s = static_cast<float>(pulse_s)}));
+  folder.write("a.raw",
+               test::small_file(1, test::kStart,
+                                {.pulse_s = static_cast<float>(pulse_s), .absorption_db_per_m = absorption_db_per_m}));
   Work work(1);
   const std::vector<std::filesystem::path> paths{folder.path()};
   return open_survey(paths, {}, {}, IndexCache{}, work).value();
@@ -31,6 +33,19 @@ Diagnostics notes(const SurveyFiles& survey, const CalibrationParams& params = {
 TEST(Calibration, APulseOfTheTableHasItsGainAndNoNote) {
   const SurveyFiles survey = pinged_with(0.002);
   EXPECT_TRUE(notes(survey).empty());
+}
+
+TEST(Calibration, AnAbsorptionThatTheFilesDoNotTellIsNoted) {
+  CalibrationParams by_formula;
+  by_formula.absorption = AbsorptionSource::ainslie_mccolm;
+  for (const float none : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    const SurveyFiles survey = pinged_with(0.002, none);
+    const Diagnostics found = notes(survey);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].code, DiagnosticCode::absorption_computed);
+    EXPECT_THAT(found[0].text, testing::HasSubstr("6 of 6 channels"));
+    EXPECT_TRUE(notes(survey, by_formula).empty());  // nobody asked the files
+  }
 }
 
 TEST(Calibration, APulseThatNoTableHasIsNoted) {

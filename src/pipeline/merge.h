@@ -32,8 +32,8 @@ struct Survey {
 
 /// What stands in survey.json under `failures`.
 struct MergeFailure {
-  std::string observation;
-  std::string text;  ///< one line
+  std::string observation;  ///< empty: a raw file, named in the text
+  std::string text;         ///< one line
 };
 
 struct MergeReport {

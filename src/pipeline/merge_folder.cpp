@@ -23,8 +23,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Room for tables and map; the products, which are larger, are already there.
-constexpr std::uint64_t kLeastFreeBytes = 32U << 20U;
+/// Those of whose pings a run was asked for some only.
+std::vector<std::string> partly_run(const MergeReport& report) {
+  std::vector<std::string> names;
+  for (const ObservationProduct& product : report.survey.observations) {
+    const bool partly = std::any_of(product.diagnostics.begin(), product.diagnostics.end(),
+                                    [](const Diagnostic& note) { return note.code == DiagnosticCode::pings_left_out; });
+    if (partly) names.push_back(product.observation);
+  }
+  return names;
+}
 
 json observation_json(const ObservationProduct& product) {
   json files = json::array();
@@ -66,7 +74,8 @@ std::string survey_json(const MergeReport& report) {
   }
   json failures = json::array();
   for (const MergeFailure& f : report.failures) {
-    failures.push_back({{"observation", f.observation}, {"error", f.text}});
+    const json observation = f.observation.empty() ? json(nullptr) : json(f.observation);
+    failures.push_back({{"observation", observation}, {"error", f.text}});
   }
   json notes = json::array();
   for (const Diagnostic& note : report.notes) {
@@ -90,12 +99,13 @@ std::string survey_json(const MergeReport& report) {
                       {"schools", report.survey.schools.size()},
                       {"schools_continued_over_a_cut", continued},
                       {"school_pings", report.survey.school_pings.size()},
-                      {"complete", report.complete()}}},
+                      {"complete", report.complete() && partly_run(report).empty()}}},
                     {"provenance", provenance},
                     {"observations", observations},
                     {"failures", failures},
                     {"missing", report.missing},
                     {"not_run", report.not_run},
+                    {"partly_run", partly_run(report)},
                     {"notes", notes},
                     {"unplanned", report.unplanned}};
   // Texts may come from damaged files: what is no UTF-8 is replaced, never thrown over.
@@ -234,6 +244,7 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   };
   list("missing", report.missing);
   list("not asked for", report.not_run);
+  list("asked for some pings only", partly_run(report));
   list("left out, not in plan.json", report.unplanned);
   for (const char* name : {"schools.csv", "school_pings.csv", "survey.gpkg", "survey.json"}) {
     text += (out / name).string() + "\n";
@@ -246,7 +257,11 @@ std::vector<std::string> note_lines(const MergeReport& report) {
   for (const ObservationProduct& product : report.survey.observations) {
     std::map<DiagnosticCode, std::pair<const Diagnostic*, std::size_t>> by_code;
     for (const Diagnostic& note : product.diagnostics) {
-      if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::propagation_ended) continue;
+      // Of pings that were left out merge_text() tells: the user asked for that.
+      if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::propagation_ended ||
+          note.code == DiagnosticCode::pings_left_out) {
+        continue;
+      }
       auto& [first, count] = by_code[note.code];
       if (count++ == 0) first = &note;
     }

@@ -122,6 +122,13 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
                    params.min_fans, params.min_beams)});
 }
 
+void note_pings_left_out(PingReach reach, ObservationProduct& product) {
+  const std::int64_t all = std::ssize(product.pings);
+  if (reach.last < reach.first || reach.last - reach.first + 1 == all) return;
+  product.diagnostics.push_back({DiagnosticCode::pings_left_out, "", -1, -1,
+                                 fmt::format("pings {} to {} of {} only", reach.first, reach.last, all)});
+}
+
 /// Tables leave empty what was not recorded; tracks could not.
 void note_dead_reckoning(const DeadReckoning& reckoned, ObservationProduct& product) {
   if (reckoned.without_position == 0 && reckoned.without_heading == 0) return;
@@ -144,7 +151,7 @@ void note_schools_without_place(ObservationProduct& product) {
 void keep_notes_of_masks(const ObservationProduct& before, ObservationProduct& product) {
   for (const Diagnostic& note : before.diagnostics) {
     if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::decision_lost ||
-        note.code == DiagnosticCode::propagation_ended) {
+        note.code == DiagnosticCode::propagation_ended || note.code == DiagnosticCode::pings_left_out) {
       product.diagnostics.push_back(note);
     }
   }
@@ -165,7 +172,7 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
 Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
     return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused ||
-           note.code == DiagnosticCode::gain_not_matched;
+           note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed;
   });
   product.recipe_json = recipe_text(engine.recipe());
   product.recipe_hash = recipe_hash(engine.recipe());
@@ -292,6 +299,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
                                    const ObserveOptions& options, Work& work) {
   ObservationProduct product = empty_product(survey, observation, recipe, options);
   const PingReach reach = selected(observation, options);
+  note_pings_left_out(reach, product);
   const bool automatic = recipe.automatic || asks_for_detection(options.journal, datagram_times(survey, observation));
   if (automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;

@@ -67,6 +67,8 @@ TEST(Recipe, RefusesByName) {
            Refusal{R"({"recipe_version":1,"detect":{"floor_db":"low"}})", ErrorCode::format, "detect.floor_db"},
            Refusal{R"({"recipe_version":1,"median":{"kernel_fans":65}})", ErrorCode::bad_parameter,
                    "median.kernel_fans"},
+           Refusal{R"({"recipe_version":1,"track":{"confirm_pings":6}})", ErrorCode::bad_parameter,
+                   "track.confirm_window = 5"},
            Refusal{R"({"recipe_version":1,"grow":{"mode":"fast"}})", ErrorCode::format, "tracked, paper"},
            Refusal{R"({"recipe_version":1,"growth_curve":{"tf_version":1,"points":[]}})", ErrorCode::bad_parameter,
                    "growth_curve"},

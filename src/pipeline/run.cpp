@@ -94,11 +94,11 @@ Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan
                      const RunOptions& run, const EarlierProducts& earlier, RunReport& report, Work& work) {
   const ObservationFiles* observation = survey.find(task.observation);
   if (observation == nullptr) {
-    return fail(ErrorCode::mismatch, task.observation + " is not in the survey any more: plan again");
+    return fail(ErrorCode::mismatch, "is not in the survey any more: plan again");
   }
   const std::string key = observation_key(survey, *observation, plan.recipe, options);
   if (run.task && key != task.key) {
-    return fail(ErrorCode::mismatch, task.observation + " changed since the plan was made: plan again");
+    return fail(ErrorCode::mismatch, "changed since the plan was made: plan again");
   }
   const auto product = make_product(survey, *observation, plan.recipe, options, run, key, earlier, work);
   if (!product) return pass_on(product);

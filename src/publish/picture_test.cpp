@@ -109,10 +109,10 @@ TEST_F(Pictures, WhyThereIsNoGridIsSaid) {
   ObservationProduct product = example::empty("obs-0001", 5);
   product.grid.reset();
   product.diagnostics.push_back(
-      {DiagnosticCode::no_grid, "", -1, -1, "the beams make no product grid: a ME70 does not look sideways in fans"});
+      {DiagnosticCode::no_grid, "", -1, -1, "the beams make no product grid: ME70 does not look sideways in fans"});
   source_ = PictureSource::of(nullptr, {product}, Recipe{});
   const std::string line =
-      "the beams of obs-0001 make no grid of fans and beams to draw: a ME70 does not look sideways in fans";
+      "the beams of obs-0001 make no grid of fans and beams to draw: ME70 does not look sideways in fans";
   for (const PictureKind kind : {PictureKind::slice_top, PictureKind::volume, PictureKind::propagation}) {
     refused(kind, line, [](PictureOptions&) {});
   }

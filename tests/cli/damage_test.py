@@ -61,6 +61,21 @@ class Damage(Case):
         self.assertTrue(junk["notes"])
         self.assertEqual(len(info["observations"]), 1)
 
+    def test_a_run_names_files_that_gave_nothing_and_why(self):
+        folder, out = self.fresh("nothing-read"), self.fresh("nothing-read-out")
+        shutil.copy(self.raw, folder)
+        bad = {"empty.raw": b"", "junk.raw": bytes(range(256)) * 100}
+        says = {"empty.raw": "the file is empty", "junk.raw": "no datagram of a known format was found"}
+        for name, data in bad.items():
+            (folder / name).write_bytes(data)
+        code, _, err = run("run", folder, "--out", out, "--pings", "0:1")
+        self.assertEqual(code, 3, err)
+        for name, why in says.items():
+            self.assertIn(f"sonarx: {folder / name}: byte 0: {why}", err.splitlines())
+        failures = json.loads((out / "survey.json").read_text())["failures"]
+        self.assertEqual(failures, [{"observation": None, "error": f"{folder / name}: byte 0: {why}"}
+                                    for name, why in says.items()])
+
     def test_empty_file_and_empty_folder(self):
         folder = self.fresh("empty")
         code, _, err = run("run", folder, "--out", self.fresh("empty-out"))

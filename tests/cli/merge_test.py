@@ -62,6 +62,19 @@ class Merge(Case):
         self.sonarx("run", SURVEY, "--out", out)
         self.same_results(out)
 
+    def test_some_pings_only_are_told_of(self):
+        out = self.fresh("some-pings")
+        said = self.sonarx("run", SURVEY, "--out", out, "--pings", "0:1")
+        self.assertIn("asked for some pings only: obs-0001, obs-0002\n", said)
+        survey = json.loads((out / "survey.json").read_text())
+        self.assertEqual(survey["partly_run"], ["obs-0001", "obs-0002"])
+        self.assertIs(survey["summary"]["complete"], False)
+        self.assertEqual([o["notes"].get("pings-left-out") for o in survey["observations"]], [1, 1])
+        self.sonarx("run", SURVEY, "--out", out)
+        whole = json.loads((out / "survey.json").read_text())
+        self.assertEqual((whole["partly_run"], whole["summary"]["complete"]), ([], True))
+        self.same_results(out)
+
     def test_a_newer_programs_plan_is_not_replaced(self):
         out = self.fresh("newer-plan")
         self.sonarx("plan", SURVEY, "--out", out)

@@ -57,6 +57,17 @@ TEST_F(Observe, PingsInAnyOrderAreTheSamePings) {
   }
 }
 
+TEST_F(Observe, PingsThatWereLeftOutAreTold) {
+  Work work(2);
+  EXPECT_EQ(count(*product_, DiagnosticCode::pings_left_out), 0);
+  const auto part = observe(*survey_, observation(), {}, {PingSelection{1, 2}, {}, "test"}, work);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(count(*part, DiagnosticCode::pings_left_out), 1);
+  const auto again = remeasure(*survey_, observation(), *part, {}, {PingSelection{1, 2}, {}, "test"}, work);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(count(*again, DiagnosticCode::pings_left_out), 1);
+}
+
 TEST_F(Observe, RemeasuringUnderTheSameRecipeChangesNothing) {
   Work work(2);
   const auto again = remeasure(*survey_, observation(), *product_, {}, {{}, {}, "test"}, work);

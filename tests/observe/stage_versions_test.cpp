@@ -36,13 +36,13 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"decode", 2, "67a30992438549e29295a79665f21403"},
     {"flags", 4, "51ed733ca50c62dd8fb52f71b6b77001"},
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
-    {"background", 2, "8c60b37cfa4e58e0acef53480cabfa66"},
+    {"background", 3, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
-    {"seabed", 4, "a0498ac74835f1ca54950382a1b0ee95"},
-    {"detect", 10, "634e39305aad8adff3e75299492312c3"},
+    {"seabed", 5, "a0498ac74835f1ca54950382a1b0ee95"},
+    {"detect", 11, "634e39305aad8adff3e75299492312c3"},
     {"track", 7, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 4, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 9, "70f66b11be8b54a45e217fcb74cd8b58"},
+    {"propagate", 5, "796c2390f6457277936c4d7907e65301"},
+    {"measure", 10, "70f66b11be8b54a45e217fcb74cd8b58"},
     {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
 }};
 

@@ -90,6 +90,7 @@ struct Raw0Spec {
   float pulse_s = 0.002F;
   float interval_s = 0.0005F;
   float sound_speed_mps = 1500.0F;
+  float absorption_db_per_m = 0.03F;
   float heave_m = 0.0F;
   float roll_deg = 0.0F;
   float pitch_deg = 0.0F;
@@ -103,7 +104,12 @@ inline Bytes raw0(TimeNs time, const Raw0Spec& spec, const std::vector<std::int1
   Bytes b;
   b.put(static_cast<std::int16_t>(spec.channel)).put(static_cast<std::int16_t>(spec.mode));
   b.put(spec.transducer_depth_m).put(spec.frequency_hz).put(spec.power_w).put(spec.pulse_s).put(1000.0F);
-  b.put(spec.interval_s).put(spec.sound_speed_mps).put(0.03F).put(spec.heave_m).put(spec.roll_deg).put(spec.pitch_deg);
+  b.put(spec.interval_s)
+      .put(spec.sound_speed_mps)
+      .put(spec.absorption_db_per_m)
+      .put(spec.heave_m)
+      .put(spec.roll_deg)
+      .put(spec.pitch_deg);
   b.put(8.0F).put(spec.heading_deg).put(static_cast<std::int16_t>(spec.transmit_mode)).zeros(6).put(spec.offset);
   b.put(spec.stated_count >= 0 ? spec.stated_count : static_cast<std::int32_t>(power.size()));
   if ((spec.mode & 1) != 0) {
