@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -125,9 +126,10 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
 
 void print_school(const ObservationProduct& product) {
   for (const SchoolRow& row : product.schools) {
-    fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {:.1f} dB, backscatter {:.3g} m2\n", row.n_pings,
-               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, row.sv_mean_db,
-               row.backscatter_m2);
+    // Where the background is louder than the echo there is no mean.
+    const std::string sv_text = std::isfinite(row.sv_mean_db) ? fmt::format("{:.1f} dB", row.sv_mean_db) : "unknown";
+    fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {}, backscatter {:.3g} m2\n", row.n_pings,
+               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, row.backscatter_m2);
   }
   for (const Diagnostic& note : product.diagnostics) {
     if (note.code == DiagnosticCode::propagation_ended) fmt::print("{}\n", note.text);

@@ -71,16 +71,16 @@ class Propagate(Case):
         self.assertEqual(*tables)
 
     def test_a_seed_in_the_noise_is_refused_in_one_line(self):
-        # A corner of the sector, at the end of the record; a curve that lets noise be grown from.
+        # A side of the sector, towards the record's end; a curve that lets noise be grown from.
         _, beams = shape()
         curve = self.fresh("propagate-noise-curve") / "c.json"
         curve.write_text(json.dumps({"tf_version": 1, "points": [{"sv_db": -140, "opacity": 0, "rgb": [0, 0, 0]},
                                                                  {"sv_db": -30, "opacity": 1, "rgb": [1, 1, 1]}]}))
-        code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", "--seed", f"0,10,{beams - 1},1320",
+        code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", "--seed", f"0,15,{beams - 1},1250",
                                   "--transfer-function", curve, "--out", self.fresh("propagate-noise"))
         self.assertEqual(code, 2, err)
         self.assertEqual(len(err.strip().splitlines()), 1, err)
-        self.assertRegex(err, r"--seed 0,10,\d+,1320: .* stands no 3 dB above the noise")
+        self.assertRegex(err, r"--seed 0,15,\d+,1250: .* stands no 3 dB above the noise")
 
     def test_what_is_grown_with_26_neighbours_is_followed_with_them(self):
         place, _ = seed()
