@@ -225,7 +225,7 @@ class PingDetector {
     return !is_shell(detection) && !is_open_floor(detection, sector_, sv_, flags_, params_) &&
            !is_wave_front(detection.mask, detection.box, sector_, params_) &&
            !is_side_lobe(detection.mask, detection.box, sector_, sv_, unfiltered_, flags_, params_) &&
-           !is_nadir_ring(detection.mask, detection.box, seabed_, sector_, sv_, flags_, params_);
+           !is_nadir_ring(detection.mask, detection.box, seabed_, sector_, sv_, flags_, background_, params_);
   }
 
   /// Of what stands out of the seabed's flank all faces may lie at what is left of that.

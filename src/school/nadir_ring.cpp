@@ -22,8 +22,9 @@ std::int16_t median_of(std::vector<std::int16_t>& values) {
 /// What a fan hears at a sample, whatever the beam; kNoData where too few beams are open.
 class FanLevel {
  public:
-  FanLevel(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const DetectParams& params)
-      : sv_(sv), flags_(flags), least_known_(params.side_lobe_known_share * sv.shape().beams) {}
+  FanLevel(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
+           const DetectParams& params)
+      : sv_(sv), flags_(flags), noise_(noise), least_known_(params.side_lobe_known_share * sv.shape().beams) {}
 
   std::int16_t operator()(int fan, int sample) {
     values_.clear();
@@ -36,9 +37,24 @@ class FanLevel {
     return median_of(values_);
   }
 
+  /// What the noise of half its beams gives there after the filter; kMinCount where no noise is known. It becomes louder
+  /// with range by itself.
+  std::int16_t noise(int fan, int sample) {
+    values_.clear();
+    for (int beam = 0; beam < sv_.shape().beams; ++beam) {
+      const int row = fan * sv_.shape().beams + beam;
+      if (!noise_.known(row)) continue;
+      const double mean = noise_.power_counts(row) + noise_.calibration.row(row)[static_cast<std::size_t>(sample)];
+      const double filtered = mean + counts_from_db(kMedianOfMean_db);
+      values_.push_back(static_cast<std::int16_t>(std::clamp<double>(filtered, kMinCount, kMaxCount)));
+    }
+    return values_.empty() ? kMinCount : median_of(values_);
+  }
+
  private:
   View3<const std::int16_t> sv_;
   View3<const SampleFlags> flags_;
+  const Background& noise_;
   double least_known_;
   std::vector<std::int16_t> values_;
 };
@@ -54,7 +70,8 @@ double share_within(const PingMask& mask, int first, int end) {
 }  // namespace
 
 bool is_nadir_ring(const PingMask& mask, const IndexBox& box, const Seabed& seabed, const Sector& sector,
-                   View3<const std::int16_t> sv, View3<const SampleFlags> flags, const DetectParams& params) {
+                   View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
+                   const DetectParams& params) {
   if (!(params.ring_rise_db > 0.0) || !seabed.found || mask.empty()) return false;
   const int samples = sv.shape().samples;
   const double nearest_m = seabed.offset_m / std::hypot(1.0, seabed.slope_x, seabed.slope_y);
@@ -66,7 +83,7 @@ bool is_nadir_ring(const PingMask& mask, const IndexBox& box, const Seabed& seab
   const int water_first = sample_at(1.0 - params.ring_water_first);
   const int water_end = sample_at(1.0 - params.ring_water_end);
   if (share_within(mask, first, end) < params.ring_inside_share) return false;
-  FanLevel level(sv, flags, params);
+  FanLevel level(sv, flags, noise, params);
   std::vector<std::int16_t> rises;
   std::vector<std::int16_t> before;
   for (int fan = box.first_fan; fan <= box.last_fan; ++fan) {
@@ -74,10 +91,14 @@ bool is_nadir_ring(const PingMask& mask, const IndexBox& box, const Seabed& seab
     for (int s = water_first; s < water_end; s += kStep) {
       if (const std::int16_t count = level(fan, s); count != kNoData) before.push_back(count);
     }
-    int most = kNoData;
-    for (int s = first; s < end; s += kStep) most = std::max<int>(most, level(fan, s));
-    if (before.empty() || most == kNoData) continue;
-    rises.push_back(static_cast<std::int16_t>(std::clamp<int>(most - median_of(before), kMinCount, kMaxCount)));
+    if (before.empty()) continue;
+    const int water = median_of(before);
+    int most = kMinCount;
+    for (int s = first; s < end; s += kStep) {
+      const int count = level(fan, s);
+      if (count != kNoData) most = std::max(most, count - std::max<int>(water, level.noise(fan, s)));
+    }
+    if (most > kMinCount) rises.push_back(static_cast<std::int16_t>(std::min<int>(most, kMaxCount)));
   }
   if (rises.empty() || db_from_counts(median_of(rises)) < params.ring_rise_db) return false;
   std::vector<std::int16_t> above;

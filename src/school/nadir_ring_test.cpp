@@ -45,13 +45,14 @@ struct Ping {
     }
   }
   [[nodiscard]] bool is_ring(const DetectParams& params = {}) const {
-    return is_nadir_ring(mask, box_of(mask, 25), seabed, sector, sv.view(), flags.view(), params);
+    return is_nadir_ring(mask, box_of(mask, 25), seabed, sector, sv.view(), flags.view(), noise, params);
   }
 
   Sector sector;
   Array3<std::int16_t> sv;
   Array3<SampleFlags> flags;
   Seabed seabed;
+  Background noise;
   PingMask mask;
 };
 
@@ -75,6 +76,19 @@ TEST(NadirRing, NeedsASeabedThere) {
   slope.seabed.offset_m = 125.0;
   slope.seabed.slope_x = 0.75;
   EXPECT_TRUE(slope.is_ring());
+}
+
+// Noise that time-varied gain has raised from -83 to -80 dB between the water and the ring is not heard there.
+TEST(NadirRing, NoiseThatRisesWithRangeIsNone) {
+  Ping ping;
+  ping.echo(0, 19, 0, 24, -30.0, 0.0, -83.0 - 1.6);
+  ping.echo(0, 19, 0, 24, 0.0, 5.0, -79.5 - 1.6);
+  ping.school(0.0, 5.0, -71.0);
+  EXPECT_TRUE(ping.is_ring());
+  const std::vector<double> power_db(500, -80.0);
+  const Array3<std::int16_t> calibration(kShape);
+  ping.noise = {power_db, calibration.view()};
+  EXPECT_FALSE(ping.is_ring());
 }
 
 TEST(NadirRing, OfQuietFansThereIsNone) {
@@ -115,7 +129,7 @@ TEST(NadirRing, WhatIsFlaggedSaysNothing) {
     }
   }
   EXPECT_FALSE(ping.is_ring());
-  EXPECT_FALSE(is_nadir_ring({}, {}, ping.seabed, ping.sector, ping.sv.view(), ping.flags.view(), {}));
+  EXPECT_FALSE(is_nadir_ring({}, {}, ping.seabed, ping.sector, ping.sv.view(), ping.flags.view(), {}, {}));
 }
 
 }  // namespace
