@@ -61,7 +61,7 @@ class FanLevels {
 struct Strongest {
   View3<const std::int16_t> counts;
   View3<const SampleFlags> flags;
-  SampleFlags what;
+  SampleFlags what = SampleFlags::none;
 
   [[nodiscard]] int at(int first_fan, int last_fan, int beam, std::size_t sample) const {
     int most = kNoData;
