@@ -138,7 +138,7 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
 }
 
 /// Why a file gave nothing; empty where it did.
-std::string why_not_read(const RawIndex& index) {
+std::string why_nothing_came_of(const RawIndex& index) {
   if (index.format == RawFormat::simrad) {
     const bool unusable = index.pings.empty() && index.datagrams.count("RAW0") > 0;
     return unusable ? "none of its samples could be used; sonarx info tells why" : "";
@@ -153,7 +153,7 @@ std::string why_not_read(const RawIndex& index) {
 std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
   std::vector<RunFailure> failures;
   for (const SurveyFile& file : survey.files) {
-    const std::string why = why_not_read(file.index);
+    const std::string why = why_nothing_came_of(file.index);
     if (file.error) {
       failures.push_back({"", *file.error});
     } else if (!why.empty()) {

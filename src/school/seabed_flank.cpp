@@ -87,8 +87,8 @@ class FlankSearch {
       std::fill_n(exact.begin() + before, std::min(kStep, longest + 1 - before), flank(fan, before));
     }
     profile_.resize(exact.size());
-    const double lower = std::max(beam_axis(water_.sector, fan * beams_ + beams_ / 2).z, 1e-3);
-    const int slack = samples_of(std::max(params_.flank_slack_m, params_.flank_lift_m / lower));
+    const double sine_down = std::max(beam_axis(water_.sector, fan * beams_ + beams_ / 2).z, 1e-3);
+    const int slack = samples_of(std::max(params_.flank_slack_m, params_.flank_lift_m / sine_down));
     for (int before = 0; before <= longest; ++before) {
       const auto from = exact.begin() + std::max(0, before - slack);
       profile_[static_cast<std::size_t>(before)] = *std::max_element(from, exact.begin() + before + 1);

@@ -49,9 +49,9 @@ void describe(Visitor& v, BackgroundParams& p) {
 }
 
 /// What one ping tells of each beam's background, without the flagged samples: with low_quantile the levels of its far
-/// part and of that part's last half and last quarter, with
-/// de_robertis the mean power of each block of range, block by block. Only combine_background() makes levels of both:
-/// the weakest block of a single ping is weak by chance (4 dB below the mean, of blocks of 10 m).
+/// part and of that part's last half and last quarter, with de_robertis the mean power of each block of range, block by
+/// block. Only combine_background() makes levels of both: the weakest block of a single ping is weak by chance (4 dB
+/// below the mean, of blocks of 10 m).
 /// in      power [fan][beam][sample], counts re 1 W; flags, same shape
 /// out     [fan * beams + beam][block], dB re 1 W; NaN where too few samples are sound
 /// source  noise power is exponentially distributed, so its mean is q_p / ln(1 / (1 - p)): Holmin et al. 2016 (low
@@ -59,8 +59,8 @@ void describe(Visitor& v, BackgroundParams& p) {
 [[nodiscard]] std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
                                                       const BackgroundParams& params);
 
-/// Level of each row over pings. low_quantile: the median, of the whole far part unless most beams' ends lie lower; de_robertis: blocks averaged over pings, and of these the
-/// weakest, not above maximum_db. NaN are left out, a row without any stays NaN.
+/// Level of each row over pings. low_quantile: the median, of the whole far part unless most beams' ends lie lower;
+/// de_robertis: blocks averaged over pings, and of these the weakest, not above maximum_db. NaN are left out, a row without any stays NaN.
 /// in      one estimate per ping, all of one length, as background_power_db() gives them with the same params
 /// rows    of the grid
 /// out     [row]
