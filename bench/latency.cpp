@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// sonar_bench_latency [REPETITIONS [SURVEY]]: how long the desktop takes from an event to the picture that answers it, on a
-// simulated MS70 survey, both slices seen at 700 x 500: hovering (growth, both slices), a change of tolerance, a step to
-// a ping that was made ahead; and opening a survey (SURVEY, else a small one). Every answer is compared with one worked out anew before it is timed.
+// sonar_bench_latency [REPETITIONS [SURVEY]]: how long the desktop takes from an event to the picture that answers it,
+// on a simulated MS70 survey, both slices seen at 700 x 500: hovering (growth, both slices), a change of tolerance, a
+// step to a ping that was made ahead; and opening a survey (SURVEY, else a small one). Every answer is compared with
+// one worked out anew before it is timed.
 #include <fmt/format.h>
 #include <unistd.h>
 

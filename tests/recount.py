@@ -25,89 +25,22 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
   to say what the product says (continues excepted, which the merge may fill in).
 """
 import argparse
-import csv
 import datetime
-import json
 import math
 import pathlib
 import sys
 
-import netCDF4
 import numpy as np
 
+from recount_deviations import Deviations, compare_table
 from recount_earth import plane, travel
+from recount_product import Observation
 from recount_raw import Survey
 
 DB_PER_COUNT = 10 * math.log10(2) / 256
 
 
 # --- one observation -------------------------------------------------------------------------------------------------
-
-def bounds(centres, lone):
-    if len(centres) == 1:
-        return np.array([centres[0] - lone / 2, centres[0] + lone / 2])
-    mid = (centres[1:] + centres[:-1]) / 2
-    return np.concatenate([[centres[0] - (centres[1] - centres[0]) / 2], mid,
-                           [centres[-1] + (centres[-1] - centres[-2]) / 2]])
-
-
-class Observation:
-    def __init__(self, path):
-        with netCDF4.Dataset(path) as data:
-            data.set_auto_mask(False)
-            self.name = data.observation
-            self.recipe = json.loads(data.recipe)
-            self.pings = {k: v[:] for k, v in data["pings"].variables.items()}
-            self.rows = self.table(data["school_pings"])
-            self.schools = self.table(data["schools"])
-            grid = data["grid"]
-            self.has_grid = "elevation" in grid.variables
-            if not self.has_grid:
-                return
-            self.elevation, self.azimuth = (np.radians(grid[k][:]) for k in ("elevation", "azimuth"))
-            widths = [math.radians(float(grid[k][0, 0])) for k in ("vertical_width", "horizontal_width")]
-            self.e, self.a = bounds(self.elevation, widths[0]), bounds(self.azimuth, widths[1])
-            self.first, self.dr = float(grid["range_of_first_sample"][...]), float(grid["sample_spacing"][...])
-            self.samples = int(grid["sample_count_of_grid"][...])
-            self.widths_deg = grid["vertical_width"][:]
-            self.place = {int(c): index for index, c in np.ndenumerate(grid["channel"][:])}
-            mask = data["mask"]
-            mask["confidence"].set_auto_scale(False)
-            q = mask["confidence"][:]
-            runs = [mask[k][:] for k in ("school_id", "ping_index", "channel", "first_sample", "sample_count")]
-            fault = mask["fault"][:] if "fault" in mask.variables else None
-            self.masks, self.faults, at = {}, {}, 0
-            for school, ping, channel, first, count in zip(*(r.tolist() for r in runs)):
-                self.masks.setdefault((school, ping), []).append((channel, first, q[at:at + count]))
-                if fault is not None:
-                    self.faults.setdefault((school, ping), []).append(fault[at:at + count])
-                at += count
-
-    @staticmethod
-    def table(group):
-        columns = {k: v[:] for k, v in group.variables.items()}
-        return [dict(zip(columns, values)) for values in zip(*columns.values())]
-
-    def voxels(self, school, ping):
-        parts = self.masks[(school, ping)]
-        channel = np.concatenate([np.full(len(q), c) for c, _, q in parts])
-        sample = np.concatenate([np.arange(first, first + len(q)) for _, first, q in parts])
-        weight = np.concatenate([q for _, _, q in parts]) / 255.0
-        fan = np.array([self.place[int(c)][0] for c in channel])
-        beam = np.array([self.place[int(c)][1] for c in channel])
-        return channel, fan, beam, sample, weight
-
-    def valid(self, school, ping):
-        """Which voxels count for Sv; None where an older product does not tell."""
-        parts = self.faults.get((school, ping))
-        return None if parts is None else np.concatenate(parts) == 0
-
-    def cell_volumes(self, fan, beam, sample):
-        r = self.first + sample * self.dr
-        shell = ((r + self.dr / 2)**3 - (r - self.dr / 2)**3) / 3
-        shell[r < self.dr] = 0
-        return shell * (self.a[beam + 1] - self.a[beam]) * np.abs(np.sin(self.e[fan + 1]) - np.sin(self.e[fan]))
-
 
 def geometry(o, school, ping):
     """Columns that need no samples."""
@@ -303,49 +236,6 @@ def summary(o, rows):
     return out
 
 
-# --- comparing -------------------------------------------------------------------------------------------------------
-
-# Absolute tolerances where a relative one of 1e-7 is too narrow: positions stand with Vincenty's 0.1 mm, speeds on
-# positions, and an angle of a nearly round outline is ill-defined.
-TOLERANCE = {"latitude": 2e-9, "longitude": 4e-9, "axis_deg": 1e-4, "bearing_deg": 1e-6, "speed_mps": 1e-5,
-             "speed_se_mps": 1e-5, "course_deg": 1e-2, "vertical_speed_mps": 1e-6, "sv_mean_db": 1e-6,
-             "sv_p95_db": 1e-6, "sv_max_db": 1e-6, "snr_db": 1e-6, "sv_corrected_db": 1e-6}
-TURN = {"bearing_deg": 360, "course_deg": 360, "axis_deg": 180, "longitude": 360}
-
-
-class Deviations:
-    def __init__(self):
-        self.worst, self.failed = {}, False
-
-    def add(self, table, name, got, wanted, where):
-        got, wanted = float(got), float(wanted)
-        if math.isnan(got) and math.isnan(wanted):
-            off = 0.0
-        elif math.isnan(got) or math.isnan(wanted):
-            off = math.inf
-        else:
-            off = abs(got - wanted)
-            if name in TURN:
-                off = min(off, abs(TURN[name] - off))
-        limit = TOLERANCE.get(name, 1e-7 * max(1e-3, abs(wanted)) if math.isfinite(wanted) else 0.0)
-        count, worst, _, _ = self.worst.get((table, name), (0, -1.0, limit, ""))
-        if off / limit > worst if limit else off > 0:
-            self.worst[(table, name)] = (count + 1, off / limit if limit else math.inf, limit,
-                                         f"{where}: {got!r}, recounted {wanted!r}")
-        else:
-            self.worst[(table, name)] = (count + 1,) + self.worst[(table, name)][1:]
-        self.failed |= not off <= limit
-
-    def beyond(self):
-        """(table, column) of all that are."""
-        return {key for key, (_, worst, _, _) in self.worst.items() if worst > 1}
-
-    def show(self):
-        for (table, name), (count, worst, limit, where) in self.worst.items():
-            mark = "  BEYOND " + where if worst > 1 else ""
-            print(f"{table:18s}{name:24s}{count:7d} values, worst {worst * limit:10.3g}, allowed {limit:8.2g}{mark}")
-
-
 def check_time(o, told, ping, where, deviations):
     time = int(o.pings["time"][ping])
     whole = datetime.datetime.fromtimestamp(time // 10**9, datetime.timezone.utc)
@@ -398,33 +288,6 @@ def recount_observation(o, survey, every, deviations):
         for name, value in summary(o, rows).items():
             deviations.add("schools", name, school[name], value, f"{o.name} school {school['school_id']}")
     print(f"{o.name}: {len(o.rows)} school pings, {len(o.schools)} schools; sv of {skipped} pings left out (faulty samples)")
-
-
-def compare_table(path, rows, deviations):
-    """The CSV says what the products say."""
-    with open(path, newline="", encoding="utf-8") as file:
-        read = list(csv.DictReader(file))
-    key = lambda r: (str(r["observation"]), int(r["school_id"]), int(r.get("ping_index", 0)))
-    by_key = {key(r): r for r in read}
-    if len(read) != len(rows) or set(by_key) != {key(r) for r in rows}:
-        print(f"{path}: other rows than the products")
-        deviations.failed = True
-        return
-    for row in rows:
-        for name, value in row.items():
-            text = by_key[key(row)][name]
-            if name == "continues":
-                continue
-            if isinstance(value, str):
-                same = text == value
-            elif name in ("latitude", "longitude"):
-                same = (text == "") == math.isnan(value) and (text == "" or abs(float(text) - value) <= 5.1e-9)
-            else:
-                same = (math.isnan(value) and text == "") or (text != "" and float(text) == value)
-            if not same:
-                print(f"{path}: {key(row)} {name}: {text!r}, product {value!r}")
-                deviations.failed = True
-                return
 
 
 def main():

@@ -24,7 +24,8 @@ int run_merge(const std::string& out) {
   for (const std::string& line : note_lines(*merged)) fmt::print(stderr, "{}\n", line);
   fmt::print("{}", merge_text(*merged, out));
   for (const MergeFailure& failure : merged->failures) {
-    fmt::print(stderr, "sonarx: {}: {}\n", failure.observation, failure.text);
+    const std::string of = failure.observation ? *failure.observation + ": " : "";
+    fmt::print(stderr, "sonarx: {}{}\n", of, failure.text);
   }
   for (const std::string& name : merged->missing) {
     fmt::print(stderr, "sonarx: {}: planned, but there is no product\n", name);

@@ -155,9 +155,9 @@ std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
   for (const SurveyFile& file : survey.files) {
     const std::string why = why_nothing_came_of(file.index);
     if (file.error) {
-      failures.push_back({"", *file.error});
+      failures.push_back({std::nullopt, *file.error});
     } else if (!why.empty()) {
-      failures.push_back({"", {ErrorCode::format, why, {file.path.string(), 0}}});
+      failures.push_back({std::nullopt, {ErrorCode::format, why, {file.path.string(), 0}}});
     }
   }
   return failures;
@@ -169,7 +169,7 @@ void print_failures(const SurveyFiles& survey, const RunReport& report) {
                to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
   }
   for (const RunFailure& failure : report.failures) {
-    const std::string of = failure.observation.empty() ? "" : printable(failure.observation) + ": ";
+    const std::string of = failure.observation ? printable(*failure.observation) + ": " : "";
     fmt::print(stderr, "sonarx: {}{}\n", of, to_line(failure.error));
   }
 }

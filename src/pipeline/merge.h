@@ -32,8 +32,8 @@ struct Survey {
 
 /// What stands in survey.json under `failures`.
 struct MergeFailure {
-  std::string observation;  ///< empty: a raw file, named in the text
-  std::string text;         ///< one line
+  std::optional<std::string> observation;  ///< none: a raw file, named in the text
+  std::string text;                        ///< one line
 };
 
 struct MergeReport {

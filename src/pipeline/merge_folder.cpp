@@ -74,7 +74,7 @@ std::string survey_json(const MergeReport& report) {
   }
   json failures = json::array();
   for (const MergeFailure& f : report.failures) {
-    const json observation = f.observation.empty() ? json(nullptr) : json(f.observation);
+    const json observation = f.observation ? json(*f.observation) : json(nullptr);
     failures.push_back({{"observation", observation}, {"error", f.text}});
   }
   json notes = json::array();

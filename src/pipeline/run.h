@@ -24,7 +24,7 @@ struct RunOptions {
 };
 
 struct RunFailure {
-  std::string observation;  ///< empty: a file that gave nothing, named by the error
+  std::optional<std::string> observation;  ///< none: a file that gave nothing, named by the error
   Error error;
 };
 

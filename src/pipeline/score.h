@@ -110,8 +110,9 @@ struct Score {
 /// Whether any ping of one side is the other's as well; else there is nothing to compare.
 [[nodiscard]] bool share_pings(const ScoreSide& found, const ScoreSide& truth);
 
-/// The object of INTERFACES section 7, with `fragments` and `merged` beside. `summary` has, over the schools that count: counted, found, found_fraction,
-/// mean_dice, and the members `median`, `p90` (of the error's size) and `bias` (median with its sign) of each error.
+/// The object of INTERFACES section 7, with `fragments` and `merged` beside. `summary` has, over the schools that
+/// count: counted, found, found_fraction, mean_dice, and the members `median`, `p90` (of the error's size) and `bias`
+/// (median with its sign) of each error.
 [[nodiscard]] std::string score_json(const Score& score);
 /// The same for people.
 [[nodiscard]] std::string score_text(const Score& score);

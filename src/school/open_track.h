@@ -42,8 +42,8 @@ struct RawEvent {
   int other;  ///< -1 = none
 };
 
-/// Shares out anew the detections in which schools had met that are apart again in ping `p`: each swam straight from where
-/// it was when last alone to where it is now, which no ping between could tell.
+/// Shares out anew the detections in which schools had met that are apart again in ping `p`: each swam straight from
+/// where it was when last alone to where it is now, which no ping between could tell.
 /// parted    tracks of `open` that shared until now; where they stood when last alone is still in them
 /// now       [parted] their places in ping `p`
 /// frames    [ping] of the list of pings
@@ -52,8 +52,8 @@ void divide_again(std::span<OpenTrack> open, std::span<const std::size_t> parted
                   std::size_t p, std::span<const DetectedPing> pings, std::span<const PingFrame> frames,
                   const Sector& sector, double least_m);
 
-/// Drops the tracks that were not seen often enough or that stay with the ship, numbers the others by (first ping, channel, sample) and renames the
-/// events.
+/// Drops the tracks that were not seen often enough or that stay with the ship, numbers the others by (first ping,
+/// channel, sample) and renames the events.
 /// closed  all tracks
 /// pings, channel, params  as track()
 [[nodiscard]] Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent> events,

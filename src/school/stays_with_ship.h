@@ -7,9 +7,9 @@
 
 namespace sonar {
 
-/// Whether what was tracked goes where the ship goes: what keeps its place in the sonar frame while the ship makes more way
-/// than fish do, and so goes as fast over ground, is what the sonar hears of the seabed, the surface or itself there, through side lobes as well. Of what the
-/// sector's sides cut only a part is seen, whose place tells nothing.
+/// Whether what was tracked goes where the ship goes: what keeps its place in the sonar frame while the ship makes more
+/// way than fish do, and so goes as fast over ground, is what the sonar hears of the seabed, the surface or itself
+/// there, through side lobes as well. Of what the sector's sides cut only a part is seen, whose place tells nothing.
 /// tracked  of one track, rising
 /// pings    those that were tracked, rising
 [[nodiscard]] bool stays_with_ship(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,

@@ -60,7 +60,8 @@ void describe(Visitor& v, BackgroundParams& p) {
                                                       const BackgroundParams& params);
 
 /// Level of each row over pings. low_quantile: the median, of the whole far part unless most beams' ends lie lower;
-/// de_robertis: blocks averaged over pings, and of these the weakest, not above maximum_db. NaN are left out, a row without any stays NaN.
+/// de_robertis: blocks averaged over pings, and of these the weakest, not above maximum_db. NaN are left out, a row
+/// without any stays NaN.
 /// in      one estimate per ping, all of one length, as background_power_db() gives them with the same params
 /// rows    of the grid
 /// out     [row]

@@ -76,7 +76,8 @@ struct PropagationPanel {
                                                                 const Theme& theme);
 
 /// The current ping and its neighbours side by side, each a projection of its masks, all at one scale about one place in
-/// the sonar's frame; each labelled with ping and time, from the side with depths below the sea surface; pings without a school, and bad ones say so.
+/// the sonar's frame; each labelled with ping and time, from the side with depths below the sea surface; pings without
+/// a school, and bad ones say so.
 /// title   first line of the picture
 /// errors  bad_parameter: a parameter out of range, no panels, or a picture too small for them
 [[nodiscard]] Result<FrameDescription> propagation_view(const Sector& sector, std::span<const PropagationPanel> panels,

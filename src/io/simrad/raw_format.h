@@ -9,7 +9,8 @@
 
 namespace sonar::simrad {
 
-/// By the first bytes, of netCDF by whether it says in its first MB that it follows SONAR-netCDF4; unknown for what is none of the formats, and for fewer than 16 bytes.
+/// By the first bytes, of netCDF by whether it says in its first MB that it follows SONAR-netCDF4; unknown for what is
+/// none of the formats, and for fewer than 16 bytes.
 /// errors  io
 [[nodiscard]] Result<RawFormat> detect_format(const ByteSource& source);
 /// Why a netCDF file is not read; empty for formats that are looked into.
