@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -49,10 +50,10 @@ void add_export(CLI::App& app, VerbRunner& run) {
   CLI::App* verb = app.add_subcommand("export", "Write products in another program's format");
   std::string formats = "Format:";
   for (const ExportFormat& format : export_formats()) formats += fmt::format("\n{} - {}", format.name, format.text);
-  verb->add_option("OUT", arguments->out, "Work folder of a run")->required();
+  verb->add_option("OUT", arguments->out, "Work folder of a run")->required()->check(named_path());
   verb->add_option("--to", arguments->format, formats)->required();
-  verb->add_option("--dest", arguments->dest, "Folder that the files go to")->required();
-  verb->add_option("--survey", arguments->survey, "Folder of the raw files (raw-reduced)");
+  verb->add_option("--dest", arguments->dest, "Folder that the files go to")->required()->check(named_path());
+  verb->add_option("--survey", arguments->survey, "Folder of the raw files (raw-reduced)")->check(named_path());
   verb->add_option("--margin-samples", arguments->reduce.margin_samples,
                    "raw-reduced: samples kept round each school beside its need");
   verb->add_option("--margin-beams", arguments->reduce.margin_beams, "raw-reduced: the same in beams");
@@ -62,7 +63,14 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("--coarsen", arguments->reduce.coarsen_beams,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
-  verb->callback([arguments, &run] { run = [arguments] { return run_export(*arguments); }; });
+  verb->callback([arguments, &run, verb] {
+    for (const OptionOf& of : kOptions) {
+      const std::string option(of.option);
+      if (arguments->format == "raw-reduced" || verb->get_option(option)->count() == 0) continue;
+      throw CLI::ValidationError(option, "belongs to --to raw-reduced");
+    }
+    run = [arguments] { return run_export(*arguments); };
+  });
 }
 
 }  // namespace sonar

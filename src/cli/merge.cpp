@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 
@@ -38,7 +39,7 @@ int run_merge(const std::string& out) {
 void add_merge(CLI::App& app, VerbRunner& run) {
   const auto out = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand("merge", "Put the products of a work folder together: tables and survey map");
-  verb->add_option("OUT", *out, "Work folder that holds products/")->required();
+  verb->add_option("OUT", *out, "Work folder that holds products/")->required()->check(named_path());
   verb->callback([out, &run] { run = [out] { return run_merge(*out); }; });
 }
 

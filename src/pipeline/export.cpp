@@ -131,6 +131,35 @@ Result<Files> export_reduced(const Source& source, const ExportOptions& options,
   return std::move(reduced->files);
 }
 
+/// Whether a folder holds every raw file that the products were made of: the survey itself, copied or moved.
+bool holds_survey(const Survey& survey, const fs::path& folder) {
+  std::size_t files = 0;
+  for (const ObservationProduct& product : survey.observations) {
+    for (const InputFile& input : product.input_files) {
+      std::error_code absent;
+      const auto size = fs::file_size(folder / input.name, absent);
+      if (absent || size != input.size) return false;
+      ++files;
+    }
+  }
+  return files > 0;
+}
+
+/// Nothing is written where raw files lie: those that were run, those that are named, or those of a folder above.
+Result<void> require_outside(const ExportOptions& options) {
+  std::vector<fs::path> raw;
+  if (!options.survey.empty()) raw.push_back(options.survey);
+  const fs::path file = options.out / "plan.json";
+  std::error_code absent;
+  if (fs::exists(file, absent)) {
+    const auto plan = read_plan(file);
+    if (!plan) return pass_on(plan);
+    raw.insert(raw.end(), plan->survey.begin(), plan->survey.end());
+  }
+  if (auto outside = require_outside_raw(raw, options.dest); !outside) return outside;
+  return require_not_beneath_raw(options.dest);
+}
+
 }  // namespace
 
 std::span<const ExportFormat> export_formats() { return kFormats; }
@@ -142,12 +171,13 @@ Result<Files> export_products(const ExportOptions& options, Work& work) {
     return fail(ErrorCode::usage, fmt::format("no export format '{}'; there are {}", options.format, format_names()));
   }
   if (auto sound = validate(options.reduce); !sound) return pass_on(sound);
-  if (const auto plan = read_plan(options.out / "plan.json")) {
-    const std::vector<fs::path> raw(plan->survey.begin(), plan->survey.end());
-    if (auto outside = require_outside_raw(raw, options.dest); !outside) return pass_on(outside);
-  }
+  if (auto outside = require_outside(options); !outside) return pass_on(outside);
   const auto source = read_source(options.out, work);
   if (!source) return pass_on(source);
+  if (holds_survey(source->survey, options.dest)) {
+    return fail(ErrorCode::usage, "holds the raw files, beside which nothing is ever written",
+                {.file = options.dest.string()});
+  }
   if (format->name == "csv") return export_csv(*source, options.dest);
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/product_example.h"
@@ -57,6 +58,23 @@ TEST_F(Export, refuses_in_one_line) {
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   fs::remove_all(folder_ / "out");
   EXPECT_EQ(run("csv").error().code, ErrorCode::not_found);
+}
+
+TEST_F(Export, nothing_is_written_where_raw_files_lie) {
+  const fs::path raw = folder_ / "raw";
+  ASSERT_TRUE(write_file(raw / "a file.raw", std::string(12345, 'x')));  // as the product remembers it
+  ExportOptions options{.out = folder_ / "out", .format = "csv", .dest = raw, .survey = {}, .reduce = {}};
+  const auto copied = export_products(options, work_);
+  ASSERT_FALSE(copied);
+  EXPECT_EQ(copied.error().code, ErrorCode::usage);
+  options.survey = folder_ / "elsewhere";
+  options.dest = options.survey / "inside";
+  EXPECT_EQ(export_products(options, work_).error().code, ErrorCode::usage);
+  options.survey.clear();
+  EXPECT_TRUE(export_products(options, work_));
+  options.dest = folder_ / "fresh";
+  ASSERT_TRUE(write_file(folder_ / "out" / "plan.json", R"({"plan_version":99})"));
+  EXPECT_EQ(export_products(options, work_).error().code, ErrorCode::newer_version);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
 Result<void> require_outside_raw(std::span<const std::filesystem::path> raw, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const fs::path there = fs::weakly_canonical(fs::absolute(folder, error), error);
+  const fs::path there = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, error), error);
   for (const fs::path& path : raw) {
     const fs::path named = fs::absolute(path, error);
     const fs::path where = fs::weakly_canonical(fs::is_regular_file(named, error) ? named.parent_path() : named, error);

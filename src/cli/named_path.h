@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace sonar {
+
+/// Refuses an empty path, as of an unset variable of a script: it would stand for the folder the program was started in.
+inline CLI::Validator named_path() {
+  return {[](std::string& path) { return path.empty() ? std::string("an empty path names nothing") : std::string(); },
+          ""};
+}
+
+}  // namespace sonar
