@@ -12,6 +12,7 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/number_range.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -41,6 +42,8 @@ struct PropagateArguments {
   std::string out;
   int jobs = 0;
 };
+
+constexpr double kMostToleranceDb = 60.0;
 
 struct Seed {
   std::int64_t ping = 0;
@@ -80,11 +83,36 @@ Result<std::vector<Seed>> parse_seeds(const PropagateArguments& arguments, const
   return seeds;
 }
 
-/// Mean slope of the growth curve: how many dB one unit of opacity is worth.
-double db_per_opacity(const TransferFunction& curve) {
-  const auto& points = curve.points();
-  const double rise = points.back().opacity - points.front().opacity;
-  return rise > 0.0 ? (points.back().sv_db - points.front().sv_db) / rise : 1.0;
+/// The paper grows in opacity and the default one-sided in dB: a tolerance in the other's unit is turned by the growth
+/// curve's mean slope.
+Result<void> take_tolerance(const PropagateArguments& arguments, PropagateCommand& command) {
+  const bool in_opacity = command.mode == GrowMode::paper;
+  const bool told_in_opacity = arguments.tolerance_opacity > 0.0;
+  if (!told_in_opacity && !(arguments.tolerance_db > 0.0)) return {};
+  double tolerance = told_in_opacity ? arguments.tolerance_opacity : arguments.tolerance_db;
+  if (in_opacity != told_in_opacity) {
+    const auto slope = command.growth_curve.mean_db_per_opacity();
+    const auto [option, other] = told_in_opacity ? std::pair{"--tolerance-opacity", "--tolerance-db"}
+                                                 : std::pair{"--tolerance-db", "--tolerance-opacity"};
+    if (!slope) {
+      return fail(ErrorCode::usage, fmt::format("{} {}: the growth curve ends no higher than it begins, so dB and "
+                                                "opacity cannot be turned into each other; name {} in this mode",
+                                                option, tolerance, other));
+    }
+    tolerance = told_in_opacity ? tolerance * *slope : tolerance / *slope;
+    const double most = in_opacity ? 1.0 : kMostToleranceDb;
+    if (tolerance > most) {
+      return fail(ErrorCode::usage, fmt::format("{} {}: is {:.4g} {} on the growth curve, expected {} at most", option,
+                                                told_in_opacity ? arguments.tolerance_opacity : arguments.tolerance_db,
+                                                tolerance, in_opacity ? "of opacity" : "dB", most));
+    }
+  }
+  if (in_opacity) {
+    command.grow.tolerance_opacity = tolerance;
+  } else {
+    command.grow.tolerance_db = command.tracked.tolerance_db = tolerance;
+  }
+  return {};
 }
 
 Result<PropagateCommand> make_command(const PropagateArguments& arguments, const Recipe& recipe) {
@@ -102,18 +130,7 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
     command.growth_curve = std::move(*curve);
   }
   command.grow.mode = command.mode;
-  // The paper grows in opacity and the default one-sided in dB; a tolerance in the other's unit is turned by the curve.
-  const double slope = db_per_opacity(command.growth_curve);
-  if (arguments.tolerance_db > 0.0) {
-    command.grow.tolerance_db = arguments.tolerance_db;
-    command.grow.tolerance_opacity = arguments.tolerance_db / slope;
-  } else if (arguments.tolerance_opacity > 0.0) {
-    command.grow.tolerance_db = arguments.tolerance_opacity * slope;
-    command.grow.tolerance_opacity = arguments.tolerance_opacity;
-  }
-  if (arguments.tolerance_db > 0.0 || arguments.tolerance_opacity > 0.0) {
-    command.tracked.tolerance_db = command.grow.tolerance_db;
-  }
+  if (auto taken = take_tolerance(arguments, command); !taken) return pass_on(taken);
   // What is selected with all 26 neighbours is followed with them.
   if (command.grow.connectivity == Connectivity::all) {
     command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
@@ -232,7 +249,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   if (!product) return report(product.error());
   if (const Diagnostic* why = refusal(*product)) {
     // The user clicked; that a click is a line of a journal is no matter of theirs.
-    const std::string line_name = fmt::format("journal line {} ({}): ", line.n, line.command);
+    const std::string line_name = said_of(line);
     const std::string text = why->text.starts_with(line_name) ? why->text.substr(line_name.size()) : why->text;
     const std::string seeds = fmt::format("--seed {}: {}", fmt::join(arguments.seeds, " "), text);
     return report({ErrorCode::bad_parameter, seeds, {arguments.survey, -1, why->ping_index}});
@@ -256,10 +273,13 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
                    "PING,FAN,BEAM,SAMPLE from 0: fans from the deepest, beams clockwise; several are joined")
       ->required();
   auto* in_db =
-      verb->add_option("--tolerance-db", arguments->tolerance_db, "dB below the reference (else the recipe's)")
-          ->check(within(0.01, 60.0));
+      verb->add_option(
+              "--tolerance-db", arguments->tolerance_db,
+              "dB below the reference (else the recipe's); mode paper turns it into opacity by the growth curve")
+          ->check(within(0.01, kMostToleranceDb));
   auto* in_opacity =
-      verb->add_option("--tolerance-opacity", arguments->tolerance_opacity, "Difference of opacity (else the recipe's)")
+      verb->add_option("--tolerance-opacity", arguments->tolerance_opacity,
+                       "Difference of opacity (else the recipe's); mode tracked turns it into dB by the growth curve")
           ->check(within(0.0001, 1.0));
   in_db->excludes(in_opacity);
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
@@ -269,7 +289,7 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--operator", arguments->operator_name, "Who selects");
-  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
+  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return propagate_verb(*arguments); }; });
 }

@@ -65,6 +65,12 @@ double TransferFunction::opacity(double sv_db) const {
   return b.below->opacity + b.weight * (b.above->opacity - b.below->opacity);
 }
 
+std::optional<double> TransferFunction::mean_db_per_opacity() const {
+  const double rise = points_.back().opacity - points_.front().opacity;
+  if (!(rise > 0.0)) return std::nullopt;
+  return (points_.back().sv_db - points_.front().sv_db) / rise;
+}
+
 std::array<double, 3> TransferFunction::colour(double sv_db) const {
   const Bracket b = bracket(points_, sv_db);
   std::array<double, 3> rgb{};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -28,6 +29,8 @@ class TransferFunction {
   [[nodiscard]] const std::vector<TransferPoint>& points() const { return points_; }
   [[nodiscard]] double opacity(double sv_db) const;
   [[nodiscard]] std::array<double, 3> colour(double sv_db) const;
+  /// How many dB one unit of opacity is worth, from the first point to the last; none where opacity ends no higher.
+  [[nodiscard]] std::optional<double> mean_db_per_opacity() const;
   /// Opacity of every Sv count: entry [count + 32768]; 0 for "no data".
   [[nodiscard]] std::vector<float> table_i16() const;
   /// Opacity and colour at `size` even steps of dB from first_db to last_db: RGBA, 0..1.

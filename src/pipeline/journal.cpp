@@ -93,6 +93,8 @@ std::string journal_text(const JournalLine& line) {
   return sealed(std::move(json));
 }
 
+std::string said_of(const JournalLine& line) { return fmt::format("choice {} ({}): ", line.n, line.command); }
+
 std::string journal_head_text(const Journal& journal) {
   nlohmann::json files = nlohmann::json::array();
   for (const InputFile& file : journal.files) {

@@ -48,6 +48,8 @@ struct Journal {
 /// the line's JSON (keys sorted, no spaces) without its member crc, as 8 hexadecimal digits.
 [[nodiscard]] std::string journal_text(const JournalLine& line);
 [[nodiscard]] std::string journal_head_text(const Journal& journal);
+/// "choice 3 (propagate): ", with which every note on a line begins.
+[[nodiscard]] std::string said_of(const JournalLine& line);
 
 /// Appends a line and flushes it to the disk; writes the head first where the file is new. What cannot be written whole is
 /// not written: the file is as it was.

@@ -192,7 +192,7 @@ JournalState fold(std::span<const JournalLine> lines, JournalState state, const 
       state = std::move(*next);
     } else if (concerns) {
       state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(ground, line.ping_time).value_or(-1),
-                             fmt::format("choice {} ({}): {}", line.n, line.command, next.error().text)});
+                             said_of(line) + next.error().text});
     }
   }
   return state;
