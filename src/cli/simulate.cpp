@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -120,6 +121,9 @@ int simulate(const SimulateOptions& o) {
   if (!made) return report(naming_option(made.error(), kOptions));
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
              static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
+  if (params->preset == synth::Preset::demo && o.observations) {
+    fmt::print(stderr, "note: the demo has its own observations; --observations was not used\n");
+  }
   const std::int64_t wanted = std::int64_t{params->observations} * params->schools;
   if (params->preset != synth::Preset::demo && made->schools < wanted) {
     fmt::print(stderr, "sonarx: {}: {} of {} schools had room where the sonar sees them; more pings have more room\n",
@@ -135,7 +139,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   CLI::App* verb = app.add_subcommand(
       "simulate",
       "Write a synthetic MS70 survey as .raw files, and its truth (schools, masks, the seabed as depth.tif)");
-  verb->add_option("OUT", o->out, "Folder to write into");
+  verb->add_option("OUT", o->out, "Folder to write into")->check(named_path());
   verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo")
       ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}))
       ->capture_default_str();
@@ -150,12 +154,15 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "wide_transmit (both ways), wide_fan (along the fan)")
       ->check(CLI::IsMember({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
-  verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
-  verb->add_flag("--describe", o->describe, "The same with unit, range and meaning of each, as Markdown tables");
+  auto* print =
+      verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
+  verb->add_flag("--describe", o->describe, "The same with unit, range and meaning of each, as Markdown tables")
+      ->excludes(print);
   verb->add_option("--noise", o->noise, "Multiplies every noise's power and rate");
   verb->add_option("--file-mb", o->file_mb, "Size at which a new file begins");
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
-  verb->add_flag("--force", o->force, "Write into a folder that already holds raw files");
+  verb->add_flag("--force", o->force,
+                 "Write into a folder that already holds raw files; a simulated survey there is replaced");
   verb->add_option("--jobs", o->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([o, &run] { run = [o] { return simulate(*o); }; });
 }

@@ -21,6 +21,7 @@
 namespace sonar::synth {
 namespace {
 
+constexpr const char* kRawPrefix = "SYNTHETIC-D";
 constexpr const char* kSurveyName = "SYNTHETIC survey, made by Sonar Explorer";
 constexpr double kWaterTemperature_c = 8.0;
 
@@ -43,6 +44,27 @@ Result<void> prepare_folder(const std::filesystem::path& out, bool force) {
     }
   }
   if (problem) return fail(ErrorCode::io, "cannot list the folder: " + problem.message(), {.file = out.string()});
+  return {};
+}
+
+/// Takes an earlier survey out of the folder, so that no file of it stands among those of the next.
+Result<void> remove_earlier(const std::filesystem::path& out) {
+  std::error_code problem;
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
+    if (is_raw_file(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix)) {
+      earlier.push_back(entry.path());
+    }
+  }
+  const std::filesystem::path truth = out / "truth";
+  for (const auto& entry : std::filesystem::directory_iterator(truth, problem)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("obs-") && name.ends_with(".nc")) earlier.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : earlier) {
+    std::filesystem::remove(file, problem);
+    if (problem) return fail(ErrorCode::io, "cannot remove: " + problem.message(), {.file = file.string()});
+  }
   return {};
 }
 
@@ -147,7 +169,7 @@ class SurveyFiles {
 
  private:
   Result<void> begin(TimeNs time) {
-    auto file = RawFileWriter::create(folder_ / fmt::format("SYNTHETIC-D{}.raw", raw_name_time(time)));
+    auto file = RawFileWriter::create(folder_ / fmt::format("{}{}.raw", kRawPrefix, raw_name_time(time)));
     if (!file) return pass_on(file);
     file_.emplace(std::move(*file));
     files_.push_back(file_->path());
@@ -194,6 +216,7 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   if (!scenes) return pass_on(scenes);
   if (auto ready = prepare_folder(out, force); !ready) return pass_on(ready);
   if (auto room = require_free_space(out, bytes_of(*scenes)); !room) return pass_on(room);
+  if (auto removed = force ? remove_earlier(out) : Result<void>(); !removed) return pass_on(removed);
 
   SimulateResult result;
   std::int64_t pings_in_all = 0;

@@ -122,6 +122,32 @@ TEST_F(Simulate, EveryFileSaysThatItIsSynthetic) {
   for (const auto& [name, bytes] : files) EXPECT_NE(bytes.find("SYNTHETIC"), std::string::npos) << name;
 }
 
+TEST_F(Simulate, TablesWithoutASchoolSaySoToo) {
+  Work work(1);
+  SurveyParams params = small();
+  params.observations = 1;
+  params.pings = 1;
+  params.schools = 0;
+  ASSERT_TRUE(simulate_survey(folder_, params, ms70_beams(), false, "test", work));
+  for (const auto& [name, bytes] : tree(folder_)) EXPECT_NE(bytes.find("SYNTHETIC"), std::string::npos) << name;
+}
+
+TEST_F(Simulate, ASurveyThatIsForcedReplacesTheOneBefore) {
+  Work work(1);
+  SurveyParams params = small();
+  params.pings = 1;
+  params.observations = 2;
+  ASSERT_TRUE(simulate_survey(folder_ / "a", params, ms70_beams(), false, "test", work));
+  std::ofstream(folder_ / "a" / "L0001-D20200101-T000000.raw") << "nobody's simulation";
+  params.observations = 1;
+  params.seed = 5;
+  ASSERT_TRUE(simulate_survey(folder_ / "a", params, ms70_beams(), true, "test", work));
+  ASSERT_TRUE(simulate_survey(folder_ / "b", params, ms70_beams(), false, "test", work));
+  auto forced = tree(folder_ / "a");
+  EXPECT_EQ(forced.erase("L0001-D20200101-T000000.raw"), 1U);
+  EXPECT_TRUE(forced == tree(folder_ / "b"));
+}
+
 TEST_F(Simulate, RefusesAFolderWithRawFiles) {
   Work work(1);
   SurveyParams params = small();

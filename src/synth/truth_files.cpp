@@ -15,7 +15,7 @@ bool by_school_and_ping(std::int64_t id_a, std::int64_t ping_a, std::int64_t id_
   return std::tie(id_a, ping_a) < std::tie(id_b, ping_b);
 }
 
-/// A row of the truth's tables says itself that no sea was looked into.
+/// The truth's tables say themselves that no sea was looked into: in each row, and without any.
 template <class Row>
 struct SyntheticRow {
   Row row;
@@ -24,8 +24,8 @@ struct SyntheticRow {
 template <class Visitor, class Row>
 void columns(Visitor& v, SyntheticRow<Row>& marked) {
   columns(v, marked.row);
-  std::string source = "SYNTHETIC";
-  v("source", "", source);
+  std::string yes = "yes";
+  v("SYNTHETIC", "", yes);
 }
 
 template <class Row>

@@ -24,8 +24,8 @@ class SmallSurvey(Case):
 
     def test_simulated_survey(self):
         self.assertTrue(sorted(SURVEY.glob("*.raw")))
-        self.assertEqual(sonarx.header(TRUTH / "schools.csv"), SCHOOLS + ["source"])
-        self.assertEqual(sonarx.header(TRUTH / "school_pings.csv"), SCHOOL_PINGS + ["source"])
+        self.assertEqual(sonarx.header(TRUTH / "schools.csv"), SCHOOLS + ["SYNTHETIC"])
+        self.assertEqual(sonarx.header(TRUTH / "school_pings.csv"), SCHOOL_PINGS + ["SYNTHETIC"])
         self.assertGreater(len(sonarx.read_csv(TRUTH / "bodies.csv")), 0)
         self.assertEqual(sorted(p.name for p in TRUTH.glob("*.nc")), ["obs-0001.nc", "obs-0002.nc"])
         for raw in SURVEY.glob("*.raw"):
