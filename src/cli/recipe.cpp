@@ -5,9 +5,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/verb.h"
 #include "pipeline/parameter_table.h"
 
@@ -23,7 +25,7 @@ struct RecipeOptions {
 
 int check(const RecipeOptions& o) {
   auto recipe = read_recipe(o.validate);
-  if (recipe && !o.calibration.empty()) recipe = chosen_recipe(o.validate, o.calibration);
+  if (recipe) recipe = with_calibration(std::move(*recipe), o.calibration);
   if (!recipe) {
     report(recipe.error());
     return kExitFailed;  // whatever is wrong with it, the verb was used rightly
@@ -33,14 +35,14 @@ int check(const RecipeOptions& o) {
 }
 
 int print(const RecipeOptions& o) {
-  auto recipe = recipe_preset(o.preset);
+  const auto preset = recipe_preset(o.preset);
+  if (!preset) return report(preset.error());
+  const auto recipe = with_calibration(*preset, o.calibration);
   if (!recipe) return report(recipe.error());
-  if (!o.calibration.empty()) {
-    if (auto taken = take_calibration_file(*recipe, o.calibration); !taken) return report(taken.error());
-  }
   if (o.describe) {
     ParameterTable table("Beside all stages");
-    describe(table, *recipe);
+    Recipe described = *recipe;
+    describe(table, described);
     fmt::print("{}", table.markdown());
   } else {
     fmt::print("{}", recipe_text(*recipe));
@@ -53,8 +55,9 @@ int print(const RecipeOptions& o) {
 void add_recipe(CLI::App& app, VerbRunner& run) {
   const auto o = std::make_shared<RecipeOptions>();
   CLI::App* verb = app.add_subcommand("recipe", "Print or check the parameters of every stage");
-  verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
-  CLI::Option* validate = verb->add_option("--validate", o->validate, "Check this recipe file");
+  CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
+  CLI::Option* validate =
+      verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_path());
   verb->add_option("--calibration", o->calibration, kCalibrationHelp);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);

@@ -15,6 +15,7 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/named_path.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "cli/whole_numbers.h"
@@ -164,7 +165,13 @@ std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
 }
 
 void print_failures(const SurveyFiles& survey, const RunReport& report) {
+  const auto told_below = [&](const Diagnostic& note) {
+    return note.code == DiagnosticCode::unreadable &&
+           std::any_of(report.failures.begin(), report.failures.end(),
+                       [&](const RunFailure& failure) { return failure.error.where.file == note.file; });
+  };
   for (const Diagnostic& note : survey.diagnostics) {
+    if (told_below(note)) continue;
     fmt::print(stderr, "note {}: {}\n", name(note.code),
                to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
   }
@@ -197,6 +204,7 @@ int finish(const Opened& opened, const RunOptions& options, RunReport report, Wo
   if (!merged) return sonar::report(merged.error());
   for (const std::string& line : note_lines(*merged)) fmt::print(stderr, "{}\n", line);
   fmt::print("{}", merge_text(*merged, options.out));
+  if (opened.plan.tasks.empty()) fmt::print(stderr, "note: no file holds a ping; there is no observation\n");
   if (!looks_for_schools(opened)) {
     fmt::print(stderr,
                "note: no schools were looked for: the recipe says \"automatic\": false, and no session selects one\n");
@@ -243,13 +251,14 @@ void add_run(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
   CLI::App* verb = app.add_subcommand("run", "Process a survey: schools, masks, tables and the map");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
-  auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables");
+  auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables")->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
-  verb->add_option("--pings", arguments->pings, "Ping indices A:B, both included, from 0");
+  verb->add_option("--pings", arguments->pings,
+                   "Ping indices A:B of each observation, both included, from 0; shorter ones give what they have");
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
   auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
   auto* task =
@@ -271,7 +280,7 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
   CLI::App* verb = app.add_subcommand("plan", "Cut the work of run into independent tasks");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
-  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required();
+  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
@@ -291,9 +300,13 @@ void add_plan(CLI::App& app, VerbRunner& run) {
       if (auto written = write_plan(*opened, *arguments, options); !written) return report(written.error());
       const std::vector<RunFailure> failed = failed_files(opened->survey);
       print_failures(opened->survey, {{}, {}, failed});
-      fmt::print("{} tasks, 0 to {}: sonarx run --plan {} --task K, then sonarx merge {}\n", opened->plan.tasks.size(),
-                 opened->plan.tasks.empty() ? 0 : opened->plan.tasks.size() - 1, (options.out / "plan.json").string(),
-                 options.out.string());
+      if (opened->plan.tasks.empty()) {
+        fmt::print("0 tasks: no file holds a ping\n");
+      } else {
+        fmt::print("{} tasks, 0 to {}: sonarx run --plan {} --task K, then sonarx merge {}\n",
+                   opened->plan.tasks.size(), opened->plan.tasks.size() - 1, (options.out / "plan.json").string(),
+                   options.out.string());
+      }
       return failed.empty() ? kExitDone : kExitPartly;
     };
   });

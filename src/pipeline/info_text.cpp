@@ -25,10 +25,14 @@ Json notes_json(const Diagnostics& notes) {
   return list;
 }
 
+/// To the 8 decimals that degrees have everywhere: a millimetre.
+double rounded_deg(double degrees) { return std::round(degrees * 1e8) / 1e8; }
+
 Json file_json(const FileInfo& file) {
   Json position = nullptr;
   if (file.first_position) {
-    position = {{"latitude", file.first_position->latitude_deg}, {"longitude", file.first_position->longitude_deg}};
+    position = {{"latitude", rounded_deg(file.first_position->latitude_deg)},
+                {"longitude", rounded_deg(file.first_position->longitude_deg)}};
   }
   Json json{{"path", file.path},
             {"format", file.format},

@@ -54,7 +54,8 @@ struct MergeReport {
 /// Reads OUT/products and OUT/plan.json (where there is one) and writes schools.csv, school_pings.csv, survey.gpkg and
 /// survey.json into OUT, each whole or not at all. Raw data are not needed.
 /// failures  of the observations that were just run
-/// only      the one observation that was asked for; that others have no product is no fault then
+/// only      the one observation that was asked for; that others have no product is no fault then, nor that one is
+///           missing that has none of the plan's pings
 /// errors    not_found: neither products nor plan; mismatch; io; no_space; cancelled
 /// memory    masks of one observation at a time
 Result<MergeReport> merge_folder(const std::filesystem::path& out, std::vector<MergeFailure> failures, Work& work,

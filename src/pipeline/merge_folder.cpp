@@ -147,7 +147,7 @@ Result<void> hold_against_plan(const fs::path& out, const std::optional<std::str
     report.all_planned = report.all_planned && there;
     const bool failed = std::any_of(report.failures.begin(), report.failures.end(),
                                     [&](const MergeFailure& f) { return f.observation == task.observation; });
-    const bool asked = !only || *only == task.observation;
+    const bool asked = (!only || *only == task.observation) && has_pings(task, plan->pings);
     if (!there && !failed) (asked ? report.missing : report.not_run).push_back(task.observation);
   }
   return {};

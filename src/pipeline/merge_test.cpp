@@ -9,12 +9,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/product_example.h"
 #include "pipeline/recipe.h"
+#include "pipeline/run.h"
 
 namespace sonar {
 namespace {
@@ -181,6 +183,28 @@ TEST_F(MergeFolder, lists_damaged_and_failed_observations) {
   EXPECT_EQ(json["failures"][0]["observation"], "obs-0003");
   EXPECT_EQ(json["failures"][1]["observation"], "obs-0002");
   EXPECT_EQ(json["summary"]["observations"], 1);
+}
+
+TEST(RunOptions, pings_are_asked_of_the_observations_that_have_them) {
+  Plan plan;
+  for (const auto& [name, pings] : {std::pair{"obs-0001", 2}, std::pair{"obs-0002", 1}, std::pair{"obs-0003", 2}}) {
+    PlanTask task;
+    task.observation = name;
+    task.pings = pings;
+    plan.tasks.push_back(task);
+  }
+  RunOptions options;
+  options.pings = PingSelection{1, 1};
+  EXPECT_TRUE(require_possible(plan, options));
+  EXPECT_FALSE(has_pings(plan.tasks[1], options.pings));
+  options.only = "obs-0002";
+  const auto of_short = require_possible(plan, options);
+  ASSERT_FALSE(of_short);
+  EXPECT_EQ(of_short.error().text, "--pings 1:1: obs-0002 has pings 0 to 0");
+  options.only = std::nullopt;
+  options.pings = PingSelection{2, 9};
+  EXPECT_EQ(require_possible(plan, options).error().text,
+            "--pings 2:9: obs-0001 has pings 0 to 1, no observation more");
 }
 
 TEST_F(MergeFolder, an_empty_folder_is_refused) {

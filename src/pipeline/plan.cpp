@@ -109,6 +109,10 @@ Result<Plan> plan_from_json(const nlohmann::json& json) {
 
 }  // namespace
 
+bool has_pings(const PlanTask& task, const std::optional<PingSelection>& pings) {
+  return !pings || pings->first < task.pings;
+}
+
 Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
   Plan plan;

@@ -39,6 +39,9 @@ struct Plan {
   Diagnostics notes;  ///< of the survey as a whole: copies, repeated pings, files that cannot be read; without folders
 };
 
+/// Whether an observation is long enough to have some of these pings; empty = all.
+[[nodiscard]] bool has_pings(const PlanTask& task, const std::optional<PingSelection>& pings);
+
 /// From headers only.
 [[nodiscard]] Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                              const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options);

@@ -115,6 +115,7 @@ Result<Recipe> named_recipe(const std::string& path_or_preset) {
 
 Result<void> take_calibration_table(Recipe& recipe, const CsvTable& table) {
   const std::string& path = table.file;
+  if (table.records.empty()) return fail(ErrorCode::format, "expected a line for each channel, found none", {path});
   std::vector<BeamCalibration> beams;
   for (const std::string& name : table.header) {
     if (name == "channel" || name == "gain_db" || name == "sa_correction_db" || name == "extra_factor_db") continue;

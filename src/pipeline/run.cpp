@@ -111,16 +111,17 @@ Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan
   return {};
 }
 
-/// The chosen tasks, all of which have the chosen pings.
+/// Those of the chosen tasks that have some of the chosen pings: observations are not equally long.
 Result<std::vector<PlanTask>> possible_tasks(const Plan& plan, const RunOptions& options) {
   auto tasks = chosen_tasks(plan, options);
-  if (!tasks || !options.pings) return tasks;
-  for (const PlanTask& task : *tasks) {
-    if (options.pings->first >= task.pings) {
-      return fail(ErrorCode::usage, fmt::format("{} has pings 0 to {}", task.observation, task.pings - 1));
-    }
-  }
-  return tasks;
+  if (!tasks || tasks->empty() || !options.pings) return tasks;
+  const PlanTask longest = *std::max_element(tasks->begin(), tasks->end(),
+                                             [](const PlanTask& a, const PlanTask& b) { return a.pings < b.pings; });
+  std::erase_if(*tasks, [&](const PlanTask& task) { return !has_pings(task, options.pings); });
+  if (!tasks->empty()) return tasks;
+  return fail(ErrorCode::usage,
+              fmt::format("--pings {}:{}: {} has pings 0 to {}{}", options.pings->first, options.pings->last,
+                          longest.observation, longest.pings - 1, options.only ? "" : ", no observation more"));
 }
 
 }  // namespace
