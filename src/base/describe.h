@@ -58,7 +58,7 @@ class RangeCheck {
   void check(std::string_view name, double value, const FieldInfo& info) {
     if (std::isnan(value) || value < info.min || value > info.max) {
       note(fmt::format("{}{} = {} is outside {} .. {}{}{}", prefix_, name, value, info.min, info.max,
-                       info.unit.empty() ? "" : " ", info.unit));
+                       info.unit.empty() || info.unit == "1" ? "" : " ", info.unit == "1" ? "" : info.unit));
     }
   }
   void note(std::string text) {

@@ -35,13 +35,13 @@ void describe(Visitor& v, MedianParams& p) {
 /// Median of one ping over a box-shaped neighbourhood; flagged samples are left out.
 /// The bounding box of samples that are not near field, surface or "no data" is cut out first and its border
 /// replicated. In it, samples with a flag of kNotFiltered and "no data" are replaced by -32767 where fan + beam +
-/// sample is even and by +32767 where it is odd, which leaves the median of the others to within a rank. in      sv
-/// [fan][beam][sample], Sv counts (10 log10(2)/256 dB re 1 m^-1), kNoData or kMinCount..kMaxCount;
+/// sample is even and by +32767 where it is odd, which leaves the median of the others to within a rank.
+/// in      sv [fan][beam][sample], Sv counts (10 log10(2)/256 dB re 1 m^-1), kNoData or kMinCount..kMaxCount;
 ///         flags, same shape
 /// params  kernel: odd counts, 1..63 per axis; an even one counts as the next larger odd one
 /// out     same shape and unit; kNoData outside the bounding box, where more than half of the box is left out, and
-/// where
-///         the sample itself is near field, surface or seabed. Not enabled: counts with those samples set to kNoData
+///         where the sample itself is near field, surface or seabed. Not enabled: counts with those samples set to
+///         kNoData
 /// errors  none; parameters were refused earlier by validate()
 /// threads pure; same bits for any thread count
 /// cost    about 3 ms for 20 x 25 x 1320 samples on one core with 3 x 3 x 23 (also x 7, x 15); 30 ms for others

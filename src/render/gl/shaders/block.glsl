@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a picture depends on beside textures; the C++ side is RayBlock in render/gl/ray_block.h, line by line.
 // All places and directions in the fan frame: x along the middle azimuth, y starboard of it, z down; metres.
 layout(std140) uniform Ray {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The macrocells: what may be passed over, and how far.
 uniform usampler2D state_texture;  // distance to the next cell that counts; flags
 uniform sampler2D means_texture;   // of thin cells: mean extinction x rgb, mean extinction

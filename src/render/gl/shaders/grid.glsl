@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places to fractional indices (sample, beam, fan), and values there, by the folded texture where there are folds.
 uniform sampler3D sv_texture;
 uniform sampler3D known_texture;

@@ -1,2 +1,3 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nothing is drawn: the stencil keeps which pixels the sector covers.
 void main() {}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sector's surface, seen by the rays' camera, upside down like the picture (its first row is the upper one).
 layout(location = 0) in vec3 place;
 out float gl_ClipDistance[1];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light by the gradient in metres; the same words as lit() in render/ray_rules.h.
 vec3 lit(vec3 rgb, vec3 gradient) {
   float strength = length(gradient);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The schools' masks: layer << 8 | confidence of each voxel. A layer is interpolated over its own voxels.
 uniform usampler3D mask_texture;
 uniform sampler2D mask_colours;  // [layer - 1]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a ray that lies in the sector, exactly. t is metres from the ray's point nearest to the transducer:
 // p = base + t dir with base dir = 0, so that r^2 = base^2 + t^2.
 const float FAR = 1e9;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One ray through the sonar's own grid. MODE: 0 accumulate, 1 first hit, 2 maximum.
 uniform sampler2D optics_texture;  // r, g, b, extinction at fine steps of Sv
 layout(location = 0) out vec4 colour;
