@@ -53,7 +53,8 @@ std::string_view text_of(std::span<const std::byte> body) {
 }  // namespace
 
 Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
-  if (!format_known_) {
+  // What kind of netCDF a file is may stand beyond what of it was there at first.
+  if (!format_known_ || index_.format == RawFormat::other_netcdf) {
     const auto size = source.size();
     if (!size) return pass_on(size);
     if (*size < kHeadBytes && !final) return false;
