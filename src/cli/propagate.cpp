@@ -43,6 +43,7 @@ struct PropagateArguments {
   int jobs = 0;
 };
 
+constexpr double kLeastToleranceDb = 0.1;
 constexpr double kMostToleranceDb = 60.0;
 
 struct Seed {
@@ -89,23 +90,24 @@ Result<void> take_tolerance(const PropagateArguments& arguments, PropagateComman
   const bool in_opacity = command.mode == GrowMode::paper;
   const bool told_in_opacity = arguments.tolerance_opacity > 0.0;
   if (!told_in_opacity && !(arguments.tolerance_db > 0.0)) return {};
-  double tolerance = told_in_opacity ? arguments.tolerance_opacity : arguments.tolerance_db;
+  const double told = told_in_opacity ? arguments.tolerance_opacity : arguments.tolerance_db;
+  const auto [option, other] = told_in_opacity ? std::pair{"--tolerance-opacity", "--tolerance-db"}
+                                               : std::pair{"--tolerance-db", "--tolerance-opacity"};
+  double tolerance = told;
   if (in_opacity != told_in_opacity) {
     const auto slope = command.growth_curve.mean_db_per_opacity();
-    const auto [option, other] = told_in_opacity ? std::pair{"--tolerance-opacity", "--tolerance-db"}
-                                                 : std::pair{"--tolerance-db", "--tolerance-opacity"};
     if (!slope) {
       return fail(ErrorCode::usage, fmt::format("{} {}: the growth curve ends no higher than it begins, so dB and "
                                                 "opacity cannot be turned into each other; name {} in this mode",
-                                                option, tolerance, other));
+                                                option, told, other));
     }
-    tolerance = told_in_opacity ? tolerance * *slope : tolerance / *slope;
-    const double most = in_opacity ? 1.0 : kMostToleranceDb;
-    if (tolerance > most) {
-      return fail(ErrorCode::usage, fmt::format("{} {}: is {:.4g} {} on the growth curve, expected {} at most", option,
-                                                told_in_opacity ? arguments.tolerance_opacity : arguments.tolerance_db,
-                                                tolerance, in_opacity ? "of opacity" : "dB", most));
-    }
+    tolerance = told_in_opacity ? told * *slope : told / *slope;
+  }
+  const double least = in_opacity ? 0.0 : kLeastToleranceDb;
+  const double most = in_opacity ? 1.0 : kMostToleranceDb;
+  if (tolerance < least || tolerance > most) {
+    return fail(ErrorCode::usage, fmt::format("{} {}: is {:.4g} {} in this mode, expected {} .. {}", option, told,
+                                              tolerance, in_opacity ? "of opacity" : "dB", least, most));
   }
   if (in_opacity) {
     command.grow.tolerance_opacity = tolerance;
@@ -276,7 +278,7 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
       verb->add_option(
               "--tolerance-db", arguments->tolerance_db,
               "dB below the reference (else the recipe's); mode paper turns it into opacity by the growth curve")
-          ->check(within(0.01, kMostToleranceDb));
+          ->check(within(kLeastToleranceDb, kMostToleranceDb));
   auto* in_opacity =
       verb->add_option("--tolerance-opacity", arguments->tolerance_opacity,
                        "Difference of opacity (else the recipe's); mode tracked turns it into dB by the growth curve")

@@ -37,12 +37,11 @@ int check(const RecipeOptions& o) {
 int print(const RecipeOptions& o) {
   const auto preset = recipe_preset(o.preset);
   if (!preset) return report(preset.error());
-  const auto recipe = with_calibration(*preset, o.calibration);
+  auto recipe = with_calibration(*preset, o.calibration);
   if (!recipe) return report(recipe.error());
   if (o.describe) {
     ParameterTable table("Beside all stages");
-    Recipe described = *recipe;
-    describe(table, described);
+    describe(table, *recipe);
     fmt::print("{}", table.markdown());
   } else {
     fmt::print("{}", recipe_text(*recipe));

@@ -137,6 +137,7 @@ class Propagate(Case):
         self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, "--tolerance-db", "60", "--reach",
                     "0", "--out", self.fresh("propagate-wide"))
         for more, what in ((("--tolerance-db", "60", "--mode", "paper"), "--tolerance-db 60: is 1.5 of opacity"),
+                           (("--tolerance-opacity", "0.0001"), "--tolerance-opacity 0.0001: is 0.004 dB"),
                            (("--tolerance-opacity", "0.3", "--transfer-function", flat), "name --tolerance-db")):
             code, _, err = sonarx.run("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, *more, "--out",
                                       self.fresh("propagate-none"))
