@@ -43,7 +43,7 @@ class Usage(Case):
                                 (("simulate", "x", "--jobs", "-3"), "--jobs: "),
                                 (("run", "--plan", "plan.json", "--task", "-1"), "--task: Value -1 not in range"),
                                 (("propagate", "x", "--observation", "obs-0001", "--seed", "0,0,0,0", "--out", "y",
-                                  "--tolerance-db", "nan"), "--tolerance-db: nan is outside 0.01 .. 60"),
+                                  "--tolerance-db", "nan"), "--tolerance-db: nan is outside 0.1 .. 60"),
                                 (("info", "--no-such-flag"), "see sonarx info --help")]:
             with self.subTest(arguments):
                 code, _, err = run(*arguments)
