@@ -9,8 +9,6 @@ namespace sonar::synth {
 
 /// A scene with the survey's water, noise and ship, without course, schools or start of its own.
 [[nodiscard]] Scene scene_base(const SurveyParams& params, const std::vector<Beam>& beams, int observation);
-/// Sets time and log of an observation so that it follows another.
-void follow_on(const Scene& before, double gap_s, Scene& next);
 
 /// Two opposing transects past the same schools with an empty leg between them. School 1 is passed at 100 m, then at
 /// 300 m; school 2 swims out through the aft side; on school 3 lie a hot beam and a wall.

@@ -143,12 +143,6 @@ Scene scene_base(const SurveyParams& params, const std::vector<Beam>& beams, int
   return scene;
 }
 
-void follow_on(const Scene& before, double gap_s, Scene& next) {
-  const double lasts_s = before.seconds_of(before.pings) + gap_s;
-  next.first_ping = before.time_at(std::ceil(lasts_s));
-  next.ship.log_start_nmi = before.ship.log_start_nmi + before.ship.speed_mps * lasts_s / kMetresPerNauticalMile;
-}
-
 Result<std::vector<Scene>> survey_scenes(const SurveyParams& params, const std::vector<Beam>& beams) {
   if (auto ok = check(params); !ok) return pass_on(ok);
   if (beams.empty()) return fail(ErrorCode::bad_parameter, "there are no beams");

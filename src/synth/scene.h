@@ -13,6 +13,7 @@
 #include "synth/beam_pattern.h"
 #include "synth/beam_table.h"
 #include "synth/body.h"
+#include "synth/voyage.h"
 
 namespace sonar::synth {
 
@@ -87,19 +88,6 @@ void describe(Visitor& v, Noise& p) {
   v.field("scale", p.scale, {.unit = "1", .min = 0, .max = 10, .text = "multiplies every noise's power and rate"});
 }
 
-/// The ship: a straight course at constant speed over ground, yawing, rolling and pitching a little.
-struct Ship {
-  Geographic origin{60.0, 4.0};  ///< of the scene's east, north, up
-  Point<Enu> start_m;            ///< at the first ping; z is not used
-  double course_deg = 0.0;       ///< over ground, true, at the start
-  double speed_mps = 6.0 * kKnot_mps;
-  double yaw_deg = 0.0;  ///< amplitudes
-  double roll_deg = 0.0;
-  double pitch_deg = 0.0;
-  double transducer_depth_m = 7.0;
-  double log_start_nmi = 0.0;
-};
-
 /// A fault placed on purpose.
 struct HotBeam {
   int ping = 0;
@@ -124,31 +112,18 @@ struct VoxelTarget {
 };
 
 /// Everything that one synthetic observation is made of. Plain values; SyntheticSonar (synth/sonar.h) renders it.
-struct Scene {
+struct Scene : Voyage {
   std::vector<Beam> beams = ms70_beams();
   BeamPattern beam_pattern = BeamPattern::gaussian;
   Water water;
   Noise noise;
-  Ship ship;
   std::vector<Body> bodies;
   std::vector<HotBeam> hot_beams;
   std::vector<Wall> walls;
   std::vector<VoxelTarget> voxel_targets;
-  TimeNs first_ping = 1'600'000'000 * kSecondNs;
-  double ping_interval_s = 5.0;
-  int pings = 1;
   std::uint64_t seed = 1;
   std::uint32_t observation = 0;  ///< part of every random stream's key
-
-  [[nodiscard]] double seconds_of(int ping) const { return ping_interval_s * ping; }
-  [[nodiscard]] TimeNs time_of(int ping) const;
-  [[nodiscard]] TimeNs time_at(double seconds) const;
 };
-
-/// The ship at some time, in the scene's frame (z = 0).
-[[nodiscard]] Point<Enu> ship_at(const Scene& scene, double seconds);
-/// The ship at some time as the instruments see it; transducer_depth_m is the true one.
-[[nodiscard]] PingNavigation navigation_at(const Scene& scene, double seconds);
 
 /// A scene without any noise, speckle, surface, seabed or reverberation, to place bodies or voxels in exactly.
 [[nodiscard]] Scene empty_scene(int pings = 1);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,15 +8,9 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "synth/presets.h"
+#include "synth/survey_files.h"
 
 namespace sonar::synth {
-
-struct SimulateResult {
-  std::vector<std::filesystem::path> files;
-  std::uint64_t bytes = 0;
-  std::int64_t pings = 0;
-  std::int64_t schools = 0;  ///< with at least one ping in the truth
-};
 
 /// Writes a synthetic survey: OUT/SYNTHETIC-Dyyyymmdd-Thhmmss.raw files, and OUT/truth beside them, with the seabed's
 /// depths as truth/depth.tif.

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "io/csv.h"
 #include "io/product.h"
 
 namespace sonar::synth {
@@ -13,27 +12,6 @@ namespace {
 
 bool by_school_and_ping(std::int64_t id_a, std::int64_t ping_a, std::int64_t id_b, std::int64_t ping_b) {
   return std::tie(id_a, ping_a) < std::tie(id_b, ping_b);
-}
-
-/// The truth's tables say themselves that no sea was looked into: in each row, and without any.
-template <class Row>
-struct SyntheticRow {
-  Row row;
-};
-
-template <class Visitor, class Row>
-void columns(Visitor& v, SyntheticRow<Row>& marked) {
-  columns(v, marked.row);
-  std::string yes = "yes";
-  v("SYNTHETIC", "", yes);
-}
-
-template <class Row>
-Result<void> write_truth(const std::filesystem::path& path, const std::vector<Row>& rows) {
-  std::vector<SyntheticRow<Row>> marked;
-  marked.reserve(rows.size());
-  for (const Row& row : rows) marked.push_back({row});
-  return write_csv_rows(path, marked);
 }
 
 template <class Row>
@@ -50,14 +28,15 @@ void sort_rows(std::vector<Row>& rows) {
 
 }  // namespace
 
-void ObservationTruth::add(const Scene& scene, int ping, SyntheticPing made) {
-  product_.pings.push_back(navigation_at(scene, scene.seconds_of(ping)));
-  for (SchoolTruth& school : made.schools) {
+void ObservationTruth::add(const PingNavigation& navigation, std::vector<SchoolTruth> schools,
+                           std::vector<BodyTruth> bodies) {
+  product_.pings.push_back(navigation);
+  for (SchoolTruth& school : schools) {
     school.row.observation = product_.observation;
     product_.masks.push_back({school.row.school_id, school.row.ping_index, std::move(school.mask)});
     product_.school_pings.push_back(std::move(school.row));
   }
-  for (BodyTruth& body : made.bodies) {
+  for (BodyTruth& body : bodies) {
     body.observation = product_.observation;
     bodies_.push_back(std::move(body));
   }
@@ -66,14 +45,14 @@ void ObservationTruth::add(const Scene& scene, int ping, SyntheticPing made) {
 SurveyTruth::SurveyTruth(std::filesystem::path folder, std::string title, std::string program_version)
     : folder_(std::move(folder)), title_(std::move(title)), program_version_(std::move(program_version)) {}
 
-Result<void> SurveyTruth::add(ObservationTruth observation, const SyntheticSonar& sonar) {
+Result<void> SurveyTruth::add(ObservationTruth observation, const std::optional<GridRecord>& grid) {
   ObservationProduct& product = observation.product_;
   product.program_version = program_version_;
   product.title = title_ + ": truth";
   product.source = "MS70 SYNTHETIC";
   product.history = "what the synthetic sonar knows of its own schools";
   product.recipe_json = "{}";
-  product.grid = sonar.grid();
+  product.grid = grid;
   sort_rows(product.school_pings);
   sort_rows(product.masks);
   sort_rows(observation.bodies_);

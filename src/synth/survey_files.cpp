@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "synth/survey_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "base/check.h"
+#include "synth/nmea.h"
+
+namespace sonar::synth {
+namespace {
+
+constexpr const char* kRawPrefix = "SYNTHETIC-D";
+constexpr double kWaterTemperature_c = 8.0;
+
+bool is_raw_file(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return extension == ".raw";
+}
+
+void append_navigation(RawBytes& bytes, const Voyage& voyage, TimeNs after, TimeNs until) {
+  for (TimeNs t = (after / kSecondNs + 1) * kSecondNs; t <= until; t += kSecondNs) {
+    const double seconds = static_cast<double>(t - voyage.first_ping) / static_cast<double>(kSecondNs);
+    for (const std::string& sentence : nmea_second(navigation_at(voyage, seconds))) append_nme0(bytes, t, sentence);
+  }
+}
+
+void append_channels(RawBytes& bytes, const PingNavigation& navigation, const std::vector<Beam>& beams,
+                     const std::vector<ChannelCounts>& channels) {
+  for (const ChannelCounts& made : channels) {
+    const Beam& beam = beams[static_cast<std::size_t>(made.channel)];
+    ChannelPing raw;
+    raw.channel = made.channel;
+    raw.frequency_hz = beam.frequency_hz;
+    raw.transmit_power_w = beam.power_w;
+    raw.pulse_length_s = kPulseLength_s;
+    raw.bandwidth_hz = 1.0 / kPulseLength_s;
+    raw.sample_interval_s = kSampleInterval_s;
+    raw.sound_speed_mps = kSoundSpeed_mps;
+    raw.absorption_db_per_m = beam.absorption_db_per_m;
+    raw.roll_deg = navigation.roll_deg;
+    raw.pitch_deg = navigation.pitch_deg;
+    raw.temperature_c = kWaterTemperature_c;
+    raw.heading_deg = navigation.heading_deg;
+    raw.mode = 1;
+    raw.power_count = made.counts;
+    SONAR_CHECK(append_raw0(bytes, navigation.time, raw).has_value());
+  }
+}
+
+}  // namespace
+
+Result<void> prepare_folder(const std::filesystem::path& out, bool force) {
+  std::error_code problem;
+  std::filesystem::create_directories(out, problem);
+  if (problem) return fail(ErrorCode::io, "cannot make the folder: " + problem.message(), {.file = out.string()});
+  if (force) return {};
+  for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
+    if (is_raw_file(entry.path())) {
+      return fail(ErrorCode::usage, "the folder already holds raw files; choose another, or --force",
+                  {.file = out.string()});
+    }
+  }
+  if (problem) return fail(ErrorCode::io, "cannot list the folder: " + problem.message(), {.file = out.string()});
+  return {};
+}
+
+Result<void> remove_earlier(const std::filesystem::path& out) {
+  std::error_code problem;
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
+    if (is_raw_file(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix)) {
+      earlier.push_back(entry.path());
+    }
+  }
+  const std::filesystem::path truth = out / "truth";
+  for (const auto& entry : std::filesystem::directory_iterator(truth, problem)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("obs-") && name.ends_with(".nc")) earlier.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : earlier) {
+    std::filesystem::remove(file, problem);
+    if (problem) return fail(ErrorCode::io, "cannot remove: " + problem.message(), {.file = file.string()});
+  }
+  return {};
+}
+
+std::uint64_t bytes_of(const Voyage& voyage, const std::vector<Beam>& beams) {
+  constexpr std::uint64_t kRaw0 = 92;
+  constexpr std::uint64_t kOther = 4096;  // navigation, and the product of the truth
+  std::uint64_t ping = kOther;
+  for (const Beam& beam : beams) ping += kRaw0 + 2 * static_cast<std::uint64_t>(beam.count);
+  return (1 << 21) + ping * static_cast<std::uint64_t>(voyage.pings);
+}
+
+PingBytes ping_bytes(const Voyage& voyage, int ping, const std::vector<Beam>& beams,
+                     const std::vector<ChannelCounts>& channels) {
+  PingBytes made;
+  const TimeNs time = voyage.time_of(ping);
+  const TimeNs before = ping > 0 ? voyage.time_of(ping - 1) : time - 2 * kSecondNs;
+  made.first_time = std::min(time, (before / kSecondNs + 1) * kSecondNs);
+  append_navigation(made.bytes, voyage, before, time);
+  append_channels(made.bytes, navigation_at(voyage, voyage.seconds_of(ping)), beams, channels);
+  // Two more seconds, so that the last ping lies between two fixes.
+  if (ping + 1 == voyage.pings) append_navigation(made.bytes, voyage, time, time + 2 * kSecondNs);
+  return made;
+}
+
+SurveyFiles::SurveyFiles(std::filesystem::path folder, SounderConfig config, double file_mb)
+    : folder_(std::move(folder)), config_(std::move(config)), limit_(static_cast<std::uint64_t>(file_mb * 1e6)) {
+  config_.con1_xml = con1_xml(config_);
+}
+
+Result<void> SurveyFiles::add(const PingBytes& ping) {
+  if (file_ && file_->size() + ping.bytes.size() > limit_) {
+    if (auto closed = close(); !closed) return closed;
+  }
+  if (!file_) {
+    if (auto begun = begin(ping.first_time); !begun) return begun;
+  }
+  return file_->write(ping.bytes);
+}
+
+Result<void> SurveyFiles::close() {
+  if (!file_) return {};
+  auto finished = file_->finish();
+  bytes_ += file_->size();
+  file_.reset();
+  return finished;
+}
+
+Result<void> SurveyFiles::begin(TimeNs time) {
+  auto file = RawFileWriter::create(folder_ / fmt::format("{}{}.raw", kRawPrefix, raw_name_time(time)));
+  if (!file) return pass_on(file);
+  file_.emplace(std::move(*file));
+  files_.push_back(file_->path());
+  RawBytes head;
+  append_con0(head, time, config_);
+  append_con1(head, time, config_.con1_xml);
+  return file_->write(head);
+}
+
+}  // namespace sonar::synth

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "io/simrad/writer.h"
+#include "synth/beam_table.h"
+#include "synth/voyage.h"
+
+namespace sonar::synth {
+
+inline constexpr const char* kSurveyName = "SYNTHETIC survey, made by Sonar Explorer";
+
+/// Makes the folder of a survey.
+/// force     it may hold raw files
+/// errors    io; usage: it holds raw files
+[[nodiscard]] Result<void> prepare_folder(const std::filesystem::path& out, bool force);
+/// Takes an earlier survey out of the folder, so that no file of it stands among those of the next.
+/// errors    io
+[[nodiscard]] Result<void> remove_earlier(const std::filesystem::path& out);
+/// What an observation takes on disk at most, its truth included.
+[[nodiscard]] std::uint64_t bytes_of(const Voyage& voyage, const std::vector<Beam>& beams);
+
+struct SimulateResult {
+  std::vector<std::filesystem::path> files;
+  std::uint64_t bytes = 0;
+  std::int64_t pings = 0;
+  std::int64_t schools = 0;  ///< with at least one ping in the truth
+};
+
+/// What one channel recorded in a ping.
+struct ChannelCounts {
+  int channel = 0;
+  std::span<const std::int16_t> counts;  ///< [sample], re 1 W
+};
+
+/// One ping's datagrams, with what the instruments said since the ping before.
+struct PingBytes {
+  TimeNs first_time = 0;  ///< of its first datagram
+  RawBytes bytes;
+};
+/// channels  rising
+[[nodiscard]] PingBytes ping_bytes(const Voyage& voyage, int ping, const std::vector<Beam>& beams,
+                                   const std::vector<ChannelCounts>& channels);
+
+/// The survey's files, one after the other.
+class SurveyFiles {
+ public:
+  SurveyFiles(std::filesystem::path folder, SounderConfig config, double file_mb);
+
+  /// errors  io, no_space
+  Result<void> add(const PingBytes& ping);
+  /// The next ping begins a new file.
+  /// errors  io, no_space
+  Result<void> close();
+
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  Result<void> begin(TimeNs time);
+
+  std::filesystem::path folder_;
+  SounderConfig config_;
+  std::uint64_t limit_;
+  std::optional<RawFileWriter> file_;
+  std::vector<std::filesystem::path> files_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace sonar::synth
