@@ -5,9 +5,12 @@
 
 #include <array>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
@@ -18,13 +21,15 @@
 #include "pipeline/json_parameters.h"
 #include "pipeline/parameter_table.h"
 #include "pipeline/survey.h"
+#include "synth/array/simulate.h"
 
 namespace sonar {
 namespace {
 
 struct SimulateOptions {
   std::string out;
-  std::string preset = "standard";
+  std::string physics = "standard";
+  std::string preset;
   std::string beams;
   std::optional<int> seed;
   std::optional<int> observations;
@@ -34,6 +39,7 @@ struct SimulateOptions {
   std::optional<double> noise;
   std::optional<double> file_mb;
   std::string beam_pattern;
+  std::string waters;
   std::string params;
   bool print_params = false;
   bool describe = false;
@@ -48,7 +54,8 @@ void take(const std::optional<T>& option, T& field) {
 }
 
 /// Fills what a file names. errors: io, format; bad_parameter naming the member
-Result<void> take_file(const std::string& path, synth::SurveyParams& params) {
+template <class Params>
+Result<void> take_file(const std::string& path, Params& params) {
   const auto json = read_json_file(path);
   if (!json) return pass_on(json);
   JsonReader reader(*json);
@@ -56,6 +63,18 @@ Result<void> take_file(const std::string& path, synth::SurveyParams& params) {
   reader.finish();
   if (!reader.problem().empty()) return fail(ErrorCode::bad_parameter, reader.problem(), {path});
   return {};
+}
+
+/// The options that every physics has.
+template <class Params>
+void take_options(const SimulateOptions& o, Params& p) {
+  take(o.seed, p.seed);
+  take(o.observations, p.observations);
+  take(o.pings, p.pings);
+  take(o.schools, p.schools);
+  take(o.speed_knots, p.speed_knots);
+  take(o.file_mb, p.file_mb);
+  if (o.no_fish) p.schools = 0;
 }
 
 Result<synth::SurveyParams> parameters(const SimulateOptions& o) {
@@ -67,14 +86,8 @@ Result<synth::SurveyParams> parameters(const SimulateOptions& o) {
   if (!o.params.empty()) {
     if (auto taken = take_file(o.params, p); !taken) return pass_on(taken);
   }
-  take(o.seed, p.seed);
-  take(o.observations, p.observations);
-  take(o.pings, p.pings);
-  take(o.schools, p.schools);
-  take(o.speed_knots, p.speed_knots);
+  take_options(o, p);
   take(o.noise, p.noise.scale);
-  take(o.file_mb, p.file_mb);
-  if (o.no_fish) p.schools = 0;
   for (std::size_t i = 0; i < synth::kBeamPatternNames.size(); ++i) {
     if (synth::kBeamPatternNames[i] == o.beam_pattern) p.beam_pattern = static_cast<synth::BeamPattern>(i);
   }
@@ -89,7 +102,67 @@ constexpr std::array<OptionOf, 7> kOptions{{{"seed", "--seed"},
                                             {"noise.scale", "--noise"},
                                             {"file_mb", "--file-mb"}}};
 
-int simulate(const SimulateOptions& o) {
+/// errors  usage: an option that belongs to the other physics
+Result<void> only_for(std::string_view physics, std::initializer_list<std::pair<std::string_view, bool>> options) {
+  for (const auto& [name, given] : options) {
+    if (given) return fail(ErrorCode::usage, fmt::format("{} belongs to --physics {}", name, physics));
+  }
+  return {};
+}
+
+Result<synth::array::ArrayParams> array_parameters(const SimulateOptions& o) {
+  const auto own = only_for("standard", {{"--preset", !o.preset.empty()},
+                                         {"--beams", !o.beams.empty()},
+                                         {"--beam-pattern", !o.beam_pattern.empty()},
+                                         {"--noise", o.noise.has_value()}});
+  if (!own) return pass_on(own);
+  synth::array::ArrayParams p;
+  if (!o.params.empty()) {
+    if (auto taken = take_file(o.params, p); !taken) return pass_on(taken);
+  }
+  take_options(o, p);
+  if (!o.waters.empty()) p.waters = o.waters == "random" ? synth::array::Waters::random : synth::array::Waters::stated;
+  return p;
+}
+
+/// What is printed instead of a survey; false = a survey is wanted.
+template <class Params>
+bool print_instead(const SimulateOptions& o, Params& params) {
+  if (o.print_params) {
+    JsonWriter writer;
+    describe(writer, params);
+    fmt::print("{}\n", writer.json().dump(2));
+  } else if (o.describe) {
+    ParameterTable table("The survey");
+    describe(table, params);
+    fmt::print("{}", table.markdown());
+  }
+  return o.print_params || o.describe;
+}
+
+/// Makes the survey and says what was made.
+template <class Make>
+int write_survey(const SimulateOptions& o, std::int64_t wanted_schools, const Make& make) {
+  if (o.out.empty())
+    return report({ErrorCode::usage, "OUT is required: the folder to write into; see sonarx simulate --help", {}});
+  if (auto clear = require_not_beneath_raw(o.out); !clear) return report(clear.error());
+  Work work(o.jobs);
+  const CancelOnInterrupt watch(work);
+  show_progress(work);
+  const auto made = make(work);
+  clear_progress();
+  if (!made) return report(naming_option(made.error(), kOptions));
+  fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
+             static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
+  if (made->schools < wanted_schools) {
+    fmt::print(stderr, "sonarx: {}: {} of {} schools had room where the sonar sees them; more pings have more room\n",
+               o.out, made->schools, wanted_schools);
+  }
+  return kExitDone;
+}
+
+int simulate_standard(const SimulateOptions& o) {
+  if (auto own = only_for("array", {{"--waters", !o.waters.empty()}}); !own) return report(own.error());
   std::vector<synth::Beam> beams = synth::ms70_beams();
   if (!o.beams.empty()) {
     auto table = synth::read_beam_table(o.beams);
@@ -98,38 +171,25 @@ int simulate(const SimulateOptions& o) {
   }
   auto params = parameters(o);
   if (!params) return report(params.error());
-  if (o.print_params) {
-    JsonWriter writer;
-    describe(writer, *params);
-    fmt::print("{}\n", writer.json().dump(2));
-    return kExitDone;
-  }
-  if (o.describe) {
-    ParameterTable table("The survey");
-    describe(table, *params);
-    fmt::print("{}", table.markdown());
-    return kExitDone;
-  }
-  if (o.out.empty())
-    return report({ErrorCode::usage, "OUT is required: the folder to write into; see sonarx simulate --help", {}});
-  if (auto clear = require_not_beneath_raw(o.out); !clear) return report(clear.error());
-  Work work(o.jobs);
-  const CancelOnInterrupt watch(work);
-  show_progress(work);
-  const auto made = synth::simulate_survey(o.out, *params, beams, o.force, SONAR_VERSION, work);
-  clear_progress();
-  if (!made) return report(naming_option(made.error(), kOptions));
-  fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
-             static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
-  if (params->preset == synth::Preset::demo && o.observations) {
+  if (print_instead(o, *params)) return kExitDone;
+  const bool demo = params->preset == synth::Preset::demo;
+  const std::int64_t wanted = demo ? 0 : std::int64_t{params->observations} * params->schools;
+  const int code = write_survey(o, wanted, [&](Work& work) {
+    return synth::simulate_survey(o.out, *params, beams, o.force, SONAR_VERSION, work);
+  });
+  if (code == kExitDone && demo && o.observations) {
     fmt::print(stderr, "note: the demo has its own observations; --observations was not used\n");
   }
-  const std::int64_t wanted = std::int64_t{params->observations} * params->schools;
-  if (params->preset != synth::Preset::demo && made->schools < wanted) {
-    fmt::print(stderr, "sonarx: {}: {} of {} schools had room where the sonar sees them; more pings have more room\n",
-               o.out, made->schools, wanted);
-  }
-  return kExitDone;
+  return code;
+}
+
+int simulate_array(const SimulateOptions& o) {
+  auto params = array_parameters(o);
+  if (!params) return report(params.error());
+  if (print_instead(o, *params)) return kExitDone;
+  return write_survey(o, std::int64_t{params->observations} * params->schools, [&](Work& work) {
+    return synth::array::simulate_array_survey(o.out, *params, o.force, SONAR_VERSION, work);
+  });
 }
 
 }  // namespace
@@ -140,9 +200,13 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
       "simulate",
       "Write a synthetic MS70 survey as .raw files, and its truth (schools, masks, the seabed as depth.tif)");
   verb->add_option("OUT", o->out, "Folder to write into")->check(named_path());
-  verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo")
-      ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}))
+  verb->add_option("--physics", o->physics,
+                   "How echoes are made: standard (this program's own sonar equation) or array (sums over "
+                   "array elements and single fish)")
+      ->check(CLI::IsMember({"standard", "array"}))
       ->capture_default_str();
+  verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo; standard if not said")
+      ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}));
   verb->add_option("--seed", o->seed, "Every random number follows from it");
   verb->add_option("--observations", o->observations, "Number of observations (the demo has three)");
   verb->add_option("--pings", o->pings, "Pings in each observation");
@@ -153,6 +217,10 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "Shape of the beams: gaussian, uniform_line (with side lobes), or sending wider than receiving: "
                    "wide_transmit (both ways), wide_fan (along the fan)")
       ->check(CLI::IsMember({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
+  verb->add_option(
+          "--waters", o->waters,
+          "Array physics: the company's strengths as the parameters state them, or drawn from the seed (random)")
+      ->check(CLI::IsMember({"stated", "random"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
   auto* print =
       verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
@@ -164,7 +232,8 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_flag("--force", o->force,
                  "Write into a folder that already holds raw files; a simulated survey there is replaced");
   verb->add_option("--jobs", o->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
-  verb->callback([o, &run] { run = [o] { return simulate(*o); }; });
+  verb->callback(
+      [o, &run] { run = [o] { return o->physics == "array" ? simulate_array(*o) : simulate_standard(*o); }; });
 }
 
 }  // namespace sonar

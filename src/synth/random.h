@@ -33,7 +33,17 @@ enum class Purpose : std::uint32_t {
   impulse,
   lost,
   beam_noise,
-  relief
+  relief,
+  // The array's physics (synth/array).
+  water,
+  element,
+  school,
+  fish,
+  milling,
+  cloud,
+  sea,
+  diffuse,
+  other_sounder
 };
 
 /// A stream of random numbers, one for each (seed, observation, ping, channel, purpose).
