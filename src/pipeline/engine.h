@@ -18,6 +18,7 @@
 #include "school/background.h"
 #include "school/dead_reckoning.h"
 #include "school/filtered_ping.h"
+#include "school/judge/ping_echo.h"
 #include "school/seabed.h"
 #include "signal/flags.h"
 
@@ -31,11 +32,10 @@ struct StagedPing {
   Seabed seabed;
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
-  std::optional<WaterLevels> water;   ///< where a reduced file brings them; else to be found
+  std::optional<WaterLevels> water;   ///< where a reduced file brings them; else its neighbours are needed to tell
+  Array3<float> means;                ///< short_means() of the unfiltered Sv; empty where water is known
 
-  [[nodiscard]] Background background() const {
-    return {background_db, calibration->view(), water ? &*water : nullptr};
-  }
+  [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
 };
 
 /// "Stage S of ping i, please" for one observation under one recipe. Nothing is kept but what neighbouring pings share
@@ -74,8 +74,10 @@ class Engine {
   /// Background of a ping by row, dB re 1 W, rounded to float as it is stored; empty where it is not subtracted.
   [[nodiscard]] std::vector<float> background_db(std::int64_t ping_index) const;
 
-  /// The recipe's, fitted to the filter's box.
-  [[nodiscard]] DetectParams detect_params() const;
+  /// Water levels told by a ping alone, where its neighbours are not at hand.
+  [[nodiscard]] WaterLevels own_water(const StagedPing& ping) const;
+  /// A ping as detection sees it. water  its levels; outlives what is returned, as the ping does
+  [[nodiscard]] PingEcho echo(const StagedPing& ping, const WaterLevels& water) const;
 
   /// All stages up to the seabed. errors: as load_volume()
   [[nodiscard]] Result<StagedPing> staged(std::int64_t ping_index);

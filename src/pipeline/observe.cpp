@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -14,11 +13,12 @@
 #include "base/hash.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/state.h"
+#include "pipeline/detect_pings.h"
 #include "pipeline/earlier.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
-#include "school/detect.h"
+#include "school/detect_params.h"
 #include "school/track.h"
 
 namespace sonar {
@@ -41,43 +41,11 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
   }
 }
 
-std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
-  std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
-  std::vector<std::string> problems(pings.size());
-  std::atomic<std::int64_t> done{0};
-  const DetectParams params = engine.detect_params();
-  work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
-    const std::int64_t ping_index = reach.first + i;
-    DetectedPing& detected = pings[static_cast<std::size_t>(i)];
-    detected.ping_index = ping_index;
-    detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
-    detected.placement = engine.tracking_placement(ping_index);
-    if (engine.is_bad(ping_index)) return;
-    auto ping = engine.staged(ping_index);
-    if (!ping) {
-      problems[static_cast<std::size_t>(i)] = ping.error().text;
-    } else {
-      detected.detections =
-          detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-                 engine.sector(), ping->background(), params, ping->seabed);
-      ping->sv.flags = {};  // measuring looks at those with the seabed
-      if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
-    }
-    work.progress("detecting", ++done, static_cast<std::int64_t>(pings.size()));
-  });
-  for (std::size_t i = 0; i < pings.size(); ++i) {
-    if (problems[i].empty()) continue;
-    product.pings[static_cast<std::size_t>(pings[i].ping_index)].bad = true;
-    product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, pings[i].ping_index, problems[i]});
-  }
-  // To the tracker such a ping never was: that no school shows there says nothing.
-  std::erase_if(pings, [&](const DetectedPing& ping) { return engine.is_bad(ping.ping_index); });
-  return pings;
-}
-
 std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const DetectedPing> pings,
                                          std::vector<TrackEvent>& events) {
-  const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, engine.recipe().track);
+  TrackParams params = engine.recipe().track;
+  params.evidence = evidence_wanted(engine.recipe().detect);
+  const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, params);
   std::vector<SchoolMasks> schools;
   for (const SchoolTrack& of_school : tracks.schools) {
     SchoolMasks school;
@@ -309,7 +277,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   JournalState state;
   std::vector<TrackEvent> events;
   if (automatic) {
-    const std::vector<DetectedPing> detected = detect_all(engine, reach, product, work);
+    const std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     state = state_of_detected(numbered(tracked_schools(engine, detected, events), engine.grid()));
   }

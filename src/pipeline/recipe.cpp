@@ -87,12 +87,6 @@ Result<Recipe> recipe_from_text(std::string_view text) {
                 fmt::format("track.confirm_pings = {} is more than track.confirm_window = {}: no school could be seen",
                             recipe.track.confirm_pings, recipe.track.confirm_window));
   }
-  if (recipe.detect.ring_water_first < recipe.detect.ring_water_end) {
-    return fail(
-        ErrorCode::bad_parameter,
-        fmt::format("detect.ring_water_first = {} is less than detect.ring_water_end = {}: no water lies between",
-                    recipe.detect.ring_water_first, recipe.detect.ring_water_end));
-  }
   if (auto valid = check_beams(recipe.calibration.beams); !valid) return pass_on(valid);
   return recipe;
 }

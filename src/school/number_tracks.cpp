@@ -3,6 +3,7 @@
 #include <array>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "school/open_track.h"
 #include "school/runs.h"
@@ -11,10 +12,25 @@
 namespace sonar {
 namespace {
 
-bool confirmed(const OpenTrack& track, const TrackParams& params) {
+/// Where the ping of this index stands in the list.
+std::span<const DetectedPing>::iterator ping_of(std::span<const DetectedPing> pings, std::int64_t ping_index) {
+  return std::lower_bound(pings.begin(), pings.end(), ping_index,
+                          [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
+}
+
+/// Whether pings near each other show it clearly; fainter sights only carry it on.
+bool confirmed(const OpenTrack& track, std::span<const DetectedPing> pings, const TrackParams& params) {
+  std::vector<std::int64_t> clear;
+  for (const TrackedDetection& seen : track.pings) {
+    const DetectedPing& ping = *ping_of(pings, seen.ping_index);
+    const bool is_clear = std::any_of(seen.detections.begin(), seen.detections.end(), [&](int d) {
+      return ping.detections[static_cast<std::size_t>(d)].evidence >= params.evidence;
+    });
+    if (is_clear) clear.push_back(seen.ping_index);
+  }
   const auto wanted = static_cast<std::size_t>(params.confirm_pings);
-  for (std::size_t i = 0; i + wanted <= track.pings.size(); ++i) {
-    if (track.pings[i + wanted - 1].ping_index - track.pings[i].ping_index < params.confirm_window) return true;
+  for (std::size_t i = 0; i + wanted <= clear.size(); ++i) {
+    if (clear[i + wanted - 1] - clear[i] < params.confirm_window) return true;
   }
   return false;
 }
@@ -22,8 +38,7 @@ bool confirmed(const OpenTrack& track, const TrackParams& params) {
 /// (first ping, channel, sample) of the first mask's first voxel.
 std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const DetectedPing> pings,
                                       std::span<const int> channel_of_row) {
-  const auto at = std::lower_bound(pings.begin(), pings.end(), track.pings.front().ping_index,
-                                   [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
+  const auto at = ping_of(pings, track.pings.front().ping_index);
   std::array<std::int64_t, 3> key{track.pings.front().ping_index, INT64_MAX, INT64_MAX};
   for (const int d : track.pings.front().detections) {
     for (const Run& run : at->detections[static_cast<std::size_t>(d)].mask.runs) {
@@ -44,7 +59,7 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
                      std::span<const DetectedPing> pings, std::span<const int> channel, const TrackParams& params) {
   std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
   for (const OpenTrack& track : closed) {
-    if (!confirmed(track, params) || stays_with_ship(track.pings, pings, params)) continue;
+    if (!confirmed(track, pings, params) || stays_with_ship(track.pings, pings, params)) continue;
     order.emplace_back(order_key(track, pings, channel), &track);
   }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -14,14 +14,11 @@
 #include "base/units.h"
 #include "model/school.h"
 #include "school/seabed_echoes.h"
-#include "school/seabed_flank.h"
 #include "school/seabed_hills.h"
 #include "school/seabed_plane.h"
 
 namespace sonar {
 namespace {
-
-constexpr double kTwoWayHalfPower_db = 6.02;  ///< half a one-way -3 dB width off the axis
 
 class SeabedFinder {
  public:
@@ -46,13 +43,10 @@ class SeabedFinder {
     seabed.slope_y = plane->slope_y;
     seabed.confidence = seen;
     bounds(*plane, seabed);
-    const double strength = strength_db(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, strength, row);
+      seabed.first_sample[static_cast<std::size_t>(row)] = ground_sample(*plane, row);
     }
-    const std::vector<std::int32_t> of_plane = seabed.first_sample;
-    if (params_.hills) find_hills(water_, long_, *plane, strength, width_deg_, seabed.first_sample);
-    open_flank(water_, ground_of(*plane, strength, of_plane, seabed.first_sample), seabed);
+    if (params_.hills) find_hills(water_, long_, *plane, strength_db(*plane), width_deg_, seabed.first_sample);
     return seabed;
   }
 
@@ -235,100 +229,6 @@ class SeabedFinder {
     }
   }
 
-  /// Where along a beam the plane is expected: flat beams see it loudest by their lower flank, where it is nearer and
-  /// steeper.
-  struct Expected {
-    double loudest_m = std::numeric_limits<double>::infinity();
-    double first_m = std::numeric_limits<double>::infinity();  ///< as loud as the onset
-  };
-  [[nodiscard]] Expected expected(const SeabedPlane& plane, double strength_db, int row, double width_rad) const {
-    constexpr int kSteps = 24;
-    Expected out;
-    double best_db = -std::numeric_limits<double>::infinity();
-    for (int k = 0; k <= kSteps; ++k) {
-      const double off_rad = params_.edge_widths * width_rad * k / kSteps;
-      const Point<Sonar> u = axis(row, off_rad);
-      const double range_m = plane.range(u);
-      if (!std::isfinite(range_m)) continue;
-      const double off_widths = off_rad / width_rad;
-      const double level_db =
-          strength_db + plane.lambert_db(u, range_m) - 4.0 * kTwoWayHalfPower_db * off_widths * off_widths;
-      if (level_db > best_db) {
-        best_db = level_db;
-        out.loudest_m = range_m;
-      }
-      if (level_db >= params_.onset_db) out.first_m = range_m;  // later ones are nearer
-    }
-    return out;
-  }
-
-  /// First sample of the seabed in a beam: from the axis' meeting point back along the echo, but not nearer than the
-  /// beam's lower flank could see it, and the margin before that.
-  [[nodiscard]] int onset(const SeabedPlane& plane, double strength_db, int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    const int samples = sv_.shape().samples;
-    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
-    const RangeAxis& axis_m = sector_.range();
-    const double nearest_m = plane.range(axis(row, params_.edge_widths * width));
-    const double on_axis_m = plane.range(axis(row));
-    if (!(nearest_m <= axis_m.range_m(samples - 1))) return samples;
-    const double last_m = axis_m.range_m(samples - 1);
-    const Expected expect = expected(plane, strength_db, row, width);
-    const int from = static_cast<int>(axis_m.sample_at(std::min(expect.loudest_m, last_m)));
-    const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
-    const auto counts = sv_.row(row);
-    const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
-    const int gap = std::max(1, static_cast<int>(params_.onset_gap_m / axis_m.spacing_m));
-    int first = on_axis_m <= last_m ? static_cast<int>(axis_m.sample_at(on_axis_m)) : samples;
-    for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
-      const bool loud = counts[static_cast<std::size_t>(s)] >= level;
-      if (loud) first = s;
-      quiet = loud ? 0 : quiet + 1;
-    }
-    // speckle hides parts of the flank, and schools must not be made of the rest
-    if (expect.first_m <= last_m) first = std::min(first, static_cast<int>(axis_m.sample_at(expect.first_m)));
-    if (first >= samples) return samples;
-    return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
-  }
-
-  /// What is known of the ground in each beam; beams that hills end have no more to tell.
-  [[nodiscard]] Ground ground_of(const SeabedPlane& plane, double strength_db,
-                                 const std::vector<std::int32_t>& of_plane,
-                                 const std::vector<std::int32_t>& with_hills) const {
-    Ground ground{plane, roughness_m(plane), {}, {}};
-    for (int row = 0; row < static_cast<int>(of_plane.size()); ++row) {
-      const auto r = static_cast<std::size_t>(row);
-      ground.loudest.push_back(with_hills[r] == of_plane[r] ? loudest_sample(plane, strength_db, row) : -1);
-      ground.first.push_back(ground_sample(plane, row));
-    }
-    return ground;
-  }
-
-  /// Of the ground about the plane: spread of the depths of each beam's echo that is nearest to it.
-  [[nodiscard]] double roughness_m(const SeabedPlane& plane) const {
-    std::vector<double> nearest;
-    int row = -1;
-    for (const SeabedEcho& echo : echoes_) {
-      const double off_m = std::abs(plane.z(echo.place.x, echo.place.y) - echo.place.z);
-      if (echo.row != row) nearest.push_back(off_m);
-      if (off_m < nearest.back()) nearest.back() = off_m;
-      row = echo.row;
-    }
-    constexpr double kOneSigma = 0.6827;
-    const auto last = static_cast<double>(nearest.size() - 1);
-    const auto rank = nearest.begin() + static_cast<std::ptrdiff_t>(kOneSigma * last);
-    std::nth_element(nearest.begin(), rank, nearest.end());
-    return *rank;
-  }
-
-  /// Where along a beam the plane is loudest; may lie beyond the record.
-  [[nodiscard]] int loudest_sample(const SeabedPlane& plane, double strength_db, int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
-    const double range_m = expected(plane, strength_db, row, width).loudest_m;
-    const double sample = sector_.range().sample_at(range_m);
-    return sample < 1e6 ? static_cast<int>(sample) : -1;
-  }
   /// From where on a beam's axis is within the margin of the plane.
   [[nodiscard]] int ground_sample(const SeabedPlane& plane, int row) const {
     const Point<Sonar> u = axis(row);
@@ -365,12 +265,10 @@ Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
   if (!seabed.found) return;
   SONAR_CHECK(seabed.first_sample.size() == flags.shape().rows());
-  const bool is_open = !seabed.open.empty();
   for (int row = 0; row < static_cast<int>(flags.shape().rows()); ++row) {
     const auto samples = flags.row(row);
     for (auto s = static_cast<std::size_t>(seabed.first_sample[static_cast<std::size_t>(row)]); s < samples.size();
          ++s) {
-      if (is_open && seabed.open[static_cast<std::size_t>(row)].holds(static_cast<std::int32_t>(s))) continue;
       if (!any(samples[s] & SampleFlags::lost)) samples[s] |= SampleFlags::seabed;
     }
   }

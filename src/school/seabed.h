@@ -38,19 +38,6 @@ struct SeabedParams {
   double reach_share = 0.9;
   double min_dip = 0.3;
   double onset_gap_m = 4.0;
-  double flank_rise_db = 8.0;
-  double flank_share = 0.5;
-  int flank_beams = 8;
-  double flank_least_m = 4.0;
-  double flank_lift_m = 2.0;
-  double flank_slack_m = 3.0;
-  int flank_rows = 4;
-  double flank_dip_db = 4.0;
-  double flank_apart_share = 0.05;
-  double flank_smooth_m = 1.5;
-  double flank_top_db = 6.0;
-  double flank_before_m = 40.0;
-  double flank_sigmas = 3.0;
   bool hills = true;
   double hill_step_m = 10.0;
   double hill_behind_db = 8.0;
@@ -123,54 +110,6 @@ void describe(Visitor& v, SeabedParams& p) {
            .text = "sine of the depression of the flattest beams that should: others see a faint ramp"});
   v.field("onset_gap_m", p.onset_gap_m,
           {.unit = "m", .min = 0, .max = 100, .text = "a quiet stretch of this length ends the echo"});
-  v.field(
-      "flank_rise_db", p.flank_rise_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 60,
-       .text =
-           "water in which the seabed's flank is heard is a school's where it stands so far above that; 0 = none is"});
-  v.field("flank_share", p.flank_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... which is the quantile over the fan's beams as far before the seabed"});
-  v.field("flank_beams", p.flank_beams, {.unit = "beams", .min = 1, .max = 1000, .text = "... of so many at least"});
-  v.field("flank_least_m", p.flank_least_m,
-          {.unit = "m", .min = 0, .max = 1000, .text = "... along so much of the beam"});
-  v.field("flank_slack_m", p.flank_slack_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "... and with the seabed so much nearer"});
-  v.field("flank_lift_m", p.flank_lift_m,
-          {.unit = "m",
-           .min = 0,
-           .max = 100,
-           .text = "... and with the ground so much higher: flat beams meet that far nearer"});
-  v.field("flank_rows", p.flank_rows,
-          {.unit = "beams", .min = 1, .max = 100000, .text = "... in so many beams that hang together"});
-  v.field("flank_dip_db", p.flank_dip_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "... behind which the seabed is heard as an echo of its own, with such a dip between"});
-  v.field("flank_apart_share", p.flank_apart_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... in so many of these beams; a hill stands out as well, but there its beams end"});
-  v.field("flank_top_db", p.flank_top_db,
-          {.unit = "dB", .min = 0, .max = 60, .text = "... those that hear it no weaker than this below the loudest"});
-  v.field("flank_before_m", p.flank_before_m,
-          {.unit = "m", .min = 0, .max = 500, .text = "... so far before the flank too, where it goes on"});
-  v.field("flank_sigmas", p.flank_sigmas,
-          {.unit = "1",
-           .min = 0,
-           .max = 100,
-           .text = "... and no lower above the seabed than so many times its roughness"});
-  v.field("flank_smooth_m", p.flank_smooth_m,
-          {.unit = "m",
-           .min = 0,
-           .max = 1000,
-           .text = "... a seabed no rougher than this has no hills, and none of its echo need be heard behind"});
   v.field("hills", p.hills, {.text = "what rises out of the plane is seabed too where beams end at it"});
   v.field("hill_step_m", p.hill_step_m,
           {.unit = "m",
@@ -218,14 +157,6 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "m2", .min = 0, .max = 10000, .text = "three echoes on less tell no slope (twice the area)"});
 }
 
-/// Samples of one beam, [first, end).
-struct Stretch {
-  std::int32_t first = 0;
-  std::int32_t end = 0;
-  [[nodiscard]] bool holds(std::int32_t sample) const { return first <= sample && sample < end; }
-  [[nodiscard]] bool empty() const { return end <= first; }
-};
-
 /// The seabed of one ping: a plane in the sonar frame, z = offset_m + slope_x x + slope_y y (z down).
 struct Seabed {
   bool found = false;
@@ -238,7 +169,6 @@ struct Seabed {
   double min_y = 0.0;
   double max_y = 0.0;
   std::vector<std::int32_t> first_sample;  ///< [row] first sample beyond seabed - margin; the sample count = none
-  std::vector<Stretch> open;               ///< [row] water behind that in which a school stands out; empty = in no row
 };
 
 /// Finds the seabed from this ping alone: echoes per beam, a robust plane in metres, its onset along each beam.

@@ -16,6 +16,7 @@
 namespace sonar {
 
 struct TrackParams {
+  double evidence = 0.0;  ///< a clear sight has so much; not a parameter: it follows from DetectParams::false_alarm
   double acceleration_mps2 = 0.05;
   double initial_speed_mps = 2.0;
   double position_share = 0.08;
