@@ -34,7 +34,7 @@ struct RunArguments {
   std::vector<std::string> survey;
   std::string out;
   std::string recipe;
-  std::string calibration;
+  Measured measured;
   std::string session;
   std::string plan;
   std::string only;
@@ -84,10 +84,10 @@ Result<Journal> read_session(const std::string& path) {
 
 /// A recipe that was asked for; else the one that the session's choices were made under; else the default.
 Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
-  if (arguments.recipe.empty() && arguments.calibration.empty() && !journal.recipe.empty()) {
+  if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
     return recipe_from_text(journal.recipe);
   }
-  return chosen_recipe(arguments.recipe, arguments.calibration);
+  return chosen_recipe(arguments.recipe, arguments.measured);
 }
 
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
@@ -253,7 +253,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
   auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables")->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
+  add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
@@ -282,7 +282,7 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
+  add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] {

@@ -171,6 +171,8 @@ void read_grid(Reader& in, ObservationProduct& product) {
   grid.channel = in.values<std::int32_t>(group, "channel", fans * beams);
   grid.vertical_width_deg = in.values<double>(group, "vertical_width", fans * beams);
   grid.horizontal_width_deg = in.values<double>(group, "horizontal_width", fans * beams);
+  if (in.has_variable(group, "psi_stated")) grid.psi_stated_db = in.values<double>(group, "psi_stated", fans * beams);
+  if (in.has_variable(group, "psi_used")) record.psi_used_db = in.values<double>(group, "psi_used", fans * beams);
   record.sample_count = in.values<std::int32_t>(group, "sample_count", fans);
   record.range = {scalar(in, group, "range_of_first_sample"), scalar(in, group, "sample_spacing"), 0};
   const auto count = in.values<std::int32_t>(group, "sample_count_of_grid", 1);

@@ -63,6 +63,7 @@ TEST_F(Product, reads_back_what_was_written) {
   EXPECT_EQ(back->input_files, p.input_files);
   ASSERT_TRUE(back->grid);
   EXPECT_EQ(back->grid->grid, p.grid->grid);
+  EXPECT_EQ(back->grid->psi_used_db, p.grid->psi_used_db);
   EXPECT_EQ(back->grid->range, p.grid->range);
   EXPECT_EQ(back->grid->sample_count, p.grid->sample_count);
   ASSERT_EQ(back->pings.size(), 5U);

@@ -30,6 +30,7 @@ struct GridRecord {
   std::vector<std::int32_t> sample_count;  ///< [fan]
   RangeAxis range;                         ///< first_m unclamped, may be negative
   double sound_speed_mps = 0.0;
+  std::vector<double> psi_used_db;  ///< [fan][beam], what Sv was worked out with; empty = not told
 };
 
 /// One mask in the product's table.

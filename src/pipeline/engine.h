@@ -48,7 +48,9 @@ class Engine {
 
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(observation_.pings.size()); }
   [[nodiscard]] const Sector& sector() const { return sector_; }
-  [[nodiscard]] const BeamGrid& grid() const { return *observation_.grid; }
+  /// With the widths of the recipe's calibration.
+  [[nodiscard]] const BeamGrid& grid() const { return grid_; }
+  [[nodiscard]] const BeamFigures& beam_figures() const { return figures_; }
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
   [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
@@ -99,6 +101,8 @@ class Engine {
   const SurveyFiles& survey_;
   const ObservationFiles& observation_;
   const Recipe recipe_;
+  BeamGrid grid_;
+  BeamFigures figures_;
   Sector sector_;
   CalibrationTables tables_;
   DeadReckoning reckoned_;

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "base/hash.h"
+#include "pipeline/beam_figures.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/earlier.h"
@@ -172,7 +173,8 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
 Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
     return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused ||
-           note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed;
+           note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed ||
+           note.code == DiagnosticCode::psi_against_widths;
   });
   product.recipe_json = recipe_text(engine.recipe());
   product.recipe_hash = recipe_hash(engine.recipe());
@@ -288,10 +290,7 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   }
   // A product must not change with the folder that the survey happens to lie in.
   for (Diagnostic& note : product.diagnostics) note.file = std::filesystem::path(note.file).filename().string();
-  if (observation.grid) {
-    product.grid =
-        GridRecord{*observation.grid, observation.sample_count, observation.range, observation.sound_speed_mps};
-  }
+  if (observation.grid) product.grid = grid_record(observation, recipe.calibration);
   return product;
 }
 

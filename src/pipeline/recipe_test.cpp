@@ -104,9 +104,32 @@ TEST(Recipe, CalibrationsWithOtherColumnsAreRefused) {
   EXPECT_TRUE(taken("channel,gain_db,sa_correction_db,extra_factor_db\n0,25.5,,0\n"));
   const auto misspelt = taken("channel,gain_dB,sa_correction_db,extra_factor_db\n0,20,0,0\n");
   ASSERT_FALSE(misspelt);
-  EXPECT_EQ(to_line(misspelt.error()),
-            "gains.csv: line 1: column 'gain_dB' is none of channel, gain_db, sa_correction_db, extra_factor_db");
+  EXPECT_EQ(to_line(misspelt.error())
+                .find("gains.csv: line 1: column 'gain_dB' is none of channel, gain_db, sa_correction_db, "
+                      "extra_factor_db, psi_db, "),
+            0U);
   EXPECT_FALSE(taken("channel\n0\n"));
+}
+
+// All columns that section 8 of the interfaces names, each with its error, there and back.
+TEST(Recipe, CalibrationsTellBeamAnglesWidthsAndErrors) {
+  const std::string csv =
+      "channel,gain_db,gain_db_se,sa_correction_db,sa_correction_db_se,extra_factor_db,extra_factor_db_se,psi_db,psi_"
+      "db_se,"
+      "width_along_deg,width_along_deg_se,width_athwart_deg,width_athwart_deg_se\n"
+      "3,25.5,0.1,-0.4,0.05,0.2,0.3,-22.5,0.4,6.9,0.06,3.1,0.07\n";
+  Recipe recipe;
+  ASSERT_TRUE(take_calibration_table(recipe, *parse_csv(csv, "gains.csv")));
+  EXPECT_EQ(recipe.calibration.psi, PsiSource::table) << "whoever gives angles wants them used";
+  const BeamCalibration expected{3, 25.5, -0.4, 0.2, -22.5, 6.9, 3.1, 0.1, 0.05, 0.3, 0.4, 0.06, 0.07};
+  const auto again = recipe_from_text(recipe_text(recipe));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->calibration.beams, std::vector{expected});
+  Recipe gains_alone;
+  ASSERT_TRUE(take_calibration_table(gains_alone, *parse_csv("channel,gain_db\n0,25.5\n", "gains.csv")));
+  EXPECT_EQ(gains_alone.calibration.psi, PsiSource::stated);
+  EXPECT_FALSE(taken("channel,width_along_deg\n0,0\n"));
+  EXPECT_FALSE(taken("channel,gain_db_se\n0,-0.1\n"));
 }
 
 TEST(Recipe, BeamCalibrationsAreNumbersUnderKnownNames) {
