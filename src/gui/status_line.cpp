@@ -48,9 +48,19 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   bar.setValue(static_cast<int>(progress.done));
 }
 
+/// The action that the last notice offers, as a button beside it.
+void show_offer(QPushButton& button, const Desk& desk) {
+  const Action* action = desk.actions.find(desk.workspace.document.offer());
+  button.setVisible(action != nullptr);
+  if (action == nullptr) return;
+  button.setText(QString::fromStdString(action->text));
+  button.setToolTip(QString::fromStdString(action->tip));
+}
+
 }  // namespace
 
-void add_status_line(QMainWindow& window, Workspace& workspace) {
+void add_status_line(QMainWindow& window, Desk& desk) {
+  Workspace& workspace = desk.workspace;
   QStatusBar* status = window.statusBar();
   // A line of text, not a label: a label's new text has the whole window laid out anew.
   auto* cursor = new QLineEdit(status);
@@ -64,7 +74,13 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   auto* cancel = new QPushButton("Cancel", status);
   cancel->setFlat(true);
   keep_own_keys(*cancel);
+  auto* offer = new QPushButton(status);
+  offer->setObjectName("offer");
+  offer->setFlat(true);
+  offer->hide();
+  keep_own_keys(*offer);
   status->addWidget(cursor, 1);
+  status->addPermanentWidget(offer);
   status->addPermanentWidget(bar);
   status->addPermanentWidget(cancel);
   // What comes and goes must not push the views about.
@@ -74,6 +90,11 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   QObject::connect(cancel, &QPushButton::clicked, status, [&workspace] {
     Document& document = workspace.document;
     document.progress().stage.empty() ? document.stop_propagation() : document.cancel();
+  });
+  QObject::connect(offer, &QPushButton::clicked, status, [&desk, offer] {
+    offer->hide();
+    const Action* action = desk.actions.find(desk.workspace.document.offer());
+    if (action != nullptr && (!action->enabled || action->enabled())) action->run();
   });
   const auto told = std::make_shared<QElapsedTimer>();
   const auto read = [cursor, status, told, &workspace] {
@@ -91,7 +112,9 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   // After the window has taken the theme.
   workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_ground(*cursor); }); });
   workspace.preview.changed().add(read);
-  workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
+  workspace.document.changes().add([read, status, told, bar, cancel, offer, &desk, &workspace](DocumentChange change) {
+    if (change == DocumentChange::state) offer->hide();  // what was offered may be done, or undone
+    if (change == DocumentChange::notice) show_offer(*offer, desk);
     if (change == DocumentChange::ping || change == DocumentChange::state) read();
     if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document);
     if (change == DocumentChange::notice) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -69,6 +70,11 @@ struct SchoolPingRow {
   std::int64_t provisional = 0;
 };
 
+/// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
+inline constexpr std::array<std::string_view, 4> kEndNames{"", "first", "last", "both"};
+[[nodiscard]] constexpr bool ends_first(std::string_view ends) { return ends == kEndNames[1] || ends == kEndNames[3]; }
+[[nodiscard]] constexpr bool ends_last(std::string_view ends) { return ends == kEndNames[2] || ends == kEndNames[3]; }
+
 /// One school track: a row of schools.csv.
 struct SchoolRow {
   std::string observation;
@@ -101,6 +107,8 @@ struct SchoolRow {
   std::string species;
   std::string comment;
   std::string name;  ///< that a human gave it
+  /// kEndNames: ends of the track that a propagation by hand left only because it was asked no farther.
+  std::string ended_at_reach;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -186,9 +194,12 @@ void columns(Visitor& v, SchoolRow& r) {
   v("species", "", r.species);
   v("comment", "", r.comment);
   v("name", "", r.name);
+  v("ended_at_reach", "", r.ended_at_reach);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
-[[nodiscard]] constexpr bool is_later_column(std::string_view column) { return column == "name"; }
+[[nodiscard]] constexpr bool is_later_column(std::string_view column) {
+  return column == "name" || column == "ended_at_reach";
+}
 
 }  // namespace sonar

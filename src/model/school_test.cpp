@@ -42,8 +42,8 @@ TEST(SchoolColumns, OfTracks) {
             "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,"
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,"
             "backscatter_m2,speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,"
-            "operator,decided_utc,species,comment,name");
-  EXPECT_EQ(names.seen.size(), 30U);
+            "operator,decided_utc,species,comment,name,ended_at_reach");
+  EXPECT_EQ(names.seen.size(), 31U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

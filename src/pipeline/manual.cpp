@@ -110,6 +110,9 @@ Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs 
   return command;
 }
 
+bool goes_backward(const PropagateCommand& command) { return command.reach_backward.value_or(command.reach) != 0; }
+bool goes_forward(const PropagateCommand& command) { return command.reach_forward.value_or(command.reach) != 0; }
+
 PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward) {
   command.reach_backward = backward;
   command.reach_forward = forward;
@@ -170,6 +173,11 @@ Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
   made.school = school_of(*propagation);
   made.note_backward = propagation->note_backward;
   made.note_forward = propagation->note_forward;
+  // One that was stopped has the reach that it came to.
+  const PingReach asked = reach_round(ping_index, made.reached, ground.limits);
+  made.at_reach_backward =
+      goes_backward(made.reached) && made.note_backward.empty() && asked.first > ground.limits.first;
+  made.at_reach_forward = goes_forward(made.reached) && made.note_forward.empty() && asked.last < ground.limits.last;
   return made;
 }
 

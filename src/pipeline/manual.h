@@ -63,17 +63,28 @@ struct ManualSchool {
   std::string note_backward;
   std::string note_forward;
   PropagateCommand reached;  ///< the command that gives this without an observer: itself, or as far as it was let go
+  /// Whether a side was followed until the command asked no farther, though there are more pings.
+  bool at_reach_backward = false;
+  bool at_reach_forward = false;
 };
+
+/// Whether a propagation was asked to go backwards, or forwards.
+[[nodiscard]] bool goes_backward(const PropagateCommand& command);
+[[nodiscard]] bool goes_forward(const PropagateCommand& command);
+
+struct JournalState;
 
 /// What commands need of an observation. Views: what they show outlives the commands.
 struct CommandGround {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
-  std::vector<TimeNs> times;         ///< [ping_index], datagram times
-  PingReach limits;                  ///< pings that may be visited
-  double human_share = 0.25;         ///< DetectParams::human_share
-  int least_pings = 1;               ///< a detected school of which humans left fewer is gone
+  std::vector<TimeNs> times;  ///< [ping_index], datagram times
+  PingReach limits;           ///< pings that may be visited
+  double human_share = 0.25;  ///< DetectParams::human_share
+  int least_pings = 1;        ///< a detected school of which humans left fewer is gone
+  /// Index in the state of the school that is what older products had at a voxel that nobody has now; empty = no such product.
+  std::function<std::optional<std::size_t>(const JournalState& state, const SchoolKey& key)> heir = {};
   PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
 [[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);

@@ -133,6 +133,7 @@ void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& re
     row.comment = school.decided.comment;
     row.name = school.decided.name;
     row.continues = school.decided.continues;
+    row.ended_at_reach = school.decided.ended_at_reach;
     product.schools.push_back(std::move(row));
   }
 }

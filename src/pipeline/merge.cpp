@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
 
-#include "base/units.h"
-#include "geo/geodesic.h"
+#include "model/school_totals.h"
+#include "pipeline/join_tracks.h"
 #include "pipeline/recipe.h"
 
 namespace sonar {
@@ -45,16 +44,6 @@ bool is_cut(const ObservationProduct& before, const ObservationProduct& after) {
   return after.cut_after != 0 && after.cut_after == before.pings.back().time;
 }
 
-const SchoolPingRow* end_row(const ObservationProduct& product, std::int64_t school_id, bool last) {
-  const SchoolPingRow* found = nullptr;
-  for (const SchoolPingRow& row : product.school_pings) {
-    if (row.school_id != school_id) continue;
-    found = &row;
-    if (!last) break;
-  }
-  return found;
-}
-
 /// A pair of tracks that may be one school.
 struct Join {
   double miss_m;
@@ -62,23 +51,6 @@ struct Join {
   std::int64_t after_id;
   [[nodiscard]] auto key() const { return std::tuple(miss_m, before_id, after_id); }
 };
-
-double known(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
-
-/// Distance between where the earlier track would be by then and where the later one begins; negative = outside.
-double miss(const SchoolRow& school, const SchoolPingRow& end, const SchoolRow& next, const SchoolPingRow& begin,
-            const MergeParams& params) {
-  const Geographic from{end.latitude, end.longitude};
-  const Geographic to{begin.latitude, begin.longitude};
-  if (!std::isfinite(from.latitude_deg) || !std::isfinite(to.latitude_deg)) return -1.0;
-  const double seconds = static_cast<double>(begin.time_utc - end.time_utc) / 1e9;
-  const bool moves = std::isfinite(school.speed_mps) && std::isfinite(school.course_deg);
-  const Geographic predicted = moves ? destination(from, school.speed_mps * seconds, school.course_deg) : from;
-  const double gate_m = params.gate_m + params.length_share * (known(school.length_m, 0.0) + known(next.length_m, 0.0));
-  const double depth_m = std::abs(known(end.depth_m, 0.0) - known(begin.depth_m, 0.0));
-  const double distance_m = geodesic(predicted, to).distance_m;
-  return distance_m <= gate_m && depth_m <= params.depth_gate_m ? distance_m : -1.0;
-}
 
 std::vector<Join> possible_joins(const ObservationProduct& before, const ObservationProduct& after,
                                  const MergeParams& params) {
@@ -98,23 +70,38 @@ std::vector<Join> possible_joins(const ObservationProduct& before, const Observa
   return joins;
 }
 
+/// Where a school has several rows of one observation, the one that the others go on from.
+SchoolRow& first_part(std::vector<SchoolRow>& rows, std::int64_t school_id) {
+  const auto row = [&](auto wanted) { return std::find_if(rows.begin(), rows.end(), wanted); };
+  auto part = row([&](const SchoolRow& s) { return s.school_id == school_id; });
+  for (std::size_t steps = 0; steps < rows.size(); ++steps) {
+    const auto whole =
+        row([&](const SchoolRow& s) { return part->continues == school_name(s.observation, s.school_id); });
+    if (whole == rows.end()) break;
+    part = whole;
+  }
+  return *part;
+}
+
 /// Nearest pairs first, each track once.
-void join_over_cut(const ObservationProduct& before, ObservationProduct& after, const MergeParams& params) {
+/// rows  of `after`
+void join_over_cut(const ObservationProduct& before, const ObservationProduct& after, const MergeParams& params,
+                   std::vector<SchoolRow>& rows) {
   std::vector<std::int64_t> taken;
   for (const Join& join : possible_joins(before, after, params)) {
-    const auto next = std::find_if(after.schools.begin(), after.schools.end(),
-                                   [&](const SchoolRow& s) { return s.school_id == join.after_id; });
+    SchoolRow& next = first_part(rows, join.after_id);
     const bool used = std::find(taken.begin(), taken.end(), join.before_id) != taken.end();
-    if (used || !next->continues.empty()) continue;
-    next->continues = fmt::format("{}/{}", before.observation, join.before_id);
+    if (used || !next.continues.empty()) continue;
+    next.continues = school_name(before.observation, join.before_id);
     taken.push_back(join.before_id);
   }
 }
 
 /// Those that the products were made with.
-MergeParams merge_params_of(const std::vector<ObservationProduct>& products) {
-  if (products.empty()) return {};
-  const auto recipe = recipe_from_text(products.front().recipe_json);
+MergeParams merge_params_of(std::span<const ObservationProduct* const> products) {
+  const auto first = std::find_if(products.begin(), products.end(), [](const auto* one) { return one != nullptr; });
+  if (first == products.end()) return {};
+  const auto recipe = recipe_from_text((*first)->recipe_json);
   return recipe ? recipe->merge : MergeParams{};
 }
 
@@ -124,17 +111,31 @@ bool name_less(const std::string& a, const std::string& b) {
   return std::pair(a.size(), std::string_view(a)) < std::pair(b.size(), std::string_view(b));
 }
 
+std::vector<std::vector<SchoolRow>> joined_rows(std::span<const ObservationProduct* const> products,
+                                                const std::optional<MergeParams>& given) {
+  const MergeParams params = given ? *given : merge_params_of(products);
+  std::vector<std::vector<SchoolRow>> rows;
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    rows.push_back(products[i] == nullptr ? std::vector<SchoolRow>{} : products[i]->schools);
+    const bool both = i > 0 && products[i - 1] != nullptr && products[i] != nullptr;
+    if (both && is_cut(*products[i - 1], *products[i])) {
+      join_over_cut(*products[i - 1], *products[i], params, rows.back());
+    }
+  }
+  return rows;
+}
+
 Result<Survey> merge(std::vector<ObservationProduct> products, const std::optional<MergeParams>& given) {
   std::sort(products.begin(), products.end(),
             [](const auto& a, const auto& b) { return name_less(a.observation, b.observation); });
   if (auto checked = check_together(products); !checked) return pass_on(checked);
-  const MergeParams params = given ? *given : merge_params_of(products);
-  for (ObservationProduct& product : products) {
-    product.masks.clear();
-    product.background_db.clear();
-  }
-  for (std::size_t i = 1; i < products.size(); ++i) {
-    if (is_cut(products[i - 1], products[i])) join_over_cut(products[i - 1], products[i], params);
+  std::vector<const ObservationProduct*> in_order;
+  for (const ObservationProduct& product : products) in_order.push_back(&product);
+  std::vector<std::vector<SchoolRow>> rows = joined_rows(in_order, given);
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    products[i].masks.clear();
+    products[i].background_db.clear();
+    products[i].schools = std::move(rows[i]);
   }
   Survey survey;
   for (const ObservationProduct& product : products) {

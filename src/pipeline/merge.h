@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct Survey {
 
 /// Order of display names: obs-0002 before obs-0010 before obs-10000.
 [[nodiscard]] bool name_less(const std::string& a, const std::string& b);
+
+/// Rows of schools with `continues` filled in where a cut between two observations parts one: what merge() puts together, for
+/// those who show several products.
+/// products  by name; null = nothing is known of that one
+/// params    empty = those of the first product's recipe
+/// out       [product]
+[[nodiscard]] std::vector<std::vector<SchoolRow>> joined_rows(std::span<const ObservationProduct* const> products,
+                                                              const std::optional<MergeParams>& params = {});
 
 /// Puts products together; any order of products gives the same survey.
 /// params  empty = those of the products' recipe, the defaults where it tells none

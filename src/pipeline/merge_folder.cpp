@@ -13,6 +13,7 @@
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/survey_map.h"
+#include "model/school_totals.h"
 #include "pipeline/earlier.h"
 #include "pipeline/merge.h"
 #include "pipeline/plan.h"
@@ -48,7 +49,7 @@ json observation_json(const ObservationProduct& product) {
               {"history", product.history},
               {"pings", product.pings.size()},
               {"bad_pings", bad},
-              {"schools", product.schools.size()},
+              {"schools", totals_of(product.schools).schools},
               {"input_hash", product.input_hash},
               {"input_files", files},
               {"notes", notes},
@@ -81,8 +82,10 @@ std::string survey_json(const MergeReport& report) {
   for (const Diagnostic& note : report.notes) {
     notes.push_back({{"code", name(note.code)}, {"file", note.file}, {"text", note.text}});
   }
-  const auto continued = std::count_if(report.survey.schools.begin(), report.survey.schools.end(),
-                                       [](const SchoolRow& s) { return !s.continues.empty(); });
+  const SchoolTotals totals = totals_of(report.survey.schools);
+  const auto over_a_cut = std::count_if(
+      report.survey.schools.begin(), report.survey.schools.end(),
+      [](const SchoolRow& s) { return !s.continues.empty() && !s.continues.starts_with(s.observation + "/"); });
   json provenance = nullptr;
   if (!report.survey.observations.empty()) {
     const ObservationProduct& first = report.survey.observations.front();
@@ -96,8 +99,12 @@ std::string survey_json(const MergeReport& report) {
   const json out = {{"summary",
                      {{"observations", report.survey.observations.size()},
                       {"pings", pings},
-                      {"schools", report.survey.schools.size()},
-                      {"schools_continued_over_a_cut", continued},
+                      {"schools", totals.schools},
+                      {"school_rows", report.survey.schools.size()},
+                      {"school_rows_rejected", totals.rejected},
+                      {"school_rows_continued", totals.continued},
+                      {"schools_continued_over_a_cut", over_a_cut},
+                      {"backscatter_m2", totals.backscatter_m2},
                       {"school_pings", report.survey.school_pings.size()},
                       {"complete", report.complete() && partly_run(report).empty()}}},
                     {"provenance", provenance},
@@ -238,7 +245,7 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   std::size_t pings = 0;
   for (const ObservationProduct& product : report.survey.observations) pings += product.pings.size();
   std::string text = fmt::format("{} observations, {} pings, {} schools\n", report.survey.observations.size(), pings,
-                                 report.survey.schools.size());
+                                 totals_of(report.survey.schools).schools);
   const auto list = [&](const char* what, const std::vector<std::string>& names) {
     if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
   };

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "pipeline/carried.h"
+
 namespace sonar {
 namespace {
 
@@ -19,18 +21,6 @@ struct Candidate {
   std::int64_t number = 0;
   [[nodiscard]] auto order() const { return std::tuple(~shared, school, number); }
 };
-
-/// The mask's runs on another grid's rows; beams that it has not are left out. Confidences are not needed.
-PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row, const std::vector<int>& row_of_channel) {
-  PingMask moved;
-  for (Run run : mask.runs) {
-    const auto channel = static_cast<std::size_t>(channel_of_row[static_cast<std::size_t>(run.row)]);
-    run.row = channel < row_of_channel.size() ? row_of_channel[channel] : -1;
-    if (run.row >= 0) moved.runs.push_back(run);
-  }
-  std::sort(moved.runs.begin(), moved.runs.end());
-  return moved;
-}
 
 std::map<TimeNs, std::vector<const SchoolMask*>> by_time(const EarlierSchools::Layer& layer) {
   std::map<TimeNs, std::vector<const SchoolMask*>> masks;
@@ -71,7 +61,33 @@ std::vector<Candidate> candidates(const std::vector<SchoolMasks>& schools, const
   return list;
 }
 
+/// What the product says of choices whose voxels are nobody's any more.
+std::vector<std::pair<SchoolKey, SchoolKey>> carried_of(const ObservationProduct& product,
+                                                        const std::vector<TimeNs>& times) {
+  std::vector<std::pair<SchoolKey, SchoolKey>> carried;
+  const auto known = [&](std::int64_t ping) { return ping >= 0 && ping < std::ssize(times); };
+  for (const Diagnostic& note : product.diagnostics) {
+    if (note.code != DiagnosticCode::decision_carried) continue;
+    const auto told = carried_note(note.text);
+    if (!told || !known(note.ping_index) || !known(told->now.ping_index)) continue;
+    carried.push_back({{times[static_cast<std::size_t>(note.ping_index)], told->channel, told->sample},
+                       {times[static_cast<std::size_t>(told->now.ping_index)], told->now.channel, told->now.sample}});
+  }
+  return carried;
+}
+
 }  // namespace
+
+PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row, const std::vector<int>& row_of_channel) {
+  PingMask moved;
+  for (Run run : mask.runs) {
+    const auto channel = static_cast<std::size_t>(channel_of_row[static_cast<std::size_t>(run.row)]);
+    run.row = channel < row_of_channel.size() ? row_of_channel[channel] : -1;
+    if (run.row >= 0) moved.runs.push_back(run);
+  }
+  std::sort(moved.runs.begin(), moved.runs.end());
+  return moved;
+}
 
 void EarlierSchools::add(ObservationProduct product, double time_offset_s) {
   const std::int64_t next = sonar::next_school_id(product);
@@ -80,6 +96,7 @@ void EarlierSchools::add(ObservationProduct product, double time_offset_s) {
   for (const PingNavigation& ping : product.pings) {
     layer.ping_times.push_back(static_cast<TimeNs>(static_cast<std::uint64_t>(ping.time) - offset));
   }
+  layer.carried = carried_of(product, layer.ping_times);
   if (product.grid) layer.channel_of_row = std::move(product.grid->grid.channel);
   layer.masks = std::move(product.masks);
   std::erase_if(layer.masks,

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/time.h"
 #include "model/beam_grid.h"
 #include "model/product.h"
+#include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
 
 namespace sonar {
@@ -18,6 +20,8 @@ struct EarlierSchools {
     std::vector<TimeNs> ping_times;   ///< [ping_index of the product], datagram times
     std::vector<int> channel_of_row;  ///< of the product's grid
     std::vector<SchoolMask> masks;    ///< rows of the product's grid
+    /// Voxels by which choices name schools, and others that name the same ones in this product; see pipeline/carried.h.
+    std::vector<std::pair<SchoolKey, SchoolKey>> carried;
   };
   std::vector<Layer> layers;
   std::int64_t next_school_id = 1;  ///< above every number that was ever given
@@ -26,6 +30,10 @@ struct EarlierSchools {
   /// time_offset_s  what the product's recipe added to the datagrams' times
   void add(ObservationProduct product, double time_offset_s);
 };
+
+/// The mask's runs on another grid's rows; beams that it has not are left out. Confidences are not kept.
+[[nodiscard]] PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row,
+                               const std::vector<int>& row_of_channel);
 
 /// Gives schools the numbers that they had: those that share most voxels first (same ping time, channel and sample),
 /// each number and each school once; the others go on from next_school_id in their order.

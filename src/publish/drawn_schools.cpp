@@ -40,8 +40,8 @@ Rgba8 colour_of(const DrawnMask& drawn, const PictureOptions& options) {
 
 }  // namespace
 
-std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
-  std::vector<SchoolKey> keys;
+std::vector<DrawnSchool> school_keys(const DrawnPing& ping, const PictureOptions& options) {
+  std::vector<DrawnSchool> keys;
   if (!options.masks) return keys;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, options)) continue;

@@ -22,13 +22,13 @@ namespace sonar {
 [[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
 
 /// A school of a ping as a key names it: "school 3, unreviewed". Rejected ones are grey, as their masks are.
-struct SchoolKey {
+struct DrawnSchool {
   Rgba8 colour;
   std::string status;
   std::string name;
 };
 /// Of the masks that the options ask for, in their order.
-[[nodiscard]] std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
+[[nodiscard]] std::vector<DrawnSchool> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
 /// Middle of the largest mask; empty without one.
 struct MaskMiddle {

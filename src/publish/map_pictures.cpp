@@ -9,6 +9,8 @@
 
 #include "io/depth_raster.h"
 #include "io/map_outlines.h"
+#include "model/school_totals.h"
+#include "pipeline/merge.h"
 #include "publish/drawn_schools.h"
 #include "view/observation_map.h"
 #include "view/propagation_view.h"
@@ -29,6 +31,13 @@ MaskPalette palette_of(const ObservationProduct& product, const PictureOptions& 
   return palette;
 }
 
+/// A school that a cut parts is one school of the survey.
+std::vector<std::vector<SchoolRow>> rows_over_cuts(const std::vector<DrawnObservation>& observations) {
+  std::vector<const ObservationProduct*> products;
+  for (const DrawnObservation& observation : observations) products.push_back(&observation.product());
+  return joined_rows(products);
+}
+
 }  // namespace
 
 Result<FrameDescription> observation_map_frame(const DrawnObservation& observation, const PictureOptions& options) {
@@ -39,7 +48,8 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
-  base->left_out = observation.product().schools.size() - product.schools.size();
+  base->left_out =
+      static_cast<std::size_t>(totals_of(observation.product().schools).schools - totals_of(product.schools).schools);
   FrameDescription frame = observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping),
                                            palette_of(product, options));
   const PingNavigation& current = product.pings[static_cast<std::size_t>(*ping)];
@@ -81,13 +91,17 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   }
   std::vector<ObservationProduct> products;
   SurveyMapStyle style;
-  for (const DrawnObservation& observation : observations) {
-    products.push_back(with_chosen_schools(observation.product(), options));
-    const auto& all = observation.product().schools;
-    style.left_out += static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const SchoolRow& row) {
-      return row.status != "rejected" && !(options.masks && wanted(row.school_id, options));
-    }));
+  std::vector<SchoolRow> all;
+  std::vector<SchoolRow> chosen;
+  const std::vector<std::vector<SchoolRow>> rows = rows_over_cuts(observations);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    ObservationProduct product = observations[i].product();
+    product.schools = rows[i];
+    all.insert(all.end(), product.schools.begin(), product.schools.end());
+    products.push_back(with_chosen_schools(product, options));
+    chosen.insert(chosen.end(), products.back().schools.begin(), products.back().schools.end());
   }
+  style.left_out = static_cast<std::size_t>(totals_of(all).schools - totals_of(chosen).schools);
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {
     outlines[static_cast<std::size_t>(i)] = map_outlines(products[static_cast<std::size_t>(i)]);

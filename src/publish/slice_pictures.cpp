@@ -31,7 +31,7 @@ SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
   key.filtered = ping.staged != nullptr && options.filtered.value_or(false);
   key.weak_below_db = options.weak_below_db;
   // Keys and masks are in one order.
-  for (const SchoolKey& school : school_keys(ping, options)) {
+  for (const DrawnSchool& school : school_keys(ping, options)) {
     key.schools.push_back({school.colour, status_line(school.status), school.name, key.schools.size()});
   }
   return key;

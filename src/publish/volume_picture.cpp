@@ -31,7 +31,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (!ping) return pass_on(ping);
   VolumeFigure out;
   out.masks = mask_layers(*ping, options);
-  for (SchoolKey& school : school_keys(*ping, options)) {
+  for (DrawnSchool& school : school_keys(*ping, options)) {
     out.legend.emplace_back(school.colour, std::move(school.name));
   }
   out.navigation = ping->navigation;

@@ -24,8 +24,11 @@ Document::~Document() {
   for (const auto& [index, job] : measuring_) job.give_up();
 }
 
-void Document::tell(std::string notice) {
+void Document::tell(std::string notice) { tell_offering(std::move(notice), {}); }
+
+void Document::tell_offering(std::string notice, std::string offer) {
   notices_.push_back(std::move(notice));
+  offer_ = std::move(offer);
   changes_.tell(DocumentChange::notice);
 }
 
@@ -286,6 +289,7 @@ void Document::take_choices(ChoicesShown shown) {
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
   tell_unseen(before);
+  tell_beyond_reach();
   if (!choices_.failure.empty()) tell(choices_.failure);
 }
 

@@ -97,6 +97,10 @@ class Document {
   /// What a user must be told, oldest first.
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   void tell(std::string notice);
+  /// The same with an action that answers it: `offer` is its id.
+  void tell_offering(std::string notice, std::string offer);
+  /// Of the notice that was told last; empty = it offers nothing.
+  [[nodiscard]] const std::string& offer() const { return offer_; }
   [[nodiscard]] const Progress& progress() const { return progress_; }
   /// Whatever a user waits for: that, else a propagation, else the journal's lines, else measures.
   [[nodiscard]] Progress activity() const;
@@ -170,6 +174,7 @@ class Document {
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
   void take_detected(std::size_t index, std::vector<SchoolMasks> schools, const std::shared_ptr<JournalStep>& step);
   void tell_unseen(const ChoicesShown& before);
+  void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
@@ -187,6 +192,7 @@ class Document {
   std::shared_ptr<const SurveyFiles> survey_;
   std::filesystem::path journal_path_;
   std::vector<std::string> notices_;
+  std::string offer_;
   Progress progress_;
   std::map<std::size_t, OpenObservationPtr> chosen_on_;  ///< under the recipe: what choices stand on
   std::map<std::size_t, OpenObservationPtr> open_;       ///< the same, or under a calibration that a human chose

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <variant>
 
+#include "session/beyond_reach.h"
 #include "session/document.h"
 
 namespace sonar {
@@ -70,6 +72,21 @@ std::string Document::nothing_shown() const {
   std::string why = why_no_grid(all.front());
   if (all.size() > 1) why += fmt::format("; nor can {} more observations", all.size() - 1);
   return why;
+}
+
+void Document::tell_beyond_reach() {
+  const JournalLine* line = done_line(choices_);
+  if (line == nullptr || line->command != "propagate" || busy()) return;
+  const auto act = act_of(*line);
+  if (!act) return;
+  for (const auto& [index, state] : choices_.states) {
+    const OpenObservationPtr observation = open_observation(index);
+    if (!observation || !state || !ping_at(observation->ground(), line->ping_time)) continue;
+    const auto& command = std::get<PropagateCommand>(act->command);
+    const StateSchool* school = school_followed(*state, observation->ground(), line->n, command);
+    const std::string text = school == nullptr ? std::string{} : beyond_reach_text(*school, command);
+    if (!text.empty()) tell_offering(text, std::string(kContinueAction));
+  }
 }
 
 void Document::tell_unseen(const ChoicesShown& before) {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/units.h"
+#include "model/school_totals.h"
+#include "pipeline/continued.h"
 
 namespace sonar {
 namespace {
@@ -48,6 +50,26 @@ SlicePlaces middle_of(const PingMask& mask, int beams) {
 }
 
 }  // namespace
+
+std::int64_t counted_schools(const JournalState& state, const ObservationProduct* product, double share) {
+  std::vector<const SchoolMasks*> masks;
+  for (const auto& school : state.schools) masks.push_back(&school->masks);
+  const std::vector<int> continues = continued(masks, share);
+  std::vector<SchoolRow> rows;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    SchoolRow& row = rows.emplace_back();
+    if (product != nullptr) row.observation = product->observation;
+    row.school_id = state.schools[i]->number;
+    row.status = masks[i]->decided.status;
+    const SchoolRow* measured = product == nullptr ? nullptr : row_of(*product, row.school_id);
+    if (continues[i] >= 0) {
+      row.continues = school_name(row.observation, state.schools[static_cast<std::size_t>(continues[i])]->number);
+    } else if (measured != nullptr) {
+      row.continues = measured->continues;
+    }
+  }
+  return totals_of(rows).schools;
+}
 
 std::string title_of(const Document& document, const SchoolName& school) {
   const auto& schools = document.state(school.observation).schools;

@@ -34,6 +34,11 @@ struct SurveySchool {
 /// Empty where there is none, or none is selected.
 [[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
 
+/// How many schools an observation has, as totals_of() counts them; those that are not measured yet are there as well.
+/// product  of an earlier state or of this one; null = none yet
+/// share    DetectParams::human_share
+[[nodiscard]] std::int64_t counted_schools(const JournalState& state, const ObservationProduct* product, double share);
+
 /// "school 3 (north wall)"; without its name where it is not known.
 [[nodiscard]] std::string title_of(const Document& document, const SchoolName& school);
 

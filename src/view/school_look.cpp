@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "model/school_totals.h"
+
 namespace sonar {
 namespace {
 
@@ -44,7 +46,8 @@ SchoolLook::SchoolLook(std::span<const ObservationProduct> observations, const S
   for (const ObservationProduct& product : observations) {
     for (const SchoolRow& school : product.schools) {
       if (!shown(school)) continue;
-      if (std::isfinite(school.backscatter_m2)) largest_m2_ = std::max(largest_m2_, school.backscatter_m2);
+      if (counts(school) && std::isfinite(school.backscatter_m2))
+        largest_m2_ = std::max(largest_m2_, school.backscatter_m2);
       species_.push_back(school.species);
       for (std::size_t i = 0; i < kStatuses.size(); ++i) seen[i] = seen[i] || school.status == kStatuses[i];
     }

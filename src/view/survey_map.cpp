@@ -11,6 +11,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "model/school_totals.h"
 #include "view/axes.h"
 #include "view/depth_layer.h"
 #include "view/graticule.h"
@@ -137,20 +138,19 @@ void add_ship(const SurveyMapDrawing& d, const PingNavigation& last, PixelPoint 
   d.frame.items.emplace_back(ship_item(at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
 }
 
-std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look,
-                        const SurveyMapStyle& style) {
+std::string second_line(std::span<const ObservationProduct> observations, const SurveyMapStyle& style) {
   const int unsearched = style.unsearched;
   TimeNs first = 0;
   TimeNs last = 0;
-  std::size_t schools = 0;
+  std::vector<SchoolRow> rows;
   for (const ObservationProduct& product : observations) {
-    schools += static_cast<std::size_t>(
-        std::count_if(product.schools.begin(), product.schools.end(), [&](const auto& s) { return look.shown(s); }));
+    rows.insert(rows.end(), product.schools.begin(), product.schools.end());
     if (product.pings.empty()) continue;
     first = first == 0 ? product.pings.front().time : std::min(first, product.pings.front().time);
     last = std::max(last, product.pings.back().time);
   }
   const auto all = static_cast<std::int64_t>(observations.size());
+  const auto schools = static_cast<std::size_t>(totals_of(rows).schools);
   std::string told = schools_text(schools, style.left_out);
   if (unsearched >= all && schools == 0) {
     told = "schools not looked for";
@@ -263,7 +263,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
                       {left_out_text(left_out), left_out_text(names.left_out, "names"), note});
   Layout layout;
   layout.title = p.title;
-  add_title(frame, layout, theme, {frame.title, second_line(observations, look, style)});
+  add_title(frame, layout, theme, {frame.title, second_line(observations, style)});
   return frame;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geo/geodesic.h"
+#include "model/school_totals.h"
 #include "view/graticule.h"
 #include "view/label_room.h"
 #include "view/school_numbers.h"
@@ -83,6 +84,12 @@ std::string names_text(std::vector<const SchoolRow*> schools, const Theme& theme
   return out;
 }
 
+std::int64_t schools_of(const std::vector<const SchoolRow*>& rows) {
+  std::vector<SchoolRow> all;
+  for (const SchoolRow* row : rows) all.push_back(*row);
+  return totals_of(all).schools;
+}
+
 /// Schools of one observation whose markers lie on each other share one number, from the first of them on.
 std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
                                             std::span<const ObservationProduct> observations) {
@@ -119,8 +126,8 @@ std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
     std::sort(marker.numbers.begin(), marker.numbers.end());
     const PixelRect& r = d.map.place;
     if (marker.at.x < r.x || marker.at.y < r.y || marker.at.x > r.x + r.width || marker.at.y > r.y + r.height) continue;
-    out.push_back(
-        {marker.at, numbers_text(marker.numbers), marker.radius_px, false, names_text(marker.schools, d.theme)});
+    out.push_back({marker.at, numbers_text(marker.numbers, schools_of(marker.schools)), marker.radius_px, false,
+                   names_text(marker.schools, d.theme)});
   }
   return out;
 }

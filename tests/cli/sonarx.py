@@ -24,7 +24,7 @@ SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
-    "comment,name").split(",")
+    "comment,name,ended_at_reach").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

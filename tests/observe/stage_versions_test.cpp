@@ -41,9 +41,9 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"seabed", 5, "a0498ac74835f1ca54950382a1b0ee95"},
     {"detect", 11, "634e39305aad8adff3e75299492312c3"},
     {"track", 7, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 5, "796c2390f6457277936c4d7907e65301"},
+    {"propagate", 6, "796c2390f6457277936c4d7907e65301"},
     {"measure", 10, "70f66b11be8b54a45e217fcb74cd8b58"},
-    {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
+    {"summarise", 3, "7898f51fd90f083d5e93473f3d4a384e"},
 }};
 
 class Digest {

@@ -19,8 +19,8 @@ std::string place_of(const SchoolKey& key) {
 /// What a propagation replaces of a school that is carried on: the sides that it was asked for.
 std::vector<SchoolMasks::InPing> kept_pings(const SchoolMasks& school, std::int64_t from,
                                             const PropagateCommand& command, PingReach limits) {
-  const bool backward = command.reach_backward.value_or(command.reach) != 0;
-  const bool forward = command.reach_forward.value_or(command.reach) != 0;
+  const bool backward = goes_backward(command);
+  const bool forward = goes_forward(command);
   std::vector<SchoolMasks::InPing> kept;
   for (const SchoolMasks::InPing& there : school.pings) {
     const bool within = there.ping_index >= limits.first && there.ping_index <= limits.last;
@@ -28,6 +28,18 @@ std::vector<SchoolMasks::InPing> kept_pings(const SchoolMasks& school, std::int6
     if (!within || !replaced) kept.push_back(there);
   }
   return kept;
+}
+
+/// Sides that were not followed end as they did before.
+ReachEnds ends_of(const ManualSchool& made, const ReachEnds& before) {
+  ReachEnds ends = before;
+  const auto& pings = made.school.pings;
+  const auto end = [](bool at_reach, std::int64_t ping_index) {
+    return at_reach ? std::optional(ping_index) : std::nullopt;
+  };
+  if (goes_backward(made.reached)) ends.first = end(made.at_reach_backward, pings.front().ping_index);
+  if (goes_forward(made.reached)) ends.last = end(made.at_reach_forward, pings.back().ping_index);
+  return ends;
 }
 
 void note_ends(Edit& edit, const ManualSchool& made) {
@@ -38,11 +50,9 @@ void note_ends(Edit& edit, const ManualSchool& made) {
 
 /// What is carried on again replaces what was carried to the same sides before.
 std::shared_ptr<const GrownFrom> followed_by(const GrownFrom& before, const PropagateCommand& command) {
-  const auto backward = [](const PropagateCommand& one) { return one.reach_backward.value_or(one.reach) != 0; };
-  const auto forward = [](const PropagateCommand& one) { return one.reach_forward.value_or(one.reach) != 0; };
   auto grown = std::make_shared<GrownFrom>(before);
   std::erase_if(grown->followed, [&](const PropagateCommand& one) {
-    return (backward(command) || !backward(one)) && (forward(command) || !forward(one));
+    return (goes_backward(command) || !goes_backward(one)) && (goes_forward(command) || !goes_forward(one));
   });
   grown->followed.push_back(command);
   return grown;
@@ -128,9 +138,10 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
     edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.ground().limits));
     for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
   } else {
-    school = edit.add(std::move(made->school));
+    school = edit.add(made->school);
   }
-  for (const auto& there : carried) edit.take(there.ping_index, there.mask, *school, true);
+  edit.set_reach(*school, ends_of(*made, edit.masks(*school).reach));
+  edit.take_fish(*school);
   return {};
 }
 

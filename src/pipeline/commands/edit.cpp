@@ -6,25 +6,35 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
+
+#include "pipeline/carried.h"
+#include "pipeline/continued.h"
 
 namespace sonar {
 namespace {
 
-/// Of a detected mask what a human's voxels leave.
-PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole, double same_share) {
-  const auto shared = static_cast<double>(overlap(mask, voxels));
-  const auto smaller = static_cast<double>(std::min(mask.voxels(), voxels.voxels()));
-  if (whole && shared >= same_share * smaller) return {};
-  return subtract(mask, voxels);
+/// The farther of two ends.
+template <class Before>
+void take_end(std::optional<std::int64_t>& mine, const std::optional<std::int64_t>& other, Before before) {
+  if (other && (!mine || before(*other, *mine))) mine = other;
 }
 
 }  // namespace
 
-Result<std::size_t> Edit::find(const SchoolKey& key) const {
+Result<std::size_t> Edit::find(const SchoolKey& key) {
   const auto found = school_at(state_, ground_, key);
   if (found) return *found;
+  const auto ping = ping_at(ground_, key.ping_time);
+  if (const auto heir = ground_.heir && ping ? ground_.heir(state_, key) : std::nullopt) {
+    const SchoolKey now = key_of(masks(*heir), ground_);
+    const std::string said = fmt::format("choice {} ({}): ", act_.n, command_name(act_.command));
+    state_.notes.push_back({DiagnosticCode::decision_carried, "", -1, *ping,
+                            carried_text(said, key, now, ping_at(ground_, now.ping_time).value_or(*ping))});
+    return *heir;
+  }
   return fail(ErrorCode::bad_parameter,
               fmt::format("there is no school at channel {}, sample {} of that ping", key.channel, key.sample));
 }
@@ -129,15 +139,48 @@ void Edit::set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings)
   writable(school).masks.pings = std::move(pings);
 }
 
-void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole) {
+StateSchool& Edit::reduced(std::size_t school) {
+  StateSchool& changed = writable(school);
+  if (changed.by_hand) return changed;
+  if (!changed.masks.found) {
+    changed.masks.found = std::make_shared<const std::vector<SchoolMasks::InPing>>(changed.masks.pings);
+  }
+  reduced_.push_back(changed.number);
+  return changed;
+}
+
+void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner) {
   for (std::size_t i = 0; i < state_.schools.size(); ++i) {
     const PingMask& there = mask(i, ping_index);
     if (i == owner || overlap(there, voxels) == 0) continue;
-    const bool detected = !state_.schools[i]->by_hand;
-    PingMask left = left_beside(there, voxels, whole && detected, ground_.human_share);
-    if (detected) reduced_.push_back(state_.schools[i]->number);
+    PingMask left = subtract(there, voxels);
+    reduced(i);
     set_mask(i, ping_index, std::move(left));
   }
+}
+
+void Edit::take_fish(std::size_t owner) {
+  const std::vector<SchoolMasks::InPing> own = masks(owner).pings;
+  for (std::size_t i = 0; i < state_.schools.size(); ++i) {
+    if (i == owner || keeps_its_voxels(*state_.schools[i])) continue;
+    const bool one_school = same_fish(as_found(masks(i)), own, ground_.human_share);
+    for (const SchoolMasks::InPing& there : own) {
+      const PingMask& other = mask(i, there.ping_index);
+      if (other.empty()) continue;
+      const SchoolMasks::InPing in_this{there.ping_index, other, kUnknown};
+      if (!one_school && !same_fish({&in_this, 1}, {&there, 1}, ground_.human_share)) continue;
+      reduced(i);
+      set_mask(i, there.ping_index, {});
+    }
+  }
+  for (const SchoolMasks::InPing& there : own) take(there.ping_index, there.mask, owner);
+}
+
+void Edit::take_ends(std::size_t from, std::size_t into) {
+  const ReachEnds gone = masks(from).reach;
+  ReachEnds& ends = writable(into).masks.reach;
+  take_end(ends.first, gone.first, std::less<>());
+  take_end(ends.last, gone.last, std::greater<>());
 }
 
 void Edit::note(DiagnosticCode code, std::string text) {

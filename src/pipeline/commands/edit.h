@@ -23,8 +23,8 @@ class Edit {
   [[nodiscard]] const CommandGround& ground() const { return ground_; }
   [[nodiscard]] const JournalState& state() const { return state_; }
   [[nodiscard]] const SchoolMasks& masks(std::size_t school) const { return state_.schools[school]->masks; }
-  /// Index of the school that a key names. errors: bad_parameter
-  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key) const;
+  /// Index of the school that a key names; one that is found by what older products know is noted. errors: bad_parameter
+  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key);
   /// The act's runs by rows of the grid. errors: bad_parameter: a run outside the grid
   [[nodiscard]] Result<std::vector<Run>> rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const;
   /// Voxels of other schools than this one that humans gave or confirmed to them.
@@ -45,8 +45,14 @@ class Edit {
   /// An empty mask takes the ping away. threshold_db: NaN = as it was
   void set_mask(std::size_t school, std::int64_t ping_index, PingMask mask, double threshold_db = kUnknown);
   void set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings);
-  /// All other schools lose these voxels. whole: a detected mask that shares much with them is the same fish and goes.
-  void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
+  /// All other schools lose these voxels.
+  void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner);
+  /// All other schools lose the owner's voxels, and detected ones that are the same fish (see same_fish()) whatever else
+  /// they have in those pings: there the human has said what the school is.
+  void take_fish(std::size_t owner);
+  /// What is known of a school's ends holds for the one that it becomes part of.
+  void take_ends(std::size_t from, std::size_t into);
+  void set_reach(std::size_t school, const ReachEnds& ends) { writable(school).masks.reach = ends; }
   void note(DiagnosticCode code, std::string text);
   void add_event(const EventCommand& event);
   /// The propagation that gives what was made: as far as it was let go.
@@ -65,6 +71,8 @@ class Edit {
 
  private:
   StateSchool& writable(std::size_t school);
+  /// The same; of a detected one the masks that were found are kept.
+  StateSchool& reduced(std::size_t school);
 
   const JournalAct& act_;
   std::int64_t ping_;

@@ -86,7 +86,7 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
     edit.set_grown(*school, std::make_shared<const GrownFrom>(GrownFrom{
                                 edit.ping(), command, again ? before->followed : std::vector<PropagateCommand>{}}));
   }
-  edit.take(edit.ping(), *grown, *school, true);
+  edit.take_fish(*school);
   return {};
 }
 
@@ -120,7 +120,7 @@ Result<void> carry_out(Edit& edit, const BrushCommand& command) {
   } else {
     school = edit.add(one_ping(edit.ping(), stroke, kUnknown));
   }
-  edit.take(edit.ping(), stroke, *school, false);
+  edit.take(edit.ping(), stroke, *school);
   return {};
 }
 
@@ -158,7 +158,7 @@ Result<void> carry_out(Edit& edit, const ReshapeCommand& command) {
     if (!mask) return pass_on(mask);
     const PingMask added = subtract(*mask, edit.mask(*school, ping_index));
     edit.set_mask(*school, ping_index, std::move(*mask));
-    edit.take(ping_index, added, *school, false);
+    edit.take(ping_index, added, *school);
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "session/lists/cells.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
@@ -26,7 +27,8 @@ Cell span_cell(TimeNs first, TimeNs last) {
 }  // namespace
 
 SurveyTree::SurveyTree(Workspace& workspace)
-    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state}),
+    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
+                               DocumentChange::measures}),
       titles_{{"Survey", "", "observations, their files, and what is wrong with them", false},
               {"Time", "UTC", "from the first ping to the last", false},
               {"Pings", "", "", true},
@@ -68,7 +70,8 @@ void SurveyTree::add_observation(std::size_t index) {
     row.time = span_cell(observation.navigation.front().time, observation.navigation.back().time);
   }
   if (document.choices().states.contains(index)) {
-    row.schools = count_cell(static_cast<std::int64_t>(document.state(index).schools.size()));
+    row.schools = count_cell(
+        counted_schools(document.state(index), document.product(index).get(), document.recipe().detect.human_share));
   }
   std::size_t remarks = observation.diagnostics.size();
   for (const std::uint32_t file : observation.files) {

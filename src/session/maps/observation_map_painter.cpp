@@ -6,6 +6,7 @@
 
 #include "session/maps/dock_theme.h"
 #include "session/maps/observation_head.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
@@ -50,7 +51,11 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   const ObservationProduct& shown = wish.product ? *wish.product : head_;
   Painted painted;
   // Those that are not measured yet are there as well.
-  const std::size_t schools = wish.state ? wish.state->schools.size() : shown.schools.size();
+  std::optional<std::size_t> schools;
+  if (wish.state) {
+    schools =
+        static_cast<std::size_t>(counted_schools(*wish.state, wish.product.get(), observation_->ground().human_share));
+  }
   painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette, schools);
   if (wish.product) {
     const PingNavigation& current = shown.pings[static_cast<std::size_t>(wish.ping)];

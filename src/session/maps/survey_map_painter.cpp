@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/merge.h"
 #include "publish/chart_layers.h"
 #include "session/maps/dock_theme.h"
 #include "session/maps/observation_head.h"
@@ -52,14 +53,15 @@ bool SurveyMapPainter::know(const SurveyMapWish& wish) {
     swept_known_.assign(count, false);
     raster_extent_.reset();
   }
-  bool more = false;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (products_[i] != wish.products[i]) {
-      products_[i] = wish.products[i];
-      light_[i].schools = products_[i] ? products_[i]->schools : std::vector<SchoolRow>{};
-    }
-    more = more || !swept_known_[i] || outlined_[i] != products_[i];
+  if (products_ != wish.products) {
+    products_ = wish.products;
+    std::vector<const ObservationProduct*> products;
+    for (const ProductPtr& product : products_) products.push_back(product.get());
+    std::vector<std::vector<SchoolRow>> rows = joined_rows(products);
+    for (std::size_t i = 0; i < count; ++i) light_[i].schools = std::move(rows[i]);
   }
+  bool more = false;
+  for (std::size_t i = 0; i < count; ++i) more = more || !swept_known_[i] || outlined_[i] != products_[i];
   return !more;
 }
 
