@@ -39,10 +39,10 @@ Form::Form(FormKind kind, const Point<Own>& size_m, RandomStream random) : kind_
   phase_ = random.uniform(0.0, 2.0 * std::numbers::pi);
   bend_ = random.uniform(1.2, 2.4);
   split_s_ = random.uniform(60.0, 200.0);
-  const int holes = kind == FormKind::vacuolated ? 3 + random.index(4) : 0;
+  const int holes = kind == FormKind::vacuolated ? 5 + random.index(4) : 0;
   for (int i = 0; i < holes; ++i) {
     holes_.push_back({random.uniform(-0.65, 0.65), random.uniform(-0.65, 0.65), random.uniform(-0.5, 0.5)});
-    hole_radius_.push_back(random.uniform(0.25, 0.45));
+    hole_radius_.push_back(random.uniform(0.3, 0.5));
   }
   const double longest = std::max({size_m.x, size_m.y, size_m.z});
   fields_.emplace_back(kind == FormKind::amoeba ? 0.45 * longest : 0.3 * longest, random);
@@ -65,7 +65,7 @@ double Form::shape(const Point<Own>& u) const {
       return inside(square(u.x) * square(u.x) + square(u.y / (0.25 + 0.15 * (1.0 - u.x * u.x))) + square(u.z));
     case FormKind::sheets: {
       const double level = std::abs(u.z) < 0.33 ? 0.0 : std::copysign(0.7, u.z);
-      return inside(square(u.x) + square(u.y)) * std::exp(-square((u.z - level) / 0.13) / 2.0);
+      return inside(square(u.x) + square(u.y)) * inside(square((u.z - level) / 0.16));
     }
     case FormKind::hourglass:
       return std::abs(u.x) > 1.0 ? 0.0

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -131,6 +132,9 @@ class Survey {
     const ArraySonar sonar(receiver_, grid_, scene);
     ObservationTruth observation(name);
     if (auto written = write_pings(sonar, name, observation); !written) return written;
+    std::ranges::stable_sort(further_.fish, {}, [](const FishTruth& row) {
+      return std::tie(row.observation, row.school_id, row.ping_index);  // as bodies.csv
+    });
     if (auto closed = files_.close(); !closed) return closed;
     return truth_.add(std::move(observation), grid_);
   }
