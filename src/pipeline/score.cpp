@@ -13,7 +13,9 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "pipeline/score_cause.h"
 #include "pipeline/score_index.h"
+#include "pipeline/score_place.h"
 
 namespace sonar {
 namespace {
@@ -88,14 +90,6 @@ bool spans_enough(const PingMask& mask, const std::vector<int>& row_of_channel, 
   return std::ssize(beams) >= kCountedBeams && std::ssize(fans) >= kCountedFans && last - first >= kCountedSamples;
 }
 
-double median_of(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return kUnknown;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
 /// Sums of one figure over the pings that have it on both sides.
 class PairedMeans {
  public:
@@ -123,7 +117,7 @@ double distance_m(const SchoolPingRow& a, const SchoolPingRow& b) {
 /// Errors over the unclipped pings in which both have a row.
 void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, const SchoolKey& partner,
                   const std::map<std::int64_t, BodyInPing>& bodies, SchoolScore& out) {
-  PairedMeans volume, corrected, backscatter, sv, body_volume, body_backscatter;
+  PairedMeans volume, corrected, length, width, height, backscatter, sv, body_volume, body_backscatter;
   double cog_m = 0.0;
   int cogs = 0;
   for (const PingPair& pair : pairs) {
@@ -134,6 +128,9 @@ void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, cons
     const SchoolPingRow& t = *pair.truth_row;
     volume.add(f.volume_m3, t.volume_m3);
     corrected.add(f.volume_corrected_m3, t.volume_corrected_m3);
+    length.add(f.length_corrected_m, t.length_corrected_m);
+    width.add(f.width_corrected_m, t.width_corrected_m);
+    height.add(f.height_corrected_m, t.height_corrected_m);
     backscatter.add(f.backscatter_m2, t.backscatter_m2);
     sv.add(linear_from_db(f.sv_mean_db), linear_from_db(t.sv_mean_db));
     if (const double d = distance_m(f, t); std::isfinite(d)) {
@@ -148,6 +145,9 @@ void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, cons
   if (cogs > 0) out.cog_error_m = cog_m / cogs;
   out.volume_ratio = volume.ratio();
   out.volume_corrected_ratio = corrected.ratio();
+  out.length_corrected_ratio = length.ratio();
+  out.width_corrected_ratio = width.ratio();
+  out.height_corrected_ratio = height.ratio();
   out.backscatter_error_db = backscatter.error_db();
   out.sv_error_db = sv.error_db();
   out.body_volume_corrected_ratio = body_volume.ratio();
@@ -229,16 +229,19 @@ SchoolScore score_school(const SchoolKey& key, const std::vector<PingPair>& pair
   out.truth_id = id_text(truth_side, key);
   out.n_pings = std::ssize(pairs);
   std::vector<double> ranges;
+  std::vector<double> elevations_deg;
   int enough = 0;
   const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
   for (const PingPair& pair : pairs) {
     if (pair.truth_row != nullptr) ranges.push_back(pair.truth_row->range_m);
+    elevations_deg.push_back(mean_elevation_deg(*pair.truth, product.grid->grid, row_of_channel));
     if (!pair.unclipped) continue;
     ++out.n_unclipped;
     if (spans_enough(*pair.truth, row_of_channel, product.grid->grid.beams())) ++enough;
   }
   out.counted = enough >= kCountedPings;
-  out.range_m = median_of(ranges);
+  out.range_m = median_known(std::move(ranges));
+  out.elevation_deg = median_known(std::move(elevations_deg));
   const auto bodies = bodies_of(truth_side, product.observation, key.second);
   out.inside = inside(pairs, bodies, out.n_unclipped);
   const std::optional<SchoolKey> partner = track_partner(pairs);
@@ -321,6 +324,9 @@ Score score(const ScoreSide& found_side, const ScoreSide& truth_side) {
   const Pairing pairing = pair_tracks(pairs, found, looks);
   std::map<SchoolKey, std::size_t> place;
   Score out;
+  out.span = span_of(truth_side);
+  out.pings = std::count_if(truth.pings.begin(), truth.pings.end(),
+                            [&](const auto& ping) { return ping_at(found, ping.first).has_value(); });
   for (const auto& [key, of_school] : pairs) {
     place[key] = out.schools.size();
     out.schools.push_back(score_school(key, of_school, found_side, found, truth_side, truth));
@@ -349,12 +355,15 @@ Score score(const ScoreSide& found_side, const ScoreSide& truth_side) {
     out.merged.push_back(std::move(merged));
   }
   for (const SchoolKey& key : pairing.false_tracks) {
-    FalseSchool school{id_text(found_side, key), pings_of[key], kUnknown, kUnknown};
+    FalseSchool school;
+    school.found_id = id_text(found_side, key);
+    school.n_pings = pings_of[key];
     if (const auto row = found.schools.find(key); row != found.schools.end()) {
       school.volume_m3 = row->second->volume_m3;
       school.sv_mean_db = row->second->sv_mean_db;
     }
-    out.false_schools.push_back(school);
+    std::tie(school.cause, school.cause_share) = cause_of(key, {found, found_side, truth, truth_side});
+    out.false_schools.push_back(std::move(school));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -43,10 +44,28 @@ struct BodyKey {
   friend auto operator<=>(const BodyKey&, const BodyKey&) = default;
 };
 
+/// A box of the truth's grid in one ping in which something lies that is no school (truth/company.csv); bounds are
+/// included.
+struct CompanyBox {
+  std::string kind;
+  std::int64_t first_fan = 0, last_fan = 0;
+  std::int64_t first_beam = 0, last_beam = 0;
+  std::int64_t first_sample = 0, last_sample = 0;
+};
+/// (observation, ping_index) -> its boxes
+using CompanyByPing = std::map<std::pair<std::string, std::int64_t>, std::vector<CompanyBox>>;
+
+/// What the cause of a false school is called where the truth knows of company, but not there, and where it knows none.
+inline constexpr const char* kCauseNone = "none";
+inline constexpr const char* kCauseUnknown = "unknown";
+/// A kind of company is the cause of a false school where so much of its mask lies in that kind's boxes.
+inline constexpr double kCauseShare = 0.5;
+
 /// Everything on one side of a comparison; masks, rows and pings are the products'.
 struct ScoreSide {
   std::vector<ObservationProduct> observations;
   std::map<BodyKey, BodyInPing> bodies;  ///< truth only
+  std::optional<CompanyByPing> company;  ///< truth only; empty = not told
   std::vector<std::string> missing;      ///< observations that the tables name and no product holds
 };
 
@@ -58,11 +77,15 @@ struct SchoolScore {
   std::int64_t n_pings = 0;
   std::int64_t n_unclipped = 0;  ///< of the truth
   bool counted = false;
-  double range_m = kUnknown;  ///< median over its pings
-  double dice = kUnknown;     ///< mean over the unclipped pings; 0 where not found
+  double range_m = kUnknown;        ///< median over its pings
+  double elevation_deg = kUnknown;  ///< of its mask's voxels, positive up: median over its pings of their mean
+  double dice = kUnknown;           ///< mean over the unclipped pings; 0 where not found
   double cog_error_m = kUnknown;
   double volume_ratio = kUnknown;
   double volume_corrected_ratio = kUnknown;
+  double length_corrected_ratio = kUnknown;  ///< this and the next two: found by truth, as volume_corrected_ratio
+  double width_corrected_ratio = kUnknown;
+  double height_corrected_ratio = kUnknown;
   double backscatter_error_db = kUnknown;
   double sv_error_db = kUnknown;
   double speed_error_mps = kUnknown;
@@ -81,6 +104,8 @@ struct FalseSchool {
   std::int64_t n_pings = 0;
   double volume_m3 = kUnknown;
   double sv_mean_db = kUnknown;
+  std::string cause = kCauseUnknown;  ///< a kind of company, kCauseNone or kCauseUnknown
+  double cause_share = kUnknown;      ///< of its voxels, in the boxes of the kind that holds most; NaN = not told
 };
 
 /// A further track inside a true school that another track was paired with, or that none was.
@@ -96,7 +121,21 @@ struct MergedTrack {
   std::vector<std::string> truth_ids;
 };
 
+/// What the beams of all observations of a truth reach; NaN = no observation has a grid.
+struct ScoreSpan {
+  double range_from_m = kUnknown;
+  double range_to_m = kUnknown;
+  double elevation_from_deg = kUnknown;  ///< positive up
+  double elevation_to_deg = kUnknown;
+};
+
+/// Which third of [from, to) a value lies in: 0, 1 or 2, what is beyond an end in the third there; -1 where anything is
+/// unknown or the stretch empty.
+[[nodiscard]] int third_of(double value, double from, double to);
+
 struct Score {
+  ScoreSpan span;
+  std::int64_t pings = 0;  ///< of the truth that the result has
   std::vector<SchoolScore> schools;
   std::vector<FalseSchool> false_schools;
   std::vector<Fragment> fragments;
@@ -112,7 +151,8 @@ struct Score {
 
 /// The object of INTERFACES section 7, with `fragments` and `merged` beside. `summary` has, over the schools that
 /// count: counted, found, found_fraction, mean_dice, and the members `median`, `p90` (of the error's size) and `bias`
-/// (median with its sign) of each error.
+/// (median with its sign) of each error; `by_range_third` and `by_elevation_third` the latter for each third of what the
+/// beams reach.
 [[nodiscard]] std::string score_json(const Score& score);
 /// The same for people.
 [[nodiscard]] std::string score_text(const Score& score);
@@ -120,7 +160,7 @@ struct Score {
 /// Reads products and, where there are any, schools.csv and school_pings.csv of a result.
 /// errors  not_found, format
 [[nodiscard]] Result<ScoreSide> read_result_side(const std::filesystem::path& out);
-/// Reads a truth folder: obs-*.nc, schools.csv, school_pings.csv, bodies.csv.
+/// Reads a truth folder: obs-*.nc, schools.csv, school_pings.csv, bodies.csv, company.csv.
 /// errors  not_found, format
 [[nodiscard]] Result<ScoreSide> read_truth_side(const std::filesystem::path& truth);
 

@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipeline/score.h"
 
@@ -22,10 +25,13 @@ struct ErrorFigure {
 };
 
 /// Ratios count as their distance from 1.
-constexpr std::array<ErrorFigure, 9> kErrors = {{
+constexpr std::array<ErrorFigure, 12> kErrors = {{
     {"cog_error_m", [](const SchoolScore& s) { return s.cog_error_m; }},
     {"volume_ratio_error", [](const SchoolScore& s) { return s.volume_ratio - 1.0; }},
     {"volume_corrected_ratio_error", [](const SchoolScore& s) { return s.volume_corrected_ratio - 1.0; }},
+    {"length_corrected_ratio_error", [](const SchoolScore& s) { return s.length_corrected_ratio - 1.0; }},
+    {"width_corrected_ratio_error", [](const SchoolScore& s) { return s.width_corrected_ratio - 1.0; }},
+    {"height_corrected_ratio_error", [](const SchoolScore& s) { return s.height_corrected_ratio - 1.0; }},
     {"backscatter_error_db", [](const SchoolScore& s) { return s.backscatter_error_db; }},
     {"sv_error_db", [](const SchoolScore& s) { return s.sv_error_db; }},
     {"speed_error_mps",
@@ -110,6 +116,61 @@ json by_range(const std::vector<SchoolScore>& schools) {
   return out;
 }
 
+/// The schools of one third of what the beams reach.
+struct Third {
+  double from = kUnknown;
+  double to = kUnknown;
+  std::vector<SchoolScore> schools;
+};
+using Thirds = std::array<Third, 3>;
+
+Thirds thirds(const std::vector<SchoolScore>& schools, double from, double to, double SchoolScore::*place) {
+  Thirds out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].from = from + (to - from) * static_cast<double>(i) / 3.0;
+    out[i].to = from + (to - from) * static_cast<double>(i + 1) / 3.0;
+  }
+  for (const SchoolScore& s : schools) {
+    const int third = third_of(s.*place, from, to);
+    if (third >= 0) out[static_cast<std::size_t>(third)].schools.push_back(s);
+  }
+  return out;
+}
+
+Thirds range_thirds(const Score& score, const std::vector<SchoolScore>& schools) {
+  return thirds(schools, score.span.range_from_m, score.span.range_to_m, &SchoolScore::range_m);
+}
+
+Thirds elevation_thirds(const Score& score, const std::vector<SchoolScore>& schools) {
+  return thirds(schools, score.span.elevation_from_deg, score.span.elevation_to_deg, &SchoolScore::elevation_deg);
+}
+
+/// Signed medians of all errors; `n` = how many of each are known.
+json thirds_json(const Thirds& all, const char* from, const char* to) {
+  json out = json::array();
+  for (const Third& third : all) {
+    json n = json::object();
+    json entry = {{from, number(third.from)},
+                  {to, number(third.to)},
+                  {"counted", third.schools.size()},
+                  {"mean_dice", number(basics(third.schools).mean_dice)}};
+    for (const ErrorFigure& figure : kErrors) {
+      const std::vector<double> values = values_of(third.schools, figure, false);
+      n[figure.name] = values.size();
+      entry[figure.name] = number(quantile(values, 0.5));
+    }
+    entry["n"] = n;
+    out.push_back(entry);
+  }
+  return out;
+}
+
+std::map<std::string, std::int64_t> false_by_cause(const Score& score) {
+  std::map<std::string, std::int64_t> out;
+  for (const FalseSchool& s : score.false_schools) ++out[s.cause];
+  return out;
+}
+
 json summary_json(const Score& score) {
   const std::vector<SchoolScore> schools = counted(score);
   const Basics b = basics(schools);
@@ -122,6 +183,7 @@ json summary_json(const Score& score) {
     bias[figure.name] = number(quantile(values_of(schools, figure, false), 0.5));
   }
   return {{"schools", score.schools.size()},
+          {"pings", score.pings},
           {"counted", b.counted},
           {"found", b.found},
           {"found_fraction", number(b.found_fraction)},
@@ -130,12 +192,15 @@ json summary_json(const Score& score) {
           {"mean_purity", number(b.mean_purity)},
           {"min_purity", number(b.min_purity)},
           {"false_schools", score.false_schools.size()},
+          {"false_by_cause", false_by_cause(score)},
           {"fragments", score.fragments.size()},
           {"merged", score.merged.size()},
           {"median", median},
           {"p90", p90},
           {"bias", bias},
-          {"by_range", by_range(schools)}};
+          {"by_range", by_range(schools)},
+          {"by_range_third", thirds_json(range_thirds(score, schools), "from_m", "to_m")},
+          {"by_elevation_third", thirds_json(elevation_thirds(score, schools), "from_deg", "to_deg")}};
 }
 
 json school_json(const SchoolScore& s) {
@@ -146,10 +211,14 @@ json school_json(const SchoolScore& s) {
           {"n_unclipped", s.n_unclipped},
           {"counted", s.counted},
           {"range_m", number(s.range_m)},
+          {"elevation_deg", number(s.elevation_deg)},
           {"dice", number(s.dice)},
           {"cog_error_m", number(s.cog_error_m)},
           {"volume_ratio", number(s.volume_ratio)},
           {"volume_corrected_ratio", number(s.volume_corrected_ratio)},
+          {"length_corrected_ratio", number(s.length_corrected_ratio)},
+          {"width_corrected_ratio", number(s.width_corrected_ratio)},
+          {"height_corrected_ratio", number(s.height_corrected_ratio)},
           {"backscatter_error_db", number(s.backscatter_error_db)},
           {"sv_error_db", number(s.sv_error_db)},
           {"speed_error_mps", number(s.speed_error_mps)},
@@ -165,6 +234,45 @@ std::string cell(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
 }
 
+std::string signed_cell(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:+.{}f}", value, decimals) : std::string("-");
+}
+
+/// Signed medians of the errors that depend on where a school is, a line a third.
+std::string thirds_text(const Thirds& all, const char* title) {
+  struct Column {
+    const char* title;
+    const char* error;
+  };
+  constexpr std::array<Column, 7> kColumns = {{{"bsc dB", "backscatter_error_db"},
+                                               {"body dB", "body_backscatter_error_db"},
+                                               {"sv dB", "sv_error_db"},
+                                               {"volume", "volume_corrected_ratio_error"},
+                                               {"length", "length_corrected_ratio_error"},
+                                               {"width", "width_corrected_ratio_error"},
+                                               {"height", "height_corrected_ratio_error"}}};
+  std::string out = fmt::format("{:<24}{:>8}", title, "schools");
+  for (const Column& column : kColumns) out += fmt::format("{:>9}", column.title);
+  out += "\n";
+  for (const Third& third : all) {
+    out += fmt::format("{:<24}{:>8}", cell(third.from, 0) + " .. " + cell(third.to, 0), third.schools.size());
+    for (const Column& column : kColumns) {
+      const auto figure = std::find_if(kErrors.begin(), kErrors.end(),
+                                       [&](const ErrorFigure& f) { return std::string_view(f.name) == column.error; });
+      out += fmt::format("{:>9}", signed_cell(quantile(values_of(third.schools, *figure, false), 0.5), 2));
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+std::string causes_text(const Score& score) {
+  if (score.false_schools.empty()) return "";
+  std::vector<std::string> causes;
+  for (const auto& [cause, schools] : false_by_cause(score)) causes.push_back(fmt::format("{} {}", cause, schools));
+  return fmt::format("false schools by cause: {}\n", fmt::join(causes, ", "));
+}
+
 }  // namespace
 
 std::string score_json(const Score& score) {
@@ -175,7 +283,9 @@ std::string score_json(const Score& score) {
     false_schools.push_back({{"found_id", s.found_id},
                              {"n_pings", s.n_pings},
                              {"volume_m3", number(s.volume_m3)},
-                             {"sv_mean_db", number(s.sv_mean_db)}});
+                             {"sv_mean_db", number(s.sv_mean_db)},
+                             {"cause", s.cause},
+                             {"cause_share", number(s.cause_share)}});
   }
   json fragments = json::array();
   for (const Fragment& f : score.fragments) {
@@ -204,7 +314,7 @@ std::string score_text(const Score& score) {
                        cell(s.body_sv_error_db, 2), s.counted ? "" : "  (does not count)");
   }
   for (const FalseSchool& s : score.false_schools) {
-    out += fmt::format("{:<14}{:<14}{:>6}  is no true school\n", "-", s.found_id, s.n_pings);
+    out += fmt::format("{:<14}{:<14}{:>6}  is no true school; cause: {}\n", "-", s.found_id, s.n_pings, s.cause);
   }
   for (const Fragment& f : score.fragments) {
     out += fmt::format("{:<14}{:<14}{:>6}  is a fragment\n", f.truth_id, f.found_id, f.n_pings);
@@ -218,6 +328,7 @@ std::string score_text(const Score& score) {
       "\n{} of {} schools that count found ({} %), mean Dice {}, least purity {}, {} false, {} fragments, {} merged\n",
       b.found, b.counted, cell(100.0 * b.found_fraction, 1), cell(b.mean_dice, 3), cell(b.min_purity, 2),
       score.false_schools.size(), score.fragments.size(), score.merged.size());
+  out += causes_text(score);
   out += fmt::format("{:<36}{:>10}{:>10}{:>10}\n", "size of the error", "median", "90 %", "bias");
   for (const ErrorFigure& figure : kErrors) {
     out +=
@@ -225,6 +336,8 @@ std::string score_text(const Score& score) {
                     cell(quantile(values_of(schools, figure, true), 0.9), 3),
                     cell(quantile(values_of(schools, figure, false), 0.5), 3));
   }
+  out += "\n" + thirds_text(range_thirds(score, schools), "bias by range, m");
+  out += thirds_text(elevation_thirds(score, schools), "bias by elevation, deg");
   return out;
 }
 

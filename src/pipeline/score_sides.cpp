@@ -35,6 +35,26 @@ void columns(Visitor& v, BodyRow& r) {
   v("fraction_inside", "1", r.fraction_inside);
 }
 
+/// What the score needs of company.csv.
+struct CompanyRow {
+  std::string observation;
+  std::int64_t ping_index = 0;
+  CompanyBox box;
+};
+
+template <class Visitor>
+void columns(Visitor& v, CompanyRow& r) {
+  v("observation", "", r.observation);
+  v("ping_index", "", r.ping_index);
+  v("kind", "", r.box.kind);
+  v("first_fan", "", r.box.first_fan);
+  v("last_fan", "", r.box.last_fan);
+  v("first_beam", "", r.box.first_beam);
+  v("last_beam", "", r.box.last_beam);
+  v("first_sample", "", r.box.first_sample);
+  v("last_sample", "", r.box.last_sample);
+}
+
 double sum_known(double a, double b) {
   if (std::isnan(a)) return b;
   return std::isnan(b) ? a : a + b;
@@ -80,6 +100,31 @@ Result<ScoreSide> read_side(const fs::path& folder) {
   return side;
 }
 
+Result<void> take_bodies(const fs::path& path, ScoreSide& side) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  const auto bodies = read_csv_rows<BodyRow>(path);
+  if (!bodies) return pass_on(bodies);
+  for (const BodyRow& row : *bodies) {
+    BodyInPing& body = side.bodies[{row.observation, row.school_id, row.ping_index}];
+    body.volume_m3 = sum_known(body.volume_m3, row.volume_m3);
+    body.backscatter_m2 = sum_known(body.backscatter_m2, row.backscatter_m2);
+    // Of two parts the one that is less inside tells.
+    body.fraction_inside = std::fmin(body.fraction_inside, row.fraction_inside);
+  }
+  return {};
+}
+
+Result<void> take_company(const fs::path& path, ScoreSide& side) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  auto rows = read_csv_rows<CompanyRow>(path);
+  if (!rows) return pass_on(rows);
+  CompanyByPing& company = side.company.emplace();
+  for (CompanyRow& row : *rows) company[{row.observation, row.ping_index}].push_back(std::move(row.box));
+  return {};
+}
+
 }  // namespace
 
 Result<ScoreSide> read_result_side(const fs::path& out) {
@@ -96,17 +141,8 @@ Result<ScoreSide> read_truth_side(const fs::path& truth) {
   if (side->observations.empty()) {
     return fail(ErrorCode::not_found, "holds no truth (obs-0001.nc, ...)", {.file = truth.string()});
   }
-  std::error_code error;
-  if (!fs::exists(truth / "bodies.csv", error)) return side;
-  const auto bodies = read_csv_rows<BodyRow>(truth / "bodies.csv");
-  if (!bodies) return pass_on(bodies);
-  for (const BodyRow& row : *bodies) {
-    BodyInPing& body = side->bodies[{row.observation, row.school_id, row.ping_index}];
-    body.volume_m3 = sum_known(body.volume_m3, row.volume_m3);
-    body.backscatter_m2 = sum_known(body.backscatter_m2, row.backscatter_m2);
-    // Of two parts the one that is less inside tells.
-    body.fraction_inside = std::fmin(body.fraction_inside, row.fraction_inside);
-  }
+  if (auto taken = take_bodies(truth / "bodies.csv", *side); !taken) return pass_on(taken);
+  if (auto taken = take_company(truth / "company.csv", *side); !taken) return pass_on(taken);
   return side;
 }
 
