@@ -113,11 +113,10 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
       seabed = find_seabed(filtered.view(), staged.sv.flags.view(), staged.background(), engine.sector(),
                            engine.grid().vertical_width_deg, recipe.seabed);
     });
+    WaterLevels water;
+    watch.time("5 water of the ping alone", [&] { water = engine.own_water(staged); });
     std::vector<Detection> detections;
-    watch.time("5 detect", [&] {
-      detections = detect(staged.filtered->counts.view(), staged.sv.counts.view(), staged.filtered->flags.view(),
-                          engine.sector(), staged.background(), recipe.detect, staged.seabed);
-    });
+    watch.time("6 detect", [&] { detections = detect(engine.echo(staged, water), recipe.detect); });
   }
   watch.print();
 }

@@ -131,6 +131,36 @@ def edges(o, school, ping):
     return found, at_edge / faces
 
 
+def user_line(o, channel):
+    return next((l for l in o.recipe.get("beam_calibration", []) if l.get("channel") == channel), {})
+
+
+def beam_angle(o, beam, channel):
+    """Equivalent beam angle in use and the other reading of it, dB re 1 sr."""
+    user, known = user_line(o, channel), lambda v, otherwise: otherwise if v is None else v
+    along, athwart = (math.radians(known(user.get(f"width_{k}_deg"), beam[k])) for k in ("along", "athwart"))
+    widths = 10 * math.log10(math.pi / (8 * math.log(2)) * along * athwart)
+    source = o.recipe["calibration"]["psi"]
+    if source == "from_widths":
+        return widths, beam["psi"]
+    return known(user.get("psi_db"), beam["psi"]) if source == "table" else beam["psi"], widths
+
+
+def calibration_error(o, beam, channel):
+    """Standard error of Sv by those of the calibration table, dB; NaN where it tells none."""
+    user = user_line(o, channel)
+    parts = [2 * user.get("gain_db_se", math.nan), 2 * user.get("sa_correction_db_se", math.nan),
+             user.get("extra_factor_db_se", math.nan)]
+    if o.recipe["calibration"]["psi"] == "table" and "psi_db" in user:
+        parts.append(user.get("psi_db_se", math.nan))
+    if o.recipe["calibration"]["psi"] == "from_widths":
+        shares = [user.get(f"width_{k}_deg_se", math.nan) / user.get(f"width_{k}_deg", beam[k])
+                  for k in ("along", "athwart")]
+        parts.append(10 / math.log(10) * math.hypot(*shares))
+    told = [p for p in parts if math.isfinite(p)]
+    return math.sqrt(sum(p * p for p in told)) if told else math.nan
+
+
 def calibration(o, beam, head, channel, samples):
     """Counts added to power counts to give Sv counts, as 16-bit whole numbers."""
     gain, sa, extra = beam["gain"], 0.0, 0.0
@@ -143,9 +173,10 @@ def calibration(o, beam, head, channel, samples):
             gain = gain if line.get("gain_db") is None else line["gain_db"]
             sa = sa if line.get("sa_correction_db") is None else line["sa_correction_db"]
             extra = extra if line.get("extra_factor_db") is None else line["extra_factor_db"]
-    wavelength = head["c"] / head["frequency"]
-    constant = -10 * math.log10(head["power"] * wavelength**2 * head["c"] * head["pulse"] / (32 * math.pi**2))
-    constant += -beam["psi"] - 2 * gain - 2 * sa + extra
+    given = o.recipe["survey"].get("sound_speed_mps") or o.recipe.get("sound_speed_profile")
+    c = o.sound_speed if given else head["c"]
+    constant = -10 * math.log10(head["power"] * (c / head["frequency"])**2 * c * head["pulse"] / (32 * math.pi**2))
+    constant += -beam_angle(o, beam, channel)[0] - 2 * gain - 2 * sa + extra
     r = np.maximum(o.first + samples * o.dr, o.dr)
     db = constant + 20 * np.log10(r) + 2 * head["absorption"] * r
     counts = np.clip(db / DB_PER_COUNT, -32767, 32767)
@@ -158,7 +189,8 @@ def echo(o, row, beams, channels):
     channel, fan, beam, sample, _ = o.voxels(school, ping)
     volume = o.cell_volumes(fan, beam, sample)
     whole, valid = volume.sum(), o.valid(school, ping)
-    columns = ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "sv_corrected_db")
+    columns = ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "sv_corrected_db",
+               "backscatter_psi_error_db", "backscatter_calibration_se_db")
     out = dict.fromkeys(columns, math.nan)
     if valid is not None:
         channel, sample, volume = channel[valid], sample[valid], volume[valid]
@@ -166,6 +198,7 @@ def echo(o, row, beams, channels):
         if not volume.sum() > 0:
             return out
     sv, noise = np.empty(len(sample)), np.zeros(len(sample))
+    other, error = np.empty(len(sample)), np.empty(len(sample))
     levels = o.pings.get("background_db")
     nothing = {"offset": 0, "counts": []}
     for c in set(channel.tolist()):
@@ -174,6 +207,8 @@ def echo(o, row, beams, channels):
         if (sample[of] < head["offset"]).any() or (sample[of] - head["offset"] >= len(head["counts"])).any():
             return out | {"valid_fraction": math.nan}  # a member without a sample, and no fault
         table = calibration(o, beams[c], head, c, sample[of])
+        used, otherwise = beam_angle(o, beams[c], c)
+        other[of], error[of] = 10**((used - otherwise) / 10), calibration_error(o, beams[c], c)
         power = np.clip(head["counts"][sample[of] - head["offset"]], -32766, 32766)
         sv[of] = 2.0**(np.clip(power + table, -32766, 32766) / 256)
         if levels is not None and np.isfinite(levels[ping, c]):
@@ -185,6 +220,10 @@ def echo(o, row, beams, channels):
     out |= {"sv_mean_db": db(mean), "sv_p95_db": db(p95), "sv_max_db": db(rest.max()), "backscatter_m2": mean * whole}
     if noise.any():
         out["snr_db"] = db((rest * volume).sum() / (noise * volume).sum())
+    echo_m2 = rest * volume
+    if echo_m2.sum() > 0:
+        out["backscatter_psi_error_db"] = db(echo_m2.sum() / (echo_m2 * other).sum())
+        out["backscatter_calibration_se_db"] = (echo_m2 * error).sum() / echo_m2.sum()
     if math.isfinite(row["volume_corrected_m3"]):
         out["sv_corrected_db"] = db(out["backscatter_m2"] / row["volume_corrected_m3"])
     return out
@@ -193,10 +232,31 @@ def echo(o, row, beams, channels):
 # --- one school over its pings ---------------------------------------------------------------------------------------
 
 def line(t, x):
-    """Slope of the least-squares line and its standard error."""
-    tc, xc = t - t.mean(), x - x.mean()
-    slope = (tc * xc).sum() / (tc**2).sum()
-    return slope, math.sqrt(((xc - slope * tc)**2).sum() / (len(t) - 2) / (tc**2).sum())
+    """Slope of the least-squares line."""
+    tc = t - t.mean()
+    return (tc * (x - x.mean())).sum() / (tc**2).sum()
+
+
+def slope_covariance(t, xy):
+    """Covariance of the plain slopes for deviations with a correlation of exp(-dt / tau), tau by restricted likelihood.
+
+    With full matrices, where the program goes from ping to ping."""
+    design = np.stack([np.ones(len(t)), t - t.mean()], axis=1)
+    best = None
+    for intervals in (0, .3, .5, .7, 1, 1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32, 45, 64):
+        tau = intervals * np.sort(np.diff(t))[(len(t) - 1) // 2]
+        apart = np.abs(t[:, None] - t[None, :])
+        correlation = np.exp(-apart / tau) if tau > 0 else np.eye(len(t))
+        inverse = np.linalg.inv(correlation)
+        normal = design.T @ inverse @ design
+        rest = xy - design @ np.linalg.solve(normal, design.T @ inverse @ xy)
+        scatter = rest.T @ inverse @ rest / (len(t) - 2)
+        likelihood = -(np.linalg.slogdet(correlation)[1] + np.linalg.slogdet(normal)[1]
+                       + (len(t) - 2) * math.log(np.trace(scatter)))
+        tc = design[:, 1]
+        if best is None or likelihood > best[0]:
+            best = likelihood, scatter * (tc @ correlation @ tc) / (tc @ tc)**2
+    return best[1]
 
 
 def summary(o, rows):
@@ -206,12 +266,26 @@ def summary(o, rows):
     median = lambda name: float(np.median(values(name))) if len(values(name)) else math.nan
     mean = lambda name: float(values(name).mean()) if len(values(name)) else math.nan
     db = lambda name: 10 * math.log10((10**(values(name) / 10)).mean()) if len(values(name)) else math.nan
+    both = [r for r in used if math.isfinite(r["volume_corrected_m3"]) and math.isfinite(r["backscatter_m2"])]
+    echo = [r for r in both or used if math.isfinite(r["backscatter_m2"])]
     placed = [r for r in used if math.isfinite(r["latitude"])]
     out = {"n_pings": len(rows), "n_pings_whole": len(whole), "touches_edge_fraction": 1 - len(whole) / len(rows),
-           "depth_m": mean("depth_m"), "backscatter_m2": mean("backscatter_m2"), "sv_mean_db": db("sv_mean_db"),
-           "sv_corrected_db": db("sv_corrected_db")}
-    for name in ("volume_m3", "volume_corrected_m3", "length_m", "width_m", "height_m"):
+           "depth_m": mean("depth_m"), "sv_mean_db": db("sv_mean_db"), "backscatter_m2": math.nan,
+           "volume_corrected_m3": math.nan, "sv_corrected_db": math.nan, "backscatter_psi_error_db": math.nan,
+           "backscatter_calibration_se_db": math.nan}
+    for name in ("volume_m3", "length_m", "width_m", "height_m"):
         out[name] = median(name)
+    if echo:
+        sums = np.array([r["backscatter_m2"] for r in echo])
+        out["backscatter_m2"] = sums.mean()
+        other = sum(b / 10**(r["backscatter_psi_error_db"] / 10) for b, r in zip(sums, echo))
+        errors = np.array([r["backscatter_calibration_se_db"] for r in echo])
+        out["backscatter_psi_error_db"] = 10 * math.log10(sums.sum() / other) if other > 0 else math.nan
+        out["backscatter_calibration_se_db"] = (sums * errors).sum() / sums.sum()
+    if both:
+        out["volume_corrected_m3"] = sum(r["volume_corrected_m3"] for r in both) / len(both)
+        ratio = out["backscatter_m2"] / out["volume_corrected_m3"]
+        out["sv_corrected_db"] = 10 * math.log10(ratio) if ratio > 0 else math.nan
     if placed:
         lat, lon = placed[0]["latitude"], placed[0]["longitude"]
         xy = np.array([plane(lat, lon, r["latitude"], r["longitude"]) for r in placed]).mean(axis=0)
@@ -227,12 +301,16 @@ def summary(o, rows):
         return out
     lat, lon = moving[0]["latitude"], moving[0]["longitude"]
     xy = np.array([plane(lat, lon, r["latitude"], r["longitude"]) for r in moving])
-    (e, se), (n, sn) = line(t, xy[:, 0]), line(t, xy[:, 1])
-    speed = math.hypot(e, n)
-    error = math.hypot(e / speed * se, n / speed * sn)
+    slope = np.array([line(t, xy[:, 0]), line(t, xy[:, 1])])
+    covariance = slope_covariance(t, xy)
+    length = math.hypot(*slope)
+    ahead = slope / length
+    across = np.array([ahead[1], -ahead[0]])
+    speed = math.sqrt(max(length**2 - across @ covariance @ across, 0))
+    error = math.sqrt(ahead @ covariance @ ahead)
     out |= {"speed_mps": speed, "speed_se_mps": error,
-            "vertical_speed_mps": line(t, np.array([r["depth_m"] for r in moving]))[0],
-            "course_deg": math.degrees(math.atan2(e, n)) % 360 if speed >= 2 * error else math.nan}
+            "vertical_speed_mps": line(t, np.array([r["depth_m"] for r in moving])),
+            "course_deg": math.degrees(math.atan2(*slope)) % 360 if speed > 0 and speed >= 2 * error else math.nan}
     return out
 
 

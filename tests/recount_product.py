@@ -32,6 +32,7 @@ class Observation:
             widths = [math.radians(float(grid[k][0, 0])) for k in ("vertical_width", "horizontal_width")]
             self.e, self.a = bounds(self.elevation, widths[0]), bounds(self.azimuth, widths[1])
             self.first, self.dr = float(grid["range_of_first_sample"][...]), float(grid["sample_spacing"][...])
+            self.sound_speed = float(grid["sound_speed"][...])
             self.samples = int(grid["sample_count_of_grid"][...])
             self.widths_deg = grid["vertical_width"][:]
             self.place = {int(c): index for index, c in np.ndenumerate(grid["channel"][:])}

@@ -24,7 +24,8 @@ def read_con0(body):
     beams = []
     for i in range(struct.unpack_from("<i", body, 512)[0]):
         f = lambda offset, n=1: struct.unpack_from(f"<{n}f", body, 516 + 320 * i + offset)
-        beams.append({"gain": f(136)[0], "psi": f(140)[0], "pulses": f(192, 5), "gains": f(220, 5), "sa": f(248, 5)})
+        beams.append({"gain": f(136)[0], "psi": f(140)[0], "along": f(144)[0], "athwart": f(148)[0],
+                      "pulses": f(192, 5), "gains": f(220, 5), "sa": f(248, 5)})
     return beams
 
 

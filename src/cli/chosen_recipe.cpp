@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/chosen_recipe.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <utility>
 
 namespace sonar {
@@ -14,16 +17,30 @@ Error of_file(Error error) {
 
 }  // namespace
 
-Result<Recipe> chosen_recipe(const std::string& recipe, const std::string& calibration) {
-  auto chosen = named_recipe(recipe);
-  if (!chosen) return tl::unexpected(of_file(std::move(chosen.error())));
-  return with_calibration(std::move(*chosen), calibration);
+void add_measured_options(CLI::App& verb, Measured& measured) {
+  verb.add_option("--calibration", measured.calibration, kCalibrationHelp);
+  verb.add_option("--sound-speed", measured.sound_speed, kSoundSpeedHelp);
 }
 
-Result<Recipe> with_calibration(Recipe recipe, const std::string& calibration) {
-  if (calibration.empty()) return recipe;
-  auto taken = take_calibration_file(recipe, calibration);
-  if (!taken) return tl::unexpected(of_file(std::move(taken.error())));
+Result<Recipe> chosen_recipe(const std::string& recipe, const Measured& measured) {
+  auto chosen = named_recipe(recipe);
+  if (!chosen) return tl::unexpected(of_file(std::move(chosen.error())));
+  for (const std::string& name : chosen->gone) {
+    fmt::print(stderr, "note parameter-gone: {}: {} has no effect any more\n", recipe, name);
+  }
+  return with_measured(std::move(*chosen), measured);
+}
+
+Result<Recipe> with_measured(Recipe recipe, const Measured& measured) {
+  if (!measured.calibration.empty()) {
+    auto taken = take_calibration_file(recipe, measured.calibration);
+    if (!taken) return tl::unexpected(of_file(std::move(taken.error())));
+  }
+  if (!measured.sound_speed.empty()) {
+    auto taken = take_sound_speed(recipe, measured.sound_speed);
+    if (!taken && !taken.error().where.file.empty()) return tl::unexpected(of_file(std::move(taken.error())));
+    if (!taken) return pass_on(taken);
+  }
   return recipe;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "pipeline/recipe.h"
@@ -8,12 +9,26 @@
 namespace sonar {
 
 inline constexpr const char* kCalibrationHelp =
-    "CSV channel,gain_db,sa_correction_db,extra_factor_db; taken into the recipe";
+    "CSV channel and any of gain_db,sa_correction_db,extra_factor_db,psi_db,width_along_deg,width_athwart_deg, each "
+    "with "
+    "its error in a column *_se; taken into the recipe";
 
-/// The recipe of a file or preset (empty = default) with a calibration table taken into it (empty = none).
-/// errors  as named_recipe() and take_calibration_file(); format, too, where a file names a value out of range
-[[nodiscard]] Result<Recipe> chosen_recipe(const std::string& recipe, const std::string& calibration);
-/// errors  as take_calibration_file()
-[[nodiscard]] Result<Recipe> with_calibration(Recipe recipe, const std::string& calibration);
+inline constexpr const char* kSoundSpeedHelp =
+    "m/s, or a CSV depth_m,sound_speed_mps: stands for the files' sound speed; taken into the recipe";
+
+/// What a verb's options lay over a recipe; empty = nothing.
+struct Measured {
+  std::string calibration;
+  std::string sound_speed;
+  [[nodiscard]] bool empty() const { return calibration.empty() && sound_speed.empty(); }
+};
+void add_measured_options(CLI::App& verb, Measured& measured);
+
+/// The recipe of a file or preset (empty = default) with what was measured taken into it.
+/// errors  as named_recipe(), take_calibration_file(), take_sound_speed(); format, too, where a file names a value out of
+///         range
+[[nodiscard]] Result<Recipe> chosen_recipe(const std::string& recipe, const Measured& measured);
+/// errors  as take_calibration_file(), take_sound_speed()
+[[nodiscard]] Result<Recipe> with_measured(Recipe recipe, const Measured& measured);
 
 }  // namespace sonar

@@ -37,7 +37,7 @@ struct PropagateArguments {
   std::int64_t reach = -1;
   std::string curve;
   std::string recipe;
-  std::string calibration;
+  Measured measured;
   std::string operator_name;
   std::string out;
   int jobs = 0;
@@ -227,7 +227,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  auto recipe = chosen_recipe(arguments.recipe, arguments.calibration);
+  auto recipe = chosen_recipe(arguments.recipe, arguments.measured);
   if (!recipe) return report(recipe.error());
   recipe->automatic = false;
   const auto clicked = click(arguments, *recipe, work);
@@ -289,7 +289,7 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(CLI::Range(0, 1000000));
   verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
+  add_measured_options(*verb, arguments->measured);
   verb->add_option("--operator", arguments->operator_name, "Who selects");
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));

@@ -19,13 +19,13 @@ namespace {
 struct RecipeOptions {
   std::string preset = "default";
   std::string validate;
-  std::string calibration;
+  Measured measured;
   bool describe = false;
 };
 
 int check(const RecipeOptions& o) {
   auto recipe = read_recipe(o.validate);
-  if (recipe) recipe = with_calibration(std::move(*recipe), o.calibration);
+  if (recipe) recipe = with_measured(std::move(*recipe), o.measured);
   if (!recipe) {
     report(recipe.error());
     return kExitFailed;  // whatever is wrong with it, the verb was used rightly
@@ -37,7 +37,7 @@ int check(const RecipeOptions& o) {
 int print(const RecipeOptions& o) {
   const auto preset = recipe_preset(o.preset);
   if (!preset) return report(preset.error());
-  auto recipe = with_calibration(*preset, o.calibration);
+  auto recipe = with_measured(*preset, o.measured);
   if (!recipe) return report(recipe.error());
   if (o.describe) {
     ParameterTable table("Beside all stages");
@@ -57,7 +57,7 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
   CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
   CLI::Option* validate =
       verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_path());
-  verb->add_option("--calibration", o->calibration, kCalibrationHelp);
+  add_measured_options(*verb, o->measured);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);
   verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });

@@ -20,9 +20,11 @@
 #include "cli/verb.h"
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
+#include "io/product.h"
 #include "pipeline/earlier.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
+#include "pipeline/refused_echoes.h"
 
 namespace sonar {
 namespace {
@@ -34,7 +36,7 @@ struct RunArguments {
   std::vector<std::string> survey;
   std::string out;
   std::string recipe;
-  std::string calibration;
+  Measured measured;
   std::string session;
   std::string plan;
   std::string only;
@@ -42,6 +44,7 @@ struct RunArguments {
   std::int64_t task = 0;
   bool has_task = false;
   bool remeasure = false;
+  bool why = false;
   int jobs = 0;
 };
 
@@ -84,10 +87,10 @@ Result<Journal> read_session(const std::string& path) {
 
 /// A recipe that was asked for; else the one that the session's choices were made under; else the default.
 Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
-  if (arguments.recipe.empty() && arguments.calibration.empty() && !journal.recipe.empty()) {
+  if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
     return recipe_from_text(journal.recipe);
   }
-  return chosen_recipe(arguments.recipe, arguments.calibration);
+  return chosen_recipe(arguments.recipe, arguments.measured);
 }
 
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
@@ -190,6 +193,19 @@ bool looks_for_schools(const Opened& opened) {
   });
 }
 
+/// What the products of these observations refused, a line each.
+Result<void> print_refusals(const std::filesystem::path& out, const RunReport& report) {
+  std::vector<std::string> names = report.done;
+  names.insert(names.end(), report.skipped.begin(), report.skipped.end());
+  std::ranges::sort(names);
+  for (const std::string& observation : names) {
+    const auto product = read_product(product_path(out, observation));
+    if (!product) return pass_on(product);
+    for (const std::string& line : refusal_lines(*product)) fmt::print("{}\n", line);
+  }
+  return {};
+}
+
 int finish(const Opened& opened, const RunOptions& options, RunReport report, Work& work) {
   if (options.task) {
     clear_progress();
@@ -242,6 +258,10 @@ int run_verb(const RunArguments& arguments) {
     clear_progress();
     return report(done.error());
   }
+  if (arguments.why) {
+    clear_progress();
+    if (auto told = print_refusals(options.out, *done); !told) return report(told.error());
+  }
   return finish(*opened, options, *done, work);
 }
 
@@ -253,13 +273,14 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
   auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables")->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
+  add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
   verb->add_option("--pings", arguments->pings,
                    "Ping indices A:B of each observation, both included, from 0; shorter ones give what they have");
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
+  verb->add_flag("--why", arguments->why, "Tell every echo that stood out and is no school, with the reason");
   auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
   auto* task =
       verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(CLI::Range(0, kMostTasks));
@@ -282,7 +303,7 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
-  verb->add_option("--calibration", arguments->calibration, kCalibrationHelp);
+  add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] {

@@ -31,6 +31,7 @@ void CsvRowReader::operator()(std::string_view name, std::string_view, std::int6
 }
 
 void CsvRowReader::operator()(std::string_view name, std::string_view, double& v) {
+  if (is_later_column(name) && !table_.column(name)) return;
   if (field(name) == nullptr) return;
   const auto value = table_.number(record_, *table_.column(name));
   if (value) {

@@ -117,16 +117,16 @@ PingNavigation place(const PingMotion& motion, const Tracks& tracks, const Navig
   ping.heave_m = params.heave == HeaveSign::up ? -motion.heave_m : motion.heave_m;
   ping.transducer_depth_m = motion.transducer_depth_m != 0.0 ? motion.transducer_depth_m : params.transducer_depth_m;
   if (params.heave != HeaveSign::off) ping.transducer_depth_m += ping.heave_m;
-  ping.transducer = position_at(tracks.position, motion.time, limit);
-  ping.heading_deg = angle_at(tracks.heading, motion.time, limit, AngleOf::first);
+  ping.transducer = position_at(tracks.position, ping.time, limit);
+  ping.heading_deg = angle_at(tracks.heading, ping.time, limit, AngleOf::first);
   if (std::isnan(ping.heading_deg) && motion.heading_deg != 0.0) ping.heading_deg = wrap_360(motion.heading_deg);
   if (tracks.velocity.samples.empty()) {
-    velocity_from_positions(tracks.position, motion.time, limit, ping);
+    velocity_from_positions(tracks.position, ping.time, limit, ping);
   } else {
-    ping.speed_mps = value_at(tracks.velocity, motion.time, limit);
-    ping.course_deg = angle_at(tracks.velocity, motion.time, limit, AngleOf::second);
+    ping.speed_mps = value_at(tracks.velocity, ping.time, limit);
+    ping.course_deg = angle_at(tracks.velocity, ping.time, limit, AngleOf::second);
   }
-  ping.distance_nmi = value_at(tracks.log, motion.time, ns_of(params.log_limit_s));
+  ping.distance_nmi = value_at(tracks.log, ping.time, ns_of(params.log_limit_s));
   ping.gps_minus_clock_s = value_at(tracks.clock, motion.time, limit);
   return ping;
 }
@@ -165,7 +165,8 @@ bool head_by_course(std::vector<PingNavigation>& pings, TimeNs limit, Diagnostic
 
 /// Fixes left out as jumps, as far as they concern these pings.
 void note_jumps(std::span<const NavSample> jumps, std::span<const NavSeries* const> series,
-                std::span<const PingMotion> pings, const NavigationParams& params, Navigation& result) {
+                const NavigationParams& params, Navigation& result) {
+  const std::vector<PingNavigation>& pings = result.pings;
   if (pings.empty()) return;
   const TimeNs limit = ns_of(params.fix_limit_s);
   const auto concerns = [&](const NavSample& jump) {
@@ -180,7 +181,8 @@ void note_jumps(std::span<const NavSample> jumps, std::span<const NavSeries* con
                       std::find(samples.begin(), samples.end(), jump) != samples.end();
     if (here) result.first_jump = i;
   }
-  const auto after = std::find_if(pings.begin(), pings.end(), [&](const PingMotion& p) { return p.time >= jump.time; });
+  const auto after =
+      std::find_if(pings.begin(), pings.end(), [&](const PingNavigation& p) { return p.time >= jump.time; });
   result.diagnostics.push_back(
       {DiagnosticCode::position_jump, "", -1, after == pings.end() ? std::ssize(pings) - 1 : after - pings.begin(),
        fmt::format("{} fixes left out, the first of {}: faster than {:g} m/s from those before and to those after",
@@ -253,7 +255,7 @@ Navigation navigate(std::span<const NavSeries* const> series, std::span<const Pi
     result.talkers["heading"] = "course";
   }
   for (PingNavigation& ping : result.pings) move_to_transducer(ping, arm.value_or(Point<Vessel>{}));
-  note_jumps(jumps, series, pings, params, result);
+  note_jumps(jumps, series, params, result);
   result.gps_minus_clock_s = median_of(tracks.clock);
   note_lack(
       result.pings, [](const PingNavigation& p) { return !p.has_position(); }, DiagnosticCode::no_position, "position",

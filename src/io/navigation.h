@@ -52,8 +52,13 @@ inline constexpr std::array<std::string_view, 2> kBeamAzimuthSenseNames{"clockwi
 
 template <class Visitor>
 void describe(Visitor& v, NavigationParams& p) {
-  v.field("time_offset_s", p.time_offset_s,
-          {.unit = "s", .min = -1e6, .max = 1e6, .text = "Added to the datagrams' clock."});
+  v.field(
+      "time_offset_s", p.time_offset_s,
+      {.unit = "s",
+       .min = -1e6,
+       .max = 1e6,
+       .text =
+           "Added to the pings' clock: to their times, and so to where between the ship's sentences they are placed."});
   v.field("transducer_depth_m", p.transducer_depth_m,
           {.unit = "m", .min = 0, .max = 100, .text = "Depth of the transducer where the file says 0."});
   v.choice("heave", p.heave, kHeaveSignNames,
@@ -125,7 +130,8 @@ struct Navigation {
 /// the speed of the last two fixes). Fixes that jump away and back (drop_jumps) are left out.
 /// Heading falls back to the pings' own; where no ping has one, to the course over ground of pings that make more than
 /// 1 m/s, and to the shorter arc between such pings where they lie round a slower one.
-/// `time` of a result is the ping's plus time_offset_s, gps_minus_clock_s is without it.
+/// `time` of a result is the ping's plus time_offset_s; at that time the ship is where the sentences say, by the clock that
+/// they were recorded with. gps_minus_clock_s, which tells that clock from GPS, is without it.
 /// series   of all files concerned, in the order of the files
 /// threads  pure
 [[nodiscard]] Navigation navigate(std::span<const NavSeries* const> series, std::span<const PingMotion> pings,

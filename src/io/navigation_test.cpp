@@ -155,6 +155,25 @@ TEST(Navigation, DepthAndHeave) {
   EXPECT_EQ(run({}, {zero}, params).pings[0].transducer_depth_m, 6.5);
 }
 
+// By hand: 5 m/s north, so 2 s are 10 m, and 4 degrees where the heading turns 2 degrees a second; speed and log as well.
+TEST(Navigation, ATimeOffsetMovesThePingsAgainstTheSentences) {
+  const std::vector<NavSeries> said{
+      series(NavQuantity::position, "GP", "GGA", {{at(0), 60.0, 5.0}, {at(10), 60.0 + 50.0 / 111412.9, 5.0}}),
+      series(NavQuantity::heading, "IN", "HDT", {{at(0), 10.0, 0}, {at(10), 30.0, 0}}),
+      series(NavQuantity::velocity, "GP", "VTG", {{at(0), 4.0, 0.0}, {at(10), 6.0, 20.0}}),
+      series(NavQuantity::log, "SD", "VLW", {{at(0), 100.0, 0}, {at(10), 101.0, 0}})};
+  NavigationParams params;
+  const PingNavigation recorded = run(said, {{.time = at(5)}}, params).pings[0];
+  params.time_offset_s = 2.0;
+  const PingNavigation shifted = run(said, {{.time = at(5)}}, params).pings[0];
+  EXPECT_EQ(shifted.time, at(7));
+  EXPECT_NEAR((shifted.transducer.latitude_deg - recorded.transducer.latitude_deg) * 111412.9, 10.0, 0.01);
+  EXPECT_NEAR(shifted.heading_deg - recorded.heading_deg, 4.0, 1e-9);
+  EXPECT_NEAR(shifted.speed_mps - recorded.speed_mps, 0.4, 1e-9);
+  EXPECT_NEAR(shifted.course_deg - recorded.course_deg, 4.0, 1e-9);
+  EXPECT_NEAR(shifted.distance_nmi - recorded.distance_nmi, 0.2, 1e-9);
+}
+
 TEST(Navigation, ClockDifferenceIsStoredAndNeverApplied) {
   NavigationParams params;
   params.time_offset_s = 2.0;

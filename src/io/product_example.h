@@ -30,6 +30,10 @@ inline GridRecord grid() {
   for (int row = 0; row < kFans * kBeams; ++row) record.grid.channel.push_back(kFans * kBeams - 1 - row);
   record.grid.vertical_width_deg.assign(12, 10.0);
   record.grid.horizontal_width_deg.assign(12, 5.0);
+  for (int row = 0; row < kFans * kBeams; ++row) {
+    record.grid.psi_stated_db.push_back(-20.0 + 0.1 * row);
+    record.psi_used_db.push_back(-21.0 + 0.2 * row);
+  }
   record.sample_count = {60, 60, 58};
   record.range = {-1.0, 2.0, kSamples};
   record.sound_speed_mps = 1490.0;

@@ -171,6 +171,8 @@ void read_grid(Reader& in, ObservationProduct& product) {
   grid.channel = in.values<std::int32_t>(group, "channel", fans * beams);
   grid.vertical_width_deg = in.values<double>(group, "vertical_width", fans * beams);
   grid.horizontal_width_deg = in.values<double>(group, "horizontal_width", fans * beams);
+  if (in.has_variable(group, "psi_stated")) grid.psi_stated_db = in.values<double>(group, "psi_stated", fans * beams);
+  if (in.has_variable(group, "psi_used")) record.psi_used_db = in.values<double>(group, "psi_used", fans * beams);
   record.sample_count = in.values<std::int32_t>(group, "sample_count", fans);
   record.range = {scalar(in, group, "range_of_first_sample"), scalar(in, group, "sample_spacing"), 0};
   const auto count = in.values<std::int32_t>(group, "sample_count_of_grid", 1);
@@ -237,10 +239,9 @@ std::size_t column_count() {
 }
 
 template <class Row>
-void read_rows(Reader& in, const char* group_name, const char* dimension, std::vector<Row>& rows) {
-  const int group = in.group(in.root(), group_name);
+void read_rows(Reader& in, int group, const char* dimension, const char* key, std::vector<Row>& rows) {
   const std::size_t n = in.dimension(group, dimension);
-  if (n > 0 && in.size(group, "school_id") != n) in.refuse(ErrorCode::format, "'school_id' has another length");
+  if (n > 0 && in.size(group, key) != n) in.refuse(ErrorCode::format, fmt::format("'{}' has another length", key));
   if (!in.ok() || !in.can_hold(n, column_count<Row>() * sizeof(double))) return;
   rows.resize(n);
   RowFiller<Row>(in, group, rows).fill();
@@ -263,6 +264,12 @@ void restore_nanoseconds(ObservationProduct& product) {
       exact(row.ping_index, school.last_time_utc);
     }
   }
+}
+
+/// Products from before refusals were told lack the group.
+void read_rejected(Reader& in, ObservationProduct& product) {
+  const int group = in.find_group(in.root(), "rejected");
+  if (group >= 0) read_rows(in, group, "echo", "echo_id", product.rejected);
 }
 
 void read_diagnostics(Reader& in, ObservationProduct& product) {
@@ -292,10 +299,11 @@ Result<ObservationProduct> read_whole(const std::filesystem::path& path) {
     read_attributes(in, product);
     read_grid(in, product);
     read_pings(in, product);
-    read_rows(in, "schools", "school", product.schools);
+    read_rows(in, in.group(in.root(), "schools"), "school", "school_id", product.schools);
     read_numbers(in, product);
-    read_rows(in, "school_pings", "row", product.school_pings);
+    read_rows(in, in.group(in.root(), "school_pings"), "row", "school_id", product.school_pings);
     read_mask(in, product);
+    read_rejected(in, product);
     read_diagnostics(in, product);
   }
   if (!in.ok()) return pass_on(in.status());

@@ -37,6 +37,19 @@ class Product : public testing::Test {
     example::add_school(p, 2, 2, 4, example::block(0, 0, 3, 40, 5));
     p.pings[2].bad = true;
     p.diagnostics.push_back({DiagnosticCode::file_truncated, "a file.raw", 17, -1, "text, with \"quotes\""});
+    p.rejected = {{.ping_index = 1,
+                   .echo_id = 1,
+                   .channel = 7,
+                   .sample = 30,
+                   .depth_m = 20.0,
+                   .range_m = 59.0,
+                   .n_beams = 1,
+                   .n_fans = 2,
+                   .level_db = -50.0,
+                   .judge = "size",
+                   .figure = 1.0,
+                   .limit = 2.0,
+                   .limit_unit = "beams"}};
     p.background_db.assign(5, std::vector<float>(12, -150.0F));
     p.background_db[3].clear();
     for (std::size_t row = 0; row < 12; ++row) p.background_db[0][row] = -140.0F - static_cast<float>(row);
@@ -63,6 +76,7 @@ TEST_F(Product, reads_back_what_was_written) {
   EXPECT_EQ(back->input_files, p.input_files);
   ASSERT_TRUE(back->grid);
   EXPECT_EQ(back->grid->grid, p.grid->grid);
+  EXPECT_EQ(back->grid->psi_used_db, p.grid->psi_used_db);
   EXPECT_EQ(back->grid->range, p.grid->range);
   EXPECT_EQ(back->grid->sample_count, p.grid->sample_count);
   ASSERT_EQ(back->pings.size(), 5U);
@@ -84,6 +98,12 @@ TEST_F(Product, reads_back_what_was_written) {
   ASSERT_EQ(back->school_pings.size(), 7U);
   EXPECT_EQ(back->school_pings[6].latitude, p.school_pings[6].latitude);
   EXPECT_EQ(back->school_pings[6].time_utc, p.school_pings[6].time_utc);
+  ASSERT_EQ(back->rejected.size(), 1U);
+  EXPECT_EQ(back->rejected[0].sample, 30);
+  EXPECT_EQ(back->rejected[0].judge, "size");
+  EXPECT_EQ(back->rejected[0].limit_unit, "beams");
+  EXPECT_EQ(back->rejected[0].limit, 2.0);
+  EXPECT_TRUE(std::isnan(back->rejected[0].latitude));
   ASSERT_EQ(back->diagnostics.size(), 1U);
   EXPECT_EQ(back->diagnostics[0].code, DiagnosticCode::file_truncated);
   EXPECT_EQ(back->diagnostics[0].offset, 17);

@@ -12,6 +12,7 @@
 #include "io/netcdf_file.h"
 #include "io/product.h"
 #include "io/product_seal.h"
+#include "model/beam_angles.h"
 
 namespace sonar {
 namespace {
@@ -107,6 +108,22 @@ void write_pings(Writer& out, const ObservationProduct& product) {
   write_background(out, group, ping, product);
 }
 
+/// Left out where they are not known, as of an older product.
+void write_beam_angles(Writer& out, int group, const std::vector<Dimension>& beams, const GridRecord& record) {
+  const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name) {
+    if (values.size() != record.grid.channel.size()) return;
+    out.attribute(group, out.variable(group, name, unit, beams, values), "long_name", long_name);
+  };
+  if (!record.grid.psi_stated_db.empty()) {
+    put("psi_stated", "dB re 1 sr", record.grid.psi_stated_db,
+        "equivalent two-way beam angle as the raw files state it");
+    put("psi_from_widths", "dB re 1 sr", psi_from_widths_db(record.grid),
+        "the same of the square of a beam of these widths");
+    put("psi_excess", "dB", psi_excess_db(record.grid), "psi_stated minus psi_from_widths");
+  }
+  put("psi_used", "dB re 1 sr", record.psi_used_db, "equivalent two-way beam angle that Sv was worked out with");
+}
+
 void write_grid(Writer& out, const ObservationProduct& product) {
   const int group = out.group(out.root(), "grid");
   if (!product.grid) return;
@@ -128,6 +145,7 @@ void write_grid(Writer& out, const ObservationProduct& product) {
   named(out.variable(group, "vertical_width", "degrees", {fan, beam}, grid.vertical_width_deg), "one-way -3 dB width");
   named(out.variable(group, "horizontal_width", "degrees", {fan, beam}, grid.horizontal_width_deg),
         "one-way -3 dB width");
+  write_beam_angles(out, group, {fan, beam}, record);
   named(out.variable(group, "sample_count", "1", {fan}, record.sample_count), "samples of the fan's longest beam");
   named(out.variable(group, "sample_count_of_grid", "1", {}, std::vector<std::int32_t>{record.range.count}),
         "samples of the longest fan");
@@ -269,6 +287,9 @@ Result<void> check_shapes(const ObservationProduct& product, const Where& where)
                      grid.horizontal_width_deg.size() == cells &&
                      product.grid->sample_count.size() == grid.elevation_deg.size();
   if (!whole) return wrong("the grid's arrays differ in size");
+  for (const std::vector<double>& psi_db : {grid.psi_stated_db, product.grid->psi_used_db}) {
+    if (!psi_db.empty() && psi_db.size() != cells) return wrong("beam angles and beams differ in number");
+  }
   std::set<int> channels(grid.channel.begin(), grid.channel.end());
   if (channels.size() != cells || *channels.begin() != 0 || *channels.rbegin() != static_cast<int>(cells) - 1) {
     return wrong("the grid's channels are not 0, 1, ... each once");
@@ -296,6 +317,7 @@ Result<void> write_product(const ObservationProduct& product, const std::filesys
     write_rows(out, "schools", "school", product.schools);
     write_rows(out, "school_pings", "row", product.school_pings);
     write_mask(out, *runs);
+    write_rows(out, "rejected", "echo", product.rejected);
     write_diagnostics(out, product.diagnostics);
     if (auto closed = out.close(); !closed) return closed;
   }

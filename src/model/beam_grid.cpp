@@ -77,6 +77,7 @@ Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vec
   grid.channel.assign(cells, -1);
   grid.vertical_width_deg.resize(cells);
   grid.horizontal_width_deg.resize(cells);
+  grid.psi_stated_db.resize(cells);
   grid.frequency_hz.assign(grid.elevation_deg.size(), 0.0);
   for (std::size_t i = 0; i < config.beams.size(); ++i) {
     const BeamConfig& beam = config.beams[i];
@@ -88,6 +89,7 @@ Result<BeamGrid> fill(const SounderConfig& config, BeamGrid grid, const std::vec
     grid.channel[row] = static_cast<int>(i);
     grid.vertical_width_deg[row] = beam.width_alongship_deg;
     grid.horizontal_width_deg[row] = beam.width_athwartship_deg;
+    grid.psi_stated_db[row] = beam.equivalent_beam_angle_db;
     grid.frequency_hz[fan] += beam.frequency_hz / static_cast<double>(beams);
   }
   return grid;

@@ -19,6 +19,7 @@ struct BeamGrid {
   std::vector<int> channel;                  ///< [fan][beam] -> 0-based channel
   std::vector<double> vertical_width_deg;    ///< [fan][beam], one-way -3 dB, steering included
   std::vector<double> horizontal_width_deg;  ///< [fan][beam]
+  std::vector<double> psi_stated_db;  ///< [fan][beam], equivalent two-way beam angle, dB re 1 sr; empty = not told
 
   [[nodiscard]] int fans() const { return static_cast<int>(elevation_deg.size()); }
   [[nodiscard]] int beams() const { return static_cast<int>(azimuth_deg.size()); }

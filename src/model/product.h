@@ -10,6 +10,7 @@
 #include "model/beam_grid.h"
 #include "model/mask.h"
 #include "model/navigation.h"
+#include "model/refused_echo.h"
 #include "model/school.h"
 
 namespace sonar {
@@ -30,6 +31,7 @@ struct GridRecord {
   std::vector<std::int32_t> sample_count;  ///< [fan]
   RangeAxis range;                         ///< first_m unclamped, may be negative
   double sound_speed_mps = 0.0;
+  std::vector<double> psi_used_db;  ///< [fan][beam], what Sv was worked out with; empty = not told
 };
 
 /// One mask in the product's table.
@@ -62,6 +64,7 @@ struct ObservationProduct {
   std::vector<SchoolRow> schools;
   std::vector<SchoolPingRow> school_pings;  ///< sorted by school_id, ping_index
   std::vector<SchoolMask> masks;            ///< sorted by school_id, ping_index
+  std::vector<RefusedEcho> rejected;        ///< sorted by ping_index, channel, sample; older products tell none
   Diagnostics diagnostics;
   /// Above every number that a school of these pings ever had; 0 = only those that are here.
   std::int64_t next_school_id = 0;

@@ -67,6 +67,8 @@ struct SchoolPingRow {
   std::int64_t touches_edge = 0;
   double bottom_depth_m = kUnknown;
   std::int64_t provisional = 0;
+  double backscatter_psi_error_db = kUnknown;
+  double backscatter_calibration_se_db = kUnknown;
 };
 
 /// One school track: a row of schools.csv.
@@ -101,6 +103,8 @@ struct SchoolRow {
   std::string species;
   std::string comment;
   std::string name;  ///< that a human gave it
+  double backscatter_psi_error_db = kUnknown;
+  double backscatter_calibration_se_db = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -152,6 +156,8 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("touches_edge", "1", r.touches_edge);
   v("bottom_depth_m", "m", r.bottom_depth_m);
   v("provisional", "1", r.provisional);
+  v("backscatter_psi_error_db", "dB", r.backscatter_psi_error_db);
+  v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
 }
 
 template <class Visitor>
@@ -186,9 +192,13 @@ void columns(Visitor& v, SchoolRow& r) {
   v("species", "", r.species);
   v("comment", "", r.comment);
   v("name", "", r.name);
+  v("backscatter_psi_error_db", "dB", r.backscatter_psi_error_db);
+  v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
-[[nodiscard]] constexpr bool is_later_column(std::string_view column) { return column == "name"; }
+[[nodiscard]] constexpr bool is_later_column(std::string_view column) {
+  return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db";
+}
 
 }  // namespace sonar

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "model/beam_angles.h"
+
 namespace sonar {
 namespace {
 
@@ -35,7 +37,7 @@ bool tells_absorption(const ChannelPing& head) {
   return head.absorption_db_per_m > 0.0 && std::isfinite(head.absorption_db_per_m);
 }
 
-double absorption_of(const ChannelPing& head, const CalibrationParams& params) {
+double absorption_of(const ChannelPing& head, const CalibrationParams& params, double given_speed_mps) {
   switch (params.absorption) {
     case AbsorptionSource::file:
       if (tells_absorption(head)) return head.absorption_db_per_m;
@@ -45,7 +47,7 @@ double absorption_of(const ChannelPing& head, const CalibrationParams& params) {
     case AbsorptionSource::francois_garrison:
       break;
   }
-  return absorption_francois_garrison(head.frequency_hz, params.water);
+  return absorption_francois_garrison(head.frequency_hz, params.water, given_speed_mps);
 }
 
 Hash128 settings_hash(std::span<const ChannelPing> heads) {
@@ -65,17 +67,17 @@ Hash128 settings_hash(std::span<const ChannelPing> heads) {
 }  // namespace
 
 ChannelCalibration channel_calibration(const BeamConfig& beam, const ChannelPing& head, const CalibrationParams& params,
-                                       const BeamCalibration* beam_calibration) {
+                                       const BeamCalibration* beam_calibration, double given_speed_mps) {
   const GainPair gain = gain_of(beam, head.pulse_length_s, params.pulse_tolerance);
   ChannelCalibration calibration;
   calibration.frequency_hz = head.frequency_hz;
-  calibration.absorption_db_per_m = absorption_of(head, params);
+  calibration.absorption_db_per_m = absorption_of(head, params, given_speed_mps);
   calibration.transmit_power_w = head.transmit_power_w;
   calibration.pulse_length_s = head.pulse_length_s;
-  calibration.sound_speed_mps = head.sound_speed_mps;
+  calibration.sound_speed_mps = given_speed_mps > 0.0 ? given_speed_mps : head.sound_speed_mps;
   calibration.gain_db = gain.gain_db;
   calibration.sa_correction_db = gain.sa_correction_db;
-  calibration.equivalent_beam_angle_db = beam.equivalent_beam_angle_db;
+  calibration.equivalent_beam_angle_db = psi_db_of(beam, params, beam_calibration);
   if (beam_calibration != nullptr) {
     const auto take = [](double& value, double from) {
       if (std::isfinite(from)) value = from;
@@ -88,16 +90,11 @@ ChannelCalibration channel_calibration(const BeamConfig& beam, const ChannelPing
 }
 
 CalibrationTables::CalibrationTables(const ObservationFiles& observation, const CalibrationParams& params)
-    : observation_(observation), params_(params), row_of_channel_(observation.grid->row_of_channel()) {
-  std::sort(params_.beams.begin(), params_.beams.end(),
-            [](const BeamCalibration& a, const BeamCalibration& b) { return a.channel < b.channel; });
-}
-
-const BeamCalibration* CalibrationTables::user_values(int channel) const {
-  const auto found = std::lower_bound(params_.beams.begin(), params_.beams.end(), channel,
-                                      [](const BeamCalibration& beam, int wanted) { return beam.channel < wanted; });
-  return found != params_.beams.end() && found->channel == channel ? &*found : nullptr;
-}
+    : observation_(observation),
+      params_(params),
+      users_(params.beams),
+      given_speed_mps_(observation.sound_speed_given ? observation.sound_speed_mps : 0.0),
+      row_of_channel_(observation.grid->row_of_channel()) {}
 
 CalibrationTables::Table CalibrationTables::of(std::span<const ChannelPing> heads) {
   const Hash128 key = settings_hash(heads);
@@ -118,8 +115,8 @@ CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> he
   for (const ChannelPing& head : heads) {
     const auto channel = static_cast<std::size_t>(head.channel);
     if (channel >= row_of_channel_.size() || row_of_channel_[channel] < 0) continue;
-    const ChannelCalibration calibration =
-        channel_calibration(observation_.config.beams[channel], head, params_, user_values(head.channel));
+    const ChannelCalibration calibration = channel_calibration(observation_.config.beams[channel], head, params_,
+                                                               users_.of(head.channel), given_speed_mps_);
     const auto row = sv_table(calibration, range.first_m, range.spacing_m, range.count);
     std::copy(row.begin(), row.end(), table->view().row(row_of_channel_[channel]).begin());
   }
@@ -140,7 +137,7 @@ ChannelPing CalibrationTables::first_head(std::size_t channel) const {
 
 void CalibrationTables::note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const {
   const auto unmatched = [&](std::size_t channel) {
-    const BeamCalibration* user = user_values(static_cast<int>(channel));
+    const BeamCalibration* user = users_.of(static_cast<int>(channel));
     const bool given = user != nullptr && std::isfinite(user->gain_db) && std::isfinite(user->sa_correction_db);
     return !given && !gain_of(observation_.config.beams[channel], observation_.transmit[channel].pulse_length_s,
                               params_.pulse_tolerance)
@@ -176,7 +173,8 @@ Diagnostics CalibrationTables::diagnostics() const {
   for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
     if (!observation_.transmit[channel].seen() || channel >= observation_.config.beams.size()) continue;
     const ChannelPing head = first_head(channel);
-    if (is_sound(channel_calibration(observation_.config.beams[channel], head, params_, user_values(head.channel)))) {
+    if (is_sound(channel_calibration(observation_.config.beams[channel], head, params_, users_.of(head.channel),
+                                     given_speed_mps_))) {
       sound.push_back(channel);
       continue;
     }
@@ -186,7 +184,17 @@ Diagnostics CalibrationTables::diagnostics() const {
   }
   note_unmatched_gains(sound, notes);
   note_computed_absorption(sound, notes);
+  note_impossible_psi(notes);
   return notes;
+}
+
+void CalibrationTables::note_impossible_psi(Diagnostics& notes) const {
+  if (params_.psi != PsiSource::stated) return;
+  const PsiExcess excess = excess_over(psi_excess_db(calibrated_grid(*observation_.grid, params_)));
+  if (excess.impossible == 0) return;
+  notes.push_back({DiagnosticCode::psi_against_widths, "", -1, -1,
+                   text_of(excess) + "; calibration.psi chooses, backscatter_psi_error_db tells what it means for each "
+                                     "school"});
 }
 
 void CalibrationTables::note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const {

@@ -14,14 +14,16 @@ namespace sonar {
 namespace {
 
 constexpr int kMaxChannels = 100'000;
-constexpr double kMostDecibels = 100.0;
 
 /// Numbers under known names; null is unknown.
 Result<void> check_entry(const nlohmann::json& entry, std::size_t index) {
   if (!entry.is_object())
     return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected an object", index));
   for (const auto& [name, value] : entry.items()) {
-    if (name != "channel" && name != "gain_db" && name != "sa_correction_db" && name != "extra_factor_db") {
+    bool known = name == "channel";
+    BeamCalibration blank;
+    columns([&](const char* column, double&, double, double) { known = known || name == column; }, blank);
+    if (!known) {
       return fail(ErrorCode::format, fmt::format("beam_calibration[{}].{}: no such parameter", index, name));
     }
     if (!value.is_number() && !value.is_null()) {
@@ -36,10 +38,14 @@ Result<void> check_entry(const nlohmann::json& entry, std::size_t index) {
 nlohmann::json beams_to_json(const std::vector<BeamCalibration>& beams) {
   nlohmann::json list = nlohmann::json::array();
   for (const BeamCalibration& beam : beams) {
-    list.push_back({{"channel", beam.channel},
-                    {"gain_db", beam.gain_db},
-                    {"sa_correction_db", beam.sa_correction_db},
-                    {"extra_factor_db", beam.extra_factor_db}});
+    nlohmann::json entry{{"channel", beam.channel}};
+    BeamCalibration copy = beam;
+    columns(
+        [&](const char* name, double& value, double, double) {
+          if (std::isfinite(value)) entry[name] = value;
+        },
+        copy);
+    list.push_back(std::move(entry));
   }
   return list;
 }
@@ -56,8 +62,9 @@ Result<std::vector<BeamCalibration>> beams_from_json(const nlohmann::json& list)
     if (!(channel >= 0 && channel < kMaxChannels && channel == std::floor(channel))) {
       return fail(ErrorCode::format, fmt::format("beam_calibration[{}]: expected a channel", beams.size()));
     }
-    beams.push_back(
-        {static_cast<int>(channel), number("gain_db"), number("sa_correction_db"), number("extra_factor_db")});
+    BeamCalibration& beam = beams.emplace_back();
+    beam.channel = static_cast<int>(channel);
+    columns([&](const char* name, double& value, double, double) { value = number(name); }, beam);
   }
   return beams;
 }
@@ -68,12 +75,17 @@ Result<void> check_beams(const std::vector<BeamCalibration>& beams) {
     if (!channels.insert(beam.channel).second) {
       return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {} stands twice", beam.channel));
     }
-    for (const double db : {beam.gain_db, beam.sa_correction_db, beam.extra_factor_db}) {
-      if (std::abs(db) > kMostDecibels) {
-        return fail(ErrorCode::bad_parameter, fmt::format("calibration: channel {}: {} dB is outside -{} .. {}",
-                                                          beam.channel, db, kMostDecibels, kMostDecibels));
-      }
-    }
+    std::string problem;
+    BeamCalibration copy = beam;
+    columns(
+        [&](const char* name, double& value, double least, double most) {
+          if (problem.empty() && (value < least || value > most)) {
+            problem = fmt::format("calibration: channel {}: {} = {} is outside {} .. {}", beam.channel, name, value,
+                                  least, most);
+          }
+        },
+        copy);
+    if (!problem.empty()) return fail(ErrorCode::bad_parameter, problem);
   }
   return {};
 }

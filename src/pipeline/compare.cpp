@@ -138,6 +138,8 @@ void compare_grid(Differ& differ, const ObservationProduct& a, const Observation
   differ.values("/grid/channel", g.channel, h.channel);
   differ.values("/grid/vertical_width", g.vertical_width_deg, h.vertical_width_deg);
   differ.values("/grid/horizontal_width", g.horizontal_width_deg, h.horizontal_width_deg);
+  differ.values("/grid/psi_stated", g.psi_stated_db, h.psi_stated_db);
+  differ.values("/grid/psi_used", a.grid->psi_used_db, b.grid->psi_used_db);
   differ.values("/grid/sample_count", a.grid->sample_count, b.grid->sample_count);
   differ.value("/grid/sample_count_of_grid", a.grid->range.count, b.grid->range.count);
   differ.value("/grid/sample_spacing", a.grid->range.spacing_m, b.grid->range.spacing_m);
@@ -265,6 +267,7 @@ std::string first_difference(const ObservationProduct& a, const ObservationProdu
   compare_masks(differ, a, b);
   differ.rows("/school_pings", a.school_pings, b.school_pings);
   differ.rows("/schools", a.schools, b.schools);
+  differ.rows("/rejected", a.rejected, b.rejected);
   if (!differ.found()) compare_grid(differ, a, b);
   if (!differ.found()) compare_pings(differ, a, b);
   if (!differ.found()) compare_names(differ, a, b);

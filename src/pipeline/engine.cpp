@@ -9,6 +9,9 @@
 
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
+#include "school/detect_params.h"
+#include "school/evidence/null_model.h"
+#include "school/evidence/short_means.h"
 #include "school/standing_out.h"
 #include "signal/beam_overlap.h"
 #include "signal/calibrate.h"
@@ -46,7 +49,9 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
     : survey_(survey),
       observation_(observation),
       recipe_(recipe),
-      sector_(observation.sector()),
+      grid_(calibrated_grid(*observation.grid, recipe.calibration)),
+      figures_(sonar::beam_figures(observation.config, grid_, recipe.calibration)),
+      sector_(grid_.sector(observation.range)),
       tables_(observation, recipe.calibration),
       reckoned_(dead_reckoning(observation.navigation)),
       estimates_(observation.pings.size()),
@@ -211,9 +216,23 @@ MedianParams Engine::filter_box() const {
                 grid().horizontal_width_deg);
 }
 
-DetectParams Engine::detect_params() const {
+WaterLevels Engine::own_water(const StagedPing& ping) const {
+  if (ping.water) return *ping.water;
+  const WaterPing alone{&ping.means, &ping.seabed, ping.background()};
+  return water_levels({&alone, 1}, sector_, kLeastEvidence).front();
+}
+
+PingEcho Engine::echo(const StagedPing& ping, const WaterLevels& water) const {
+  constexpr int kPeakRows = 9;  // of fewer beams the loudest filtered voxels are fading
   const MedianParams box = filter_box();
-  return for_filter(recipe_.detect, box.kernel_fans * box.kernel_beams);
+  return {std::as_const(ping.filtered->counts).view(),
+          std::as_const(ping.sv.counts).view(),
+          std::as_const(ping.sv.flags).view(),
+          sector_,
+          ping.background(),
+          ping.seabed,
+          water,
+          box.kernel_fans * box.kernel_beams >= kPeakRows};
 }
 
 Result<StagedPing> Engine::staged(std::int64_t ping_index) {
@@ -229,15 +248,23 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.background_db.push_back(static_cast<double>(level_db));
   }
   if (is_reduced((*loaded)->heads)) {
-    ping.water = reduced_water((*loaded)->heads);
+    WaterLevels water = reduced_water((*loaded)->heads, ping.sv.counts.shape());
+    // files that were reduced earlier do not tell it: then what was left out counts as silent
+    if (water.known()) ping.water = std::move(water);
   }
   if (recipe_.seabed.enabled && is_reduced((*loaded)->heads)) {
     ping.seabed = reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->counts.shape().samples);
-    flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->flags.view());
+    flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.sv.flags.view());
+    ping.filtered->flags = ping.sv.flags;
   } else if (recipe_.seabed.enabled) {
     ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), ping.background(), sector_,
                               grid().vertical_width_deg, recipe_.seabed);
-    if (ping.seabed.found) flag_seabed(ping.seabed, ping.filtered->flags.view());
+    flag_seabed(ping.seabed, ping.filtered->flags.view());
+    flag_ground(ping.seabed, ping.sv.flags.view());
+  }
+  if (!ping.water) {
+    ping.means = short_means(std::as_const(ping.sv.counts).view(), std::as_const(ping.sv.flags).view(),
+                             piece_samples(sector_.range()));
   }
   return ping;
 }
@@ -263,10 +290,16 @@ FilteredPing Engine::filtered(const StagedPing& ping) const {
   out.placement = tracking_placement(ping.ping_index);
   out.time = observation_.navigation[static_cast<std::size_t>(ping.ping_index)].time;
   out.bad = is_bad(ping.ping_index);
-  out.standing_out = [volume = ping.filtered, table = ping.calibration, noise = ping.background_db, water = ping.water,
-                      params = recipe_.detect](double margin_db, Above above) {
-    const Background background{noise, table->view(), water ? &*water : nullptr};
-    return standing_out(volume->counts.view(), volume->flags.view(), background, params, margin_db, above);
+  out.standing_out = [this, volume = ping.filtered, table = ping.calibration, noise = ping.background_db,
+                      known = ping.water, means = ping.means, seabed = ping.seabed](double margin_db, Above above) {
+    const Background background{noise, table->view()};
+    const auto counts = std::as_const(volume->counts).view();
+    const auto flags = std::as_const(volume->flags).view();
+    if (above == Above::noise) return standing_out(counts, flags, background, nullptr, margin_db);
+    if (known) return standing_out(counts, flags, background, &*known, margin_db);
+    const WaterPing alone{&means, &seabed, background};
+    const WaterLevels water = water_levels({&alone, 1}, sector_, kLeastEvidence).front();
+    return standing_out(counts, flags, background, &water, margin_db);
   };
   return out;
 }

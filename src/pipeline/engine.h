@@ -18,6 +18,7 @@
 #include "school/background.h"
 #include "school/dead_reckoning.h"
 #include "school/filtered_ping.h"
+#include "school/judge/ping_echo.h"
 #include "school/seabed.h"
 #include "signal/flags.h"
 
@@ -26,16 +27,15 @@ namespace sonar {
 /// Everything the stages after the raw file know of one ping. Values, never changed once handed out.
 struct StagedPing {
   std::int64_t ping_index = 0;
-  Volume sv;                         ///< unfiltered Sv counts; flags without the seabed
-  std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the seabed
+  Volume sv;                         ///< unfiltered Sv counts; flags with the ground
+  std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the ground and its flank
   Seabed seabed;
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
-  std::optional<WaterLevels> water;   ///< where a reduced file brings them; else to be found
+  std::optional<WaterLevels> water;   ///< where a reduced file brings them; else its neighbours are needed to tell
+  Array3<float> means;                ///< short_means() of the unfiltered Sv; empty where water is known
 
-  [[nodiscard]] Background background() const {
-    return {background_db, calibration->view(), water ? &*water : nullptr};
-  }
+  [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
 };
 
 /// "Stage S of ping i, please" for one observation under one recipe. Nothing is kept but what neighbouring pings share
@@ -48,7 +48,9 @@ class Engine {
 
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(observation_.pings.size()); }
   [[nodiscard]] const Sector& sector() const { return sector_; }
-  [[nodiscard]] const BeamGrid& grid() const { return *observation_.grid; }
+  /// With the widths of the recipe's calibration.
+  [[nodiscard]] const BeamGrid& grid() const { return grid_; }
+  [[nodiscard]] const BeamFigures& beam_figures() const { return figures_; }
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
   [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
@@ -74,8 +76,10 @@ class Engine {
   /// Background of a ping by row, dB re 1 W, rounded to float as it is stored; empty where it is not subtracted.
   [[nodiscard]] std::vector<float> background_db(std::int64_t ping_index) const;
 
-  /// The recipe's, fitted to the filter's box.
-  [[nodiscard]] DetectParams detect_params() const;
+  /// Water levels told by a ping alone, where its neighbours are not at hand.
+  [[nodiscard]] WaterLevels own_water(const StagedPing& ping) const;
+  /// A ping as detection sees it. water  its levels; outlives what is returned, as the ping does
+  [[nodiscard]] PingEcho echo(const StagedPing& ping, const WaterLevels& water) const;
 
   /// All stages up to the seabed. errors: as load_volume()
   [[nodiscard]] Result<StagedPing> staged(std::int64_t ping_index);
@@ -99,6 +103,8 @@ class Engine {
   const SurveyFiles& survey_;
   const ObservationFiles& observation_;
   const Recipe recipe_;
+  BeamGrid grid_;
+  BeamFigures figures_;
   Sector sector_;
   CalibrationTables tables_;
   DeadReckoning reckoned_;

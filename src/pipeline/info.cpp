@@ -94,7 +94,7 @@ SurveyInfo::Observation observation_info(const SurveyFiles& survey, const Observ
   info.pings = static_cast<std::int64_t>(observation.pings.size());
   info.first_time = observation.navigation.front().time;
   info.last_time = observation.navigation.back().time;
-  if (observation.grid) info.grid = {observation.grid->fans(), observation.grid->beams()};
+  info.grid = observation.grid;
   info.continues_cut = observation.continues_cut;
   info.talkers = observation.talkers;
   info.notes = observation.diagnostics;

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "base/work.h"
+#include "model/beam_grid.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -41,7 +42,7 @@ struct SurveyInfo {
     std::int64_t pings = 0;
     TimeNs first_time = 0;
     TimeNs last_time = 0;
-    std::optional<std::pair<int, int>> grid;  ///< fans, beams
+    std::optional<BeamGrid> grid;
     bool continues_cut = false;
     Talkers talkers;
     Diagnostics notes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/info.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -49,6 +50,14 @@ TEST(Info, JsonHasTheNamesAndUnitsOfTheInterface) {
   EXPECT_EQ(observation.at("files"), json{"a.raw"});
   EXPECT_EQ(observation.at("pings"), 2);
   EXPECT_EQ(observation.at("grid"), (json{{"fans", 2}, {"beams", 3}}));
+  // By hand: the square of beams of 7 x 3 degrees has 10 log10(pi / (8 ln 2) x 21 (pi / 180)^2) = -24.408 dB; -23 are stated.
+  EXPECT_EQ(observation.at("psi").at("stated_db").size(), 2U);
+  EXPECT_EQ(observation.at("psi").at("stated_db")[0], json({-23.0, -23.0, -23.0}));
+  EXPECT_EQ(observation.at("psi").at("from_widths_db")[1][2], -24.408);
+  EXPECT_EQ(observation.at("psi").at("excess_db")[1][2], 1.408);
+  EXPECT_THAT(info_text(*info),
+              testing::HasSubstr("psi is 1.4 to 1.4 dB (mean 1.4) more than the widths give\n  by fan, "
+                                 "deepest first, dB: 1.4 1.4\n"));
 }
 
 TEST(Info, DamagedFileIsListedWithItsNotes) {

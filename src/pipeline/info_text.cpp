@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/beam_angles.h"
 #include "pipeline/info.h"
 
 namespace sonar {
@@ -52,9 +53,46 @@ Json file_json(const FileInfo& file) {
   return json;
 }
 
+/// To a thousandth of a dB; null = not known.
+Json by_fan(const std::vector<double>& values_db, const BeamGrid& grid) {
+  Json fans = Json::array();
+  for (int fan = 0; fan < grid.fans(); ++fan) {
+    Json row = Json::array();
+    for (int beam = 0; beam < grid.beams(); ++beam) {
+      const double db = values_db[static_cast<std::size_t>(fan * grid.beams() + beam)];
+      row.push_back(std::isfinite(db) ? Json(std::round(db * 1e3) / 1e3) : Json(nullptr));
+    }
+    fans.push_back(std::move(row));
+  }
+  return fans;
+}
+
+Json psi_json(const BeamGrid& grid) {
+  return {{"stated_db", by_fan(grid.psi_stated_db, grid)},
+          {"from_widths_db", by_fan(psi_from_widths_db(grid), grid)},
+          {"excess_db", by_fan(psi_excess_db(grid), grid)}};
+}
+
+/// What the whole grid's beam angles are beside their widths, and a number for each fan.
+std::string psi_text(const BeamGrid& grid) {
+  const std::vector<double> excess_db = psi_excess_db(grid);
+  const std::string all = text_of(excess_over(excess_db));
+  if (all.empty()) return {};
+  std::string text = fmt::format("  {}\n  by fan, deepest first, dB:", all);
+  for (int fan = 0; fan < grid.fans(); ++fan) {
+    const PsiExcess of_fan = excess_of_fan(excess_db, grid, fan);
+    text += of_fan.beams > 0 ? fmt::format(" {:.1f}", of_fan.mean_db) : std::string(" -");
+  }
+  return text + '\n';
+}
+
 Json observation_json(const SurveyInfo::Observation& observation) {
   Json grid = nullptr;
-  if (observation.grid) grid = {{"fans", observation.grid->first}, {"beams", observation.grid->second}};
+  Json psi = nullptr;
+  if (observation.grid) {
+    grid = {{"fans", observation.grid->fans()}, {"beams", observation.grid->beams()}};
+    psi = psi_json(*observation.grid);
+  }
   return {{"name", observation.name},
           {"files", observation.files},
           {"sounder", observation.sounder},
@@ -62,6 +100,7 @@ Json observation_json(const SurveyInfo::Observation& observation) {
           {"first_time_utc", iso_time(observation.first_time)},
           {"last_time_utc", iso_time(observation.last_time)},
           {"grid", std::move(grid)},
+          {"psi", std::move(psi)},
           {"continues_cut", observation.continues_cut},
           {"talkers", observation.talkers},
           {"notes", notes_json(observation.notes)}};
@@ -109,10 +148,11 @@ std::string file_text(const FileInfo& file) {
 
 std::string observation_text(const SurveyInfo::Observation& o) {
   const std::string grid =
-      o.grid ? fmt::format("{} fans x {} beams", o.grid->first, o.grid->second) : std::string("no grid");
+      o.grid ? fmt::format("{} fans x {} beams", o.grid->fans(), o.grid->beams()) : std::string("no grid");
   std::string text =
       fmt::format("{}: {}, {} pings, {}, {} to {}{}\n", printable(o.name), printable(o.sounder), o.pings, grid,
                   iso_time(o.first_time), iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
+  if (o.grid) text += psi_text(*o.grid);
   for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));
   return text + notes_text(o.notes);
 }

@@ -10,9 +10,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/describe.h"
 #include "base/result.h"
+#include "pipeline/gone_parameters.h"
 #include "pipeline/json_file.h"
 
 namespace sonar {
@@ -41,7 +43,7 @@ class JsonWriter {
 };
 
 /// Visitor that fills a described parameter struct from JSON. A member that is absent keeps its default; one that is
-/// unknown, or of another type, is refused by name.
+/// unknown, or of another type, is refused by name; those that earlier versions knew are listed.
 class JsonReader {
  public:
   explicit JsonReader(const nlohmann::json& json, std::string prefix = {}) : json_(json), prefix_(std::move(prefix)) {
@@ -86,6 +88,7 @@ class JsonReader {
     describe(inner, parameters);
     inner.finish();
     if (problem_.empty()) problem_ = inner.problem_;
+    gone_.insert(gone_.end(), inner.gone_.begin(), inner.gone_.end());
   }
 
   /// Marks a member as known that is read elsewhere.
@@ -95,11 +98,17 @@ class JsonReader {
     if (!problem_.empty() || !json_.is_object()) return;
     for (const auto& [key, value] : json_.items()) {
       if (known_.count(key) == 0) {
+        if (is_gone_parameter(prefix_ + key)) {
+          gone_.push_back(prefix_ + key);
+          continue;
+        }
         problem_ = fmt::format("{}{}: no such parameter", prefix_, key);
         return;
       }
     }
   }
+  /// Members that earlier versions had, with their groups: they have no effect.
+  [[nodiscard]] const std::vector<std::string>& gone() const { return gone_; }
   /// Empty when all went well.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
@@ -123,6 +132,7 @@ class JsonReader {
   std::string prefix_;
   std::set<std::string> known_;
   std::string problem_;
+  std::vector<std::string> gone_;
 };
 
 }  // namespace sonar

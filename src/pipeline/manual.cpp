@@ -123,7 +123,6 @@ CommandGround ground_of(Engine& engine, PingReach limits) {
   ground.grid = &engine.grid();
   for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
   ground.limits = limits;
-  ground.human_share = engine.recipe().detect.human_share;
   ground.least_pings = engine.recipe().track.confirm_pings;
   return ground;
 }

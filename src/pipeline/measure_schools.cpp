@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "pipeline/beam_figures.h"
 #include "school/correct_sizes.h"
 #include "school/measure.h"
 #include "school/summarise.h"
@@ -50,17 +51,6 @@ struct Measured {
   std::vector<bool> fault;
 };
 
-/// Equivalent beam angle of each row, dB re 1 sr.
-std::vector<double> beam_angles(const Engine& engine) {
-  const std::vector<BeamConfig>& beams = engine.observation().config.beams;
-  std::vector<double> psi_db;
-  for (const int channel : engine.grid().channel) {
-    const auto i = static_cast<std::size_t>(channel);
-    psi_db.push_back(i < beams.size() ? beams[i].equivalent_beam_angle_db : kUnknown);
-  }
-  return psi_db;
-}
-
 Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
                      double area) {
   const ObservationFiles& observation = engine.observation();
@@ -68,13 +58,15 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   MeasureInput input;
   input.sv = ping.sv.counts.view();
   input.filtered = ping.filtered->counts.view();
-  input.flags = ping.filtered->flags.view();
+  input.flags = ping.sv.flags.view();
   input.sector = &engine.sector();
   input.grid = &engine.grid();
   input.background = ping.background();
   input.placement = engine.placement(ping.ping_index);
   input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
   input.two_way_area = area;
+  input.psi_error_db = engine.beam_figures().psi_error_db;
+  input.calibration_se_db = engine.beam_figures().calibration_se_db;
   input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
   input.others = &others;
   input.threshold_db = all[index].in_ping->threshold_db;
@@ -224,7 +216,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::vector<std::vector<Measured>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
-  const double area = two_way_area(engine.grid(), beam_angles(engine), engine.recipe().measure);
+  const double area = two_way_area(engine.grid(), engine.beam_figures().psi_used_db, engine.recipe().measure);
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
     if (const auto* kept = kept_rows(before, ping_index, refs)) {
@@ -245,6 +237,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
       faults[{one.school.row.school_id, one.school.row.ping_index}] = std::move(one.fault);
     }
   }
+  product.grid = grid_record(engine.observation(), engine.recipe().calibration);
   product.school_pings = corrected_rows(rows, engine.recipe().measure);
   summarise_schools(schools, engine.recipe(), product);
   take_masks(schools, faults, product);

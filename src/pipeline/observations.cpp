@@ -12,6 +12,7 @@
 
 #include "base/check.h"
 #include "base/hash.h"
+#include "base/units.h"
 #include "pipeline/clock_runs.h"
 #include "pipeline/observation_notes.h"
 #include "pipeline/sound_speeds.h"
@@ -49,11 +50,18 @@ std::string setting_change(const TransmitSet& a, const TransmitSet& b) {
   return {};
 }
 
+bool gives_speed(const SurveyParams& params) {
+  return params.sound_speed_mps > 0.0 || !params.sound_speed_profile.empty();
+}
+
 /// Why a ping cannot go on the observation that began with another.
 class Cutter {
  public:
   Cutter(const SurveyFiles& survey, const SurveyParams& params)
-      : survey_(survey), gap_(ns_of(params.observation_gap_s)), longest_(ns_of(params.observation_max_s)) {
+      : survey_(survey),
+        gap_(ns_of(params.observation_gap_s)),
+        longest_(ns_of(params.observation_max_s)),
+        given_speed_(gives_speed(params)) {
     for (const SurveyFile& file : survey.files) {
       configs_.emplace_back();
       for (const SounderConfig& config : file.index.configs) configs_.back().push_back(identity(config));
@@ -84,7 +92,9 @@ class Cutter {
     if (n.time - b.time > gap_) cut = true;
     if (cut) return true;
     fresh.continues_cut = longest_ > 0 && n.time - f.time > longest_;
-    if (const std::string& drift = drift_to(first, next); !drift.empty()) {
+    if (given_speed_) {
+      // Whatever the files say, all ranges are alike.
+    } else if (const std::string& drift = drift_to(first, next); !drift.empty()) {
       note(DiagnosticCode::settings_changed, drift);
       fresh.continues_cut = true;  // the sea and its schools go on
     }
@@ -128,6 +138,7 @@ class Cutter {
   const SurveyFiles& survey_;
   TimeNs gap_;
   TimeNs longest_;
+  bool given_speed_;
   std::vector<std::vector<Hash128>> configs_;  // [file][config]
   std::optional<std::pair<SetKey, SetKey>> compared_;
   std::string change_;
@@ -159,6 +170,16 @@ double middle_sound_speed_mps(const SurveyFiles& survey, ObservationFiles& obser
   return speeds.middle_mps();
 }
 
+/// A user's sound speed. Of a profile the mean down to where the deepest beam ends: slanting or level, beams that end
+/// higher up are that much less right.
+double given_sound_speed_mps(const SurveyParams& params, const ObservationFiles& observation, double transducer_depth_m,
+                             double reach_m) {
+  if (params.sound_speed_mps > 0.0) return params.sound_speed_mps;
+  const double lowest_deg = observation.grid ? std::min(observation.grid->elevation_deg.front(), 0.0) : 0.0;
+  return harmonic_mean_mps(params.sound_speed_profile, transducer_depth_m,
+                           transducer_depth_m - reach_m * std::sin(rad_from_deg(lowest_deg)));
+}
+
 /// Longest rows of each channel.
 std::vector<std::int32_t> channel_samples(const SurveyFiles& survey, const ObservationFiles& observation) {
   std::vector<std::int32_t> longest;
@@ -184,11 +205,11 @@ TransmitSet transmit_of(const SurveyFiles& survey, const SurveyPing& ping) {
 }
 
 /// Why rows of these channels cannot share one range axis; empty = they can.
-std::string no_common_range(const TransmitSet& set, const ChannelTransmit& reference) {
+std::string no_common_range(const TransmitSet& set, const ChannelTransmit& reference, bool given_speed) {
   for (std::size_t c = 0; c < set.size(); ++c) {
     if (!set[c].seen()) continue;
-    const double spacing = set[c].sound_speed_mps * set[c].sample_interval_s;
-    const double expected = reference.sound_speed_mps * reference.sample_interval_s;
+    const double spacing = (given_speed ? 1.0 : set[c].sound_speed_mps) * set[c].sample_interval_s;
+    const double expected = (given_speed ? 1.0 : reference.sound_speed_mps) * reference.sample_interval_s;
     if (std::abs(spacing - expected) > 1e-6 * expected || set[c].pulse_length_s != reference.pulse_length_s) {
       return fmt::format("channel {} has another sample spacing or pulse than the first", c + 1);
     }
@@ -196,21 +217,29 @@ std::string no_common_range(const TransmitSet& set, const ChannelTransmit& refer
   return {};
 }
 
-void complete_range(const SurveyFiles& survey, ObservationFiles& observation, const SurveyParams& params) {
+void complete_range(const SurveyFiles& survey, ObservationFiles& observation, const SurveyParams& params,
+                    double transducer_depth_m) {
   const auto reference = std::find_if(observation.transmit.begin(), observation.transmit.end(),
                                       [](const ChannelTransmit& t) { return t.seen(); });
   // Every ping has a channel, and its setting is in the set.
   SONAR_CHECK(reference != observation.transmit.end());
-  observation.sound_speed_mps = middle_sound_speed_mps(survey, observation);
   observation.sample_interval_s = reference->sample_interval_s;
   observation.pulse_length_s = reference->pulse_length_s;
   const std::vector<std::int32_t> longest = channel_samples(survey, observation);
+  observation.sound_speed_given = gives_speed(params);
+  if (observation.sound_speed_given) {
+    const double reach_m = *std::max_element(longest.begin(), longest.end()) * reference->sound_speed_mps *
+                           reference->sample_interval_s / 2.0;
+    observation.sound_speed_mps = given_sound_speed_mps(params, observation, transducer_depth_m, reach_m);
+  } else {
+    observation.sound_speed_mps = middle_sound_speed_mps(survey, observation);
+  }
   const double spacing = observation.sound_speed_mps * reference->sample_interval_s / 2.0;
   const double zero = params.range_zero_pulses * observation.sound_speed_mps * reference->pulse_length_s;
   observation.range = {-zero, spacing, *std::max_element(longest.begin(), longest.end())};
   if (!observation.grid) return;
   const BeamGrid& grid = *observation.grid;
-  std::string problem = no_common_range(observation.transmit, *reference);
+  std::string problem = no_common_range(observation.transmit, *reference, observation.sound_speed_given);
   const auto rows = static_cast<std::int64_t>(grid.channel.size());
   if (problem.empty() && rows * observation.range.count > kMaxVolumeSamples) {
     problem = fmt::format("{} beams of {} samples are too many", rows, observation.range.count);
@@ -285,7 +314,9 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
   } else {
     observation.diagnostics.push_back({DiagnosticCode::no_grid, "", -1, -1, grid.error().text});
   }
-  complete_range(survey, observation, params);
+  const double recorded_depth_m = ping_attitude(survey.entry(first)).transducer_depth_m;
+  complete_range(survey, observation, params,
+                 recorded_depth_m != 0.0 ? recorded_depth_m : navigation.transducer_depth_m);
 
   std::vector<PingMotion> motions;
   ClockRunsOfFiles runs;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -12,13 +11,16 @@
 #include <variant>
 
 #include "base/hash.h"
+#include "pipeline/beam_figures.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/state.h"
+#include "pipeline/detect_pings.h"
 #include "pipeline/earlier.h"
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
-#include "school/detect.h"
+#include "pipeline/refused_echoes.h"
+#include "school/detect_params.h"
 #include "school/track.h"
 
 namespace sonar {
@@ -41,43 +43,13 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
   }
 }
 
-std::vector<DetectedPing> detect_all(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
-  std::vector<DetectedPing> pings(static_cast<std::size_t>(reach.last - reach.first + 1));
-  std::vector<std::string> problems(pings.size());
-  std::atomic<std::int64_t> done{0};
-  const DetectParams params = engine.detect_params();
-  work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
-    const std::int64_t ping_index = reach.first + i;
-    DetectedPing& detected = pings[static_cast<std::size_t>(i)];
-    detected.ping_index = ping_index;
-    detected.time = product.pings[static_cast<std::size_t>(ping_index)].time;
-    detected.placement = engine.tracking_placement(ping_index);
-    if (engine.is_bad(ping_index)) return;
-    auto ping = engine.staged(ping_index);
-    if (!ping) {
-      problems[static_cast<std::size_t>(i)] = ping.error().text;
-    } else {
-      detected.detections =
-          detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-                 engine.sector(), ping->background(), params, ping->seabed);
-      ping->sv.flags = {};  // measuring looks at those with the seabed
-      if (!detected.detections.empty()) engine.keep(std::make_shared<StagedPing>(std::move(*ping)));
-    }
-    work.progress("detecting", ++done, static_cast<std::int64_t>(pings.size()));
-  });
-  for (std::size_t i = 0; i < pings.size(); ++i) {
-    if (problems[i].empty()) continue;
-    product.pings[static_cast<std::size_t>(pings[i].ping_index)].bad = true;
-    product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, pings[i].ping_index, problems[i]});
-  }
-  // To the tracker such a ping never was: that no school shows there says nothing.
-  std::erase_if(pings, [&](const DetectedPing& ping) { return engine.is_bad(ping.ping_index); });
-  return pings;
+Tracks tracked(const Engine& engine, std::span<const DetectedPing> pings) {
+  TrackParams params = engine.recipe().track;
+  params.evidence = evidence_wanted(engine.recipe().detect);
+  return track(pings, engine.sector(), engine.grid().channel, params);
 }
 
-std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const DetectedPing> pings,
-                                         std::vector<TrackEvent>& events) {
-  const Tracks tracks = track(pings, engine.sector(), engine.grid().channel, engine.recipe().track);
+std::vector<SchoolMasks> masks_of(const Tracks& tracks, std::span<const DetectedPing> pings) {
   std::vector<SchoolMasks> schools;
   for (const SchoolTrack& of_school : tracks.schools) {
     SchoolMasks school;
@@ -91,7 +63,6 @@ std::vector<SchoolMasks> tracked_schools(const Engine& engine, std::span<const D
     }
     schools.push_back(std::move(school));
   }
-  events = tracks.events;
   return schools;
 }
 
@@ -172,7 +143,8 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
 Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
     return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused ||
-           note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed;
+           note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed ||
+           note.code == DiagnosticCode::psi_against_widths;
   });
   product.recipe_json = recipe_text(engine.recipe());
   product.recipe_hash = recipe_hash(engine.recipe());
@@ -288,10 +260,7 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   }
   // A product must not change with the folder that the survey happens to lie in.
   for (Diagnostic& note : product.diagnostics) note.file = std::filesystem::path(note.file).filename().string();
-  if (observation.grid) {
-    product.grid =
-        GridRecord{*observation.grid, observation.sample_count, observation.range, observation.sound_speed_mps};
-  }
+  if (observation.grid) product.grid = grid_record(observation, recipe.calibration);
   return product;
 }
 
@@ -307,17 +276,19 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   note_dead_reckoning(engine.reckoned(), product);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   JournalState state;
-  std::vector<TrackEvent> events;
+  Tracks tracks;
   if (automatic) {
-    const std::vector<DetectedPing> detected = detect_all(engine, reach, product, work);
+    const std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    state = state_of_detected(numbered(tracked_schools(engine, detected, events), engine.grid()));
+    tracks = tracked(engine, detected);
+    product.rejected = refused_echoes(engine, detected, tracks);
+    state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
   }
   state = fold(options.journal, std::move(state), ground_of(engine, reach));
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
-  note_events(events, schools, product);
+  note_events(tracks.events, schools, product);
   if (state.calibration) {
     const Recipe measuring = measuring_recipe(recipe, state);
     Engine calibrated(survey, observation, measuring);
@@ -342,6 +313,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
                 fmt::format("{}: the pings are not those of the product: run again", product.observation));
   }
   keep_notes_of_masks(before, product);
+  product.rejected = before.rejected;
   product.next_school_id = next_school_id(before);
   if (!observation.grid) return product;
   Engine engine(survey, observation, recipe);

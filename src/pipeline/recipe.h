@@ -34,19 +34,55 @@ enum class AbsorptionSource { file, francois_garrison, ainslie_mccolm };
 inline constexpr std::array<std::string_view, 3> kAbsorptionSourceNames = {"file", "francois_garrison",
                                                                            "ainslie_mccolm"};
 
-/// One line of a user's calibration file; NaN keeps the raw file's value.
+/// Where the equivalent beam angle comes from: the raw file, the two-way pattern of the -3 dB widths (the square of the
+/// one-way beam), or a user's calibration file (the raw file where that says nothing).
+enum class PsiSource { stated, from_widths, table };
+inline constexpr std::array<std::string_view, 3> kPsiSourceNames = {"stated", "from_widths", "table"};
+
+/// One line of a user's calibration file; NaN keeps the raw file's value. Standard errors: NaN = not told.
 struct BeamCalibration {
   int channel = 0;  ///< 0-based
-  double gain_db = 0.0;
-  double sa_correction_db = 0.0;
-  double extra_factor_db = 0.0;
-  friend bool operator==(const BeamCalibration&, const BeamCalibration&) = default;
+  double gain_db = kUnknown;
+  double sa_correction_db = kUnknown;
+  double extra_factor_db = kUnknown;
+  double psi_db = kUnknown;             ///< dB re 1 sr; counts where CalibrationParams::psi is `table`
+  double width_along_deg = kUnknown;    ///< one-way -3 dB; MS70: vertical
+  double width_athwart_deg = kUnknown;  ///< MS70: horizontal
+  double gain_db_se = kUnknown;
+  double sa_correction_db_se = kUnknown;
+  double extra_factor_db_se = kUnknown;
+  double psi_db_se = kUnknown;
+  double width_along_deg_se = kUnknown;
+  double width_athwart_deg_se = kUnknown;
+  /// What is unknown in both is alike.
+  friend bool operator==(const BeamCalibration& a, const BeamCalibration& b);
 };
+
+/// Visits the columns beside the channel: v(name, member, least, most).
+template <class Visitor>
+void columns(Visitor&& v, BeamCalibration& b) {
+  constexpr double kMost_db = 100.0;
+  constexpr double kLeastWidth_deg = 0.01;
+  constexpr double kMostWidth_deg = 360.0;
+  v("gain_db", b.gain_db, -kMost_db, kMost_db);
+  v("sa_correction_db", b.sa_correction_db, -kMost_db, kMost_db);
+  v("extra_factor_db", b.extra_factor_db, -kMost_db, kMost_db);
+  v("psi_db", b.psi_db, -kMost_db, kMost_db);
+  v("width_along_deg", b.width_along_deg, kLeastWidth_deg, kMostWidth_deg);
+  v("width_athwart_deg", b.width_athwart_deg, kLeastWidth_deg, kMostWidth_deg);
+  v("gain_db_se", b.gain_db_se, 0.0, kMost_db);
+  v("sa_correction_db_se", b.sa_correction_db_se, 0.0, kMost_db);
+  v("extra_factor_db_se", b.extra_factor_db_se, 0.0, kMost_db);
+  v("psi_db_se", b.psi_db_se, 0.0, kMost_db);
+  v("width_along_deg_se", b.width_along_deg_se, 0.0, kMostWidth_deg);
+  v("width_athwart_deg_se", b.width_athwart_deg_se, 0.0, kMostWidth_deg);
+}
 
 struct CalibrationParams {
   AbsorptionSource absorption = AbsorptionSource::file;
   WaterProperties water;
   double pulse_tolerance = 0.001;
+  PsiSource psi = PsiSource::stated;
   std::vector<BeamCalibration> beams;  ///< by channel; stands in the recipe by content
 };
 
@@ -57,6 +93,9 @@ void describe(Visitor& v, CalibrationParams& p) {
   v.group("water", p.water, "for the absorption formulas");
   v.field("pulse_tolerance", p.pulse_tolerance,
           {.unit = "1", .min = 0, .max = 0.1, .text = "gain tables are matched to the pulse length within this share"});
+  v.choice("psi", p.psi, kPsiSourceNames,
+           "equivalent beam angle: the raw file's, that of the square of a beam of the -3 dB widths, or a calibration "
+           "table's (psi_db; the raw file's where it says nothing); taking such a table chooses it");
 }
 
 struct BackgroundWindowParams {
@@ -102,6 +141,7 @@ struct Recipe {
   PaperPropagationParams propagate_paper;
   TrackedPropagationParams propagate_tracked;
   TransferFunction growth_curve;  ///< in the JSON as growth_curve
+  std::vector<std::string> gone;  ///< parameters of earlier versions that the text named, without effect
 };
 
 template <class Visitor>
@@ -141,10 +181,15 @@ void describe(Visitor& v, Recipe& r) {
 /// Hexadecimal XXH3-128 of recipe_text().
 [[nodiscard]] std::string recipe_hash(const Recipe& recipe);
 
-/// Takes a calibration table (channel,gain_db,sa_correction_db,extra_factor_db) into the recipe.
+/// Takes a calibration table (channel and any of columns(BeamCalibration)) into the recipe. One that tells psi_db makes
+/// calibration.psi `table`.
 /// errors  format, bad_parameter, naming the line or the channel
 [[nodiscard]] Result<void> take_calibration_table(Recipe& recipe, const CsvTable& table);
 /// errors  also not_found, io
 [[nodiscard]] Result<void> take_calibration_file(Recipe& recipe, const std::string& path);
+
+/// Takes a user's sound speed into the recipe: a number, m/s, or a file of depth_m,sound_speed_mps (sound_profile.h).
+/// errors  bad_parameter, format, not_found, io
+[[nodiscard]] Result<void> take_sound_speed(Recipe& recipe, const std::string& value_or_path);
 
 }  // namespace sonar

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/recipe.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "io/csv_table.h"
+#include "io/simrad/test_bytes.h"
 #include "pipeline/calibration_json.h"
 
 namespace sonar {
@@ -45,10 +48,19 @@ TEST(Recipe, PaperKeepsToThePaper) {
 }
 
 TEST(Recipe, PartOfARecipeKeepsTheOtherDefaults) {
-  const auto recipe = recipe_from_text(R"({"recipe_version":1,"detect":{"floor_db":-55}})");
+  const auto recipe = recipe_from_text(R"({"recipe_version":1,"detect":{"min_range_m":8}})");
   ASSERT_TRUE(recipe) << recipe.error().text;
-  EXPECT_EQ(recipe->detect.floor_db, -55.0);
+  EXPECT_EQ(recipe->detect.min_range_m, 8.0);
   EXPECT_EQ(recipe->detect.tolerance_db, Recipe{}.detect.tolerance_db);
+}
+
+TEST(Recipe, ParametersThatEarlierVersionsHadAreListedAndHaveNoEffect) {
+  const auto recipe = recipe_from_text(
+      R"({"recipe_version":1,"detect":{"floor_db":-55,"tolerance_db":9},"seabed":{"flank_rise_db":3},"track":{}})");
+  ASSERT_TRUE(recipe) << recipe.error().text;
+  EXPECT_EQ(recipe->gone, (std::vector<std::string>{"seabed.flank_rise_db", "detect.floor_db"}));
+  EXPECT_EQ(recipe->detect.tolerance_db, 9.0);
+  EXPECT_EQ(recipe_text(*recipe).find("floor_db"), std::string::npos);
 }
 
 struct Refusal {
@@ -64,11 +76,15 @@ TEST(Recipe, RefusesByName) {
            Refusal{R"({"detect":{}})", ErrorCode::format, "recipe_version"},
            Refusal{R"({"recipe_version":99})", ErrorCode::newer_version, "99"},
            Refusal{R"({"recipe_version":1,"detect":{"flor_db":-55}})", ErrorCode::format, "detect.flor_db"},
-           Refusal{R"({"recipe_version":1,"detect":{"floor_db":"low"}})", ErrorCode::format, "detect.floor_db"},
+           Refusal{R"({"recipe_version":1,"detect":{"min_range_m":"low"}})", ErrorCode::format, "detect.min_range_m"},
            Refusal{R"({"recipe_version":1,"median":{"kernel_fans":65}})", ErrorCode::bad_parameter,
                    "median.kernel_fans"},
            Refusal{R"({"recipe_version":1,"track":{"confirm_pings":6}})", ErrorCode::bad_parameter,
                    "track.confirm_window = 5"},
+           Refusal{R"({"recipe_version":1,"survey":{"sound_speed_mps":148}})", ErrorCode::bad_parameter,
+                   "sound_speed_mps: 148 m/s is outside 1000 .. 2000"},
+           Refusal{R"({"recipe_version":1,"sound_speed_profile":[[0,148]]})", ErrorCode::bad_parameter,
+                   "sound_speed_profile: 148 m/s at 0 m"},
            Refusal{R"({"recipe_version":1,"grow":{"mode":"fast"}})", ErrorCode::format, "tracked, paper"},
            Refusal{R"({"recipe_version":1,"growth_curve":{"tf_version":1,"points":[]}})", ErrorCode::bad_parameter,
                    "growth_curve"},
@@ -104,9 +120,53 @@ TEST(Recipe, CalibrationsWithOtherColumnsAreRefused) {
   EXPECT_TRUE(taken("channel,gain_db,sa_correction_db,extra_factor_db\n0,25.5,,0\n"));
   const auto misspelt = taken("channel,gain_dB,sa_correction_db,extra_factor_db\n0,20,0,0\n");
   ASSERT_FALSE(misspelt);
-  EXPECT_EQ(to_line(misspelt.error()),
-            "gains.csv: line 1: column 'gain_dB' is none of channel, gain_db, sa_correction_db, extra_factor_db");
+  EXPECT_EQ(to_line(misspelt.error())
+                .find("gains.csv: line 1: column 'gain_dB' is none of channel, gain_db, sa_correction_db, "
+                      "extra_factor_db, psi_db, "),
+            0U);
   EXPECT_FALSE(taken("channel\n0\n"));
+}
+
+// All columns that section 8 of the interfaces names, each with its error, there and back.
+TEST(Recipe, CalibrationsTellBeamAnglesWidthsAndErrors) {
+  const std::string csv =
+      "channel,gain_db,gain_db_se,sa_correction_db,sa_correction_db_se,extra_factor_db,extra_factor_db_se,psi_db,psi_"
+      "db_se,"
+      "width_along_deg,width_along_deg_se,width_athwart_deg,width_athwart_deg_se\n"
+      "3,25.5,0.1,-0.4,0.05,0.2,0.3,-22.5,0.4,6.9,0.06,3.1,0.07\n";
+  Recipe recipe;
+  ASSERT_TRUE(take_calibration_table(recipe, *parse_csv(csv, "gains.csv")));
+  EXPECT_EQ(recipe.calibration.psi, PsiSource::table) << "whoever gives angles wants them used";
+  const BeamCalibration expected{3, 25.5, -0.4, 0.2, -22.5, 6.9, 3.1, 0.1, 0.05, 0.3, 0.4, 0.06, 0.07};
+  const auto again = recipe_from_text(recipe_text(recipe));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->calibration.beams, std::vector{expected});
+  Recipe gains_alone;
+  ASSERT_TRUE(take_calibration_table(gains_alone, *parse_csv("channel,gain_db\n0,25.5\n", "gains.csv")));
+  EXPECT_EQ(gains_alone.calibration.psi, PsiSource::stated);
+  EXPECT_FALSE(taken("channel,width_along_deg\n0,0\n"));
+  EXPECT_FALSE(taken("channel,gain_db_se\n0,-0.1\n"));
+}
+
+// A number or a table's file, the later in place of the earlier; none that no water has.
+TEST(Recipe, SoundSpeedsAreTakenAndStandInside) {
+  const test::TemporaryFolder folder;
+  const std::string cast = (folder.path() / "cast.csv").string();
+  std::ofstream(cast) << "depth_m,sound_speed_mps\n0,1500\n100,1480\n";
+  Recipe recipe;
+  ASSERT_TRUE(take_sound_speed(recipe, "1478.5"));
+  EXPECT_EQ(recipe_from_text(recipe_text(recipe)).value().survey.sound_speed_mps, 1478.5);
+  ASSERT_TRUE(take_sound_speed(recipe, cast));
+  const SurveyParams read = recipe_from_text(recipe_text(recipe)).value().survey;
+  EXPECT_EQ(read.sound_speed_mps, 0.0);
+  EXPECT_EQ(read.sound_speed_profile, (SoundProfile{{0.0, 1500.0}, {100.0, 1480.0}}));
+  for (const char* wrong : {"148", "999.9", "2000.1", "-1500", "0", "nan"}) {
+    const auto refused = take_sound_speed(recipe, wrong);
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_EQ(refused.error().text, fmt::format("sound speed: expected 1000 to 2000 m/s, got {}", wrong));
+  }
+  EXPECT_EQ(recipe.survey, read) << "what is refused changes nothing";
+  EXPECT_EQ(take_sound_speed(recipe, "gone.csv").error().code, ErrorCode::not_found);
 }
 
 TEST(Recipe, BeamCalibrationsAreNumbersUnderKnownNames) {

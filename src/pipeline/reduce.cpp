@@ -41,6 +41,7 @@ struct Reduced {
   const ObservationFiles* files = nullptr;
   const ObservationProduct* product = nullptr;
   std::unique_ptr<Engine> engine;
+  std::unique_ptr<GroupWater> waters;
   std::map<std::size_t, KeptPing> pings;  ///< by ping index
 };
 
@@ -149,10 +150,8 @@ class FileReducer {
     if (is_first) {
       const KeptPing& ping = *kept->second;
       const auto index = static_cast<std::int64_t>(ping.ping_index);
-      // Detection and the seabed stood on the background that the product holds.
-      const auto& levels = observation.product->background_db;
-      if (!levels.empty()) observation.engine->give_background(index, levels[ping.ping_index]);
-      auto reduced = reduce_ping(*observation.engine, index, ping.masks, {ping.keeps_ends, ping.tracked}, params_);
+      auto reduced = reduce_ping(*observation.engine, *observation.waters, index, ping.masks,
+                                 {ping.keeps_ends, ping.tracked}, params_);
       if (!reduced) return pass_on(reduced);
       ping_rows_ = std::move(*reduced);
       row_of_channel_ = observation.files->grid->row_of_channel();
@@ -196,6 +195,12 @@ Result<std::vector<Reduced>> choose(const SurveyFiles& survey, std::span<const O
     reduced.files = files;
     reduced.product = &product;
     reduced.engine = std::make_unique<Engine>(survey, *files, recipe);
+    reduced.waters = std::make_unique<GroupWater>(*reduced.engine);
+    // Detection and the seabed stood on the background that the product holds.
+    const auto& levels = product.background_db;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      reduced.engine->give_background(static_cast<std::int64_t>(i), levels[i]);
+    }
     choose_pings(product, observations.size(), params, reduced);
     observations.push_back(std::move(reduced));
   }

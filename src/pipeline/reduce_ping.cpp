@@ -10,9 +10,10 @@
 #include "base/units.h"
 #include "pipeline/reduced_ping.h"
 #include "school/background.h"
-#include "school/candidates.h"
 #include "school/detect.h"
+#include "school/evidence/seeds.h"
 #include "school/runs.h"
+#include "school/settle_members.h"
 
 namespace sonar {
 namespace {
@@ -26,13 +27,10 @@ struct Reach {
 
 /// Detection looks no further round a candidate than this, the samples of its filter left out; where schools meet it looks
 /// on along the neighbour, whose own surroundings are kept as well.
-Reach detection_reach(const DetectParams& params) {
-  return {params.search_fans + params.max_rims * params.rim_fans,
-          params.search_beams + params.max_rims * params.rim_beams,
-          params.search_samples + params.max_rims * params.rim_samples + params.member_samples / 2};
-}
-/// Detection takes candidates from no lower than this below its thresholds.
-const double kCandidateSlack_db = std::ceil(-kMedianOfMean_db);
+constexpr Reach kDetectionReach{
+    SearchReach::fans + SearchReach::most_rims * SearchReach::rim_fans,
+    SearchReach::beams + SearchReach::most_rims* SearchReach::rim_beams,
+    SearchReach::samples + SearchReach::most_rims* SearchReach::rim_samples + kMemberSamples / 2};
 
 bool meet(const IndexBox& a, const IndexBox& b) {
   return a.first_fan <= b.last_fan && b.first_fan <= a.last_fan && a.first_beam <= b.last_beam &&
@@ -43,47 +41,24 @@ IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
   return box.enlarged(by.fans, by.beams, by.samples).clipped(shape);
 }
 
-WaterLevels water_of(const StagedPing& ping, const DetectParams& params) {
-  const auto& filtered = std::as_const(*ping.filtered);
-  WaterLevels water = water_levels(filtered.counts.view(), filtered.flags.view(), ping.background(), params);
-  auto& loud = water.reverberation;
-  while (!loud.empty() && loud.back() == kMinCount) loud.pop_back();  // as the file keeps it
-  return water;
-}
-
-/// Boxes in which detection looked for what it found, round each candidate of the ping.
-std::vector<IndexBox> candidate_boxes(const StagedPing& ping, const WaterLevels& water, const DetectParams& params) {
-  const Shape3 shape = ping.filtered->counts.shape();
-  const Background background = ping.background();
-  const auto sv = std::as_const(*ping.filtered).counts.view();
-  const auto flags = std::as_const(*ping.filtered).flags.view();
-  const Thresholder thresholder(sv, flags, background, water, nullptr);
-  const std::vector<Run> runs =
-      thresholder.candidates(params.floor_db - kCandidateSlack_db, params.background_margin_db - kCandidateSlack_db);
-  const Components parts = label_runs(runs, shape, params.connectivity);
-  std::vector<PingMask> masks(static_cast<std::size_t>(parts.count));
-  std::vector<int> voxels(masks.size(), 0);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto part = static_cast<std::size_t>(parts.label[i]);
-    masks[part].runs.push_back(runs[i]);
-    voxels[part] += runs[i].count;
-  }
+/// Boxes in which detection looked for what it found, round all that stands out of the water together.
+std::vector<IndexBox> candidate_boxes(const WaterLevels& water, const Shape3& shape) {
   std::vector<IndexBox> boxes;
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    if (voxels[i] >= params.min_samples)
-      boxes.push_back(enlarged(box_of(masks[i], shape.beams), detection_reach(params), shape));
+  for (std::vector<Run>& part : connected_parts(seed_runs(water, shape), shape, Connectivity::faces)) {
+    PingMask mask;
+    mask.runs = std::move(part);
+    boxes.push_back(enlarged(box_of(mask, shape.beams), kDetectionReach, shape));
   }
   return boxes;
 }
 
 /// The boxes that meet a mask, and those that meet one of these: stronger neighbours take their voxels first.
-std::vector<IndexBox> deciding_boxes(const StagedPing& ping, const WaterLevels& water, const DetectParams& params,
+std::vector<IndexBox> deciding_boxes(const WaterLevels& water, const Shape3& shape,
                                      const std::vector<const PingMask*>& masks) {
-  const Shape3 shape = ping.filtered->counts.shape();
-  const std::vector<IndexBox> all = candidate_boxes(ping, water, params);
+  const std::vector<IndexBox> all = candidate_boxes(water, shape);
   std::vector<IndexBox> of_masks;
   for (const PingMask* mask : masks) {
-    of_masks.push_back(enlarged(box_of(*mask, shape.beams), detection_reach(params), shape));
+    of_masks.push_back(enlarged(box_of(*mask, shape.beams), kDetectionReach, shape));
   }
   const auto those_that_meet = [&](const std::vector<IndexBox>& wanted) {
     std::vector<IndexBox> out;
@@ -213,8 +188,6 @@ void fill_record(const PowerVolume& whole, const std::vector<int>& row_of_channe
       record.recorded_samples = told[row] < 0 ? samples : std::min(told[row], samples);
     }
     record.seabed_sample = seabed.found ? seabed.first_sample[row] : samples;
-    if (!seabed.open.empty()) record.open_first = seabed.open[row].first;
-    if (!seabed.open.empty()) record.open_end = seabed.open[row].end;
   }
 }
 
@@ -238,8 +211,8 @@ void note_short_beams(const PowerVolume& whole, const std::vector<int>& row_of_c
 
 }  // namespace
 
-Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const std::vector<const PingMask*>& masks,
-                                KeepAlso also, const ReduceParams& params) {
+Result<ReducedPing> reduce_ping(Engine& engine, GroupWater& waters, std::int64_t ping_index,
+                                const std::vector<const PingMask*>& masks, KeepAlso also, const ReduceParams& params) {
   const auto whole = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(ping_index));
   if (!whole) return pass_on(whole);
   ReducedPing out;
@@ -249,22 +222,23 @@ Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index, const s
     const auto staged = engine.staged(ping_index);
     if (!staged) return pass_on(staged);
     seabed = staged->seabed;
+    auto told = waters.of(ping_index);
+    if (!told) return pass_on(told);
+    const WaterLevels water = std::move(*told);
     const Recipe& recipe = engine.recipe();
     // What became no school is still what tracks were joined past: without it they would be joined otherwise.
     std::vector<Detection> detected;
     std::vector<const PingMask*> deciding = masks;
     if (recipe.automatic && also.detections) {
-      detected = detect(std::as_const(*staged->filtered).counts.view(), std::as_const(staged->sv.counts).view(),
-                        std::as_const(*staged->filtered).flags.view(), engine.sector(), staged->background(),
-                        engine.detect_params(), seabed);
+      detected = detect(engine.echo(*staged, water), recipe.detect);
       for (const Detection& one : detected) deciding.push_back(&one.mask);
     }
     const Reach reach{recipe.median.kernel_fans / 2 + params.margin_fans,
                       recipe.median.kernel_beams / 2 + params.margin_beams,
                       recipe.median.kernel_samples / 2 + params.margin_samples};
     Keeper keeper(*whole, *staged, out);
-    out.water = water_of(*staged, recipe.detect);
-    for (const IndexBox& box : deciding_boxes(*staged, *out.water, recipe.detect, deciding)) {
+    out.water = water;
+    for (const IndexBox& box : deciding_boxes(water, whole->volume.counts.shape(), deciding)) {
       keeper.keep_box(enlarged(box, reach, whole->volume.counts.shape()));
     }
     for (const PingMask* mask : masks) keeper.keep_surroundings(*mask, recipe.measure);

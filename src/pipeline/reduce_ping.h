@@ -10,6 +10,7 @@
 #include "model/mask.h"
 #include "model/ping.h"
 #include "pipeline/engine.h"
+#include "pipeline/group_water.h"
 #include "pipeline/reduce.h"
 
 namespace sonar {
@@ -32,7 +33,8 @@ struct KeepAlso {
 /// Picks the samples that decide about the masks of one ping.
 /// engine         knows the ping's background
 /// errors         as load_volume()
-[[nodiscard]] Result<ReducedPing> reduce_ping(Engine& engine, std::int64_t ping_index,
+/// waters         of the same engine
+[[nodiscard]] Result<ReducedPing> reduce_ping(Engine& engine, GroupWater& waters, std::int64_t ping_index,
                                               const std::vector<const PingMask*>& masks, KeepAlso also,
                                               const ReduceParams& params);
 

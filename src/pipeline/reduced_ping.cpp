@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "base/units.h"
 
@@ -80,10 +82,32 @@ std::vector<float> reduced_background_db(std::span<const ChannelPing> heads, std
   return levels;
 }
 
-WaterLevels reduced_water(std::span<const ChannelPing> heads) {
+namespace {
+
+bool fits(const WaterLevels& water, const Shape3& shape) {
+  const auto per_fan = static_cast<std::size_t>(std::max(water.blocks, 0));
+  if (water.block_samples < 1 || water.blocks < 1 ||
+      water.level.size() != per_fan * static_cast<std::size_t>(shape.fans))
+    return false;
+  if (water.reach.size() != water.level.size()) return false;
+  if (!water.stretch.empty() && water.stretch.size() != shape.rows()) return false;
+  if (!std::all_of(water.stretch.begin(), water.stretch.end(), [](float by) { return by > 0.1F && by < 10.0F; }))
+    return false;
+  const auto inside = [&](const EchoCell& cell) {
+    return cell.row >= 0 && cell.row < static_cast<int>(shape.rows()) && cell.block >= 0 && cell.block < water.blocks &&
+           std::isfinite(cell.evidence);
+  };
+  const auto place = [](const EchoCell& cell) { return std::pair(cell.row, cell.block); };
+  return std::all_of(water.cells.begin(), water.cells.end(), inside) &&
+         std::ranges::adjacent_find(water.cells, std::greater_equal<>{}, place) == water.cells.end();
+}
+
+}  // namespace
+
+WaterLevels reduced_water(std::span<const ChannelPing> heads, const Shape3& shape) {
   const auto teller =
       std::find_if(heads.begin(), heads.end(), [](const ChannelPing& head) { return head.reduced_water.has_value(); });
-  return teller == heads.end() ? WaterLevels{} : *teller->reduced_water;
+  return teller == heads.end() || !fits(*teller->reduced_water, shape) ? WaterLevels{} : *teller->reduced_water;
 }
 
 Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, int samples) {
@@ -104,9 +128,6 @@ Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> r
   seabed.first_sample.assign(row_of_channel.size(), samples);
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
     seabed.first_sample[static_cast<std::size_t>(row)] = std::min(record.seabed_sample, samples);
-    if (record.open_end <= record.open_first) return;
-    seabed.open.resize(row_of_channel.size());
-    seabed.open[static_cast<std::size_t>(row)] = {record.open_first, std::min(record.open_end, samples)};
   });
   return seabed;
 }
@@ -116,9 +137,10 @@ void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
     const auto row_flags = flags.row(row);
     const auto end = std::min(row_flags.size(), static_cast<std::size_t>(record.recorded_samples));
-    const Stretch open{record.open_first, record.open_end};
     for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) {
-      if (!open.holds(static_cast<std::int32_t>(s))) row_flags[s] |= SampleFlags::seabed;
+      // files that were reduced by 0.1.0 hold schools behind there
+      const bool is_open = std::cmp_greater_equal(s, record.open_first) && std::cmp_less(s, record.open_end);
+      if (!is_open) row_flags[s] |= SampleFlags::seabed;
     }
   });
 }

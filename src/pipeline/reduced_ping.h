@@ -38,8 +38,10 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
                                                        std::span<const int> row_of_channel);
 
-/// The water's levels in the whole ping; quiet where the file does not tell.
-[[nodiscard]] WaterLevels reduced_water(std::span<const ChannelPing> heads);
+/// The water's levels in the whole ping, and what stood out of it; nothing is known, and nothing stands out, where the file
+/// does not tell or what it tells does not fit the grid.
+/// shape  of the whole ping
+[[nodiscard]] WaterLevels reduced_water(std::span<const ChannelPing> heads, const Shape3& shape);
 
 /// The seabed of the whole ping: its plane where the file has it (files written before it was kept have none: then it
 /// counts as not found), and where each row's began. A row without record has none.

@@ -103,6 +103,8 @@ Result<void> require_files(const SurveyFiles& survey, std::span<const fs::path> 
 Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyParams& survey,
                                 const NavigationParams& navigation, const IndexCache& cache, Work& work) {
   if (auto valid = validate(survey); !valid) return pass_on(valid);
+  if (auto valid = check_sound_speed(survey.sound_speed_mps); !valid) return pass_on(valid);
+  if (auto valid = check_profile(survey.sound_speed_profile); !valid) return pass_on(valid);
   if (auto valid = validate(navigation); !valid) return pass_on(valid);
   const auto listed = list_survey(paths);
   if (!listed) return pass_on(listed);

@@ -25,6 +25,7 @@
 #include "model/ping.h"
 #include "model/product.h"
 #include "model/sounder.h"
+#include "pipeline/sound_profile.h"
 
 namespace sonar {
 
@@ -35,6 +36,8 @@ struct SurveyParams {
   double range_zero_pulses = 0.25;
   double grid_tolerance_deg = 0.05;
   bool use_passive_pings = false;
+  double sound_speed_mps = 0.0;
+  SoundProfile sound_speed_profile{};  ///< stands in the recipe by content, as sound_speed_profile; empty = none
   friend bool operator==(const SurveyParams&, const SurveyParams&) = default;
 };
 
@@ -53,6 +56,14 @@ void describe(Visitor& v, SurveyParams& p) {
           {.unit = "deg", .min = 0, .max = 5, .text = "Beam directions closer than this are one fan or one azimuth."});
   v.field("use_passive_pings", p.use_passive_pings,
           {.text = "Take pings made without transmitting, or as a test, like all others; else they are bad."});
+  v.field(
+      "sound_speed_mps", p.sound_speed_mps,
+      {.unit = "m/s",
+       .min = 0,
+       .max = 2000,
+       .text = "Stands for the files' sound speed in ranges, volumes, the sonar equation and absorption by Francois & "
+               "Garrison; 0 = a profile's harmonic mean from the transducer to the depth that the deepest beam "
+               "reaches, without a profile the files'."});
 }
 
 /// One file of the survey. The name may be that of a file that could not be opened; then error says why.
@@ -79,7 +90,8 @@ struct ObservationFiles {
   RangeAxis range;                         ///< of every row; count = the longest channel, first_m = -range_zero
   std::vector<std::int32_t> sample_count;  ///< [fan], longest channel of the fan, offset included; empty without grid
   TransmitSet transmit;                    ///< [channel] of the first ping; frequency NaN where not seen
-  double sound_speed_mps = 0.0;            ///< middle of all pings', of the first channel, as are the next two
+  double sound_speed_mps = 0.0;            ///< middle of all pings', of the first channel, as are the next two; or
+  bool sound_speed_given = false;          ///< a user's, which stands for every channel's
   double sample_interval_s = 0.0;
   double pulse_length_s = 0.0;
   std::vector<PingNavigation> navigation;  ///< [ping_index]

@@ -16,11 +16,10 @@ namespace sonar {
 /// meant for the mean.
 inline constexpr double kMedianOfMean_db = -1.5917;
 
-/// Background of a ping: noise as a level for each beam with the table that turns power into Sv, and the water; borrowed.
+/// Noise of a ping: a level for each beam with the table that turns power into Sv; borrowed.
 struct Background {
   std::span<const double> power_db;       ///< [row] mean (not median) power, dB re 1 W; NaN or empty = none known
   View3<const std::int16_t> calibration;  ///< [fan][beam][sample]: Sv counts = power counts + this; kNoData = none
-  const WaterLevels* water = nullptr;     ///< where they are known already; null = to be found
 
   [[nodiscard]] bool known(int row) const {
     return static_cast<std::size_t>(row) < power_db.size() && calibration.data() != nullptr &&

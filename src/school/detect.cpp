@@ -10,21 +10,23 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "model/school.h"
-#include "school/candidates.h"
 #include "school/edges.h"
-#include "school/nadir_ring.h"
-#include "school/noise_reach.h"
-#include "school/open_floor.h"
-#include "school/reverberation.h"
-#include "school/seabed_contact.h"
+#include "school/evidence/seeds.h"
+#include "school/grow.h"
+#include "school/judge/size.h"
 #include "school/settle_members.h"
-#include "school/side_lobes.h"
-#include "school/wave_front.h"
+#include "school/thresholder.h"
 
 namespace sonar {
 namespace {
 
 using Runs = std::vector<Run>;
+
+constexpr double kReferenceShare = 0.9;      ///< of a candidate lies below its reference
+constexpr double kLink_db = 3.0;             ///< parts joined by echo this far below the threshold are one school
+constexpr double kStep_db = 3.0;             ///< in which weaker schools beside a strong one are sought
+constexpr double kLeastProminence_db = 6.0;  ///< of a school above where it meets a stronger one
+constexpr double kLeastAboveWater_db = 1.5;  ///< of members
 
 IndexBox box_of_runs(const Runs& runs, int beams) {
   PingMask mask;
@@ -34,101 +36,115 @@ IndexBox box_of_runs(const Runs& runs, int beams) {
 
 class PingDetector {
  public:
-  PingDetector(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered, View3<const SampleFlags> flags,
-               const Sector& sector, const Background& background, const DetectParams& params, const Seabed& seabed,
-               const PingMask* taken)
-      : sv_(sv),
-        unfiltered_(unfiltered),
-        flags_(flags),
-        sector_(sector),
-        background_(background),
+  PingDetector(const PingEcho& echo, const DetectParams& params, const PingMask* taken)
+      : echo_(echo),
         params_(params),
-        seabed_(seabed),
         taken_(taken),
-        water_(water_levels(sv, flags, background, params)),
-        thresholder_(sv, flags, background, water_, taken),
-        claimed_(sv.shape()) {}
+        thresholder_(echo.sv, echo.flags, echo.background, &echo.water, taken),
+        claimed_(echo.sv.shape()) {}
 
-  std::vector<Detection> run() {
-    const Runs candidates = thresholder_.candidates(floor_db(), params_.background_margin_db + kMedianOfMean_db);
+  std::vector<Detection> run(std::vector<RefusedDetection>* refused) {
+    const Runs seeds = seed_runs(echo_.water, echo_.sv.shape());
     std::vector<std::pair<double, Runs>> components;
-    for (Runs& part : connected_parts(candidates, sv_.shape(), params_.connectivity)) {
-      if (!worth_a_look(part)) continue;
+    for (Runs& part : connected_parts(seeds, echo_.sv.shape(), Connectivity::faces)) {
       const double reference_db = reference(part);
       components.emplace_back(reference_db, std::move(part));
     }
     // strongest first: where two reach for the same voxel it is the skirt of the stronger
     std::stable_sort(components.begin(), components.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (const auto& [reference_db, component] : components) refine(component, reference_db);
+    for (const auto& [reference_db, component] : components) {
+      refusal_.reset();
+      if (!refine(component, reference_db) && refused != nullptr) tell_refusal(component, reference_db, *refused);
+    }
     std::sort(found_.begin(), found_.end(),
               [](const Detection& a, const Detection& b) { return a.mask.runs.front() < b.mask.runs.front(); });
     return std::move(found_);
   }
 
  private:
-  [[nodiscard]] double floor_db() const { return params_.floor_db + kMedianOfMean_db; }
+  [[nodiscard]] std::optional<Reason> size_of(const Runs& runs) const {
+    Detection part;
+    part.box = box_of_runs(runs, echo_.sv.shape().beams);
+    return judge_size(echo_, part, params_);
+  }
+  [[nodiscard]] bool large_enough(const Runs& runs) const { return !runs.empty() && !size_of(runs); }
 
-  /// The heart that stands above the candidates' threshold may be much smaller than the school.
-  [[nodiscard]] bool worth_a_look(const Runs& runs) const {
-    int voxels = 0;
-    for (const Run& run : runs) voxels += run.count;
-    return voxels >= params_.min_samples;
+  /// Remembers why the largest part of a component was refused.
+  void refuse(const Runs& part, const Reason& reason) {
+    std::int64_t voxels = 0;
+    for (const Run& run : part) voxels += run.count;
+    if (refusal_ && refusal_->voxels >= voxels) return;
+    refusal_ = {voxels, part, reason};
   }
 
-  [[nodiscard]] bool large_enough(const Runs& runs) const {
-    if (runs.empty()) return false;
-    const IndexBox box = box_of_runs(runs, sv_.shape().beams);
-    const double range_m = box.samples() * sector_.range().spacing_m;
-    return box.fans() >= params_.min_fans && box.beams() >= params_.min_beams && box.samples() >= params_.min_samples &&
-           range_m >= params_.min_range_m;
+  /// Faint echo is what the false-alarm rate leaves out, and is not told; nor is what went with a school.
+  void tell_refusal(const Runs& component, double reference_db, std::vector<RefusedDetection>& refused) const {
+    PingMask whole{component, {}};
+    const double evidence = evidence_of(whole, echo_.water);
+    if (evidence < evidence_wanted(params_) || !refusal_) return;
+    PingMask mask{refusal_->part, {}};
+    std::size_t voxels = 0;
+    for (const Run& run : mask.runs) voxels += static_cast<std::size_t>(run.count);
+    mask.confidence.assign(voxels, 255);
+    Detection detection = describe_mask(std::move(mask), echo_.flags, echo_.sector);
+    detection.reference_db = reference_db;
+    detection.evidence = evidence;
+    detection.loudest = loudest(detection.mask.runs);
+    refused.push_back({std::move(detection), refusal_->reason});
   }
 
-  /// The percentile of the values within the tolerance of itself: what the candidate threshold let in does not count.
+  /// The percentile of the values within the tolerance of itself: what the seeds' blocks let in does not count.
   [[nodiscard]] double reference(const Runs& runs) const {
-    PingMask mask;
-    mask.runs = runs;
-    for (const Run& run : runs) mask.confidence.resize(mask.confidence.size() + static_cast<std::size_t>(run.count), 1);
-    const std::int16_t first = percentile(sv_, mask, params_.reference_percentile / 100.0);
-    if (first == kNoData) return -1000.0;
-    const double lowest = first - counts_from_db(params_.tolerance_db);
     std::vector<std::int16_t> values;
     for (const Run& run : runs) {
-      const auto counts = sv_.row(run.row);
+      const auto counts = echo_.sv.row(run.row);
       for (int s = run.first_sample; s < run.end(); ++s) {
         const std::int16_t count = counts[static_cast<std::size_t>(s)];
-        if (count >= lowest) values.push_back(count);
+        if (count != kNoData) values.push_back(count);
       }
     }
-    const double rank = std::ceil(params_.reference_percentile / 100.0 * static_cast<double>(values.size()));
-    const auto k = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-    std::nth_element(values.begin(), values.begin() + k, values.end());
-    return db_from_counts(values[static_cast<std::size_t>(k)]);
+    if (values.empty()) return -1000.0;
+    const auto high = [&] {
+      const double rank = std::ceil(kReferenceShare * static_cast<double>(values.size()));
+      const auto k = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+      std::nth_element(values.begin(), values.begin() + k, values.end());
+      return values[static_cast<std::size_t>(k)];
+    };
+    const double lowest = high() - counts_from_db(params_.tolerance_db);
+    std::erase_if(values, [lowest](std::int16_t value) { return value < lowest; });
+    return db_from_counts(high());
   }
 
   /// Finds the component's own school, then steps down: what hangs together and holds no school yet may be one.
-  void refine(const Runs& component, double reference_db) {
-    const IndexBox box = box_of_runs(component, sv_.shape().beams)
-                             .enlarged(params_.search_fans, params_.search_beams, params_.search_samples)
-                             .clipped(sv_.shape());
-    const double own_level_db = reference_db - params_.tolerance_db - params_.link_db;
+  /// out  whether it found one, or the component belongs to one that was found before
+  bool refine(const Runs& component, double reference_db) {
+    held_ = false;
+    const IndexBox box = box_of_runs(component, echo_.sv.shape().beams)
+                             .enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples)
+                             .clipped(echo_.sv.shape());
+    const double own_level_db = reference_db - params_.tolerance_db - kLink_db;
     // a stronger neighbour's skirt may reach this far down: then the school is what stands out of it
-    for (double level_db = own_level_db; level_db <= reference_db - params_.min_prominence_db;
-         level_db += params_.step_db) {
+    for (double level_db = own_level_db; level_db <= reference_db - kLeastProminence_db; level_db += kStep_db) {
       if (search(component, box, level_db)) break;
     }
     const double lowest_db = lowest(component);
-    for (double level_db = own_level_db - params_.step_db; level_db > lowest_db - params_.step_db;
-         level_db -= params_.step_db) {
+    for (double level_db = own_level_db - kStep_db; level_db > lowest_db - kStep_db; level_db -= kStep_db) {
       search(component, box, level_db);
     }
+    return held_;
   }
 
   bool search(const Runs& component, const IndexBox& box, double level_db) {
     bool found = false;
-    for (const Runs& part : connected_parts(thresholder_.above(box, level_db, params_.background_rest_db), sv_.shape(),
-                                            params_.connectivity)) {
-      if (large_enough(part) && share_a_voxel(part, component)) found = consider(part, level_db) || found;
+    for (const Runs& part : connected_parts(thresholder_.above(box, level_db, kLeastAboveWater_db), echo_.sv.shape(),
+                                            Connectivity::faces)) {
+      if (!share_a_voxel(part, component)) continue;
+      if (const auto reason = size_of(part)) {
+        refuse(part, *reason);
+      } else {
+        found = consider(part, level_db) || found;
+      }
     }
     return found;
   }
@@ -136,9 +152,10 @@ class PingDetector {
   [[nodiscard]] double lowest(const Runs& runs) const {
     int count = kMaxCount;
     for (const Run& run : runs) {
-      const auto counts = sv_.row(run.row);
+      const auto counts = echo_.sv.row(run.row);
       for (int s = run.first_sample; s < run.end(); ++s) {
-        count = std::min(count, int{counts[static_cast<std::size_t>(s)]});
+        const int here = counts[static_cast<std::size_t>(s)];
+        if (here != kNoData) count = std::min(count, here);
       }
     }
     return db_from_counts(count);
@@ -149,25 +166,31 @@ class PingDetector {
     for (const Run& run : part) {
       const auto claimed = claimed_.view().row(run.row);
       for (int s = run.first_sample; s < run.end(); ++s) {
-        if (claimed[static_cast<std::size_t>(s)] != 0) return false;
+        if (claimed[static_cast<std::size_t>(s)] == 0) continue;
+        held_ = true;
+        return false;
       }
     }
     const double reference_db = reference(part);
-    if (reference_db < std::max(level_db + params_.min_prominence_db, floor_db())) return false;
+    if (reference_db < level_db + kLeastProminence_db) {
+      refuse(part, {"prominence", reference_db - level_db, kLeastProminence_db, "dB"});
+      return false;
+    }
     // A weak school beside a stronger one stands no deeper below its own top than where the two part.
     const double depth_db = std::min(params_.tolerance_db, reference_db - level_db);
-    std::vector<MemberSettler::Settled> schools = settled(part, reference_db, depth_db);
-    // The filtered data show edges more evenly than one beam does.
-    if (schools.size() == 1) {
-      const PingMask filtered = by_filtered(part, reference_db, depth_db).mask;
-      if (is_wave_front(filtered, box_of(filtered, sv_.shape().beams), sector_, params_)) schools.clear();
+    // Most pings hold no school.
+    if (!settler_) {
+      settler_.emplace(echo_.sv, echo_.unfiltered, echo_.flags, echo_.background, echo_.water, params_.tolerance_db,
+                       echo_.peaked, taken_);
     }
+    std::vector<MemberSettler::Settled> schools = settler_->settle(
+        part, depth_db, [this](const Runs& runs) { return large_enough(runs); }, claimed_.view());
     for (MemberSettler::Settled& school : schools) {
-      PingMask free = free_of_seabed(std::move(school.mask), sv_, flags_, params_, seabed_.open);
-      Detection detection = describe_mask(std::move(free), flags_, sector_);
+      Detection detection = describe_mask(std::move(school.mask), echo_.flags, echo_.sector);
       detection.reference_db = school.reference_db;
       detection.threshold_db = school.threshold_db;
-      if (believable(detection)) found_.push_back(std::move(detection));
+      detection.evidence = evidence_of(detection.mask, echo_.water);
+      take(std::move(detection));
     }
     for (const Run& run : part) {
       const auto claimed = claimed_.view().row(run.row).subspan(static_cast<std::size_t>(run.first_sample),
@@ -177,112 +200,53 @@ class PingDetector {
     return true;
   }
 
-  std::vector<MemberSettler::Settled> settled(const Runs& part, double reference_db, double depth_db) {
-    if (params_.member_samples == 0) return {by_filtered(part, reference_db, depth_db)};
-    // Most pings hold no school.
-    if (!settler_) settler_.emplace(sv_, unfiltered_, flags_, background_, water_, params_, taken_);
-    return settler_->settle(
-        part, depth_db, [this](const Runs& runs) { return large_enough(runs); }, claimed_.view());
-  }
-
-  [[nodiscard]] MemberSettler::Settled by_filtered(const Runs& part, double reference_db, double depth_db) const {
-    const MemberTable table = MemberTable::one_sided(reference_db, depth_db);
-    PingMask mask;
-    for (const Run& run : part) {
-      const auto counts = sv_.row(run.row);
-      bool open = false;
+  [[nodiscard]] Run loudest(const Runs& runs) const {
+    Run at{runs.front().row, runs.front().first_sample, 1};
+    int most = kNoData;
+    for (const Run& run : runs) {
+      const auto counts = echo_.sv.row(run.row);
       for (int s = run.first_sample; s < run.end(); ++s) {
-        const std::int16_t count = counts[static_cast<std::size_t>(s)];
-        const bool inside = table(count) != 0;
-        if (inside) {
-          if (!open) mask.runs.push_back({run.row, s, 0});
-          ++mask.runs.back().count;
-          mask.confidence.push_back(table(count));
-        }
-        open = inside;
+        if (counts[static_cast<std::size_t>(s)] <= most) continue;
+        most = counts[static_cast<std::size_t>(s)];
+        at = {run.row, s, 1};
       }
     }
-    return {std::move(mask), reference_db, reference_db - depth_db};
+    return at;
   }
 
-  [[nodiscard]] bool believable(const Detection& detection) const {
-    if (detection.mask.empty() || !large_enough(detection.mask.runs)) return false;
-    if (!(detection.volume_m3 > 0.0)) return false;
-    std::size_t faulty = 0;
-    for (const Run& run : detection.mask.runs) {
-      const auto flags = flags_.row(run.row);
-      for (int s = run.first_sample; s < run.end(); ++s) {
-        if (any(flags[static_cast<std::size_t>(s)] & kFault)) ++faulty;
-      }
+  void take(Detection detection) {
+    if (detection.mask.empty() || !(detection.volume_m3 > 0.0)) return;
+    if (const auto reason = judge_size(echo_, detection, params_)) {
+      refuse(detection.mask.runs, *reason);
+    } else if (detection.evidence >= kLeastEvidence) {
+      held_ = true;
+      detection.loudest = loudest(detection.mask.runs);
+      found_.push_back(std::move(detection));
     }
-    const auto voxels = static_cast<double>(detection.mask.voxels());
-    if (static_cast<double>(faulty) > params_.max_flagged_members * voxels) return false;
-    const MaskEdges edges = mask_edges(detection.mask, flags_, sector_);
-    if (edges.boundary_fraction > params_.max_boundary_faces) return false;
-    if (edges.seabed_fraction > max_seabed_faces(detection.mask)) return false;
-    if (edges.seabed_fraction > 0.0 && rises_to_seabed(detection.mask, sv_, flags_, params_, seabed_.open))
-      return false;
-    return !is_shell(detection) && !is_open_floor(detection, sector_, sv_, flags_, params_) &&
-           !is_wave_front(detection.mask, detection.box, sector_, params_) &&
-           !is_side_lobe(detection.mask, detection.box, sector_, sv_, unfiltered_, flags_, params_) &&
-           !is_nadir_ring(detection.mask, detection.box, seabed_, sector_, sv_, flags_, background_, params_);
   }
 
-  /// Of what stands out of the seabed's flank all faces may lie at what is left of that.
-  [[nodiscard]] double max_seabed_faces(const PingMask& mask) const {
-    if (seabed_.open.empty()) return params_.max_seabed_faces;
-    double freed = 0.0;
-    for (const Run& run : mask.runs) {
-      if (!seabed_.open[static_cast<std::size_t>(run.row)].empty()) freed += run.count;
-    }
-    const double share = freed / static_cast<double>(mask.voxels());
-    return params_.max_seabed_faces + (1.0 - params_.max_seabed_faces) * share;
-  }
-
-  /// A wall at constant range: all beams, thin, and flat.
-  [[nodiscard]] bool is_shell(const Detection& detection) const {
-    const double spacing_m = sector_.range().spacing_m;
-    const double mean_run_m =
-        static_cast<double>(detection.mask.voxels()) / static_cast<double>(detection.mask.runs.size()) * spacing_m;
-    return detection.box.beams() >= params_.shell_share * sector_.beams() &&
-           mean_run_m < params_.max_shell_thickness_m &&
-           detection.box.samples() * spacing_m < params_.shell_bend * params_.max_shell_thickness_m;
-  }
-
-  View3<const std::int16_t> sv_;
-  View3<const std::int16_t> unfiltered_;
-  View3<const SampleFlags> flags_;
-  const Sector& sector_;
-  const Background& background_;
+  const PingEcho& echo_;
   const DetectParams& params_;
-  const Seabed& seabed_;
   const PingMask* taken_;
-  WaterLevels water_;
   Thresholder thresholder_;
   std::optional<MemberSettler> settler_;
   Array3<std::uint8_t> claimed_;  ///< voxels of components that have had their school
   std::vector<Detection> found_;
+  struct Refusal {
+    std::int64_t voxels = 0;
+    Runs part;
+    Reason reason;
+  };
+  std::optional<Refusal> refusal_;  ///< of the component in hand
+  bool held_ = false;               ///< it has its school, or is another's
 };
 
 }  // namespace
 
-std::vector<Detection> detect(View3<const std::int16_t> sv, View3<const std::int16_t> unfiltered,
-                              View3<const SampleFlags> flags, const Sector& sector, const Background& background,
-                              const DetectParams& params, const Seabed& seabed, const PingMask* taken) {
-  SONAR_CHECK(seabed.open.empty() || seabed.open.size() == sv.shape().rows());
-  SONAR_CHECK(sv.shape() == flags.shape() && sv.shape() == unfiltered.shape());
-  SONAR_CHECK(sv.shape().fans == sector.fans() && sv.shape().beams == sector.beams() &&
-              sv.shape().samples == sector.range().count);
-  return PingDetector(sv, unfiltered, flags, sector, background, params, seabed, taken).run();
-}
-
-WaterLevels water_levels(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& noise,
-                         const DetectParams& params) {
-  if (noise.water != nullptr) return *noise.water;
-  WaterLevels water;
-  water.reverberation = reverberation_counts(sv, flags, noise, params);
-  if (params.noise_sigmas > 0.0) water.noise_reach = noise_reach(sv, flags, noise, water.reverberation, params);
-  return water;
+std::vector<Detection> detect(const PingEcho& echo, const DetectParams& params, const PingMask* taken,
+                              std::vector<RefusedDetection>* refused) {
+  SONAR_CHECK(echo.sv.shape() == echo.flags.shape() && echo.sv.shape() == echo.unfiltered.shape());
+  return PingDetector(echo, params, taken).run(refused);
 }
 
 Detection describe_mask(PingMask mask, View3<const SampleFlags> flags, const Sector& sector) {

@@ -99,6 +99,34 @@ void count_voxels(const PingMask& mask, int beams, SchoolPingRow& row) {
 
 bool is_faulty(SampleFlags flags, std::int16_t count) { return any(flags & kFault) || count == kNoData; }
 
+/// Sums of the echo of valid members: as it is, under another beam angle, and times its standard error.
+class CalibrationDoubt {
+ public:
+  explicit CalibrationDoubt(const MeasureInput& ping) : ping_(ping) {}
+
+  /// echo_m2  of the valid members of a run
+  void add(int row, double echo_m2) {
+    whole_ += echo_m2;
+    other_ += echo_m2 * linear_from_db(-at(ping_.psi_error_db, row));
+    error_ += echo_m2 * at(ping_.calibration_se_db, row);
+  }
+  void tell(SchoolPingRow& row) const {
+    if (!(whole_ > 0.0)) return;
+    if (other_ > 0.0) row.backscatter_psi_error_db = db_from_linear(whole_ / other_);
+    if (error_ >= 0.0) row.backscatter_calibration_se_db = error_ / whole_;
+  }
+
+ private:
+  static double at(std::span<const double> values, int row) {
+    const auto i = static_cast<std::size_t>(row);
+    return i < values.size() ? values[i] : kUnknown;
+  }
+  const MeasureInput& ping_;
+  double whole_ = 0.0;
+  double other_ = 0.0;
+  double error_ = 0.0;
+};
+
 /// Echo of the valid members. The 95th percentile is the nearest rank over voxels.
 void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow& row) {
   const Sector& sector = *ping.sector;
@@ -106,6 +134,7 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
   double noise = 0.0;
   double valid_m3 = 0.0;
   double whole_m3 = 0.0;  // summed in the same order, so that all valid is exactly 1
+  CalibrationDoubt doubt(ping);
   std::vector<double> values;
   values.reserve(mask.voxels());
   for (const Run& run : mask.runs) {
@@ -113,6 +142,8 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
     const auto flags = ping.flags.row(run.row);
     const RowBackground background(ping.background, run.row);
     const double solid_angle = sector.solid_angle_sr(run.row / sector.beams(), run.row % sector.beams());
+    const std::size_t valid_before = values.size();
+    double of_run = 0.0;
     for (int s = run.first_sample; s < run.end(); ++s) {
       const auto i = static_cast<std::size_t>(s);
       const double volume = solid_angle * sector.shell_m3_per_sr(s);
@@ -121,16 +152,19 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
       const double behind = background(s);
       const double sv = linear_from_count(counts[i]) - behind;
       sum += sv * volume;
+      of_run += sv * volume;
       noise += behind * volume;
       valid_m3 += volume;
       values.push_back(sv);
     }
+    if (values.size() > valid_before) doubt.add(run.row, of_run);
   }
   row.valid_fraction = whole_m3 > 0.0 ? valid_m3 / whole_m3 : kUnknown;
   if (values.empty() || !(valid_m3 > 0.0)) return;
   const double mean = sum / valid_m3;
   row.sv_mean_db = db_or_unknown(mean);
   row.backscatter_m2 = mean * row.volume_m3;
+  doubt.tell(row);
   row.snr_db = noise > 0.0 && sum > 0.0 ? db_from_linear(sum / noise) : kUnknown;
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1;
   std::nth_element(values.begin(), values.begin() + rank, values.end());

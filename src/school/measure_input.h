@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/array.h"
 #include "base/sample_flags.h"
@@ -24,8 +25,12 @@ struct MeasureInput {
   const BeamGrid* grid = nullptr;
   Background background;
   Placement placement;
-  double pulse_m = 0.0;              ///< extent of the pulse along range, c tau / 2
-  double two_way_area = 1.0;         ///< of the beams: two_way_beam.h
+  double pulse_m = 0.0;       ///< extent of the pulse along range, c tau / 2
+  double two_way_area = 1.0;  ///< of the beams: two_way_beam.h
+  /// [fan][beam] dB: echo as calibrated over what another equivalent beam angle would make of it, and standard error of
+  /// the calibration; empty = not known.
+  std::span<const double> psi_error_db;
+  std::span<const double> calibration_se_db;
   const Seabed* seabed = nullptr;    ///< null = none seen
   const PingMask* others = nullptr;  ///< voxels of all other schools of the ping; null = none
   double threshold_db = kUnknown;    ///< the mask's, for the record

@@ -28,6 +28,7 @@ struct MeasureParams {
   bool use_beam_angle = true;
   double beam_angle_least_db = 0.3;
   double beam_angle_spread_db = 1.0;
+  double beam_angle_ripple_db = 3.0;
   double alike_evidence = 5.0;
   double beam_pedestal = 0.1;
   int height_pool_pings = 10;
@@ -106,11 +107,18 @@ void describe(Visitor& v, MeasureParams& p) {
            .min = 0,
            .max = 60,
            .text = "... where they differ by this from what the widths give; so much more than can be is rounding"});
-  v.field("beam_angle_spread_db", p.beam_angle_spread_db,
+  v.field(
+      "beam_angle_spread_db", p.beam_angle_spread_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 60,
+       .text = "... and by no more over the sector, ripple from beam to beam smoothed: angles copied from one to all "
+               "tell nothing"});
+  v.field("beam_angle_ripple_db", p.beam_angle_ripple_db,
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "... and by no more from beam to beam: angles copied from one to all tell nothing"});
+           .text = "... whose ripple is no more either way: a transmit fan's is 0.5 to 2.4 dB from crest to trough"});
   v.field("alike_evidence", p.alike_evidence,
           {.unit = "1",
            .min = 0,

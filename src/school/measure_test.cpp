@@ -109,6 +109,48 @@ TEST(Measure, CorrectedSizesAreTheBodysWhereTheSonarSendsWide) {
   }
 }
 
+// Balls of 30 m through beams that are sent for a whole fan at once, rippling by so much from crest to trough, as a real
+// table's 0.5 to 2.4 dB; the law: a ball is as long at any range and under any beam.
+TEST(Measure, BallsAreAsLongAsTheyAreWhereTheTransmitFanRipples) {
+  for (const double ripple_db : {0.5, 1.5, 2.4}) {
+    for (const double range_m : {100.0, 170.0, 240.0, 310.0}) {
+      for (const double azimuth_deg : {262.0, 268.0, 275.5}) {
+        Ping ping;
+        test::Ellipsoid e = ellipsoid(range_m, -18.0, azimuth_deg);
+        e.half_x = e.half_y = e.half_z = 15.0;
+        e.beams = test::Beams::wide_fan;
+        e.ripple_db = ripple_db;
+        ping.add(e);
+        ping.beam_angle_db = test::beam_angles_db(ping.sector, e.beams, ripple_db);
+        const SchoolPingRow row = ping.measured(1, false);
+        EXPECT_NEAR(row.length_corrected_m / 30.0, 1.0, 0.05)
+            << ripple_db << " dB, " << range_m << " m, " << azimuth_deg;
+      }
+    }
+  }
+}
+
+// By hand, two beams that hear alike and are 3 and 6 dB off: the whole
+// over what it would be, 2 / (10^0.3 + 10^0.6); the standard errors' mean.
+TEST(Measure, TheCalibrationsErrorsAreWeightedAsTheEchoIs) {
+  Ping ping;
+  ping.mask.runs = {{262, 300, 1}, {263, 300, 1}};
+  ping.mask.confidence = {255, 255};
+  for (double& sv : ping.expected.all()) sv = 1e-4;
+  ping.psi_error_db.assign(500, 0.0);
+  ping.psi_error_db[262] = -3.0;
+  ping.psi_error_db[263] = -6.0;
+  ping.calibration_se_db.assign(500, 0.2);
+  ping.calibration_se_db[263] = 0.4;
+  const SchoolPingRow row = ping.measured(1, false);
+  EXPECT_NEAR(row.backscatter_psi_error_db, db_from_linear(2.0 / (std::pow(10.0, 0.3) + std::pow(10.0, 0.6))), 1e-3);
+  EXPECT_NEAR(row.backscatter_calibration_se_db, 0.3, 1e-3);
+  ping.psi_error_db[262] = kUnknown;
+  EXPECT_TRUE(std::isnan(ping.measured(1, false).backscatter_psi_error_db));
+  ping.psi_error_db.clear();
+  EXPECT_TRUE(std::isnan(ping.measured(1, false).backscatter_psi_error_db));
+}
+
 // Where the shape is known it can be told, and then nothing is left of the difference.
 TEST(Measure, AKnownBeamShapeGivesTheHeight) {
   for (const double range_m : {100.0, 200.0, 300.0}) {

@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "school/judge/confirmation.h"
+#include "school/judge/ship.h"
+#include "school/judge/surface.h"
 #include "school/open_track.h"
 #include "school/runs.h"
-#include "school/stays_with_ship.h"
 
 namespace sonar {
 namespace {
 
-bool confirmed(const OpenTrack& track, const TrackParams& params) {
-  const auto wanted = static_cast<std::size_t>(params.confirm_pings);
-  for (std::size_t i = 0; i + wanted <= track.pings.size(); ++i) {
-    if (track.pings[i + wanted - 1].ping_index - track.pings[i].ping_index < params.confirm_window) return true;
-  }
-  return false;
-}
-
 /// (first ping, channel, sample) of the first mask's first voxel.
 std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const DetectedPing> pings,
                                       std::span<const int> channel_of_row) {
-  const auto at = std::lower_bound(pings.begin(), pings.end(), track.pings.front().ping_index,
-                                   [](const DetectedPing& ping, std::int64_t i) { return ping.ping_index < i; });
+  const auto at = ping_of(pings, track.pings.front().ping_index);
   std::array<std::int64_t, 3> key{track.pings.front().ping_index, INT64_MAX, INT64_MAX};
   for (const int d : track.pings.front().detections) {
     for (const Run& run : at->detections[static_cast<std::size_t>(d)].mask.runs) {
@@ -38,17 +33,27 @@ std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const De
   return key;
 }
 
+std::optional<Reason> refused(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
+                              const TrackParams& params) {
+  if (auto reason = judge_confirmation(tracked, pings, params)) return reason;
+  if (auto reason = judge_ship(tracked, pings, params)) return reason;
+  return judge_surface(tracked, pings);
+}
+
 }  // namespace
 
 Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent> events,
                      std::span<const DetectedPing> pings, std::span<const int> channel, const TrackParams& params) {
+  Tracks tracks;
   std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
   for (const OpenTrack& track : closed) {
-    if (!confirmed(track, params) || stays_with_ship(track.pings, pings, params)) continue;
+    if (auto reason = refused(track.pings, pings, params)) {
+      tracks.refused.push_back({*reason, track.pings});
+      continue;
+    }
     order.emplace_back(order_key(track, pings, channel), &track);
   }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  Tracks tracks;
   int numbers = 0;
   for (const OpenTrack& track : closed) numbers = std::max(numbers, track.number + 1);
   std::vector<std::int64_t> id_of(static_cast<std::size_t>(numbers), 0);

@@ -42,11 +42,11 @@ struct Passage {
     volume->counts = test::filtered(test::counts_of(expected, static_cast<std::uint64_t>(i) + 1), volume->flags);
     if (noise_known) {
       const double level_db = db_from_linear(linear_from_db(noise_db) + linear_from_db(test::kNoise_db));
-      out.standing_out = [volume, level_db](double margin_db, Above above) {
+      out.standing_out = [volume, level_db](double margin_db, Above /*above*/) {
         test::FlatBackground flat(volume->counts.shape());
         flat.power_db.assign(flat.power_db.size(), level_db);
         return standing_out(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(),
-                            {flat.power_db, flat.calibration.view()}, {}, margin_db, above);
+                            {flat.power_db, flat.calibration.view()}, nullptr, margin_db);
       };
     }
     out.volume = std::move(volume);

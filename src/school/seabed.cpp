@@ -14,7 +14,6 @@
 #include "base/units.h"
 #include "model/school.h"
 #include "school/seabed_echoes.h"
-#include "school/seabed_flank.h"
 #include "school/seabed_hills.h"
 #include "school/seabed_plane.h"
 
@@ -45,14 +44,17 @@ class SeabedFinder {
     seabed.slope_x = plane->slope_x;
     seabed.slope_y = plane->slope_y;
     seabed.confidence = seen;
+    seabed.roughness_m = roughness_m(*plane);
     bounds(*plane, seabed);
-    const double strength = strength_db(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      seabed.first_sample[static_cast<std::size_t>(row)] = onset(*plane, strength, row);
+      seabed.first_sample[static_cast<std::size_t>(row)] = ground_sample(*plane, row);
     }
-    const std::vector<std::int32_t> of_plane = seabed.first_sample;
+    const double strength = strength_db(*plane);
     if (params_.hills) find_hills(water_, long_, *plane, strength, width_deg_, seabed.first_sample);
-    open_flank(water_, ground_of(*plane, strength, of_plane, seabed.first_sample), seabed);
+    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
+      seabed.heard_sample.push_back(
+          std::min(seabed.first_sample[static_cast<std::size_t>(row)], onset(*plane, strength, row)));
+    }
     return seabed;
   }
 
@@ -80,7 +82,7 @@ class SeabedFinder {
   /// better than a seabed that only the lowest fans reach: what lies on a plane that is not seen is left out of the next.
   [[nodiscard]] std::optional<SeabedPlane> seen_plane(double& seen) {
     const std::vector<SeabedEcho> all = echoes_;
-    for (int tried = 0; tried < params_.planes; ++tried) {
+    for (int tried = 0; tried < SeabedParams::planes; ++tried) {
       const std::vector<SeabedEcho> left = echoes_;
       const std::optional<SeabedPlane> plane = robust_plane();
       echoes_ = all;
@@ -106,9 +108,9 @@ class SeabedFinder {
     };
     std::optional<SeabedPlane> best;
     int most = 0;
-    for (int trial = 0; trial < params_.trials; ++trial) {
+    for (int trial = 0; trial < SeabedParams::trials; ++trial) {
       const std::array<Point<Sonar>, 3> p{echoes_[draw()].place, echoes_[draw()].place, echoes_[draw()].place};
-      std::optional<SeabedPlane> plane = plane_through(p, params_.min_triangle_m2);
+      std::optional<SeabedPlane> plane = plane_through(p, SeabedParams::min_triangle_m2);
       // every third trial a level plane: enough where few beams see the bottom
       if (trial % 3 == 0) plane = SeabedPlane{p[0].z, 0.0, 0.0};
       if (!plane || plane->slope() > steepest || plane->offset <= 0.0) continue;
@@ -119,13 +121,14 @@ class SeabedFinder {
       }
     }
     if (most < params_.min_inliers) return std::nullopt;
-    for (int round = 0; round < params_.refinements; ++round) {
-      const double reach = std::clamp(params_.fit_spreads * median_off(*best), params_.fit_least_share, 1.0);
+    for (int round = 0; round < SeabedParams::refinements; ++round) {
+      const double reach =
+          std::clamp(SeabedParams::fit_spreads * median_off(*best), SeabedParams::fit_least_share, 1.0);
       const std::optional<SeabedPlane> better = least_squares(*best, reach);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
       // about a smooth seabed what is lost may be a school; over hills all that supports the plane is seabed
-      const bool smooth = median_off(*better) < params_.fit_smooth_share;
-      if (support(*better) < (smooth ? params_.fit_support : 1.0) * most) break;
+      const bool smooth = median_off(*better) < SeabedParams::fit_smooth_share;
+      if (support(*better) < (smooth ? SeabedParams::fit_support : 1.0) * most) break;
       best = better;
     }
     return best;
@@ -192,7 +195,7 @@ class SeabedFinder {
     const double range_m = plane.range(u);
     const int sample = std::clamp(static_cast<int>(sector_.range().sample_at(range_m)), 0, sv_.shape().samples - 1);
     const int limit = loud_limit(water_, row)(sample);
-    return strength_db + plane.lambert_db(u, range_m) >= db_from_counts(limit) + params_.visible_db;
+    return strength_db + plane.lambert_db(u, range_m) >= db_from_counts(limit) + SeabedParams::visible_db;
   }
 
   /// Share of the beams whose axis meets the plane well inside their range, and that a seabed so strong should show in,
@@ -204,17 +207,17 @@ class SeabedFinder {
       if (is_of(echo, plane)) sees[static_cast<std::size_t>(echo.row)] = true;
     }
     const double strength = strength_db(plane);
-    const double reach = params_.reach_share * sector_.range().range_m(sv_.shape().samples - 1);
+    const double reach = SeabedParams::reach_share * sector_.range().range_m(sv_.shape().samples - 1);
     const auto beams = static_cast<std::size_t>(sector_.beams());
     int expected = 0;
     int seen = 0;
     for (std::size_t first = 0; first < sees.size(); first += beams) {
       const auto fan = sees.begin() + static_cast<std::ptrdiff_t>(first);
       const auto seeing = std::count(fan, fan + sector_.beams(), true);
-      const bool whole = static_cast<double>(seeing) >= params_.whole_fan_share * sector_.beams();
+      const bool whole = static_cast<double>(seeing) >= SeabedParams::whole_fan_share * sector_.beams();
       for (std::size_t row = first; row < first + beams; ++row) {
         const Point<Sonar> u = axis(static_cast<int>(row));
-        if (u.z < params_.min_dip || (plane.range(u) > reach && !(whole && sees[row]))) continue;
+        if (u.z < SeabedParams::min_dip || (plane.range(u) > reach && !(whole && sees[row]))) continue;
         if (!sees[row] && !visible(plane, static_cast<int>(row), strength)) continue;
         ++expected;
         if (sees[row]) ++seen;
@@ -246,7 +249,7 @@ class SeabedFinder {
     Expected out;
     double best_db = -std::numeric_limits<double>::infinity();
     for (int k = 0; k <= kSteps; ++k) {
-      const double off_rad = params_.edge_widths * width_rad * k / kSteps;
+      const double off_rad = SeabedParams::edge_widths * width_rad * k / kSteps;
       const Point<Sonar> u = axis(row, off_rad);
       const double range_m = plane.range(u);
       if (!std::isfinite(range_m)) continue;
@@ -257,7 +260,7 @@ class SeabedFinder {
         best_db = level_db;
         out.loudest_m = range_m;
       }
-      if (level_db >= params_.onset_db) out.first_m = range_m;  // later ones are nearer
+      if (level_db >= SeabedParams::onset_db) out.first_m = range_m;  // later ones are nearer
     }
     return out;
   }
@@ -267,9 +270,9 @@ class SeabedFinder {
   [[nodiscard]] int onset(const SeabedPlane& plane, double strength_db, int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int samples = sv_.shape().samples;
-    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
+    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : SeabedParams::unknown_width_deg);
     const RangeAxis& axis_m = sector_.range();
-    const double nearest_m = plane.range(axis(row, params_.edge_widths * width));
+    const double nearest_m = plane.range(axis(row, SeabedParams::edge_widths * width));
     const double on_axis_m = plane.range(axis(row));
     if (!(nearest_m <= axis_m.range_m(samples - 1))) return samples;
     const double last_m = axis_m.range_m(samples - 1);
@@ -277,8 +280,8 @@ class SeabedFinder {
     const int from = static_cast<int>(axis_m.sample_at(std::min(expect.loudest_m, last_m)));
     const int to = std::max(0, static_cast<int>(axis_m.sample_at(nearest_m)));
     const auto counts = sv_.row(row);
-    const int level = static_cast<int>(std::lround(counts_from_db(params_.onset_db)));
-    const int gap = std::max(1, static_cast<int>(params_.onset_gap_m / axis_m.spacing_m));
+    const int level = static_cast<int>(std::lround(counts_from_db(SeabedParams::onset_db)));
+    const int gap = std::max(1, static_cast<int>(SeabedParams::onset_gap_m / axis_m.spacing_m));
     int first = on_axis_m <= last_m ? static_cast<int>(axis_m.sample_at(on_axis_m)) : samples;
     for (int s = std::min(from, samples - 1), quiet = 0; s >= to && quiet <= gap; --s) {
       const bool loud = counts[static_cast<std::size_t>(s)] >= level;
@@ -289,19 +292,6 @@ class SeabedFinder {
     if (expect.first_m <= last_m) first = std::min(first, static_cast<int>(axis_m.sample_at(expect.first_m)));
     if (first >= samples) return samples;
     return std::max(0, first - static_cast<int>(std::ceil(params_.margin_m / axis_m.spacing_m)));
-  }
-
-  /// What is known of the ground in each beam; beams that hills end have no more to tell.
-  [[nodiscard]] Ground ground_of(const SeabedPlane& plane, double strength_db,
-                                 const std::vector<std::int32_t>& of_plane,
-                                 const std::vector<std::int32_t>& with_hills) const {
-    Ground ground{plane, roughness_m(plane), {}, {}};
-    for (int row = 0; row < static_cast<int>(of_plane.size()); ++row) {
-      const auto r = static_cast<std::size_t>(row);
-      ground.loudest.push_back(with_hills[r] == of_plane[r] ? loudest_sample(plane, strength_db, row) : -1);
-      ground.first.push_back(ground_sample(plane, row));
-    }
-    return ground;
   }
 
   /// Of the ground about the plane: spread of the depths of each beam's echo that is nearest to it.
@@ -321,14 +311,6 @@ class SeabedFinder {
     return *rank;
   }
 
-  /// Where along a beam the plane is loudest; may lie beyond the record.
-  [[nodiscard]] int loudest_sample(const SeabedPlane& plane, double strength_db, int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    const double width = rad_from_deg(r < width_deg_.size() ? width_deg_[r] : params_.unknown_width_deg);
-    const double range_m = expected(plane, strength_db, row, width).loudest_m;
-    const double sample = sector_.range().sample_at(range_m);
-    return sample < 1e6 ? static_cast<int>(sample) : -1;
-  }
   /// From where on a beam's axis is within the margin of the plane.
   [[nodiscard]] int ground_sample(const SeabedPlane& plane, int row) const {
     const Point<Sonar> u = axis(row);
@@ -362,18 +344,26 @@ Seabed find_seabed(View3<const std::int16_t> sv, View3<const SampleFlags> flags,
   return SeabedFinder(water, vertical_width_deg).find();
 }
 
-void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
-  if (!seabed.found) return;
-  SONAR_CHECK(seabed.first_sample.size() == flags.shape().rows());
-  const bool is_open = !seabed.open.empty();
+namespace {
+
+void flag_from(const std::vector<std::int32_t>& first_sample, View3<SampleFlags> flags) {
+  SONAR_CHECK(first_sample.size() == flags.shape().rows());
   for (int row = 0; row < static_cast<int>(flags.shape().rows()); ++row) {
     const auto samples = flags.row(row);
-    for (auto s = static_cast<std::size_t>(seabed.first_sample[static_cast<std::size_t>(row)]); s < samples.size();
-         ++s) {
-      if (is_open && seabed.open[static_cast<std::size_t>(row)].holds(static_cast<std::int32_t>(s))) continue;
+    for (auto s = static_cast<std::size_t>(first_sample[static_cast<std::size_t>(row)]); s < samples.size(); ++s) {
       if (!any(samples[s] & SampleFlags::lost)) samples[s] |= SampleFlags::seabed;
     }
   }
+}
+
+}  // namespace
+
+void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags) {
+  if (seabed.found) flag_from(seabed.heard_sample.empty() ? seabed.first_sample : seabed.heard_sample, flags);
+}
+
+void flag_ground(const Seabed& seabed, View3<SampleFlags> flags) {
+  if (seabed.found) flag_from(seabed.first_sample, flags);
 }
 
 double bottom_depth_m(const Seabed& seabed, const Point<Sonar>& place, const Placement& placement, double beyond_share,

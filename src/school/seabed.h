@@ -17,7 +17,6 @@ struct SeabedParams {
   bool enabled = true;
   double level_db = -60.0;
   double above_background_db = 2.0;
-  double visible_db = 3.0;
   double min_echo_m = 10.0;
   double rise_db = 4.0;
   double max_slope_deg = 20.0;
@@ -25,45 +24,43 @@ struct SeabedParams {
   double inlier_share = 0.06;
   double min_coverage = 0.6;
   int min_inliers = 20;
-  double onset_db = -60.0;
-  double edge_widths = 1.4;
-  double unknown_width_deg = 5.7;
   double margin_m = 5.0;
-  double near_peak_db = 2.0;
-  double before_share = 0.25;
-  int before_samples = 4;
-  double record_end_share = 0.025;
-  int record_end_samples = 2;
-  double whole_fan_share = 0.9;
-  double reach_share = 0.9;
-  double min_dip = 0.3;
-  double onset_gap_m = 4.0;
-  double flank_rise_db = 8.0;
-  double flank_share = 0.5;
-  int flank_beams = 8;
-  double flank_least_m = 4.0;
-  double flank_lift_m = 2.0;
-  double flank_slack_m = 3.0;
-  int flank_rows = 4;
-  double flank_dip_db = 4.0;
-  double flank_apart_share = 0.05;
-  double flank_smooth_m = 1.5;
-  double flank_top_db = 6.0;
-  double flank_before_m = 40.0;
-  double flank_sigmas = 3.0;
   bool hills = true;
   double hill_step_m = 10.0;
-  double hill_behind_db = 8.0;
-  double hill_dip_db = 3.0;
-  int hill_gap_beams = 1;
-  int planes = 3;
-  int trials = 300;
-  int refinements = 5;
-  double fit_spreads = 7.0;
-  double fit_least_share = 0.2;
-  double fit_support = 0.9;
-  double fit_smooth_share = 0.243;
-  double min_triangle_m2 = 25.0;
+
+  static constexpr double visible_db =
+      3.0;  ///< dB, beams need not agree where Lambert's law brings its peak less far above both
+  static constexpr double onset_db = -60.0;  ///< dB re 1 m-1, the echo is followed towards the sonar down to this
+  static constexpr double edge_widths =
+      1.4;  ///< beams see the seabed this many vertical beam widths below their axis, not more
+  static constexpr double unknown_width_deg = 5.7;  ///< deg, ... each so wide where the file tells none
+  static constexpr double near_peak_db =
+      2.0;  ///< dB, the seabed lies on the beam's axis in the middle of what is so near to the peak
+  static constexpr double before_share = 0.25;  ///< the rise is judged so far before the echo, as a share of it ...
+  static constexpr int before_samples = 4;      ///< samples, ... or at least so far
+  static constexpr double record_end_share = 0.025;  ///< an echo at its peak in this last share of the samples is cut
+  static constexpr int record_end_samples = 2;       ///< samples, ... or in so many at least
+  static constexpr double whole_fan_share = 0.9;     ///< no school fills so large a share of a fan at one depth
+  static constexpr double reach_share = 0.9;         ///< beams should see the plane within this share of their range
+  static constexpr double min_dip =
+      0.3;  ///< sine of the depression of the flattest beams that should: others see a faint ramp
+  static constexpr double onset_gap_m = 4.0;  ///< m, a quiet stretch of this length ends the echo
+  static constexpr double hill_behind_db =
+      8.0;  ///< dB, a beam that hears the plane at most so far below what it should ends there, not at a hill
+  static constexpr double hill_dip_db = 3.0;  ///< dB, ... as an echo that rises so far out of the one before it
+  static constexpr int hill_gap_beams =
+      1;  ///< beams, beams one above the other in which the ground may be too faint; above more there is none
+  static constexpr int planes = 3;       ///< so many are looked for until one is seen where it should be
+  static constexpr int trials = 300;     ///< planes tried; every third is level
+  static constexpr int refinements = 5;  ///< least-squares fits of the best plane at most
+  static constexpr double fit_spreads =
+      7.0;  ///< ... in which echoes farther off than so many times their median distance have no say
+  static constexpr double fit_least_share =
+      0.2;                                    ///< ... if they are farther off than this share of what an inlier may be
+  static constexpr double fit_support = 0.9;  ///< ... a fit that loses more than the rest of the beams is not taken
+  static constexpr double fit_smooth_share =
+      0.243;  ///< ... but where their median distance is a larger share of what an inlier may be, none may be lost: hills
+  static constexpr double min_triangle_m2 = 25.0;  ///< m2, three echoes on less tell no slope (twice the area)
 };
 
 template <class Visitor>
@@ -72,11 +69,6 @@ void describe(Visitor& v, SeabedParams& p) {
   v.field("level_db", p.level_db, {.unit = "dB re 1 m-1", .min = -100, .max = 0, .text = "lowest Sv of a seabed echo"});
   v.field("above_background_db", p.above_background_db,
           {.unit = "dB", .min = 0, .max = 60, .text = "its echo stands so far above the background too"});
-  v.field("visible_db", p.visible_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "beams need not agree where Lambert's law brings its peak less far above both"});
   v.field("min_echo_m", p.min_echo_m, {.unit = "m", .min = 0, .max = 500, .text = "its least extent along range"});
   v.field("rise_db", p.rise_db,
           {.unit = "dB", .min = 0, .max = 60, .text = "its peak stands so far above what lies before it"});
@@ -88,143 +80,14 @@ void describe(Visitor& v, SeabedParams& p) {
   v.field("min_coverage", p.min_coverage,
           {.unit = "1", .min = 0, .max = 1, .text = "share of the beams that should see the plane and do"});
   v.field("min_inliers", p.min_inliers, {.unit = "beams", .min = 3, .max = 100000, .text = "least number of beams"});
-  v.field(
-      "onset_db", p.onset_db,
-      {.unit = "dB re 1 m-1", .min = -120, .max = 0, .text = "the echo is followed towards the sonar down to this"});
-  v.field("edge_widths", p.edge_widths,
-          {.unit = "1",
-           .min = 0,
-           .max = 5,
-           .text = "beams see the seabed this many vertical beam widths below their axis, not more"});
-  v.field("unknown_width_deg", p.unknown_width_deg,
-          {.unit = "deg", .min = 0.1, .max = 90, .text = "... each so wide where the file tells none"});
   v.field("margin_m", p.margin_m, {.unit = "m", .min = 0, .max = 200, .text = "water above the seabed left out"});
-  v.field("near_peak_db", p.near_peak_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 30,
-           .text = "the seabed lies on the beam's axis in the middle of what is so near to the peak"});
-  v.field("before_share", p.before_share,
-          {.unit = "1", .min = 0, .max = 5, .text = "the rise is judged so far before the echo, as a share of it ..."});
-  v.field("before_samples", p.before_samples,
-          {.unit = "samples", .min = 1, .max = 10000, .text = "... or at least so far"});
-  v.field("record_end_share", p.record_end_share,
-          {.unit = "1", .min = 0, .max = 0.5, .text = "an echo at its peak in this last share of the samples is cut"});
-  v.field("record_end_samples", p.record_end_samples,
-          {.unit = "samples", .min = 1, .max = 10000, .text = "... or in so many at least"});
-  v.field("whole_fan_share", p.whole_fan_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "no school fills so large a share of a fan at one depth"});
-  v.field("reach_share", p.reach_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "beams should see the plane within this share of their range"});
-  v.field("min_dip", p.min_dip,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "sine of the depression of the flattest beams that should: others see a faint ramp"});
-  v.field("onset_gap_m", p.onset_gap_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "a quiet stretch of this length ends the echo"});
-  v.field(
-      "flank_rise_db", p.flank_rise_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 60,
-       .text =
-           "water in which the seabed's flank is heard is a school's where it stands so far above that; 0 = none is"});
-  v.field("flank_share", p.flank_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... which is the quantile over the fan's beams as far before the seabed"});
-  v.field("flank_beams", p.flank_beams, {.unit = "beams", .min = 1, .max = 1000, .text = "... of so many at least"});
-  v.field("flank_least_m", p.flank_least_m,
-          {.unit = "m", .min = 0, .max = 1000, .text = "... along so much of the beam"});
-  v.field("flank_slack_m", p.flank_slack_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "... and with the seabed so much nearer"});
-  v.field("flank_lift_m", p.flank_lift_m,
-          {.unit = "m",
-           .min = 0,
-           .max = 100,
-           .text = "... and with the ground so much higher: flat beams meet that far nearer"});
-  v.field("flank_rows", p.flank_rows,
-          {.unit = "beams", .min = 1, .max = 100000, .text = "... in so many beams that hang together"});
-  v.field("flank_dip_db", p.flank_dip_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "... behind which the seabed is heard as an echo of its own, with such a dip between"});
-  v.field("flank_apart_share", p.flank_apart_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... in so many of these beams; a hill stands out as well, but there its beams end"});
-  v.field("flank_top_db", p.flank_top_db,
-          {.unit = "dB", .min = 0, .max = 60, .text = "... those that hear it no weaker than this below the loudest"});
-  v.field("flank_before_m", p.flank_before_m,
-          {.unit = "m", .min = 0, .max = 500, .text = "... so far before the flank too, where it goes on"});
-  v.field("flank_sigmas", p.flank_sigmas,
-          {.unit = "1",
-           .min = 0,
-           .max = 100,
-           .text = "... and no lower above the seabed than so many times its roughness"});
-  v.field("flank_smooth_m", p.flank_smooth_m,
-          {.unit = "m",
-           .min = 0,
-           .max = 1000,
-           .text = "... a seabed no rougher than this has no hills, and none of its echo need be heard behind"});
   v.field("hills", p.hills, {.text = "what rises out of the plane is seabed too where beams end at it"});
   v.field("hill_step_m", p.hill_step_m,
           {.unit = "m",
            .min = 0,
            .max = 500,
            .text = "no lower beam of that azimuth sees the seabed so much farther away than the hill"});
-  v.field("hill_behind_db", p.hill_behind_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "a beam that hears the plane at most so far below what it should ends there, not at a hill"});
-  v.field("hill_dip_db", p.hill_dip_db,
-          {.unit = "dB", .min = 0, .max = 60, .text = "... as an echo that rises so far out of the one before it"});
-  v.field("hill_gap_beams", p.hill_gap_beams,
-          {.unit = "beams",
-           .min = 0,
-           .max = 1000,
-           .text = "beams one above the other in which the ground may be too faint; above more there is none"});
-  v.field("planes", p.planes,
-          {.unit = "1", .min = 1, .max = 100, .text = "so many are looked for until one is seen where it should be"});
-  v.field("trials", p.trials, {.unit = "1", .min = 1, .max = 100000, .text = "planes tried; every third is level"});
-  v.field("refinements", p.refinements,
-          {.unit = "1", .min = 0, .max = 100, .text = "least-squares fits of the best plane at most"});
-  v.field("fit_spreads", p.fit_spreads,
-          {.unit = "1",
-           .min = 0.1,
-           .max = 1000,
-           .text = "... in which echoes farther off than so many times their median distance have no say"});
-  v.field("fit_least_share", p.fit_least_share,
-          {.unit = "1",
-           .min = 0.01,
-           .max = 1,
-           .text = "... if they are farther off than this share of what an inlier may be"});
-  v.field(
-      "fit_support", p.fit_support,
-      {.unit = "1", .min = 0, .max = 1, .text = "... a fit that loses more than the rest of the beams is not taken"});
-  v.field(
-      "fit_smooth_share", p.fit_smooth_share,
-      {.unit = "1",
-       .min = 0,
-       .max = 1,
-       .text =
-           "... but where their median distance is a larger share of what an inlier may be, none may be lost: hills"});
-  v.field("min_triangle_m2", p.min_triangle_m2,
-          {.unit = "m2", .min = 0, .max = 10000, .text = "three echoes on less tell no slope (twice the area)"});
 }
-
-/// Samples of one beam, [first, end).
-struct Stretch {
-  std::int32_t first = 0;
-  std::int32_t end = 0;
-  [[nodiscard]] bool holds(std::int32_t sample) const { return first <= sample && sample < end; }
-  [[nodiscard]] bool empty() const { return end <= first; }
-};
 
 /// The seabed of one ping: a plane in the sonar frame, z = offset_m + slope_x x + slope_y y (z down).
 struct Seabed {
@@ -232,13 +95,15 @@ struct Seabed {
   double offset_m = 0.0;
   double slope_x = 0.0;
   double slope_y = 0.0;
-  double confidence = 0.0;  ///< share of the beams that should see it and do
-  double min_x = 0.0;       ///< where it was seen, m
+  double confidence = 0.0;   ///< share of the beams that should see it and do
+  double roughness_m = 0.0;  ///< standard deviation of its depth about the plane
+  double min_x = 0.0;        ///< where it was seen, m
   double max_x = 0.0;
   double min_y = 0.0;
   double max_y = 0.0;
   std::vector<std::int32_t> first_sample;  ///< [row] first sample beyond seabed - margin; the sample count = none
-  std::vector<Stretch> open;               ///< [row] water behind that in which a school stands out; empty = in no row
+  std::vector<std::int32_t>
+      heard_sample;  ///< [row] the same, with the flank by which beams hear it earlier; empty = alike
 };
 
 /// Finds the seabed from this ping alone: echoes per beam, a robust plane in metres, its onset along each beam.
@@ -252,8 +117,11 @@ struct Seabed {
                                  const Background& background, const Sector& sector,
                                  const std::vector<double>& vertical_width_deg, const SeabedParams& params);
 
-/// Sets SampleFlags::seabed from first_sample to the end of each row, where something was recorded.
+/// Sets SampleFlags::seabed from heard_sample to the end of each row, where something was recorded: nothing grows in there,
+/// and pictures leave it out.
 void flag_seabed(const Seabed& seabed, View3<SampleFlags> flags);
+/// The same from first_sample: detection and measuring know the flank as the water's own.
+void flag_ground(const Seabed& seabed, View3<SampleFlags> flags);
 
 /// Depth of the seabed under a place, below the water line; NaN where none was seen near there.
 /// beyond_share, beyond_m  how far beyond the seen area it is believed: a share of its extent, and so much more

@@ -59,7 +59,8 @@ class EchoFinder {
     for (int s = first; s < end; ++s) {
       if (counts[static_cast<std::size_t>(s)] > counts[static_cast<std::size_t>(at)]) at = s;
     }
-    const int before = first - std::max(params_.before_samples, static_cast<int>(params_.before_share * (end - first)));
+    const int before =
+        first - std::max(SeabedParams::before_samples, static_cast<int>(SeabedParams::before_share * (end - first)));
     // in the near field's crop stands the ringing, in the surface's the surface: nothing rises from there
     if (before < 0 || any(flags_.row(row)[static_cast<std::size_t>(before)] & kUnusable)) return;
     const std::int16_t peak = counts[static_cast<std::size_t>(at)];
@@ -68,7 +69,7 @@ class EchoFinder {
     double sum = 0.0;
     int last = at;
     for (int s = first; s < end; ++s) {
-      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(params_.near_peak_db)) continue;
+      if (counts[static_cast<std::size_t>(s)] < peak - counts_from_db(SeabedParams::near_peak_db)) continue;
       weight += 1.0;
       sum += sector_.range().range_m(s);
       last = s;
@@ -80,7 +81,8 @@ class EchoFinder {
 
   [[nodiscard]] int first_cut_off() const {
     const int samples = sv_.shape().samples;
-    return samples - std::max(params_.record_end_samples, static_cast<int>(params_.record_end_share * samples));
+    return samples -
+           std::max(SeabedParams::record_end_samples, static_cast<int>(SeabedParams::record_end_share * samples));
   }
 
   const SeabedWater& water_;
@@ -107,7 +109,7 @@ void drop_cut_echoes(const SeabedWater& water, std::vector<SeabedEcho>& echoes) 
   }
   std::erase_if(echoes, [&](const SeabedEcho& echo) {
     const int with = rows_with[static_cast<std::size_t>(echo.row / water.sector.beams())];
-    return echo.cut && with < water.params.whole_fan_share * water.sector.beams();
+    return echo.cut && with < SeabedParams::whole_fan_share * water.sector.beams();
   });
 }
 
@@ -133,7 +135,7 @@ std::vector<SeabedEcho> long_echoes(const SeabedWater& water) { return EchoFinde
 std::vector<SeabedEcho> seabed_echoes(const SeabedWater& water, std::vector<SeabedEcho> echoes) {
   // grazing beams see the bottom as a faint ramp, whose top is not on their axis
   std::erase_if(echoes,
-                [&](const SeabedEcho& echo) { return beam_axis(water.sector, echo.row).z < water.params.min_dip; });
+                [&](const SeabedEcho& echo) { return beam_axis(water.sector, echo.row).z < SeabedParams::min_dip; });
   drop_cut_echoes(water, echoes);
   return echoes;
 }

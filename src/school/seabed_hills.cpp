@@ -66,7 +66,7 @@ class HillFinder {
         empty = 0;
       }
       // Beams that see no ground look over it, beyond the record's end, and so do all above them.
-      if (ground_m >= 0.0 && empty > params_.hill_gap_beams) return;
+      if (ground_m >= 0.0 && empty > SeabedParams::hill_gap_beams) return;
     }
   }
 
@@ -85,9 +85,9 @@ class HillFinder {
     const Point<Sonar> u = beam_axis(sector_, row);
     const double range_m = plane_.range(u);
     const int last = water_.sv.shape().samples - 1;
-    if (!(range_m <= params_.reach_share * sector_.range().range_m(last))) return false;
+    if (!(range_m <= SeabedParams::reach_share * sector_.range().range_m(last))) return false;
     const int limit = loud_limit(water_, row)(std::max(0, static_cast<int>(sector_.range().sample_at(range_m))));
-    return strength_db_ + plane_.lambert_db(u, range_m) >= db_from_counts(limit) + params_.hill_behind_db;
+    return strength_db_ + plane_.lambert_db(u, range_m) >= db_from_counts(limit) + SeabedParams::hill_behind_db;
   }
 
   /// Range at which the beam hears the ground loudest where it expects the plane: about as loud as it should and, behind
@@ -100,7 +100,7 @@ class HillFinder {
     const double off_m = std::max(params_.inlier_m, params_.inlier_share * range_m) / std::max(u.z, 0.05);
     const int to = std::min(samples, static_cast<int>(sector_.range().sample_at(range_m + off_m)) + 1);
     const auto counts = water_.sv.row(row);
-    const double least_db = strength_db_ + plane_.lambert_db(u, range_m) - params_.hill_behind_db;
+    const double least_db = strength_db_ + plane_.lambert_db(u, range_m) - SeabedParams::hill_behind_db;
     const int from = before == nullptr ? plane_begin : before->peak_sample;
     int quietest = kMaxCount;  // since the other echo
     int loudest = static_cast<int>(std::lround(counts_from_db(least_db))) - 1;
@@ -108,7 +108,7 @@ class HillFinder {
     for (int s = std::max(0, from); s < to; ++s) {
       const int count = counts[static_cast<std::size_t>(s)];
       quietest = std::min(quietest, count);
-      const bool own = before == nullptr || count >= quietest + counts_from_db(params_.hill_dip_db);
+      const bool own = before == nullptr || count >= quietest + counts_from_db(SeabedParams::hill_dip_db);
       if (s < plane_begin || !own || count <= loudest) continue;
       loudest = count;
       at = s;
@@ -135,9 +135,10 @@ class HillFinder {
   [[nodiscard]] bool hears(int fan, const SeabedEcho& hill) const {
     constexpr double kPerWidth_db = 4.0 * 6.02;  // a Gaussian beam, both ways
     const auto row = static_cast<std::size_t>(hill.row);
-    const double width_rad = rad_from_deg(row < width_deg_.size() ? width_deg_[row] : params_.unknown_width_deg);
+    const double width_rad = rad_from_deg(row < width_deg_.size() ? width_deg_[row] : SeabedParams::unknown_width_deg);
     const double off = (sector_.elevation_rad(fan) - sector_.elevation_rad(hill.row / sector_.beams())) / width_rad;
-    return std::abs(off) <= params_.edge_widths && hill.peak_db - kPerWidth_db * off * off >= params_.onset_db;
+    return std::abs(off) <= SeabedParams::edge_widths &&
+           hill.peak_db - kPerWidth_db * off * off >= SeabedParams::onset_db;
   }
 
   const SeabedWater& water_;

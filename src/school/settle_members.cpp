@@ -8,11 +8,22 @@
 
 #include "base/units.h"
 #include "school/beam_medians.h"
+#include "school/detect_params.h"
 #include "school/flood.h"
 #include "school/grow.h"
 
 namespace sonar {
 namespace {
+
+constexpr double kMemberShare = 0.92;        ///< of a school's medians lies below its reference
+constexpr double kPeakShare = 0.995;         ///< of a school's filtered voxels lies below its peak
+constexpr double kPeakAbove_db = 1.5;        ///< the reference lies so far above the filtered peak at least
+constexpr double kLeastAboveWater_db = 1.5;  ///< members stand so far above the background
+constexpr double kLeastValley_db = 5.0;  ///< two schools that the filter joined stand so far above the valley between
+constexpr double kValleyStep_db = 1.0;   ///< which is sounded in such steps
+constexpr double kCrownShare = 0.5;      ///< both are as large as a school so far up from it to their tops
+constexpr double kLink_db = 3.0;         ///< parts joined by echo this far below the threshold are one school
+constexpr int kMostSearches = 6;         ///< boxes are enlarged so often where a neighbour goes on
 
 std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
   std::vector<Run> runs;
@@ -41,20 +52,21 @@ std::vector<Run> set_runs(View3<std::uint8_t> marks, const IndexBox& box) {
 }  // namespace
 
 MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
-                             View3<const SampleFlags> flags, const Background& background, WaterLevels water,
-                             const DetectParams& params, const PingMask* taken)
+                             View3<const SampleFlags> flags, const Background& background, const WaterLevels& water,
+                             double tolerance_db, bool peaked, const PingMask* taken)
     : filtered_(filtered),
       unfiltered_(unfiltered),
       flags_(flags),
-      params_(params),
+      tolerance_db_(tolerance_db),
+      peaked_(peaked),
       along_beams_(filtered.shape(), kNoData),
-      thresholder_(std::as_const(along_beams_).view(), flags, background, std::move(water), taken) {}
+      thresholder_(std::as_const(along_beams_).view(), flags, background, &water, taken) {}
 
 IndexBox MemberSettler::box_round(const std::vector<Run>& part, int rims) const {
   PingMask mask;
   mask.runs = part;
   return box_of(mask, filtered_.shape().beams)
-      .enlarged(rims * params_.rim_fans, rims * params_.rim_beams, rims * params_.rim_samples)
+      .enlarged(rims * SearchReach::rim_fans, rims * SearchReach::rim_beams, rims * SearchReach::rim_samples)
       .clipped(filtered_.shape());
 }
 
@@ -64,7 +76,7 @@ void MemberSettler::look_along_beams() {
     for (int beam = box_.first_beam; beam <= box_.last_beam; ++beam) {
       const int row = fan * filtered_.shape().beams + beam;
       beam_medians(unfiltered_.row(row), flags_.row(row), filtered_.row(row), box_.first_sample, box_.last_sample + 1,
-                   params_.member_samples / 2, medians);
+                   kMemberSamples / 2, medians);
       std::copy(medians.begin(), medians.end(), along_beams_.view().row(row).begin() + box_.first_sample);
     }
   }
@@ -77,37 +89,37 @@ double MemberSettler::reference(const std::vector<Run>& part) const {
     values.insert(values.end(), row.begin() + run.first_sample, row.begin() + run.end());
   }
   const auto high = [&] {
-    const double rank = std::ceil(params_.member_percentile / 100.0 * static_cast<double>(values.size()));
+    const double rank = std::ceil(kMemberShare * static_cast<double>(values.size()));
     const auto k = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
     std::nth_element(values.begin(), values.begin() + k, values.end());
     return values[static_cast<std::size_t>(k)];
   };
   // what the search's lower level let in does not count
-  const double lowest = high() - counts_from_db(params_.tolerance_db);
+  const double lowest = high() - counts_from_db(tolerance_db_);
   std::erase_if(values, [lowest](std::int16_t value) { return value < lowest; });
   return db_from_counts(high());
 }
 
 double MemberSettler::level(const std::vector<Run>& part) const {
   const double along_beams_db = reference(part);
-  if (params_.peak_percentile <= 0.0) return along_beams_db;
+  if (!peaked_) return along_beams_db;
   PingMask mask;
   mask.runs = part;
-  const std::int16_t peak = percentile(filtered_, mask, params_.peak_percentile / 100.0);
-  return std::max(along_beams_db, db_from_counts(peak) + params_.peak_above_db);
+  const std::int16_t peak = percentile(filtered_, mask, kPeakShare);
+  return std::max(along_beams_db, db_from_counts(peak) + kPeakAbove_db);
 }
 
 MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double threshold_db) const {
-  const std::vector<Run> all = thresholder_.above(box_, threshold_db, params_.background_rest_db);
-  Parts parts = connected_parts(all, filtered_.shape(), params_.connectivity);
+  const std::vector<Run> all = thresholder_.above(box_, threshold_db, kLeastAboveWater_db);
+  Parts parts = connected_parts(all, filtered_.shape(), Connectivity::faces);
   std::erase_if(parts, [&](const std::vector<Run>& piece) { return !share_a_voxel(piece, part); });
   return parts;
 }
 
 bool MemberSettler::has_crown(const std::vector<Run>& piece, double level_db,
                               const std::function<bool(const std::vector<Run>&)>& large) const {
-  const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, params_.background_rest_db));
-  const Parts parts = connected_parts(above, filtered_.shape(), params_.connectivity);
+  const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, kLeastAboveWater_db));
+  const Parts parts = connected_parts(above, filtered_.shape(), Connectivity::faces);
   return std::any_of(parts.begin(), parts.end(), large);
 }
 
@@ -115,15 +127,14 @@ std::vector<MemberSettler::Heart> MemberSettler::hearts(
     const std::vector<Run>& part, double reference_db, double lowest_db, const std::vector<Run>& others,
     const std::function<bool(const std::vector<Run>&)>& large) const {
   std::vector<Heart> found;
-  for (double top_db = reference_db;; top_db = std::max(top_db - params_.valley_step_db, lowest_db)) {
-    const double valley_db = top_db - params_.min_valley_db;
+  for (double top_db = reference_db;; top_db = std::max(top_db - kValleyStep_db, lowest_db)) {
+    const double valley_db = top_db - kLeastValley_db;
     for (std::vector<Run>& piece : pieces(part, valley_db)) {
       const bool known =
           std::any_of(found.begin(), found.end(), [&](const Heart& heart) { return share_a_voxel(piece, heart.runs); });
       if (known || !large(piece) || share_a_voxel(piece, others)) continue;
       const double own_db = reference(piece);
-      if (own_db < top_db || !has_crown(piece, top_db - (1.0 - params_.crown_share) * params_.min_valley_db, large))
-        continue;
+      if (own_db < top_db || !has_crown(piece, top_db - (1.0 - kCrownShare) * kLeastValley_db, large)) continue;
       found.push_back({own_db, valley_db, std::move(piece)});
     }
     if (top_db <= lowest_db) break;
@@ -153,12 +164,12 @@ MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const s
   double bed_db = threshold_db;
   for (const Heart& heart : hearts) {
     springs.push_back(heart.runs);
-    bed_db = std::min({bed_db, heart.top_db - params_.tolerance_db, heart.valley_db});
+    bed_db = std::min({bed_db, heart.top_db - tolerance_db_, heart.valley_db});
   }
   // Faint echo round a school leads its fragments to it.
-  const std::vector<Run> bed = joined(pieces(part, bed_db - params_.link_db));
+  const std::vector<Run> bed = joined(pieces(part, bed_db - kLink_db));
   springs.push_back(common_runs(others, bed));
-  Parts waters = flood(along_beams_.view(), bed, springs, params_.connectivity);
+  Parts waters = flood(along_beams_.view(), bed, springs, Connectivity::faces);
   const std::vector<Run> reached = joined(waters);
   waters.pop_back();
   for (const std::vector<Run>& fragment : pieces(part, threshold_db)) {
@@ -173,15 +184,15 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
   // What stands out of a stronger neighbour's skirt alone: it is to be seen where that one lies.
-  box_ = box_round(part, depth_db < params_.tolerance_db ? params_.max_rims : 1);
+  box_ = box_round(part, depth_db < tolerance_db_ ? SearchReach::most_rims : 1);
   look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
   std::vector<Run> others = set_runs(claimed, box_);
   std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
   // The part ends where the search for one school ended, and so may its neighbour's piece.
-  for (int times = 0; times < params_.max_searches && schools.size() > 1 && cut_by_box(schools); ++times) {
-    box_ = box_.enlarged(params_.search_fans, params_.search_beams, params_.search_samples).clipped(filtered_.shape());
+  for (int times = 0; times < kMostSearches && schools.size() > 1 && cut_by_box(schools); ++times) {
+    box_ = box_.enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples).clipped(filtered_.shape());
     look_along_beams();
     others = set_runs(claimed, box_);
     schools = hearts(part, reference_db, threshold_db, others, large);
@@ -195,12 +206,12 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
   std::vector<Settled> settled;
   for (std::size_t i = 0; i < schools.size(); ++i) {
     const auto above = [&](double level_db) {
-      return common_runs(sides[i], thresholder_.above(box_, level_db, params_.background_rest_db));
+      return common_runs(sides[i], thresholder_.above(box_, level_db, kLeastAboveWater_db));
     };
-    const std::vector<Run> loud = above(schools[i].top_db - params_.tolerance_db);
+    const std::vector<Run> loud = above(schools[i].top_db - tolerance_db_);
     // With the background taken off, less than the tolerance may be left of it.
     const double own_db = level(loud.empty() ? schools[i].runs : loud);
-    settled.push_back(members(above(own_db - params_.tolerance_db), own_db, own_db - params_.tolerance_db, claimed));
+    settled.push_back(members(above(own_db - tolerance_db_), own_db, own_db - tolerance_db_, claimed));
   }
   return settled;
 }

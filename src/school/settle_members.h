@@ -9,9 +9,8 @@
 #include "base/sample_flags.h"
 #include "model/mask.h"
 #include "school/background.h"
-#include "school/candidates.h"
-#include "school/detect_params.h"
 #include "school/runs.h"
+#include "school/thresholder.h"
 
 namespace sonar {
 
@@ -22,11 +21,13 @@ class MemberSettler {
  public:
   /// filtered, unfiltered  [fan][beam][sample] Sv counts
   /// flags                 same shape
+  /// tolerance_db          members lie no deeper below a school's reference
+  /// peaked                whether the filter looked at many beams, so that its loudest voxels are a school's peak, no fading
   /// taken                 voxels that a human gave to schools; null = none
-  /// All but the water are borrowed.
+  /// All are borrowed.
   MemberSettler(View3<const std::int16_t> filtered, View3<const std::int16_t> unfiltered,
-                View3<const SampleFlags> flags, const Background& background, WaterLevels water,
-                const DetectParams& params, const PingMask* taken);
+                View3<const SampleFlags> flags, const Background& background, const WaterLevels& water,
+                double tolerance_db, bool peaked, const PingMask* taken);
 
   struct Settled {
     PingMask mask;
@@ -79,7 +80,8 @@ class MemberSettler {
   View3<const std::int16_t> filtered_;
   View3<const std::int16_t> unfiltered_;
   View3<const SampleFlags> flags_;
-  const DetectParams& params_;
+  double tolerance_db_;
+  bool peaked_;
   IndexBox box_;  ///< the water that is looked at
   Array3<std::int16_t> along_beams_;
   Thresholder thresholder_;

@@ -35,20 +35,13 @@ Array3<double> peaked_school(const Sector& sector, double fall_db) {
   return expected;
 }
 
-double apparent_volume_ratio(double fall_db, const DetectParams& params, const MedianParams& box = {}) {
-  const Sector sector = test::grid().sector(test::range_axis(kShape.samples));
-  const Array3<SampleFlags> flags = test::cropped_flags(kShape, sector);
-  const Array3<double> expected = peaked_school(sector, fall_db);
-  const double truth = shape_of(test::truth_of(expected), sector).volume_m3;
-  const test::FlatBackground flat(kShape);
+double apparent_volume_ratio(double fall_db, test::Scene scene = test::Scene()) {
+  scene.expected = peaked_school(scene.sector, fall_db);
+  const double truth = shape_of(test::truth_of(scene.expected), scene.sector).volume_m3;
   double found = 0.0;
   constexpr int kPings = 5;
   for (int ping = 1; ping <= kPings; ++ping) {
-    const Array3<std::int16_t> counts = test::counts_of(expected, static_cast<std::uint64_t>(ping));
-    Array3<std::int16_t> sv(kShape);
-    median_into(counts.view(), flags.view(), box, sv.view());
-    const auto schools =
-        detect(sv.view(), counts.view(), flags.view(), sector, {flat.power_db, flat.calibration.view()}, params);
+    const auto schools = scene.look(static_cast<std::uint64_t>(ping));
     EXPECT_EQ(schools.size(), 1U);
     if (!schools.empty()) found += schools.front().volume_m3 / kPings;
   }
@@ -56,21 +49,22 @@ double apparent_volume_ratio(double fall_db, const DetectParams& params, const M
 }
 
 TEST(SettleMembers, APeakedSchoolIsNoLargerThanItsTruth) {
-  EXPECT_NEAR(apparent_volume_ratio(15.0, {}), 1.0, 0.2);
+  EXPECT_NEAR(apparent_volume_ratio(15.0), 1.0, 0.2);
   // Counted down from what most of its voxels show, it would be.
-  DetectParams most;
-  most.peak_percentile = 0.0;
+  test::Scene most;
+  most.peaked = false;
   EXPECT_GT(apparent_volume_ratio(15.0, most), 1.22);
 }
 
-TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) { EXPECT_NEAR(apparent_volume_ratio(0.0, {}), 1.0, 0.05); }
+TEST(SettleMembers, AnEvenSchoolIsNoSmallerThanItsTruth) { EXPECT_NEAR(apparent_volume_ratio(0.0), 1.0, 0.05); }
 
 // Where beams are separate the filter looks along each alone: its loudest voxels are fading, 3 dB above the school.
 TEST(SettleMembers, ThePeakOfOneBeamsFilterIsNotTheSchools) {
-  const MedianParams one_beam{.kernel_fans = 1, .kernel_beams = 1};
-  EXPECT_NEAR(apparent_volume_ratio(0.0, for_filter({}, 1), one_beam), 1.0, 0.07);
-  EXPECT_LT(apparent_volume_ratio(0.0, {}, one_beam), 0.9);
-  EXPECT_EQ(for_filter({}, 9).peak_percentile, DetectParams().peak_percentile);
+  test::Scene one_beam;
+  one_beam.box = {.kernel_fans = 1, .kernel_beams = 1};
+  EXPECT_LT(apparent_volume_ratio(0.0, one_beam), 0.9);
+  one_beam.peaked = false;
+  EXPECT_NEAR(apparent_volume_ratio(0.0, one_beam), 1.0, 0.07);
 }
 
 /// One detection for each of the scene's schools, which holds it and little else.
@@ -92,9 +86,6 @@ TEST(SettleMembers, OpenWaterPartsSchoolsThatTheFilterJoins) {
   apart.add(240.0, -18.0, 261.0, -36.0, {11, 9, 6});
   apart.add(240.0, -18.0, 273.0, -36.0, {11, 9, 6});
   expect_schools_apart(apart.look(31), apart, 0.85);
-  DetectParams by_filtered;
-  by_filtered.member_samples = 0;
-  EXPECT_LT(apart.look(31, by_filtered).size(), 2U);
   test::Scene touching;
   touching.add(240.0, -18.0, 263.5, -36.0, {11, 9, 6});
   touching.add(240.0, -18.0, 268.5, -36.0, {11, 9, 6});
@@ -109,9 +100,6 @@ TEST(SettleMembers, OneFreeFanPartsSchoolsOneAboveTheOther) {
     scene.add(200.0, -31.0, 270.0, -38.0, {12, 12, 4});
     scene.add(200.0, -18.0, 270.0, -38.0, {12, 12, 4});
     expect_schools_apart(scene.look(seed), scene, 0.8);
-    DetectParams no_valleys;
-    no_valleys.min_valley_db = 60.0;
-    EXPECT_EQ(scene.look(seed, no_valleys).size(), 1U);
   }
 }
 

@@ -6,6 +6,10 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "school/detect_params.h"
+#include "school/evidence/null_model.h"
+#include "school/evidence/short_means.h"
+#include "school/filtered_ping.h"
 #include "school/grow.h"
 #include "school/test_water.h"
 
@@ -26,18 +30,24 @@ struct Water {
       }
     }
     flags = test::cropped_flags(kShape, sector);
-    sv = test::filtered(test::counts_of(expected, 1), flags);
+    counts = test::counts_of(expected, 1);
+    sv = test::filtered(counts, flags);
   }
   [[nodiscard]] PingMask standing(double margin_db, Above above) const {
     const test::FlatBackground flat(kShape);
+    const Background noise{flat.power_db, flat.calibration.view()};
+    const Array3<float> means = short_means(counts.view(), flags.view(), piece_samples(sector.range()));
+    const WaterPing alone{&means, nullptr, noise};
+    const WaterLevels water = water_levels({&alone, 1}, sector, kLeastEvidence).front();
     PingMask mask;
-    mask.runs = standing_out(sv.view(), flags.view(), {flat.power_db, flat.calibration.view()}, {}, margin_db, above);
+    mask.runs = standing_out(sv.view(), flags.view(), noise, above == Above::water ? &water : nullptr, margin_db);
     return mask;
   }
 
   Sector sector;
   Array3<double> expected;
   Array3<SampleFlags> flags;
+  Array3<std::int16_t> counts;
   Array3<std::int16_t> sv;
 };
 

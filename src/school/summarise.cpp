@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "school/line_fit.h"
 
 namespace sonar {
 namespace {
@@ -36,6 +37,30 @@ double mean_of(const Rows& rows, double SchoolPingRow::*column) {
   return n > 0 ? sum / n : kUnknown;
 }
 
+/// The pings' backscatter over what it would be under the other beam angle; unknown where any ping's is.
+double psi_error_db(const Rows& rows) {
+  double whole = 0.0;
+  double other = 0.0;
+  for (const SchoolPingRow* row : rows) {
+    if (!std::isfinite(row->backscatter_m2)) continue;
+    whole += row->backscatter_m2;
+    other += row->backscatter_m2 * linear_from_db(-row->backscatter_psi_error_db);
+  }
+  return whole > 0.0 && other > 0.0 ? db_from_linear(whole / other) : kUnknown;
+}
+
+/// Mean of the pings' standard errors, weighted as backscatter is: the calibration is one, no mean makes it better.
+double calibration_se_db(const Rows& rows) {
+  double whole = 0.0;
+  double error = 0.0;
+  for (const SchoolPingRow* row : rows) {
+    if (!std::isfinite(row->backscatter_m2)) continue;
+    whole += row->backscatter_m2;
+    error += row->backscatter_m2 * row->backscatter_calibration_se_db;
+  }
+  return whole > 0.0 && error >= 0.0 ? error / whole : kUnknown;
+}
+
 /// Mean of dB values in linear units.
 double linear_mean_db(const Rows& rows, double SchoolPingRow::*column) {
   double sum = 0.0;
@@ -48,35 +73,22 @@ double linear_mean_db(const Rows& rows, double SchoolPingRow::*column) {
   return n > 0 ? db_from_linear(sum / n) : kUnknown;
 }
 
-/// Slope of a least-squares line and its standard error.
-struct Slope {
-  double value = kUnknown;
-  double error = kUnknown;
-};
-
-Slope slope(const std::vector<double>& t, const std::vector<double>& x) {
-  const auto n = static_cast<double>(t.size());
-  double mean_t = 0.0;
-  double mean_x = 0.0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    mean_t += t[i] / n;
-    mean_x += x[i] / n;
+/// Speed and its standard error out of the slopes' noise. The length of a noisy vector is longer than the vector: by half
+/// the variance across it over the length, so that the square less that variance is free of it but where the speed is lost
+/// in its error. There the length is 0.
+/// source  Wardle & Kronberg 1974, ApJ 194, 249, for the length of a polarisation vector
+void take_speed(const LineFit& line, SchoolRow& out) {
+  const double length = std::hypot(line.slope_x, line.slope_y);
+  const double x = length > 0.0 ? line.slope_x / length : std::sqrt(0.5);
+  const double y = length > 0.0 ? line.slope_y / length : std::sqrt(0.5);
+  const double cross = 2.0 * x * y * line.variance_xy;
+  const double along = x * x * line.variance_xx + cross + y * y * line.variance_yy;
+  const double across = y * y * line.variance_xx - cross + x * x * line.variance_yy;
+  out.speed_mps = std::sqrt(std::max(length * length - across, 0.0));
+  out.speed_se_mps = std::sqrt(std::max(along, 0.0));
+  if (out.speed_mps > 0.0 && out.speed_mps >= 2.0 * out.speed_se_mps) {
+    out.course_deg = wrap_360(deg_from_rad(std::atan2(line.slope_x, line.slope_y)));
   }
-  double tt = 0.0;
-  double tx = 0.0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    tt += (t[i] - mean_t) * (t[i] - mean_t);
-    tx += (t[i] - mean_t) * (x[i] - mean_x);
-  }
-  if (!(tt > 0.0)) return {};
-  Slope line{tx / tt, kUnknown};
-  double rest = 0.0;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const double off = x[i] - mean_x - line.value * (t[i] - mean_t);
-    rest += off * off;
-  }
-  line.error = std::sqrt(rest / (n - 2.0) / tt);
-  return line;
 }
 
 void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams& params, SchoolRow& out) {
@@ -101,17 +113,9 @@ void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams
   }
   if (t.size() < static_cast<std::size_t>(std::max(params.min_speed_pings, 3))) return;
   if (t.back() - t.front() < params.min_speed_span_s) return;
-  const Slope e = slope(t, east);
-  const Slope n = slope(t, north);
-  out.speed_mps = std::hypot(e.value, n.value);
-  // error along the direction of movement; of both axes alike where there is none
-  const double share_e = out.speed_mps > 0.0 ? e.value / out.speed_mps : std::sqrt(0.5);
-  const double share_n = out.speed_mps > 0.0 ? n.value / out.speed_mps : std::sqrt(0.5);
-  out.speed_se_mps = std::hypot(share_e * e.error, share_n * n.error);
-  if (out.speed_mps > 0.0 && out.speed_mps >= 2.0 * out.speed_se_mps) {
-    out.course_deg = wrap_360(deg_from_rad(std::atan2(e.value, n.value)));
-  }
-  out.vertical_speed_mps = slope(t, down).value;  // positive down, as depth
+  if (!(t.back() > t.front())) return;
+  take_speed(fit_line(t, east, north), out);
+  out.vertical_speed_mps = fit_line(t, down, down).slope_x;  // positive down, as depth
 }
 
 /// Mean place of the rows; longitudes are averaged as distances, so that the date line does no harm.
@@ -129,6 +133,22 @@ void summarise_place(const Rows& rows, SchoolRow& out) {
   const Geographic where = to_geographic(sum * (1.0 / n), origin);
   out.latitude = where.latitude_deg;
   out.longitude = where.longitude_deg;
+}
+
+/// Backscatter, corrected volume and their ratio over the pings that know both, where there are any.
+void summarise_echo(const Rows& used, SchoolRow& out) {
+  Rows both;
+  for (const SchoolPingRow* row : used) {
+    if (std::isfinite(row->volume_corrected_m3) && std::isfinite(row->backscatter_m2)) both.push_back(row);
+  }
+  const Rows& rows = both.empty() ? used : both;
+  out.backscatter_m2 = mean_of(rows, &SchoolPingRow::backscatter_m2);
+  out.backscatter_psi_error_db = psi_error_db(rows);
+  out.backscatter_calibration_se_db = calibration_se_db(rows);
+  if (both.empty()) return;
+  out.volume_corrected_m3 = mean_of(both, &SchoolPingRow::volume_corrected_m3);
+  const double sv = out.backscatter_m2 / out.volume_corrected_m3;
+  if (sv > 0.0) out.sv_corrected_db = db_from_linear(sv);
 }
 
 }  // namespace
@@ -153,13 +173,11 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   summarise_place(used, out);
   out.depth_m = mean_of(used, &SchoolPingRow::depth_m);
   out.volume_m3 = median_of(used, &SchoolPingRow::volume_m3);
-  out.volume_corrected_m3 = median_of(used, &SchoolPingRow::volume_corrected_m3);
   out.length_m = median_of(used, &SchoolPingRow::length_m);
   out.width_m = median_of(used, &SchoolPingRow::width_m);
   out.height_m = median_of(used, &SchoolPingRow::height_m);
   out.sv_mean_db = linear_mean_db(used, &SchoolPingRow::sv_mean_db);
-  out.sv_corrected_db = linear_mean_db(used, &SchoolPingRow::sv_corrected_db);
-  out.backscatter_m2 = mean_of(used, &SchoolPingRow::backscatter_m2);
+  summarise_echo(used, out);
   summarise_motion(rows, params, out);
   return out;
 }

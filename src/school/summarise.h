@@ -23,8 +23,11 @@ void describe(Visitor& v, SummariseParams& p) {
 }
 
 /// A school's row of schools.csv from its rows of school_pings.csv: pings that touch no edge where there are any, else
-/// all; linear means of sv and backscatter, medians of sizes; speed over ground by a least-squares line through the
-/// centres of pings whose centre is not cut. Unknown values in a column are left out.
+/// all; linear means of sv, medians of apparent sizes. Backscatter and corrected volume are linear means over those of
+/// these pings that know both (where none does, backscatter is over all of them); corrected Sv is their ratio. Speed over
+/// ground is that of a least-squares line through the centres of pings whose centre is not cut, less what their scatter
+/// adds to the length of a vector; its standard error is that along the line, for scatter that is alike from ping to ping
+/// (line_fit.h). Unknown values in a column are left out.
 /// rows  of one school, rising time; not empty
 [[nodiscard]] SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& params);
 

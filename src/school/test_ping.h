@@ -40,6 +40,8 @@ struct MeasuredPing {
     in.background = {flat.power_db, flat.calibration.view()};
     in.placement = placement;
     in.two_way_area = two_way_area(grid, beam_angle_db, {});
+    in.psi_error_db = psi_error_db;
+    in.calibration_se_db = calibration_se_db;
     return measure(in, mask, params);
   }
 
@@ -50,6 +52,8 @@ struct MeasuredPing {
 
   MeasureParams params;
   std::vector<double> beam_angle_db;  ///< none = the file has none
+  std::vector<double> psi_error_db;
+  std::vector<double> calibration_se_db;
   BeamGrid grid;
   Sector sector;
   Array3<double> expected;

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "school/detect.h"
+#include "school/evidence/null_model.h"
+#include "school/evidence/short_means.h"
+#include "school/seabed.h"
 #include "school/test_water.h"
 
 namespace sonar::test {
@@ -26,18 +29,44 @@ struct Scene {
     e.half_y = half.y;
     e.half_z = half.z;
     e.sv = linear_from_db(sv_db);
-    Array3<double> alone(expected.shape());
-    add_ellipsoid(alone, sector, e);
-    truths.push_back(truth_of(alone));
-    for (std::size_t i = 0; i < alone.shape().size(); ++i) expected.all()[i] += alone.all()[i];
+    Array3<double> one(expected.shape());
+    add_ellipsoid(one, sector, e);
+    truths.push_back(truth_of(one));
+    for (std::size_t i = 0; i < one.shape().size(); ++i) expected.all()[i] += one.all()[i];
   }
 
-  std::vector<Detection> look(std::uint64_t seed, const DetectParams& params = {}) {
+  /// Clear sights of a ping whose neighbours hold the same, or nothing but noise.
+  std::vector<Detection> look(std::uint64_t seed, const DetectParams& params = {}, const PingMask* taken = nullptr) {
     counts = counts_of(expected, seed);
-    disturb();
-    const Array3<std::int16_t> sv = filtered(counts, flags);
+    disturb(counts);
+    Array3<std::int16_t> sv(counts.shape());
+    median_into(std::as_const(counts).view(), std::as_const(flags).view(), box, sv.view());
     const Background background{flat.power_db, flat.calibration.view()};
-    return detect(sv.view(), std::as_const(counts).view(), flags.view(), sector, background, params);
+    const Seabed seabed = find_seabed(std::as_const(sv).view(), std::as_const(flags).view(), background, sector,
+                                      test::grid().vertical_width_deg, {});
+    flag_ground(seabed, flags.view());
+    std::vector<Array3<float>> means;
+    for (std::uint64_t k = 0; k < 5; ++k) {
+      Array3<std::int16_t> other = counts;
+      if (k > 0) other = counts_of(alone ? Array3<double>(expected.shape()) : expected, 1000 * k + seed);
+      disturb(other);
+      means.push_back(
+          short_means(std::as_const(other).view(), std::as_const(flags).view(), piece_samples(sector.range())));
+    }
+    std::vector<WaterPing> window;
+    for (const Array3<float>& mean : means) window.push_back({&mean, &seabed, background});
+    const WaterLevels water = water_levels(window, sector, kLeastEvidence).front();
+    const PingEcho echo{std::as_const(sv).view(),
+                        std::as_const(counts).view(),
+                        std::as_const(flags).view(),
+                        sector,
+                        background,
+                        seabed,
+                        water,
+                        peaked};
+    std::vector<Detection> found = detect(echo, params, taken, refused);
+    std::erase_if(found, [&](const Detection& d) { return d.evidence < evidence_wanted(params); });
+    return found;
   }
 
   /// The median of so many samples of a beam about one, where none is faulty.
@@ -52,11 +81,11 @@ struct Scene {
   }
 
   /// Overwritten samples carry their flag.
-  void disturb() {
+  void disturb(Array3<std::int16_t>& all) const {
     for (int row = 0; row < 500; ++row) {
       for (int s = 0; s < 900; ++s) {
         if (any(flags.view().row(row)[static_cast<std::size_t>(s)] & kFault)) {
-          counts.view().row(row)[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(counts_from_db(-10.0));
+          all.view().row(row)[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(counts_from_db(-10.0));
         }
       }
     }
@@ -67,6 +96,10 @@ struct Scene {
   Array3<SampleFlags> flags;
   Array3<std::int16_t> counts;
   FlatBackground flat;
+  MedianParams box;
+  bool peaked = true;
+  std::vector<RefusedDetection>* refused = nullptr;
+  bool alone = false;  ///< the pings before and behind show none of it
   std::vector<PingMask> truths;
 };
 

@@ -75,6 +75,24 @@ inline double beam_angle_db(Beams beams) {
   return db_from_linear(two_way_integral(beams, true) * two_way_integral(beams, false) * sigma_v * sigma_h);
 }
 
+/// Power sent to an azimuth by a fan's transmit beam that ripples by so much from crest to trough, 2.7 beams a wave.
+inline double transmitted(double ripple_db, int fan, double azimuth_rad) {
+  return linear_from_db(0.5 * ripple_db *
+                        std::sin(deg_from_rad(azimuth_rad) * 2.0 * std::numbers::pi / 6.7 + 1.3 * fan));
+}
+/// The mean of it over a beam's two-way pattern in azimuth, over that on its axis.
+inline double mean_transmitted(Beams beams, double ripple_db, int fan, double azimuth_rad) {
+  const double sigma_h = rad_from_deg(kHorizontalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  double sum = 0.0;
+  double whole = 0.0;
+  for (int i = -700; i <= 700; ++i) {
+    const double x = i * 0.01;
+    sum += two_way(beams, x, false) * transmitted(ripple_db, fan, azimuth_rad + x * sigma_h);
+    whole += two_way(beams, x, false);
+  }
+  return sum / whole / transmitted(ripple_db, fan, azimuth_rad);
+}
+
 struct Ellipsoid {
   Point<Sonar> centre;
   double half_x = 10.0;  ///< m, along the sonar frame's axes
@@ -82,16 +100,34 @@ struct Ellipsoid {
   double half_z = 5.0;
   double sv = 1e-4;
   Beams beams = Beams::gaussian;
+  double ripple_db = 0.0;               ///< of the transmit fan; beam_angle_db() goes with it
   double (*density)(double) = nullptr;  ///< of the distance from heart (0) to rim (1), times sv; none = 1
 };
 
-/// Expected sv of one ellipsoid: beams and nothing else.
+/// Equivalent beam angle of each beam of the grid where the transmit fan ripples.
+inline std::vector<double> beam_angles_db(const Sector& sector, Beams beams, double ripple_db) {
+  std::vector<double> psi_db(500, beam_angle_db(beams));
+  for (int row = 0; row < 500; ++row) {
+    const double azimuth_rad = sector.azimuth_rad(row % 25);
+    psi_db[static_cast<std::size_t>(row)] += db_from_linear(mean_transmitted(beams, ripple_db, row / 25, azimuth_rad));
+  }
+  return psi_db;
+}
+
+/// Expected sv of one ellipsoid: beams and nothing else. Gain is that on the axis, the transmit beam's ripple included.
 inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellipsoid& e, int points = 4000) {
   const double sigma_v = rad_from_deg(kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
   const double sigma_h = rad_from_deg(kHorizontalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
   const double integral = two_way_integral(e.beams, true) * two_way_integral(e.beams, false);
   const double volume = 4.0 / 3.0 * std::numbers::pi * e.half_x * e.half_y * e.half_z;
   const double dr = sector.range().spacing_m;
+  std::vector<double> heard(static_cast<std::size_t>(sector.fans() * sector.beams()), 1.0);
+  for (int row = 0; e.ripple_db > 0.0 && row < sector.fans() * sector.beams(); ++row) {
+    const int fan = row / sector.beams();
+    const double azimuth_rad = sector.azimuth_rad(row % sector.beams());
+    heard[static_cast<std::size_t>(row)] =
+        transmitted(e.ripple_db, fan, azimuth_rad) * mean_transmitted(e.beams, e.ripple_db, fan, azimuth_rad);
+  }
   std::uint64_t n = 1;
   for (int i = 0; i < points;) {
     const double x = 2.0 * uniform(n++) - 1.0;
@@ -114,7 +150,11 @@ inline void add_ellipsoid(Array3<double>& sv, const Sector& sector, const Ellips
         azimuth -= 2.0 * std::numbers::pi * std::round(azimuth / (2.0 * std::numbers::pi));
         const double da = azimuth * std::cos(elevation) / sigma_h;
         if (std::abs(da) > kReach_sigmas) continue;
-        sv(f, b, sample) += weight * two_way(e.beams, de, true) * two_way(e.beams, da, false);
+        const double sent = e.ripple_db > 0.0
+                                ? transmitted(e.ripple_db, f, sector.azimuth_rad(b) + azimuth * std::cos(elevation))
+                                : 1.0;
+        sv(f, b, sample) += weight * two_way(e.beams, de, true) * two_way(e.beams, da, false) * sent /
+                            heard[static_cast<std::size_t>(f * sector.beams() + b)];
       }
     }
   }

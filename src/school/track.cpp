@@ -79,7 +79,7 @@ class Tracker {
       if (taken_by[d] != -1) continue;
       begin(p, static_cast<int>(d));
       for (std::size_t t = 0; t < known; ++t) {
-        if (shared[t][d] < params_.fragment_overlap * ping.detections[d].volume_m3) continue;
+        if (shared[t][d] < TrackParams::fragment_overlap * ping.detections[d].volume_m3) continue;
         events_.push_back({TrackEventKind::split, ping.ping_index, open_.back().number, open_[t].number});
         break;
       }
@@ -116,7 +116,7 @@ class Tracker {
       const PingMask& whole = pings_[track.last_ping].detections[static_cast<std::size_t>(piece)].mask;
       const PingMask& mask = last.part.empty() ? whole : last.part;
       for (const MovedPoint& point :
-           moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, params_.overlap_samples)) {
+           moved_mask(mask, sector_, frames_[track.last_ping], frames_[p], shift, TrackParams::overlap_samples)) {
         moved_m3 += point.volume_m3;
         const int owner = owners.at(point.index);
         if (owner >= 0) shared[static_cast<std::size_t>(owner)] += point.volume_m3;
@@ -127,10 +127,10 @@ class Tracker {
 
   [[nodiscard]] Covariance3 spread(std::size_t p, const Detection& d, bool censored) const {
     return centre_covariance(d.centre, d.covariance, frames_[p].heading_rad(), params_.position_share,
-                             params_.min_position_m, params_.censored_m, censored ? d.edge_flags : 0);
+                             params_.min_position_m, TrackParams::censored_m, censored ? d.edge_flags : 0);
   }
 
-  [[nodiscard]] double alone() const { return params_.gate_sigmas * params_.gate_sigmas + params_.overlap_weight; }
+  [[nodiscard]] double alone() const { return params_.gate_sigmas * params_.gate_sigmas + TrackParams::overlap_weight; }
 
   [[nodiscard]] double price(const OpenTrack& track, std::size_t p, const Detection& d, double shared_m3) const {
     const Point<Enu> place = frames_[p].to_world(d.centre);
@@ -140,7 +140,7 @@ class Tracker {
     // a cut coordinate lets everything through the gate: then only touching or a near body will do
     if (shared_m3 <= 0.0 && !could_reach(track, p, d, place)) return kForbidden;
     const double overlap = std::min(1.0, shared_m3 / std::max(1e-9, std::min(track.volume_m3, d.volume_m3)));
-    return distance2 / 2.0 + params_.overlap_weight * (1.0 - overlap) + unlikeness(track, p, d);
+    return distance2 / 2.0 + TrackParams::overlap_weight * (1.0 - overlap) + unlikeness(track, p, d);
   }
 
   /// Whether a body as large as the track's, from where it was last seen alone, can have come so far: a border hides what
@@ -151,7 +151,7 @@ class Tracker {
     if (!(track.motion.distance2(place, spread(p, d, false)) <= gate)) return false;
     const double dt = seconds_between(pings_[track.alone_ping].time, pings_[p].time);
     const Point<Enu> way = track.motion.velocity() * dt;
-    const double swum_m = params_.unseen_speed_mps * dt;
+    const double swum_m = TrackParams::unseen_speed_mps * dt;
     Covariance3 extent = turned(d.covariance, frames_[p].heading_rad());
     for (std::size_t k = 0; k < extent.size(); ++k) extent[k] += track.shape[k];
     for (const std::size_t k : {std::size_t{0}, std::size_t{3}, std::size_t{5}}) {
@@ -163,8 +163,9 @@ class Tracker {
 
   [[nodiscard]] double unlikeness(const OpenTrack& track, std::size_t p, const Detection& d) const {
     const double missed = static_cast<double>(pings_[p].ping_index - pings_[track.last_ping].ping_index - 1);
-    return params_.size_weight * std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
-           params_.level_weight * std::abs(d.reference_db - track.reference_db) + params_.lost_cost * missed;
+    return TrackParams::size_weight *
+               std::abs(std::log(std::max(d.volume_m3, 1e-9) / std::max(track.volume_m3, 1e-9))) +
+           TrackParams::level_weight * std::abs(d.reference_db - track.reference_db) + TrackParams::lost_cost * missed;
   }
 
   /// Schools that shared a detection and now find several: who is who tell their motions from before they met.
@@ -232,9 +233,9 @@ class Tracker {
         const bool lost = std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) == 0;
         if (open_[t].merged) continue;
         const double inside = shared[t][d] / std::max(moved_m3[t], 1e-9);
-        const bool well_known = open_[t].own_pings >= params_.divide_own_pings || open_[t].shares();
-        const bool enters = (well_known && inside > params_.fragment_overlap) ||
-                            (inside > params_.divide_least_share && holds_both(p, d, taken_by[d], open_[t]));
+        const bool well_known = open_[t].own_pings >= TrackParams::divide_own_pings || open_[t].shares();
+        const bool enters = (well_known && inside > TrackParams::fragment_overlap) ||
+                            (inside > TrackParams::divide_least_share && holds_both(p, d, taken_by[d], open_[t]));
         if ((owns && open_[t].own_pings > 1) || (lost && open_[t].last_ping != p && enters)) claimants.push_back(t);
       }
       if (claimants.size() > 1 && share_out(p, d, claimants)) taken_by[d] = -3;
@@ -243,9 +244,9 @@ class Tracker {
 
   /// Whether a detection is about as large as its owner and another school were that was seen more than once.
   [[nodiscard]] bool holds_both(std::size_t p, std::size_t d, int owner, const OpenTrack& other) const {
-    if (owner < 0 || other.own_pings < params_.divide_both_pings) return false;
+    if (owner < 0 || other.own_pings < TrackParams::divide_both_pings) return false;
     const double both_m3 = open_[static_cast<std::size_t>(owner)].volume_m3 + other.volume_m3;
-    return pings_[p].detections[d].volume_m3 > params_.divide_both_share * both_m3;
+    return pings_[p].detections[d].volume_m3 > TrackParams::divide_both_share * both_m3;
   }
 
   bool share_out(std::size_t p, std::size_t d, const std::vector<std::size_t>& claimants) {
@@ -259,13 +260,13 @@ class Tracker {
       if (!(shapes[i].weight > 0.0)) return false;
       const OpenTrack& track = open_[claimants[i]];
       // once they share they may pass through each other, where hardly anything is left for one
-      if (!track.shares() && shapes[i].volume_m3 < params_.divide_least_share * track.volume_m3) return false;
+      if (!track.shares() && shapes[i].volume_m3 < TrackParams::divide_least_share * track.volume_m3) return false;
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
       OpenTrack& track = open_[claimants[i]];
       const Covariance3 spread =
           centre_covariance(shapes[i].centre, shapes[i].covariance, frames_[p].heading_rad(), params_.position_share,
-                            params_.min_position_m, params_.censored_m, ping.detections[d].edge_flags);
+                            params_.min_position_m, TrackParams::censored_m, ping.detections[d].edge_flags);
       if (!track.apart) track.apart = track.motion;
       track.motion.update(frames_[p].to_world(shapes[i].centre), spread);
       track.last_ping = p;
@@ -282,7 +283,7 @@ class Tracker {
           std::count(taken_by.begin(), taken_by.end(), static_cast<int>(t)) > 0)
         continue;
       for (std::size_t d = 0; d < taken_by.size(); ++d) {
-        if (taken_by[d] < 0 || !(shared[t][d] > params_.fragment_overlap * moved_m3[t])) continue;
+        if (taken_by[d] < 0 || !(shared[t][d] > TrackParams::fragment_overlap * moved_m3[t])) continue;
         open_[t].merged = true;
         events_.push_back({TrackEventKind::merge, pings_[p].ping_index, open_[t].number,
                            open_[static_cast<std::size_t>(taken_by[d])].number});
@@ -305,9 +306,10 @@ class Tracker {
       const double volume = pings_[p].detections[d].volume_m3;
       int parent = -1;
       for (std::size_t t = 0; t < shared.size(); ++t) {
-        if (main_of[t] < 0 || open_[t].pieces_streak >= params_.split_pings) continue;
+        if (main_of[t] < 0 || open_[t].pieces_streak >= TrackParams::split_pings) continue;
         const double main_m3 = pings_[p].detections[static_cast<std::size_t>(main_of[t])].volume_m3;
-        if (volume > params_.piece_volume * main_m3 || shared[t][d] < params_.fragment_overlap * volume) continue;
+        if (volume > TrackParams::piece_volume * main_m3 || shared[t][d] < TrackParams::fragment_overlap * volume)
+          continue;
         if (parent < 0 || shared[t][d] > shared[static_cast<std::size_t>(parent)][d]) parent = static_cast<int>(t);
       }
       if (parent < 0) continue;

@@ -16,33 +16,38 @@
 namespace sonar {
 
 struct TrackParams {
+  double evidence = 0.0;  ///< a clear sight has so much; not a parameter: it follows from DetectParams::false_alarm
   double acceleration_mps2 = 0.05;
   double initial_speed_mps = 2.0;
   double position_share = 0.08;
   double min_position_m = 2.0;
   double gate_sigmas = 4.0;
-  double overlap_weight = 4.0;
-  double size_weight = 1.0;
-  double level_weight = 0.1;
   int max_lost_pings = 3;
   double max_lost_s = 120.0;
   int confirm_pings = 3;
   int confirm_window = 5;
-  double fragment_overlap = 0.5;
-  double piece_volume = 0.5;
-  int split_pings = 3;
-  double lost_cost = 1.0;
-  double censored_m = 200.0;
-  double unseen_speed_mps = 1.0;
-  int overlap_samples = 8;
   bool divide_joined = true;
-  int divide_own_pings = 3;
-  double divide_least_share = 0.25;
-  double divide_both_share = 0.7;
-  int divide_both_pings = 2;
   double ship_drift_share = 0.3;
-  double ship_least_mps = 3.0;
-  double ship_least_m = 20.0;
+
+  static constexpr double overlap_weight = 4.0;  ///< cost of no overlap with the moved mask
+  static constexpr double size_weight = 1.0;     ///< cost of one e-fold of volume
+  static constexpr double level_weight = 0.1;    ///< 1/dB, cost of one dB of level
+  static constexpr double fragment_overlap =
+      0.5;  ///< a stray detection with this share inside a school's moved mask is a piece of that school
+  static constexpr double piece_volume = 0.5;      ///< a piece is no larger than this share of the school's main part
+  static constexpr int split_pings = 3;            ///< pings, a piece apart for so many pings is a school of its own
+  static constexpr double lost_cost = 1.0;         ///< cost of each ping in which the school was not seen
+  static constexpr double censored_m = 200.0;      ///< m, uncertainty of a coordinate that a border cuts off
+  static constexpr double unseen_speed_mps = 1.0;  ///< m s-1, ... and how fast it may change all the same, per axis
+  static constexpr int overlap_samples = 8;        ///< samples, overlaps are counted at every so-manyth sample
+  static constexpr int divide_own_pings = 3;       ///< pings, each was seen alone so often before
+  static constexpr double divide_least_share =
+      0.25;  ///< ... and gets at least this share of its volume when last alone
+  static constexpr double divide_both_share =
+      0.7;  ///< ... where the detection is this share of both schools' volumes or more
+  static constexpr int divide_both_pings = 2;    ///< pings, ... or so often, which is enough ...
+  static constexpr double ship_least_mps = 3.0;  ///< m s-1, ... of a ship that is at least so fast; fish are not
+  static constexpr double ship_least_m = 20.0;   ///< m, ... and went so far
 };
 
 template <class Visitor>
@@ -56,10 +61,6 @@ void describe(Visitor& v, TrackParams& p) {
   v.field("min_position_m", p.min_position_m, {.unit = "m", .min = 0.01, .max = 100, .text = "its least value"});
   v.field("gate_sigmas", p.gate_sigmas,
           {.unit = "1", .min = 0.1, .max = 20, .text = "detections farther from the prediction are other schools"});
-  v.field("overlap_weight", p.overlap_weight,
-          {.unit = "1", .min = 0, .max = 100, .text = "cost of no overlap with the moved mask"});
-  v.field("size_weight", p.size_weight, {.unit = "1", .min = 0, .max = 100, .text = "cost of one e-fold of volume"});
-  v.field("level_weight", p.level_weight, {.unit = "1/dB", .min = 0, .max = 10, .text = "cost of one dB of level"});
   v.field("max_lost_pings", p.max_lost_pings,
           {.unit = "pings", .min = 0, .max = 100, .text = "a school unseen for so many pings may be found again"});
   v.field("max_lost_s", p.max_lost_s,
@@ -68,44 +69,13 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "pings", .min = 1, .max = 100, .text = "a school is seen at least so often ..."});
   v.field("confirm_window", p.confirm_window,
           {.unit = "pings", .min = 1, .max = 100, .text = "... in so many neighbouring pings"});
-  v.field("fragment_overlap", p.fragment_overlap,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "a stray detection with this share inside a school's moved mask is a piece of that school"});
-  v.field("piece_volume", p.piece_volume,
-          {.unit = "1", .min = 0, .max = 1, .text = "a piece is no larger than this share of the school's main part"});
-  v.field("split_pings", p.split_pings,
-          {.unit = "pings", .min = 1, .max = 100, .text = "a piece apart for so many pings is a school of its own"});
-  v.field("lost_cost", p.lost_cost,
-          {.unit = "1", .min = 0, .max = 100, .text = "cost of each ping in which the school was not seen"});
-  v.field("censored_m", p.censored_m,
-          {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
-  v.field("unseen_speed_mps", p.unseen_speed_mps,
-          {.unit = "m s-1", .min = 0, .max = 20, .text = "... and how fast it may change all the same, per axis"});
-  v.field("overlap_samples", p.overlap_samples,
-          {.unit = "samples", .min = 1, .max = 1000, .text = "overlaps are counted at every so-manyth sample"});
   v.field("divide_joined", p.divide_joined,
           {.text = "schools seen apart before that meet in one detection share it among them"});
-  v.field("divide_own_pings", p.divide_own_pings,
-          {.unit = "pings", .min = 1, .max = 100, .text = "each was seen alone so often before"});
-  v.field("divide_least_share", p.divide_least_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "... and gets at least this share of its volume when last alone"});
-  v.field("divide_both_pings", p.divide_both_pings,
-          {.unit = "pings", .min = 1, .max = 100, .text = "... or so often, which is enough ..."});
-  v.field("divide_both_share", p.divide_both_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 10,
-           .text = "... where the detection is this share of both schools' volumes or more"});
   v.field("ship_drift_share", p.ship_drift_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .text = "no school: moves by less beside the ship than this share of the ship's way; 0 = not looked at"});
-  v.field("ship_least_mps", p.ship_least_mps,
-          {.unit = "m s-1", .min = 0, .max = 20, .text = "... of a ship that is at least so fast; fish are not"});
-  v.field("ship_least_m", p.ship_least_m, {.unit = "m", .min = 0, .max = 100000, .text = "... and went so far"});
 }
 
 /// The detections of one ping, for association.
@@ -114,6 +84,7 @@ struct DetectedPing {
   TimeNs time = 0;
   Placement placement;
   std::vector<Detection> detections;
+  std::vector<RefusedDetection> refused = {};  ///< what stood out clearly and is no school; tracks do not see it
 };
 
 /// One school in one ping: which of the ping's detections it is (several where it is torn).
@@ -140,9 +111,16 @@ struct TrackEvent {
 /// "ping 12: school 4 split from school 2".
 [[nodiscard]] std::string to_text(const TrackEvent& event);
 
+/// What was followed and is no school.
+struct RefusedTrack {
+  Reason reason;
+  std::vector<TrackedDetection> pings;
+};
+
 struct Tracks {
-  std::vector<SchoolTrack> schools;  ///< by school_id
-  std::vector<TrackEvent> events;    ///< by ping, kind, school_id; confirmed schools only
+  std::vector<SchoolTrack> schools;   ///< by school_id
+  std::vector<TrackEvent> events;     ///< by ping, kind, school_id; confirmed schools only
+  std::vector<RefusedTrack> refused;  ///< in the order in which they ended
 };
 
 /// Joins the detections of an observation to schools: constant velocity over ground, gate, overlap of the moved mask,

@@ -299,11 +299,6 @@ TEST(Track, TwoPingsAloneAreEnoughWhereTheDetectionIsAsLargeAsBoth) {
   const Tracks tracks = meeting(voyage, 2, {}, truth);
   ASSERT_EQ(tracks.schools.size(), 2U);
   EXPECT_FALSE(tracks.schools[0].pings[2].part.empty());
-  Voyage smaller;
-  TrackParams params;
-  params.divide_both_share = 1.5;
-  const Tracks undivided = meeting(smaller, 2, params, truth);
-  EXPECT_TRUE(undivided.schools[0].pings[2].part.empty());
 }
 
 TEST(Track, SchoolsThatSwimThroughEachOtherKeepTheirWays) {

@@ -5,19 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "base/units.h"
+#include "model/beam_angles.h"
 
 namespace sonar {
 namespace {
 
-/// Sending everywhere, a uniform line's two-way integral is 3/2 of its square's.
+/// Sending everywhere, a uniform line's two-way integral is 3/2 of its square's: kWidestTransmit_db, both ways.
 constexpr double kMostOfLine = 1.5;
 constexpr int kHalvings = 40;  ///< to the last digit but a few
-
-/// Solid angle of a two-way beam that is the square of a one-way beam, over the product of its -3 dB widths. For the
-/// Gaussian; a uniform line's, (2/3 x pi/2 / 1.3916)^2, is the same to 0.01 dB.
-constexpr double kSquareArea = std::numbers::pi / (8.0 * std::numbers::ln2);
 
 /// Two-way width over that of a beam that sends as narrowly: integrals of g(z) g(qz) and of (sin x / x)^2 (sin qx / qx)^2
 /// (two triangles convolved), each over that for q = 1.
@@ -40,6 +39,43 @@ double ratio_for(double gaussian_share, double wanted) {
   return high;
 }
 
+/// Orthonormal polynomials of degree 0, 1 and 2 over n points; those that n is too few for are left out.
+std::vector<std::vector<double>> polynomials(int n) {
+  std::vector<std::vector<double>> basis;
+  for (int degree = 0; degree <= 2 && degree < n; ++degree) {
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i) values.push_back(std::pow((i + 0.5) / n - 0.5, degree));
+    const auto dot = [&](const std::vector<double>& other) {
+      return std::inner_product(values.begin(), values.end(), other.begin(), 0.0);
+    };
+    for (const std::vector<double>& lower : basis) {
+      const double part = dot(lower);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] -= part * lower[i];
+    }
+    const double norm = std::sqrt(dot(values));
+    for (double& v : values) v /= norm;
+    basis.push_back(std::move(values));
+  }
+  return basis;
+}
+
+/// The least-squares surface of second degree over fans and beams: what is left of values that ripple from beam to beam.
+std::vector<double> smoothed(const std::vector<double>& values, int fans, int beams) {
+  std::vector<double> smooth(values.size(), 0.0);
+  const auto over_fans = polynomials(fans);
+  const auto over_beams = polynomials(beams);
+  const auto width = static_cast<std::size_t>(beams);
+  for (std::size_t f = 0; f < over_fans.size(); ++f) {
+    for (std::size_t b = 0; b < over_beams.size() && f + b <= 2; ++b) {
+      const auto shape = [&](std::size_t row) { return over_fans[f][row / width] * over_beams[b][row % width]; };
+      double share = 0.0;
+      for (std::size_t row = 0; row < values.size(); ++row) share += values[row] * shape(row);
+      for (std::size_t row = 0; row < values.size(); ++row) smooth[row] += share * shape(row);
+    }
+  }
+  return smooth;
+}
+
 /// A variance goes as the square of the width: so the Gaussian's, and a line's within its main lobe.
 BeamShape shape_of(double gaussian_share, double vertical, double level, double handicap) {
   return {gaussian_share, ratio_for(gaussian_share, vertical), vertical * vertical, level * level, handicap};
@@ -49,22 +85,24 @@ BeamShape shape_of(double gaussian_share, double vertical, double level, double 
 
 double two_way_area(const BeamGrid& grid, std::span<const double> psi_db, const MeasureParams& params) {
   const std::size_t rows = grid.vertical_width_deg.size();
-  if (rows == 0 || psi_db.size() != rows || grid.horizontal_width_deg.size() != rows) return 1.0;
-  double sum = 0.0;
-  double least = 0.0;
-  double most = 0.0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const double widths = rad_from_deg(grid.vertical_width_deg[row]) * rad_from_deg(grid.horizontal_width_deg[row]);
-    const double excess = psi_db[row] - db_from_linear(kSquareArea * widths);
-    if (!(widths > 0.0) || !std::isfinite(excess)) return 1.0;
-    least = row == 0 ? excess : std::min(least, excess);
-    most = row == 0 ? excess : std::max(most, excess);
-    sum += excess;
+  if (rows == 0 || psi_db.size() != rows || grid.horizontal_width_deg.size() != rows || grid.channel.size() != rows) {
+    return 1.0;
   }
-  const double mean = sum / static_cast<double>(rows);
-  if (most - least > params.beam_angle_spread_db || mean < params.beam_angle_least_db) return 1.0;
-  if (mean > 2.0 * db_from_linear(kMostOfLine) + params.beam_angle_least_db) return 1.0;
-  return linear_from_db(mean);
+  std::vector<double> excess_db = psi_from_widths_db(grid);
+  double mean_db = 0.0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    excess_db[row] = psi_db[row] - excess_db[row];
+    if (!std::isfinite(excess_db[row])) return 1.0;
+    mean_db += excess_db[row] / static_cast<double>(rows);
+  }
+  const std::vector<double> smooth_db = smoothed(excess_db, grid.fans(), grid.beams());
+  const auto [least, most] = std::minmax_element(smooth_db.begin(), smooth_db.end());
+  if (*most - *least > params.beam_angle_spread_db || mean_db < params.beam_angle_least_db) return 1.0;
+  if (mean_db > kWidestTransmit_db + params.beam_angle_least_db) return 1.0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (std::abs(excess_db[row] - smooth_db[row]) > params.beam_angle_ripple_db) return 1.0;
+  }
+  return linear_from_db(mean_db);
 }
 
 std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area) {

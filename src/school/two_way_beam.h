@@ -14,7 +14,8 @@ namespace sonar {
 /// psi_db  [fan][beam] equivalent two-way beam angle, dB re 1 sr
 /// params  beam_angle_*
 /// out     1 where the angles say nothing: missing, out of what any transmit beam could make of the -3 dB widths, or of
-///         another pattern over the beams than the widths (copied from one beam to all, say)
+///         another pattern over the beams than the widths (copied from one beam to all, say). A transmit beam for a whole
+///         fan ripples, and so do the angles from beam to beam: what is judged is a surface of second degree over them.
 [[nodiscard]] double two_way_area(const BeamGrid& grid, std::span<const double> psi_db, const MeasureParams& params);
 
 /// One shape of beam that a school's echo is held against.

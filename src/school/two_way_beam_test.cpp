@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
+#include "model/beam_angles.h"
 #include "school/test_water.h"
 #include "school/vertical_fit.h"
 
@@ -23,6 +25,11 @@ double widths_db(double vertical_deg, double horizontal_deg) {
 
 BeamGrid grid_of(const std::vector<double>& vertical_deg, const std::vector<double>& horizontal_deg) {
   BeamGrid grid;
+  for (std::size_t fan = 0; fan < vertical_deg.size(); ++fan) {
+    grid.elevation_deg.push_back(-45.0 + 2.0 * static_cast<double>(fan));
+    grid.channel.push_back(static_cast<int>(fan));
+  }
+  grid.azimuth_deg = {270.0};
   grid.vertical_width_deg = vertical_deg;
   grid.horizontal_width_deg = horizontal_deg;
   return grid;
@@ -66,6 +73,28 @@ TEST(TwoWayArea, IsOneWhereTheBeamAngleIsNoEvidence) {
 TEST(TwoWayArea, IsOneWhereTheBeamAngleGoesItsOwnWay) {
   const BeamGrid grid = grid_of({6.994, 6.370, 7.235}, {2.709, 3.250, 3.963});
   EXPECT_EQ(two_way_area(grid, std::vector{-18.83, -22.73, -22.67}, {}), 1.0);
+}
+
+// A wide transmit beam's 1.5 dB, rippled by 2.4 dB from crest to trough along fans, beams, or from one to the next; and
+// the same where a slope of 2 dB over the fans, or over the beams, lies below it.
+TEST(TwoWayArea, IsThatOfTheMeanWhereATransmitFanRipples) {
+  const BeamGrid grid = test::grid();
+  for (const double period : {2.0, 2.7, 3.3, 5.0, 6.7}) {
+    for (const double along_fans : {0.0, 0.4, 1.0}) {
+      for (const auto& [by_fan_db, by_beam_db] : {std::pair(0.0, 0.0), std::pair(2.0, 0.0), std::pair(0.0, 2.0)}) {
+        std::vector<double> psi_db = psi_from_widths_db(grid);
+        for (int row = 0; row < 500; ++row) {
+          const int fan = row / 25;
+          const int beam = row % 25;
+          const double phase = 2.0 * std::numbers::pi * (along_fans * fan + (1.0 - along_fans) * beam + 0.3) / period;
+          psi_db[static_cast<std::size_t>(row)] +=
+              1.5 + 1.2 * std::sin(phase) + by_fan_db * (fan - 9.5) / 19.0 + by_beam_db * (beam - 12.0) / 24.0;
+        }
+        const double area_db = db_from_linear(two_way_area(grid, psi_db, {}));
+        EXPECT_NEAR(area_db, by_fan_db + by_beam_db > 0.0 ? 0.0 : 1.5, 0.2) << period << " " << along_fans;
+      }
+    }
+  }
 }
 
 double integral_of(const BeamShape& shape) {

@@ -36,7 +36,7 @@ void describe(Visitor& v, TakenOut& p) {
 /// How data and schools look in every view.
 struct DisplayParams {
   SvScale scale;
-  bool filtered = true;
+  bool filtered = false;
   TakenOut take_out;
   NoiseLook removed = NoiseLook::hatched;
   NoiseLook weak = NoiseLook::transparent;
@@ -52,7 +52,8 @@ struct DisplayParams {
 template <class Visitor>
 void describe(Visitor& v, DisplayParams& p) {
   v.group("scale", p.scale, "how Sv becomes colour");
-  v.field("filtered", p.filtered, {.text = "show Sv after the median filter, on which schools are grown"});
+  v.field("filtered", p.filtered,
+          {.text = "slices show Sv after the median filter, on which schools are grown; off = as recorded"});
   v.group("take_out", p.take_out, "what noise removal takes out");
   v.choice("removed", p.removed, kNoiseLookNames, "how samples that noise removal took out look");
   v.choice("weak", p.weak, kNoiseLookNames, "how samples that hardly rise above the noise look");
@@ -109,6 +110,7 @@ struct VolumeParams {
   double first_hit_db = -50.0;
   bool lighting = false;
   bool data = true;
+  bool filtered = true;
   bool mask_outline = false;
   bool context = true;
   double moving_budget_ms = 50.0;
@@ -123,6 +125,7 @@ void describe(Visitor& v, VolumeParams& p) {
           {.unit = "dB", .min = -120, .max = 0, .text = "mode first_hit: the surface lies where Sv reaches this"});
   v.field("lighting", p.lighting, {.text = "light surfaces by the gradient of Sv"});
   v.field("data", p.data, {.text = "show the water; off = schools alone"});
+  v.field("filtered", p.filtered, {.text = "show Sv after the median filter, without speckle; off = as recorded"});
   v.field("mask_outline", p.mask_outline,
           {.text = "schools as outlines, so that the data keeps its colours; first hit and maximum have them always"});
   v.field("context", p.context, {.text = "show the sector's frame, range rings, sea surface and ship"});

@@ -201,7 +201,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.beam = workspace.slices().beam;
   }
   options.masks = display.masks;
-  options.filtered = display.filtered;
+  options.filtered = kind == PictureKind::volume ? volume.filtered : display.filtered;
   options.put_back = put_back(display);
   options.flags = flag_style(display);
   options.left_out = left_out_of_volume(display);

@@ -140,6 +140,8 @@ TEST_F(PictureFile, ShowsTheSelectedSchoolAloneWhereThatIsAsked) {
   paint(2, 4, 10, 10, 400);
   document().settle();
   select(2);
+  EXPECT_EQ(picture_options(workspace(), PictureKind::slice_top)->filtered, false) << "as the window's slices";
+  EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->filtered, true) << "as the window's volume";
   EXPECT_TRUE(picture_options(workspace(), PictureKind::slice_top)->schools.empty());
   PictureFileParams params;
   params.selected_school_alone = true;

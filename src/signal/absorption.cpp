@@ -14,13 +14,13 @@ double relaxation(double f_khz, double relaxation_khz) {
 
 }  // namespace
 
-double absorption_francois_garrison(double frequency_hz, const WaterProperties& water) {
+double absorption_francois_garrison(double frequency_hz, const WaterProperties& water, double sound_speed_mps) {
   const double f = frequency_hz * 1e-3;
   const double t = water.temperature_c;
   const double s = water.salinity_psu;
   const double d = water.depth_m;
   const double kelvin = 273.0 + t;
-  const double c = 1412.0 + 3.21 * t + 1.19 * s + 0.0167 * d;
+  const double c = sound_speed_mps > 0.0 ? sound_speed_mps : 1412.0 + 3.21 * t + 1.19 * s + 0.0167 * d;
 
   const double boric = 8.86 / c * std::pow(10.0, 0.78 * water.ph - 5.0);
   const double boric_khz = 2.8 * std::sqrt(s / 35.0) * std::pow(10.0, 4.0 - 1245.0 / kelvin);

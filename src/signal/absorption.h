@@ -20,8 +20,10 @@ void describe(Visitor& v, WaterProperties& p) {
 }
 
 /// Absorption of sound in sea water, dB/m one way, by boric acid, magnesium sulphate and water.
+/// sound_speed_mps  0 = the formula's own, from temperature, salinity and depth
 /// source  Francois & Garrison, J. Acoust. Soc. Am. 72 (1982) 1879
-[[nodiscard]] double absorption_francois_garrison(double frequency_hz, const WaterProperties& water);
+[[nodiscard]] double absorption_francois_garrison(double frequency_hz, const WaterProperties& water,
+                                                  double sound_speed_mps = 0.0);
 
 /// The same by the simplified formula, within some per cent of the above.
 /// source  Ainslie & McColm, J. Acoust. Soc. Am. 103 (1998) 1671

@@ -71,13 +71,13 @@ SchoolRow school_row(std::int64_t id, const Rows& all) {
   school.longitude = mean(rows, &SchoolPingRow::longitude);
   school.depth_m = mean(rows, &SchoolPingRow::depth_m);
   school.volume_m3 = median(rows, &SchoolPingRow::volume_m3);
-  school.volume_corrected_m3 = median(rows, &SchoolPingRow::volume_corrected_m3);
+  school.volume_corrected_m3 = mean(rows, &SchoolPingRow::volume_corrected_m3);
   school.length_m = median(rows, &SchoolPingRow::length_m);
   school.width_m = median(rows, &SchoolPingRow::width_m);
   school.height_m = median(rows, &SchoolPingRow::height_m);
   school.sv_mean_db = mean_db(rows, &SchoolPingRow::sv_mean_db);
-  school.sv_corrected_db = mean_db(rows, &SchoolPingRow::sv_corrected_db);
   school.backscatter_m2 = mean(rows, &SchoolPingRow::backscatter_m2);
+  school.sv_corrected_db = mean_db(rows, &SchoolPingRow::sv_corrected_db);
   return school;
 }
 

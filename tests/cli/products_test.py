@@ -113,6 +113,29 @@ class Product(Case):
         self.assertEqual(self.product.observation, "obs-0001")
         self.assertIn("SYNTHETIC", self.product.title)
 
+    def test_every_refused_echo_is_told(self):
+        """`run --why` tells a line for each echo of /rejected; each row missed its limit by the figure that it tells.
+
+        No school is 15 fans high: what are schools else is refused."""
+        folder = self.fresh("why")
+        recipe = folder / "tall.json"
+        recipe.write_text('{"recipe_version": 1, "detect": {"min_fans": 15}}', encoding="utf-8")
+        out = folder / "out"
+        code, told, error = sonarx.run("run", sonarx.SURVEY, "--out", out, "--recipe", recipe, "--why")
+        self.assertEqual(code, 0, error)
+        self.assertEqual(sonarx.read_csv(out / "schools.csv"), [])
+        lines = [line for line in told.splitlines() if ": no school by " in line]
+        for name in ("obs-0001", "obs-0002"):
+            with netCDF4.Dataset(out / "products" / f"{name}.nc") as product:
+                rejected = product["rejected"]
+                ids = set(rejected["echo_id"][:].tolist())
+                self.assertGreater(len(ids), 0)
+                self.assertEqual(ids, set(range(1, len(ids) + 1)))
+                self.assertEqual(sum(line.startswith(name) for line in lines), len(ids))
+                for judge, figure, limit in zip(rejected["judge"][:], rejected["figure"][:], rejected["limit"][:]):
+                    self.assertIn(judge, ("size", "prominence"))
+                    self.assertLess(figure, limit, judge)
+
     def test_variables(self):
         wanted = {
             "pings": ["time", "latitude", "longitude", "heading", "speed", "course", "distance", "pitch", "roll", "heave",

@@ -183,7 +183,8 @@ PING_FAMILIES = {
     "counts": ("n_voxels", "n_beams", "n_fans"),
     "place": ("latitude", "longitude", "depth_m", "range_m", "bearing_deg"),
     "sizes": ("volume_m3", "length_m", "width_m", "height_m", "axis_deg", "depth_min_m", "depth_max_m"),
-    "echo": ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "valid_fraction"),
+    "echo": ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "valid_fraction",
+             "backscatter_psi_error_db"),
     "corrected": ("volume_corrected_m3", "sv_corrected_db"),
     "edges": ("edge_flags", "edge_fraction", "touches_edge"),
     "others": ("provisional",),
@@ -192,7 +193,7 @@ SCHOOL_FAMILIES = {
     "counts": ("n_pings", "n_pings_whole", "touches_edge_fraction"),
     "place": ("latitude", "longitude", "depth_m"),
     "sizes": ("volume_m3", "volume_corrected_m3", "length_m", "width_m", "height_m"),
-    "echo": ("sv_mean_db", "sv_corrected_db", "backscatter_m2"),
+    "echo": ("sv_mean_db", "sv_corrected_db", "backscatter_m2", "backscatter_psi_error_db"),
     "motion": ("speed_mps", "speed_se_mps", "course_deg", "vertical_speed_mps"),
 }
 # Changes that matter to somebody: 1 cm on the map, a tenth of a degree, 1 mm/s; all others a ten-thousandth.

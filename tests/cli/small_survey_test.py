@@ -69,13 +69,17 @@ class SmallSurvey(Case):
         for school in score["schools"]:
             for key in ("truth_id", "found_id", "inside", "n_pings", "n_unclipped", "dice", "cog_error_m",
                         "volume_ratio", "volume_corrected_ratio", "backscatter_error_db", "sv_error_db",
-                        "speed_error_mps", "purity"):
+                        "speed_error_mps", "purity", "range_m", "elevation_deg", "length_corrected_ratio",
+                        "width_corrected_ratio", "height_corrected_ratio"):
                 self.assertIn(key, school)
         self.assertEqual(score["false_schools"], [])
         self.assertEqual(score["summary"]["found_fraction"], 1.0)
         self.assertGreater(score["summary"]["mean_dice"], 0.8)
         self.assertIn("found_fraction", score["summary"])
         self.assertIn("mean_dice", score["summary"])
+        self.assertEqual(score["summary"]["pings"], 28)
+        for thirds in ("by_range_third", "by_elevation_third"):
+            self.assertEqual(sum(third["counted"] for third in score["summary"][thirds]), score["summary"]["counted"])
         self.assertTrue(self.sonarx("score", OUT, "--truth", TRUTH).strip())
 
     def test_score_names_what_of_the_truth_is_missing(self):

@@ -47,8 +47,8 @@ inline test::Bytes file() {
   test::Con0Spec config;
   for (int fan = 0; fan < kFans; ++fan) {
     for (int beam = 0; beam < kBeams; ++beam) {
-      config.beams.push_back(
-          {100'000.0F, -20.0F + 2.5F * static_cast<float>(fan), -13.75F + 2.5F * static_cast<float>(beam), 20.0F});
+      config.beams.push_back({100'000.0F, -20.0F + 2.5F * static_cast<float>(fan),
+                              -13.75F + 2.5F * static_cast<float>(beam), 20.0F, -20.0F});
     }
   }
   test::Bytes bytes = test::con0(config);

@@ -96,8 +96,15 @@ TEST_F(ObservedShip, SeparateBeamsTellNoPeak) {
   ObservationFiles narrow = observation();
   for (double& width_deg : narrow.grid->vertical_width_deg) width_deg = 2.0;
   for (double& width_deg : narrow.grid->horizontal_width_deg) width_deg = 2.0;
-  EXPECT_EQ(Engine(*survey_, observation(), {}).detect_params().peak_percentile, DetectParams().peak_percentile);
-  EXPECT_EQ(Engine(*survey_, narrow, {}).detect_params().peak_percentile, 0.0);
+  const auto peaked = [&](const ObservationFiles& of) {
+    Engine engine(*survey_, of, {});
+    const auto ping = engine.staged(0);
+    EXPECT_TRUE(ping);
+    const WaterLevels water = engine.own_water(*ping);
+    return engine.echo(*ping, water).peaked;
+  };
+  EXPECT_TRUE(peaked(observation()));
+  EXPECT_FALSE(peaked(narrow));
 }
 
 // By hand from each row of the stabilised sonar: its place relative to the ship, turned by a roll of 5 degrees port up and

@@ -16,6 +16,7 @@
 #include "fixed_survey.h"
 #include "io/columns.h"
 #include "pipeline/engine.h"
+#include "pipeline/group_water.h"
 #include "pipeline/load_volume.h"
 #include "pipeline/manual.h"
 #include "pipeline/observe.h"
@@ -33,17 +34,17 @@ struct Recorded {
 
 // In the order of the stages: where one changes, those after it change with it and keep their numbers.
 constexpr std::array<Recorded, 11> kRecorded{{
-    {"decode", 2, "67a30992438549e29295a79665f21403"},
+    {"decode", 3, "67a30992438549e29295a79665f21403"},
     {"flags", 4, "51ed733ca50c62dd8fb52f71b6b77001"},
     {"calibrate", 1, "4dab944b0b8e24e248af242c203cc7e7"},
     {"background", 3, "8c60b37cfa4e58e0acef53480cabfa66"},
     {"median", 1, "4e6f47feae17b601a0a1337ad8ac28b7"},
-    {"seabed", 5, "a0498ac74835f1ca54950382a1b0ee95"},
-    {"detect", 11, "634e39305aad8adff3e75299492312c3"},
-    {"track", 7, "91393a19123f317dd64eee83037c0240"},
-    {"propagate", 5, "796c2390f6457277936c4d7907e65301"},
-    {"measure", 10, "70f66b11be8b54a45e217fcb74cd8b58"},
-    {"summarise", 2, "18a624c4fba81eb036b2ff8326b07f84"},
+    {"seabed", 6, "5ce7f947b618f25ee6517fb8b5ab8a9d"},
+    {"detect", 12, "f9e4367ba560d543e1cb9170dadf2c5b"},
+    {"track", 8, "91393a19123f317dd64eee83037c0240"},
+    {"propagate", 5, "4124af47293a03cd29e231422abb4649"},
+    {"measure", 11, "3006c10ae242e047f738c6a334170ba2"},
+    {"summarise", 3, "c752dbe5e2a5c42a30da64d4b6fc2592"},
 }};
 
 class Digest {
@@ -96,6 +97,7 @@ class Digest {
 /// Detected pings, and the hashes of what came before.
 std::vector<DetectedPing> detected(Engine& engine, std::map<std::string, Digest>& digests) {
   std::vector<DetectedPing> pings;
+  GroupWater waters(engine);
   for (std::int64_t i = 0; i < engine.pings(); ++i) {
     const auto volume = load_volume(engine.survey(), engine.observation(), static_cast<std::size_t>(i));
     const auto ping = engine.staged(i);
@@ -103,19 +105,27 @@ std::vector<DetectedPing> detected(Engine& engine, std::map<std::string, Digest>
     if (!volume || !ping) return pings;
     digests["decode"].array(volume->volume.counts);
     digests["decode"].array(volume->volume.flags);
-    digests["flags"].array(ping->sv.flags);
+    Array3<SampleFlags> noises = ping->sv.flags;  // the ground is the seabed's stage
+    for (SampleFlags& flag : noises.all()) {
+      if (any(flag & SampleFlags::seabed)) {
+        flag = static_cast<SampleFlags>(static_cast<int>(flag) - static_cast<int>(SampleFlags::seabed));
+      }
+    }
+    digests["flags"].array(noises);
     digests["calibrate"].array(ping->sv.counts);
     for (const float level : engine.background_db(i)) digests["background"].number(static_cast<double>(level));
     digests["median"].array(ping->filtered->counts);
     digests["seabed"].array(ping->filtered->flags);
+    digests["seabed"].array(ping->sv.flags);
     EXPECT_TRUE(ping->seabed.found) << "ping " << i;
     DetectedPing found;
     found.ping_index = i;
     found.time = engine.observation().navigation[static_cast<std::size_t>(i)].time;
     found.placement = engine.placement(i);
-    found.detections =
-        detect(ping->filtered->counts.view(), std::as_const(ping->sv.counts).view(), ping->filtered->flags.view(),
-               engine.sector(), ping->background(), engine.recipe().detect, ping->seabed);
+    const auto water = waters.of(i);
+    EXPECT_TRUE(water);
+    if (!water) return pings;
+    found.detections = detect(engine.echo(*ping, *water), engine.recipe().detect);
     for (const Detection& detection : found.detections) digests["detect"].mask(detection.mask);
     pings.push_back(std::move(found));
   }

@@ -38,7 +38,7 @@ TEST(Con0, FieldsAreWhereTheTableSays) {
   EXPECT_EQ(beam.channel_id, "a beam");
   EXPECT_EQ(beam.beam_type, 1);
   EXPECT_EQ(beam.frequency_hz, 100'000.0);
-  EXPECT_EQ(beam.equivalent_beam_angle_db, -20.0);
+  EXPECT_EQ(beam.equivalent_beam_angle_db, -23.0);
   EXPECT_EQ(beam.width_alongship_deg, 7.0);
   EXPECT_EQ(beam.width_athwartship_deg, 3.0);
   EXPECT_EQ(beam.direction_deg, (std::array<double, 3>{0.0, 2.5, 0.0}));

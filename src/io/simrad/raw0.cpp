@@ -65,16 +65,50 @@ std::optional<ReducedRow> parse_reduced(std::span<const std::byte>& rest) {
   return row;
 }
 
-/// The water's levels, as far as they are there.
+/// Bytes of the water's levels, head included; 0 where there are none. Levels of earlier files are passed over.
+std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
+  const auto number = [&](std::size_t at) {
+    return static_cast<std::size_t>(std::clamp(number_at<std::int32_t>(rest, at), 0, kMaxSamples));
+  };
+  std::size_t bytes = 0;
+  if (rest.size() >= kReducedWaterHeadBytes && begins_with(rest, kReducedWaterMark)) {
+    bytes = kReducedWaterHeadBytes + 4 * number(12) + 4 * number(16) + 12 * number(20);
+  } else if (rest.size() >= kReducedWaterHeadBytes1 && begins_with(rest, kReducedWaterMark1)) {
+    bytes = kReducedWaterHeadBytes1 + 2 * number(8);
+  }
+  return std::min(bytes, rest.size());
+}
+
+/// The water's levels; none where they are not there whole.
 std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) {
-  if (rest.size() < kReducedWaterHeadBytes || !begins_with(rest, kReducedWaterMark)) return std::nullopt;
+  if (!begins_with(rest, kReducedWaterMark) || rest.size() < kReducedWaterHeadBytes) return std::nullopt;
+  const auto number = [&](std::size_t at) { return number_at<std::int32_t>(rest, at); };
+  const std::array<std::int32_t, 3> counts{number(12), number(16), number(20)};
+  for (const std::int32_t count : counts) {
+    if (count < 0 || count > kMaxSamples) return std::nullopt;
+  }
   WaterLevels water;
-  water.noise_reach = number_at<std::int16_t>(rest, 4);
-  const auto there = (rest.size() - kReducedWaterHeadBytes) / 2;
-  const auto told = static_cast<std::size_t>(std::clamp(number_at<std::int32_t>(rest, 8), 0, kMaxSamples));
-  water.reverberation.resize(std::min(told, there));
-  for (std::size_t i = 0; i < water.reverberation.size(); ++i) {
-    water.reverberation[i] = number_at<std::int16_t>(rest, kReducedWaterHeadBytes + 2 * i);
+  water.block_samples = number(4);
+  water.blocks = number(8);
+  water.stretch.resize(static_cast<std::size_t>(counts[0]));
+  water.level.resize(static_cast<std::size_t>(counts[1]));
+  water.reach.resize(water.level.size());
+  water.cells.resize(static_cast<std::size_t>(counts[2]));
+  const std::size_t wanted =
+      kReducedWaterHeadBytes + 4 * water.stretch.size() + 4 * water.level.size() + 12 * water.cells.size();
+  if (rest.size() < wanted) return std::nullopt;
+  std::size_t at = kReducedWaterHeadBytes;
+  const auto next = [&]<class T>(T& value) {
+    value = number_at<T>(rest, at);
+    at += sizeof(T);
+  };
+  for (float& stretch : water.stretch) next(stretch);
+  for (std::int16_t& count : water.level) next(count);
+  for (std::int16_t& count : water.reach) next(count);
+  for (EchoCell& cell : water.cells) {
+    next(cell.row);
+    next(cell.block);
+    next(cell.evidence);
   }
   return water;
 }
@@ -116,10 +150,7 @@ void parse_reduced_ping(std::span<const std::byte> rest, ChannelPing& head) {
     rest = rest.subspan(std::min(rest.size(), kReducedSeabedBytes));
   }
   head.reduced_water = parse_reduced_water(rest);
-  if (head.reduced_water) {
-    const std::size_t bytes = kReducedWaterHeadBytes + 2 * head.reduced_water->reverberation.size();
-    rest = rest.subspan(std::min(rest.size(), bytes));
-  }
+  rest = rest.subspan(reduced_water_bytes(rest));
   head.reduced_short = parse_reduced_short(rest);
 }
 

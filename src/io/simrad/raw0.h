@@ -24,10 +24,12 @@ inline constexpr std::size_t kOpenBytes = 8;
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
 inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
-/// this mark, 2 bytes of WaterLevels::noise_reach, 2 of padding, a 4-byte number and so many 2-byte counts of
-/// WaterLevels::reverberation.
-inline constexpr std::string_view kReducedWaterMark = "SXW1";
-inline constexpr std::size_t kReducedWaterHeadBytes = 12;
+/// this mark, WaterLevels' block_samples and blocks, then as 4-byte numbers how many follow of stretch, level (and reach)
+/// and cells, then these, little-endian. (Files that were reduced earlier have SXW1: levels by range alone, passed over.)
+inline constexpr std::string_view kReducedWaterMark = "SXW2";
+inline constexpr std::string_view kReducedWaterMark1 = "SXW1";
+inline constexpr std::size_t kReducedWaterHeadBytes = 24;
+inline constexpr std::size_t kReducedWaterHeadBytes1 = 12;
 /// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.
 inline constexpr std::string_view kReducedShortMark = "SXL2";
 inline constexpr std::string_view kReducedShortMark1 = "SXL1";

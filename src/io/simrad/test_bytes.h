@@ -58,6 +58,7 @@ struct BeamSpec {
   float dir_x_deg = 0.0F;
   float dir_y_deg = 0.0F;
   float gain_db = 20.0F;
+  float psi_db = -23.0F;  ///< of widths of 7 x 3 degrees, and a transmit beam that is a little wider
 };
 
 struct Con0Spec {
@@ -74,7 +75,7 @@ inline Bytes con0(const Con0Spec& spec, TimeNs time = kStart) {
   b.put(1500.0F).put(1490.0F).zeros(24).put(spec.gps_x_m).put(spec.gps_y_m).put(0.0F).zeros(48);
   b.put(spec.stated_beams >= 0 ? spec.stated_beams : static_cast<std::int32_t>(spec.beams.size()));
   for (const BeamSpec& beam : spec.beams) {
-    b.text("a beam", 128).put(std::int32_t{1}).put(beam.frequency_hz).put(beam.gain_db).put(-20.0F);
+    b.text("a beam", 128).put(std::int32_t{1}).put(beam.frequency_hz).put(beam.gain_db).put(beam.psi_db);
     b.put(7.0F).put(3.0F).zeros(28).put(beam.dir_x_deg).put(beam.dir_y_deg).put(0.0F);
     b.put(0.002F).zeros(24).put(beam.gain_db).zeros(24).put(-1.5F).zeros(68);
   }

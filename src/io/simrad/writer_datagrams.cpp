@@ -106,10 +106,20 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
   }
   if (p.reduced_water) {
     put_mark(out, simrad::kReducedWaterMark);
-    put(out, p.reduced_water->noise_reach);
-    put(out, std::int16_t{0});
-    put(out, static_cast<std::int32_t>(p.reduced_water->reverberation.size()));
-    for (const std::int16_t count : p.reduced_water->reverberation) put(out, count);
+    const WaterLevels& water = *p.reduced_water;
+    put(out, water.block_samples);
+    put(out, water.blocks);
+    for (const std::size_t count : {water.stretch.size(), water.level.size(), water.cells.size()}) {
+      put(out, static_cast<std::int32_t>(count));
+    }
+    for (const float stretch : water.stretch) put_f32(out, stretch);
+    for (const std::int16_t count : water.level) put(out, count);
+    for (const std::int16_t count : water.reach) put(out, count);
+    for (const EchoCell& cell : water.cells) {
+      put(out, cell.row);
+      put(out, cell.block);
+      put_f32(out, cell.evidence);
+    }
   }
   if (p.reduced_short.empty()) return;
   put_mark(out, simrad::kReducedShortMark);

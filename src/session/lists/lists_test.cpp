@@ -44,6 +44,22 @@ TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {
   EXPECT_EQ(tree.selected(), top[1]);
 }
 
+// The simulated sonar's table is a published MS70's: by its own figures psi is 0.4 to 6.7 dB beyond the widths, most in the
+// deepest fan.
+TEST_F(Lists, TheSurveyTreeTellsBeamAnglesFanByFan) {
+  const Rows& tree = rows("survey_tree");
+  std::size_t row = 0;
+  while (row < tree.rows() && text("survey_tree", row, "Survey") != "20 fans \u00D7 25 beams") ++row;
+  ASSERT_LT(row + 20, tree.rows());
+  EXPECT_EQ(tree.level(row), 1);
+  EXPECT_THAT(text("survey_tree", row, "Remarks"), HasSubstr("more than the widths give"));
+  EXPECT_THAT(text("survey_tree", row, "Remarks"), HasSubstr("of 500 beams"));
+  EXPECT_THAT(text("survey_tree", row + 1, "Survey"), HasSubstr("fan 0, -45.0"));
+  EXPECT_THAT(text("survey_tree", row + 1, "Remarks"), HasSubstr("in 25 of 25 beams no transmit beam explains it"));
+  EXPECT_THAT(text("survey_tree", row + 20, "Survey"), HasSubstr("fan 19, "));
+  EXPECT_EQ(tree.level(row + 20), 2);
+}
+
 TEST_F(Lists, SchoolsAreThereAtOnceAndMeasuredSoonAfter) {
   paint(2, 4, 5, 5, 200);
   document().settle();

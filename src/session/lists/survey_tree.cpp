@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "model/beam_angles.h"
 #include "session/lists/cells.h"
 
 namespace sonar {
@@ -60,6 +61,22 @@ void SurveyTree::add_file(std::size_t file, std::optional<std::size_t> observati
   add_notes(one.index.diagnostics, 2, observation);
 }
 
+void SurveyTree::add_beams(const BeamGrid& grid, std::size_t observation) {
+  const std::vector<double> excess_db = psi_excess_db(grid);
+  const std::string all = text_of(excess_over(excess_db));
+  if (all.empty()) return;
+  rows_.push_back({1, observation, fmt::format("{} fans \u00D7 {} beams", grid.fans(), grid.beams()), {}, {}, {}, all});
+  for (int fan = 0; fan < grid.fans(); ++fan) {
+    rows_.push_back({2,
+                     observation,
+                     fmt::format("fan {}, {:.1f}\u00B0", fan, grid.elevation_deg[static_cast<std::size_t>(fan)]),
+                     {},
+                     {},
+                     {},
+                     text_of(excess_of_fan(excess_db, grid, fan))});
+  }
+}
+
 void SurveyTree::add_observation(std::size_t index) {
   const Document& document = workspace().document;
   const ObservationFiles& observation = document.survey()->observations[index];
@@ -78,6 +95,7 @@ void SurveyTree::add_observation(std::size_t index) {
   rows_.push_back(std::move(row));
   add_notes(observation.diagnostics, 1, index);
   for (const std::uint32_t file : observation.files) add_file(file, index);
+  if (observation.grid) add_beams(*observation.grid, index);
 }
 
 void SurveyTree::make() {

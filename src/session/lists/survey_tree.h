@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "model/beam_grid.h"
 #include "session/lists/document_rows.h"
 
 namespace sonar {
 
-/// The survey as a tree: observations, below them their files, below these what is wrong with them. A double-click on
+/// The survey as a tree: observations, below them their files, below these what is wrong with them; beside the
+/// files how the stated beam angles compare with the widths, fan by fan. A double-click on
 /// anything of an observation looks at it.
 class SurveyTree : public DocumentRows {
  public:
@@ -37,6 +39,7 @@ class SurveyTree : public DocumentRows {
     std::string notes;
   };
   void add_observation(std::size_t index);
+  void add_beams(const BeamGrid& grid, std::size_t observation);
   void add_file(std::size_t file, std::optional<std::size_t> observation);
   void add_notes(const Diagnostics& notes, int level, std::optional<std::size_t> observation);
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/beam_figures.h"
+
 namespace sonar {
 
 ObservationProduct observation_head(const ObservationFiles& observation) {
@@ -10,9 +12,7 @@ ObservationProduct observation_head(const ObservationFiles& observation) {
   head.observation = observation.name;
   head.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
   head.pings = observation.navigation;
-  if (observation.grid) {
-    head.grid = GridRecord{*observation.grid, observation.sample_count, observation.range, observation.sound_speed_mps};
-  }
+  if (observation.grid) head.grid = grid_record(observation, {});
   return head;
 }
 

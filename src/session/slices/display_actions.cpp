@@ -57,7 +57,7 @@ void add_display_actions(Desk& desk) {
             });
   add_scale(desk, "display.smooth", "Smooth colours", "F7", "Told apart by colour-blind eyes too; the limits stay",
             [](DisplayParams& p) { p.scale.map = ColourMapName::viridis; });
-  add_switch(desk, "display.filtered", "Filtered data", "F8", &DisplayParams::filtered);
+  add_switch(desk, "display.filtered", "Slices: filtered data", "F8", &DisplayParams::filtered);
   add_switch(desk, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
   add_switch(desk, "display.north_up", "North up", "Ctrl+U", &DisplayParams::north_up);
   desk.actions.add({"display.all",

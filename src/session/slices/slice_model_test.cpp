@@ -44,6 +44,15 @@ class SlicesAtWork : public testing::Test {
   SlicesDesk desk_;
 };
 
+// The 2007 paper shows its slices as recorded and filters what schools are grown on.
+TEST_F(SlicesAtWork, SlicesAreAsRecordedUntilTheyAreAskedToBeFiltered) {
+  plain_display();
+  EXPECT_FALSE(workspace().display.values().filtered);
+  desk_.ask("display.filtered");
+  desk_.settle();
+  EXPECT_TRUE(workspace().display.values().filtered);
+}
+
 TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
   plain_display();
   for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {

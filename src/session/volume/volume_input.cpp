@@ -34,7 +34,7 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
 
 void set_options(PictureOptions& options, const DisplayParams& display, const VolumeParams& volume) {
   options.scale = display.scale;
-  options.filtered = display.filtered;
+  options.filtered = volume.filtered;
   options.put_back = put_back(display);
   options.left_out = left_out_of_volume(display);
   if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "pipeline/engine.h"
+
+namespace sonar {
+
+/// Neighbouring pings are judged together: the water of a group is told by its pings and some before and behind them.
+inline constexpr std::int64_t kGroupPings = 8;
+inline constexpr std::int64_t kGroupSide = 3;
+
+/// What the pings of a window tell of their water.
+/// window  in order; null = bad or unreadable
+/// out     [of the window]; none for those that are not there; reduced ones bring their own
+[[nodiscard]] std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_ptr<StagedPing>> window,
+                                                                const Sector& sector);
+
+/// The water by which detection judged a ping of an observation, worked out again for one ping after the other.
+/// threads  one
+class GroupWater {
+ public:
+  /// engine  knows the pings' background; outlives this
+  explicit GroupWater(Engine& engine) : engine_(engine) {}
+  /// cost    its first ping stages the whole group
+  /// errors  as Engine::staged(), of the ping itself
+  [[nodiscard]] Result<WaterLevels> of(std::int64_t ping_index);
+
+ private:
+  Engine& engine_;
+  std::int64_t group_ = -1;
+  std::vector<std::optional<WaterLevels>> waters_;  ///< of the group's pings
+};
+
+}  // namespace sonar

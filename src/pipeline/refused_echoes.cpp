@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/refused_echoes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <tuple>
+
+#include "geo/geodesic.h"
+#include "school/detect_params.h"
+#include "school/judge/confirmation.h"
+
+namespace sonar {
+namespace {
+
+RefusedEcho row_of(const Engine& engine, std::int64_t ping_index, const Detection& echo, const Reason& reason) {
+  RefusedEcho row;
+  row.ping_index = ping_index;
+  const Run& loudest = echo.loudest;
+  row.channel = engine.grid().channel[static_cast<std::size_t>(loudest.row)];
+  row.sample = loudest.first_sample;
+  const Placement placement = engine.placement(ping_index);
+  const Point<Sonar> centre = levelled(echo.centre, placement);
+  const Geographic where = to_geographic(to_enu(centre, placement.heading_rad), placement.transducer);
+  row.latitude = where.latitude_deg;
+  row.longitude = where.longitude_deg;
+  row.depth_m = placement.transducer_depth_m + centre.z;
+  row.range_m = norm(echo.centre);
+  row.n_beams = echo.box.beams();
+  row.n_fans = echo.box.fans();
+  row.range_extent_m = echo.box.samples() * engine.sector().range().spacing_m;
+  row.volume_m3 = echo.volume_m3;
+  row.level_db = echo.reference_db;
+  row.above_water = echo.evidence;
+  row.judge = reason.judge;
+  row.figure = reason.figure;
+  row.limit = reason.limit;
+  row.limit_unit = reason.unit;
+  return row;
+}
+
+}  // namespace
+
+std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const DetectedPing> pings,
+                                        const Tracks& tracks) {
+  std::vector<RefusedEcho> rows;
+  std::int64_t id = 0;
+  for (const DetectedPing& ping : pings) {
+    for (const RefusedDetection& refused : ping.refused) {
+      rows.push_back(row_of(engine, ping.ping_index, refused.detection, refused.reason));
+      rows.back().echo_id = --id;
+    }
+  }
+  const double clear = evidence_wanted(engine.recipe().detect);
+  for (const RefusedTrack& track : tracks.refused) {
+    const bool seen_clearly = std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
+      return ping_of(pings, seen.ping_index)->detections[static_cast<std::size_t>(seen.detections.front())].evidence >=
+             clear;
+    });
+    if (!seen_clearly) continue;  // what the false-alarm rate leaves out
+    --id;
+    for (const TrackedDetection& seen : track.pings) {
+      const DetectedPing& ping = *ping_of(pings, seen.ping_index);
+      const Detection& echo = ping.detections[static_cast<std::size_t>(seen.detections.front())];
+      rows.push_back(row_of(engine, seen.ping_index, echo, track.reason));
+      rows.back().echo_id = id;
+    }
+  }
+  std::ranges::sort(rows, {}, [](const RefusedEcho& r) { return std::tuple(r.ping_index, r.channel, r.sample); });
+  std::map<std::int64_t, std::int64_t> number;  // in the order in which they are met
+  for (RefusedEcho& row : rows) {
+    row.echo_id = number.try_emplace(row.echo_id, static_cast<std::int64_t>(number.size()) + 1).first->second;
+  }
+  return rows;
+}
+
+std::vector<std::string> refusal_lines(const ObservationProduct& product) {
+  std::map<std::int64_t, std::vector<const RefusedEcho*>> echoes;
+  for (const RefusedEcho& row : product.rejected) echoes[row.echo_id].push_back(&row);
+  std::vector<std::string> lines;
+  for (const auto& [id, rows] : echoes) {
+    const RefusedEcho& loudest = **std::ranges::max_element(rows, {}, [](const RefusedEcho* r) { return r->level_db; });
+    const std::string pings = rows.size() == 1 ? fmt::format("ping {}", rows.front()->ping_index)
+                                               : fmt::format("pings {} to {} ({} of them)", rows.front()->ping_index,
+                                                             rows.back()->ping_index, rows.size());
+    lines.push_back(fmt::format(
+        "{} {}: {:.0f} m away, {:.0f} m deep, {} fans x {} beams x {:.1f} m, {:.1f} dB: no school by {}: {:.3g} {}, "
+        "limit {:.3g}",
+        product.observation, pings, loudest.range_m, loudest.depth_m, loudest.n_fans, loudest.n_beams,
+        loudest.range_extent_m, loudest.level_db, loudest.judge, loudest.figure, loudest.limit_unit, loudest.limit));
+  }
+  return lines;
+}
+
+}  // namespace sonar

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/evidence/null_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "base/units.h"
+#include "school/evidence/seabed_stretch.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kPiece_m = 1.9;         ///< a block of three is about as long as the shortest school
+constexpr int kPieces = 3;               ///< of a block
+constexpr std::size_t kEnough = 60;      ///< values that tell a level and a spread
+constexpr std::size_t kPool = 3;         ///< blocks each side that lend theirs where there are fewer
+constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
+constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the second look
+constexpr int kLooks = 3;
+constexpr double kRise_db = 3.0;      ///< of the seabed out of the water before it
+constexpr double kUpperTail = 1.645;  ///< standard deviations from the median to the 95th percentile
+
+using Levels = Array3<std::int16_t>;  // [fan][beam][block]
+using Marks = Array3<std::uint8_t>;
+
+/// What the values of one fan and block tell.
+struct Told {
+  std::int16_t middle = kNoData;
+  std::int16_t below = 0;  ///< down to the 16th percentile
+  std::int16_t above = 0;  ///< up to the 95th
+};
+
+/// The value of a rank from 0, between the least and the greatest: halving counts what lies below, many values at once.
+std::int16_t ranked(std::span<const std::int16_t> values, std::size_t rank, int least, int greatest) {
+  while (least < greatest) {
+    const int middle = least + (greatest - least) / 2;
+    std::int32_t below = 0;
+    for (const std::int16_t value : values) below += value <= middle ? 1 : 0;
+    if (static_cast<std::size_t>(below) > rank) {
+      greatest = middle;
+    } else {
+      least = middle + 1;
+    }
+  }
+  return static_cast<std::int16_t>(least);
+}
+
+Told told_by(std::span<const std::int16_t> values) {
+  if (values.size() < kEnough) return {};
+  const auto rank = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(values.size())); };
+  const auto [least, greatest] = std::ranges::minmax(values);
+  const std::int16_t middle = ranked(values, rank(0.5), least, greatest);
+  const std::int16_t low = ranked(values, rank(0.16), least, middle);
+  const std::int16_t high = ranked(values, rank(0.95), middle, greatest);
+  return {middle, static_cast<std::int16_t>(middle - low), static_cast<std::int16_t>(high - middle)};
+}
+
+class Window {
+ public:
+  Window(std::span<const WaterPing> pings, const Sector& sector)
+      : pings_(pings), sector_(sector), piece_(piece_samples(sector.range())), stretch_(seabed_stretch(pings, sector)) {
+    const Shape3 pieces = pings.front().means->shape();
+    shape_ = {pieces.fans, pieces.beams, (pieces.samples + kPieces - 1) / kPieces};
+    for (std::size_t p = 0; p < pings.size(); ++p) {
+      levels_.push_back(levels_of(p));
+      floors_.push_back(floors_of(p));
+      masked_.emplace_back(shape_);
+    }
+  }
+
+  std::vector<WaterLevels> run(double least) {
+    for (look_ = 0;; ++look_) {
+      find_level();
+      find_excess();
+      find_evidence();
+      if (look_ + 1 == kLooks) break;
+      for (std::size_t p = 0; p < pings_.size(); ++p) mask(p);
+    }
+    std::vector<WaterLevels> out;
+    for (std::size_t p = 0; p < pings_.size(); ++p) out.push_back(answer(p, least));
+    return out;
+  }
+
+ private:
+  [[nodiscard]] std::size_t cells() const {
+    return static_cast<std::size_t>(shape_.fans) * static_cast<std::size_t>(shape_.samples);
+  }
+  [[nodiscard]] std::size_t cell(int fan, int block) const {
+    return static_cast<std::size_t>(fan) * static_cast<std::size_t>(shape_.samples) + static_cast<std::size_t>(block);
+  }
+
+  [[nodiscard]] double stretch(std::size_t ping, int row) const {
+    return stretch_[ping].empty() ? 1.0 : static_cast<double>(stretch_[ping][static_cast<std::size_t>(row)]);
+  }
+
+  [[nodiscard]] Levels levels_of(std::size_t p) const {
+    Levels levels(shape_, kNoData);
+    const Array3<float>& means = *pings_[p].means;
+    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+      const auto pieces = means.view().row(row);
+      const auto out = levels.view().row(row);
+      const double per_block = kPieces / stretch(p, row);
+      for (int block = 0; block < shape_.samples; ++block) {
+        const auto first = static_cast<std::ptrdiff_t>(std::lround(block * per_block));
+        const auto end = std::min(
+            std::ssize(pieces), std::max(first + 1, static_cast<std::ptrdiff_t>(std::lround((block + 1) * per_block))));
+        double sum = 0.0;
+        int known = 0;
+        for (auto i = first; i < end; ++i) {
+          const auto mean = static_cast<double>(pieces[static_cast<std::size_t>(i)]);
+          if (!(mean > 0.0)) continue;
+          sum += mean;
+          ++known;
+        }
+        if (2 * known < end - first || known == 0) continue;
+        const double counts =
+            std::clamp(counts_from_db(db_from_linear(sum / known)), double{kMinCount}, double{kMaxCount});
+        out[static_cast<std::size_t>(block)] = static_cast<std::int16_t>(std::lround(counts));
+      }
+    }
+    return levels;
+  }
+
+  /// Mean noise of each beam at the middle of each block.
+  [[nodiscard]] Levels floors_of(std::size_t p) const {
+    Levels floors(shape_, kMinCount);
+    const Background& noise = pings_[p].noise;
+    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+      if (!noise.known(row)) continue;
+      const double power = noise.power_counts(row);
+      const auto table = noise.calibration.row(row);
+      const auto out = floors.view().row(row);
+      for (int block = 0; block < shape_.samples; ++block) {
+        const double middle = (block + 0.5) * kPieces * piece_ / stretch(p, row);
+        const auto s = std::min(table.size() - 1, static_cast<std::size_t>(middle));
+        if (table[s] == kNoData) continue;
+        out[static_cast<std::size_t>(block)] =
+            static_cast<std::int16_t>(std::lround(std::clamp(power + table[s], double{kMinCount}, double{kMaxCount})));
+      }
+    }
+    return floors;
+  }
+
+  /// For each fan and block what the unmasked values of all pings and beams there tell; too few are joined by those of the
+  /// blocks beside.
+  [[nodiscard]] std::vector<Told> tell(const std::vector<Levels>& of_pings) const {
+    std::vector<Told> told(cells());
+    const auto blocks = static_cast<std::size_t>(shape_.samples);
+    const std::size_t most = of_pings.size() * static_cast<std::size_t>(shape_.beams);
+    std::vector<std::int16_t> values(blocks * most + 1);
+    std::vector<std::size_t> known(blocks);
+    const auto of_block = [&](std::size_t b) { return std::span(values).subspan(b * most, known[b]); };
+    std::vector<std::int16_t> pooled;
+    for (int fan = 0; fan < shape_.fans; ++fan) {
+      std::ranges::fill(known, 0);
+      for (std::size_t p = 0; p < of_pings.size(); ++p) {
+        for (int beam = 0; beam < shape_.beams; ++beam) {
+          const auto row = of_pings[p].row(fan, beam);
+          const auto masked = masked_[p].row(fan, beam);
+          for (std::size_t b = 0; b < blocks; ++b) {
+            values[b * most + known[b]] = row[b];
+            known[b] += row[b] != kNoData && masked[b] == 0 ? std::size_t{1} : std::size_t{0};
+          }
+        }
+      }
+      for (std::size_t b = 0; b < blocks; ++b) {
+        Told& here = told[cell(fan, static_cast<int>(b))];
+        if (known[b] >= kEnough) {
+          here = told_by(of_block(b));
+          continue;
+        }
+        pooled.assign(of_block(b).begin(), of_block(b).end());
+        for (std::size_t r = 1; r <= kPool && pooled.size() < kEnough; ++r) {
+          if (b >= r) pooled.insert(pooled.end(), of_block(b - r).begin(), of_block(b - r).end());
+          if (b + r < blocks) pooled.insert(pooled.end(), of_block(b + r).begin(), of_block(b + r).end());
+        }
+        here = told_by(pooled);
+      }
+      fill(std::span(told).subspan(cell(fan, 0), blocks));
+    }
+    return told;
+  }
+
+  /// Where nothing is told, as behind a school that fills a fan, the water goes on between what lies nearer and farther.
+  static void fill(std::span<Told> told) {
+    std::ptrdiff_t last = -1;
+    for (std::ptrdiff_t b = 0; b < std::ssize(told); ++b) {
+      const Told here = told[static_cast<std::size_t>(b)];
+      if (here.middle == kNoData) continue;
+      for (std::ptrdiff_t i = last + 1; last >= 0 && i < b; ++i) {
+        const Told before = told[static_cast<std::size_t>(last)];
+        const auto between = [&](int from, int to) {
+          return static_cast<std::int16_t>(from + (to - from) * (i - last) / (b - last));
+        };
+        told[static_cast<std::size_t>(i)] = {between(before.middle, here.middle), between(before.below, here.below),
+                                             between(before.above, here.above)};
+      }
+      last = b;
+    }
+  }
+
+  void find_level() {
+    water_ = tell(levels_);
+    lift_seabed();
+  }
+
+  /// Hills are heard where the ground in between is not yet: in beams that point down the water is as loud as up to
+  /// where the seabed would be if it lay so much higher.
+  void lift_seabed() {
+    const double nearer = seabed_nearer(pings_);
+    if (!(nearer < 1.0)) return;
+    for (int fan = 0; fan < shape_.fans; ++fan) {
+      if (sector_.elevation_rad(fan) >= 0.0) continue;
+      const std::span<Told> told = std::span(water_).subspan(cell(fan, 0), static_cast<std::size_t>(shape_.samples));
+      for (std::size_t b = 0; b < told.size(); ++b) {
+        const auto last = std::min(told.size() - 1, static_cast<std::size_t>(static_cast<double>(b) / nearer));
+        std::int16_t loudest = told[b].middle;
+        for (std::size_t i = b + 1; i <= last; ++i) loudest = std::max(loudest, told[i].middle);
+        if (loudest - told[b].middle >= counts_from_db(kRise_db)) told[b].middle = loudest;
+      }
+    }
+  }
+
+  [[nodiscard]] int background(std::size_t p, int row, int block) const {
+    const int floor = floors_[p].view().row(row)[static_cast<std::size_t>(block)];
+    const std::int16_t water = water_[cell(row / shape_.beams, block)].middle;
+    return water == kNoData ? floor : std::max(int{water}, floor);
+  }
+
+  void find_excess() {
+    excess_.clear();
+    for (std::size_t p = 0; p < pings_.size(); ++p) {
+      Levels excess(shape_, kNoData);
+      for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+        const auto level = levels_[p].view().row(row);
+        const auto out = excess.view().row(row);
+        for (int block = 0; block < shape_.samples; ++block) {
+          const auto b = static_cast<std::size_t>(block);
+          if (level[b] == kNoData) continue;
+          const int below = background(p, row, block);
+          if (below <= kMinCount) continue;
+          out[b] = static_cast<std::int16_t>(std::clamp(level[b] - below, -30000, 30000));
+        }
+      }
+      excess_.push_back(std::move(excess));
+    }
+    spread_ = tell(excess_);
+  }
+
+  /// Before what stands out is known the upper tail may be a school's; then it is the tail that schools must exceed.
+  [[nodiscard]] double width(const Told& told, double least) const {
+    const double spread = look_ == 0 ? static_cast<double>(told.below) : static_cast<double>(told.above) / kUpperTail;
+    return std::max(spread, least);
+  }
+
+  /// Sum of the whitened excess over 3 x 3 beams, over the root of their number, in 1/256.
+  [[nodiscard]] Levels averaged(const Levels& excess) const {
+    std::vector<float> scale(cells(), 0.0F);
+    std::vector<float> middle(cells(), 0.0F);
+    for (std::size_t i = 0; i < cells(); ++i) {
+      if (spread_[i].middle == kNoData) continue;
+      middle[i] = std::max<float>(0.0F, spread_[i].middle);
+      scale[i] = static_cast<float>(1.0 / width(spread_[i], counts_from_db(kLeastSpread_db)));
+    }
+    Levels out(shape_, kNoData);
+    std::vector<float> sum(static_cast<std::size_t>(shape_.samples));
+    std::vector<float> number(sum.size());
+    for (int fan = 0; fan < shape_.fans; ++fan) {
+      for (int beam = 0; beam < shape_.beams; ++beam) {
+        std::fill(sum.begin(), sum.end(), 0.0F);
+        std::fill(number.begin(), number.end(), 0.0F);
+        for (int f = std::max(0, fan - 1); f <= std::min(shape_.fans - 1, fan + 1); ++f) {
+          for (int b = std::max(0, beam - 1); b <= std::min(shape_.beams - 1, beam + 1); ++b) {
+            const auto row = excess.row(f, b);
+            const float* mid = middle.data() + cell(f, 0);
+            const float* scaled = scale.data() + cell(f, 0);
+            for (std::size_t i = 0; i < sum.size(); ++i) {
+              if (row[i] == kNoData || scaled[i] == 0.0F) continue;
+              sum[i] += (static_cast<float>(row[i]) - mid[i]) * scaled[i];
+              number[i] += 1.0F;
+            }
+          }
+        }
+        const auto own = excess.row(fan, beam);
+        const auto to = out.row(fan, beam);
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+          if (own[i] == kNoData || number[i] == 0.0F) continue;
+          to[i] = static_cast<std::int16_t>(
+              std::lround(std::clamp(sum[i] / std::sqrt(number[i]) * 256.0F, -32000.0F, 32000.0F)));
+        }
+      }
+    }
+    return out;
+  }
+
+  void find_evidence() {
+    evidence_.clear();
+    for (const Levels& excess : excess_) evidence_.push_back(averaged(excess));
+    own_ = tell(evidence_);
+  }
+
+  [[nodiscard]] double evidence(std::size_t p, int row, int block) const {
+    const std::int16_t value = evidence_[p].view().row(row)[static_cast<std::size_t>(block)];
+    const Told& own = own_[cell(row / shape_.beams, block)];
+    if (value == kNoData || own.middle == kNoData) return -std::numeric_limits<double>::infinity();
+    return (value - std::max<int>(0, own.middle)) / width(own, 128.0);
+  }
+
+  void mask(std::size_t p) {
+    Marks marks(shape_);
+    for (int fan = 0; fan < shape_.fans; ++fan) {
+      for (int beam = 0; beam < shape_.beams; ++beam) {
+        for (int block = 0; block < shape_.samples; ++block) {
+          if (evidence(p, fan * shape_.beams + beam, block) < kMasked) continue;
+          for (int f = std::max(0, fan - 1); f <= std::min(shape_.fans - 1, fan + 1); ++f) {
+            for (int b = std::max(0, beam - 1); b <= std::min(shape_.beams - 1, beam + 1); ++b) {
+              for (int s = std::max(0, block - 1); s <= std::min(shape_.samples - 1, block + 1); ++s)
+                marks(f, b, s) = 1;
+            }
+          }
+        }
+      }
+    }
+    masked_[p] = std::move(marks);
+  }
+
+  [[nodiscard]] WaterLevels answer(std::size_t p, double least) const {
+    WaterLevels out;
+    out.block_samples = kPieces * piece_;
+    out.blocks = shape_.samples;
+    out.stretch = stretch_[p];
+    for (std::size_t i = 0; i < cells(); ++i) {
+      out.level.push_back(water_[i].middle == kNoData ? std::int16_t{kMinCount} : water_[i].middle);
+      out.reach.push_back(spread_[i].middle == kNoData ? std::int16_t{0}
+                                                       : static_cast<std::int16_t>(width(spread_[i], 0.0)));
+    }
+    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+      for (int block = 0; block < shape_.samples; ++block) {
+        const double found = evidence(p, row, block);
+        if (found >= least) out.cells.push_back({row, block, static_cast<float>(found)});
+      }
+    }
+    return out;
+  }
+
+  std::span<const WaterPing> pings_;
+  const Sector& sector_;
+  int piece_;
+  int look_ = 0;
+  std::vector<std::vector<float>> stretch_;  ///< [ping][row]
+  Shape3 shape_;                             ///< fans, beams, blocks
+  std::vector<Levels> levels_;
+  std::vector<Levels> floors_;
+  std::vector<Levels> excess_;
+  std::vector<Levels> evidence_;
+  std::vector<Marks> masked_;
+  std::vector<Told> water_;
+  std::vector<Told> spread_;
+  std::vector<Told> own_;
+};
+
+}  // namespace
+
+int piece_samples(const RangeAxis& range) {
+  return std::max(1, static_cast<int>(std::lround(kPiece_m / range.spacing_m)));
+}
+
+std::vector<WaterLevels> water_levels(std::span<const WaterPing> window, const Sector& sector, double least) {
+  if (window.empty()) return {};
+  return Window(window, sector).run(least);
+}
+
+}  // namespace sonar

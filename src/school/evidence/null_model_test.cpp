@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/evidence/null_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/units.h"
+#include "school/evidence/short_means.h"
+#include "school/test_water.h"
+
+namespace sonar {
+namespace {
+
+constexpr Shape3 kShape{20, 25, 900};
+constexpr double kWater_db = -65.0;
+constexpr double kLeast = 5.0;
+
+/// Pings of fading echo whose expected sv is told for each voxel.
+struct Pings {
+  explicit Pings(const std::function<double(int fan, int beam, int sample, int ping)>& sv, double gain_db = 0.0)
+      : flat(kShape) {
+    std::fill(flat.power_db.begin(), flat.power_db.end(), -100.0 + gain_db);
+    const Array3<SampleFlags> flags(kShape);
+    for (int p = 0; p < 7; ++p) {
+      Array3<double> expected(kShape);
+      for (int f = 0; f < kShape.fans; ++f) {
+        for (int b = 0; b < kShape.beams; ++b) {
+          for (int s = 0; s < kShape.samples; ++s) expected(f, b, s) = sv(f, b, s, p) * linear_from_db(gain_db);
+        }
+      }
+      const Array3<std::int16_t> counts = test::counts_of(expected, 700 + static_cast<std::uint64_t>(p));
+      means.push_back(short_means(counts.view(), flags.view(), piece_samples(sector.range())));
+    }
+  }
+  [[nodiscard]] std::vector<WaterLevels> levels() const {
+    std::vector<WaterPing> window;
+    for (const Array3<float>& mean : means) {
+      window.push_back({&mean, nullptr, {flat.power_db, flat.calibration.view()}});
+    }
+    return water_levels(window, sector, kLeast);
+  }
+  Sector sector = test::grid().sector(test::range_axis());
+  test::FlatBackground flat;
+  std::vector<Array3<float>> means;
+};
+
+double water(int /*fan*/, int /*beam*/, int /*sample*/, int /*ping*/) { return linear_from_db(kWater_db); }
+
+double mean_level_db(const WaterLevels& water) {
+  double sum = 0.0;
+  for (const std::int16_t level : water.level) sum += db_from_counts(level);
+  return sum / static_cast<double>(water.level.size());
+}
+
+// The mean of 15 samples of an exponential variable has its median 0.1 dB below its mean (chi-square of 30: 29.34 / 30).
+TEST(NullModel, TheWatersLevelIsItsMean) {
+  const std::vector<WaterLevels> told = Pings(water).levels();
+  ASSERT_EQ(told.size(), 7U);
+  EXPECT_NEAR(mean_level_db(told[3]), kWater_db - 0.1, 0.05);
+}
+
+// Five deviations of a Gaussian are passed once in 3.5 million; 7 pings have 7 x 500 x 60 blocks, and fading's tail is
+// heavier. What is looked for is more than what chance gives to a survey.
+TEST(NullModel, HardlyAnythingStandsOutOfWater) {
+  std::size_t cells = 0;
+  for (const WaterLevels& ping : Pings(water).levels()) cells += ping.cells.size();
+  EXPECT_LE(cells, 20U);
+}
+
+// A law: all of the echo and the noise by the same factor is the same sea heard with another gain.
+TEST(NullModel, GainChangesLevelsAndNoEvidence) {
+  const auto school = [](int f, int b, int s, int p) {
+    const bool inside = f >= 8 && f < 12 && b >= 8 && b < 14 && s >= 300 && s < 340;
+    return water(f, b, s, p) * (inside ? 20.0 : 1.0);
+  };
+  const WaterLevels here = Pings(school).levels()[2];
+  const WaterLevels louder = Pings(school, 12.0).levels()[2];
+  EXPECT_NEAR(mean_level_db(louder) - mean_level_db(here), 12.0, 0.02);
+  ASSERT_FALSE(here.cells.empty());
+  // counts are rounded: what lies at the limit may fall on either side
+  EXPECT_NEAR(static_cast<double>(louder.cells.size()), static_cast<double>(here.cells.size()),
+              0.05 * static_cast<double>(here.cells.size()));
+}
+
+TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
+  const auto school = [](int f, int b, int s, int p) {
+    const bool inside = f >= 6 && f < 12 && b >= 8 && b < 16 && s >= 300 && s < 345;
+    return water(f, b, s, p) * (inside ? 10.0 : 1.0);  // 10 dB above its water
+  };
+  const Pings pings(school);
+  const WaterLevels told = pings.levels()[3];
+  const int block = static_cast<int>(told.block_at(9 * 25 + 12, 322) + 0.5);
+  const auto cell = static_cast<std::size_t>(9 * told.blocks + block);
+  EXPECT_NEAR(db_from_counts(told.level[cell]), kWater_db, 0.4);
+  std::size_t inside = 0;
+  for (const EchoCell& one : told.cells) {
+    const int fan = one.row / 25;
+    const int beam = one.row % 25;
+    EXPECT_TRUE(fan >= 5 && fan <= 12 && beam >= 7 && beam <= 16) << fan << " " << beam;
+    if (fan >= 6 && fan < 12 && beam >= 8 && beam < 16) ++inside;
+  }
+  EXPECT_GE(inside, 6U * 8U * 2U) << "each beam of it, in two blocks at least";
+}
+
+// Ringing, a layer, the surface in side lobes: what all beams of a fan hear at one range is the water there.
+TEST(NullModel, WhatAllBeamsHearIsWater) {
+  const auto layer = [](int f, int b, int s, int p) {
+    return water(f, b, s, p) * (f > 10 && s >= 400 && s < 460 ? 100.0 : 1.0);
+  };
+  std::size_t cells = 0;
+  for (const WaterLevels& ping : Pings(layer).levels()) cells += ping.cells.size();
+  EXPECT_LE(cells, 20U);
+}
+
+// Half the beams of every ping: they would be the water, were the ping looked at alone without its noise.
+TEST(NullModel, FaultySamplesHaveNoSay) {
+  Array3<std::int16_t> counts(kShape, static_cast<std::int16_t>(counts_from_db(kWater_db)));
+  Array3<SampleFlags> flags(kShape);
+  for (int s = 0; s < kShape.samples; ++s) {
+    counts(3, 4, s) = static_cast<std::int16_t>(counts_from_db(-10.0));
+    flags(3, 4, s) = SampleFlags::hot_beam;
+  }
+  const Array3<float> means = short_means(std::as_const(counts).view(), std::as_const(flags).view(), 5);
+  for (const float mean : means.view().row(3 * 25 + 4)) EXPECT_TRUE(std::isnan(mean));
+  for (const float mean : means.view().row(3 * 25 + 5))
+    EXPECT_NEAR(db_from_linear(static_cast<double>(mean)), kWater_db, 0.02);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/evidence/seabed_stretch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "school/seabed_echoes.h"
+#include "school/seabed_plane.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kMost = 1.6;           ///< a beam whose range differs more is judged with the water, not the seabed
+constexpr double kHills = 3.0;          ///< standard deviations of its depth above which few hills rise
+constexpr double kNearest = 0.5;        ///< share of its depth that hills leave at least
+constexpr double kBeyondRecord = 1.25;  ///< a seabed so far beyond the record is not heard
+
+SeabedPlane plane_of(const Seabed& seabed) { return {seabed.offset_m, seabed.slope_x, seabed.slope_y}; }
+
+/// Range of a fan's beams to a level seabed at the window's depth; infinite where they meet none.
+double usual_range_m(const Sector& sector, int fan, double depth_m) {
+  const double down = -std::sin(sector.elevation_rad(fan));
+  return down > 1e-6 ? depth_m / down : INFINITY;
+}
+
+std::vector<float> stretch_of(const Seabed& seabed, const Sector& sector, double depth_m) {
+  std::vector<float> stretch(static_cast<std::size_t>(sector.fans() * sector.beams()), 1.0F);
+  const double last_m = sector.range().range_m(sector.range().count);
+  for (int fan = 0; fan < sector.fans(); ++fan) {
+    const double usual_m = usual_range_m(sector, fan, depth_m);
+    if (!(usual_m < kBeyondRecord * last_m)) continue;
+    for (int beam = 0; beam < sector.beams(); ++beam) {
+      const int row = fan * sector.beams() + beam;
+      const double by = usual_m / plane_of(seabed).range(beam_axis(sector, row));
+      stretch[static_cast<std::size_t>(row)] = static_cast<float>(std::clamp(by, 1.0 / kMost, kMost));
+    }
+  }
+  return stretch;
+}
+
+}  // namespace
+
+std::vector<std::vector<float>> seabed_stretch(std::span<const WaterPing> window, const Sector& sector) {
+  std::vector<std::vector<float>> stretch(window.size());
+  std::vector<double> depths_m;
+  for (const WaterPing& ping : window) {
+    if (ping.seabed != nullptr && ping.seabed->found) depths_m.push_back(ping.seabed->offset_m);
+  }
+  if (depths_m.empty()) return stretch;
+  const auto middle = depths_m.begin() + std::ssize(depths_m) / 2;
+  std::nth_element(depths_m.begin(), middle, depths_m.end());
+  for (std::size_t p = 0; p < window.size(); ++p) {
+    const Seabed* seabed = window[p].seabed;
+    if (seabed != nullptr && seabed->found) stretch[p] = stretch_of(*seabed, sector, *middle);
+  }
+  return stretch;
+}
+
+double seabed_nearer(std::span<const WaterPing> window) {
+  std::vector<double> shares;
+  for (const WaterPing& ping : window) {
+    if (ping.seabed == nullptr || !ping.seabed->found) continue;
+    shares.push_back(std::max(1.0 - kHills * ping.seabed->roughness_m / ping.seabed->offset_m, kNearest));
+  }
+  if (shares.empty()) return 1.0;
+  const auto middle = shares.begin() + std::ssize(shares) / 2;
+  std::nth_element(shares.begin(), middle, shares.end());
+  return *middle;
+}
+
+}  // namespace sonar

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "school/test_scene.h"
+#include "school/track.h"
+
+// Each judge with the scene in which it matters: without it the scene shows a school that is none.
+namespace sonar {
+namespace {
+
+using test::Scene;
+
+std::vector<RefusedDetection> refused_in(Scene& scene, const DetectParams& params = {}) {
+  std::vector<RefusedDetection> refused;
+  scene.refused = &refused;
+  EXPECT_TRUE(scene.look(4, params).empty());
+  return refused;
+}
+
+Scene noisy() {
+  Scene scene;
+  std::fill(scene.expected.all().begin(), scene.expected.all().end(), linear_from_db(-75.0));
+  std::fill(scene.flat.power_db.begin(), scene.flat.power_db.end(), -75.0);
+  return scene;
+}
+
+/// A strong fish near by: heard by some beams, and hardly longer than its pulse.
+Scene single_fish() {
+  Scene scene = noisy();
+  for (int fan = 8; fan < 13; ++fan) {
+    for (int beam = 8; beam < 13; ++beam) {
+      for (int s = 400; s < 413; ++s) scene.expected(fan, beam, s) = 1e-4;
+    }
+  }
+  return scene;
+}
+
+TEST(JudgeSize, ASingleFishIsNoSchool) {
+  Scene scene = single_fish();
+  const auto refused = refused_in(scene);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_EQ(refused[0].reason.judge, "size");
+  EXPECT_LT(refused[0].reason.figure, 5.0);
+  EXPECT_EQ(refused[0].reason.limit, 5.0);
+  EXPECT_EQ(refused[0].reason.unit, "m along range");
+  EXPECT_TRUE(refused[0].detection.box.contains(10, 10, 407));
+  EXPECT_NEAR(refused[0].detection.loudest.first_sample, 407, 8);
+}
+
+TEST(JudgeSize, WithoutItTheFishIsASchool) {
+  Scene scene = single_fish();
+  EXPECT_EQ(scene.look(4, {.min_range_m = 0.0, .min_beams = 1, .min_fans = 1}).size(), 1U);
+}
+
+constexpr double kInterval_s = 5.0;
+
+/// An echo at one place of the sonar's frame in some pings of a ship that sails at 5 m/s, and what the tracker makes of it.
+Tracks seen_in(const std::vector<int>& pings, const TrackParams& params, double ship_mps = 5.0, int first_fan = 10,
+               double level_db = -60.0) {
+  const Sector sector = test::grid().sector(test::range_axis());
+  const Array3<SampleFlags> flags({20, 25, 900});
+  std::vector<DetectedPing> detected;
+  for (int p = 0; p < 12; ++p) {
+    DetectedPing ping;
+    ping.ping_index = p;
+    ping.time = static_cast<TimeNs>(p * kInterval_s) * kSecondNs;
+    ping.placement.transducer = to_geographic(Point<Enu>{0.0, ship_mps * kInterval_s * p, 0.0}, Geographic{60.0, 4.0});
+    if (std::ranges::count(pings, p) > 0) {
+      PingMask mask;
+      for (const int fan : {first_fan, first_fan + 1}) {
+        for (int beam = 10; beam < 13; ++beam) mask.runs.push_back({fan * 25 + beam, first_fan == 18 ? 160 : 400, 30});
+      }
+      mask.confidence.assign(180, 255);
+      ping.detections.push_back(describe_mask(std::move(mask), flags.view(), sector));
+      ping.detections.back().evidence = 20.0;
+      ping.detections.back().reference_db = level_db;
+    }
+    detected.push_back(std::move(ping));
+  }
+  TrackParams asked = params;
+  asked.evidence = 9.0;
+  return track(detected, sector, test::grid().channel, asked);
+}
+
+// Another ship's sounder, or an impulse: one ping, or two.
+TEST(JudgeConfirmation, WhatOnePingShowsIsNoSchool) {
+  const Tracks tracks = seen_in({4, 5}, {}, 0.0);
+  EXPECT_TRUE(tracks.schools.empty());
+  ASSERT_EQ(tracks.refused.size(), 1U);
+  EXPECT_EQ(tracks.refused[0].reason.judge, "confirmation");
+  EXPECT_EQ(tracks.refused[0].reason.figure, 2.0);
+  EXPECT_EQ(tracks.refused[0].reason.limit, 3.0);
+}
+
+TEST(JudgeConfirmation, WithoutItItIsASchool) {
+  EXPECT_EQ(seen_in({4, 5}, {.confirm_pings = 1}, 0.0).schools.size(), 1U);
+}
+
+TEST(JudgeConfirmation, SightsMustLieNearEachOther) {
+  EXPECT_EQ(seen_in({2, 4, 6}, {}, 0.0).schools.size(), 1U) << "three in five pings";
+  EXPECT_TRUE(seen_in({2, 5, 8}, {}, 0.0).schools.empty());
+}
+
+// Bubbles that the hull carries along.
+TEST(JudgeShip, WhatStaysWithTheShipIsNoSchool) {
+  const Tracks tracks = seen_in({2, 3, 4, 5, 6, 7}, {});
+  EXPECT_TRUE(tracks.schools.empty());
+  ASSERT_EQ(tracks.refused.size(), 1U);
+  EXPECT_EQ(tracks.refused[0].reason.judge, "ship");
+  EXPECT_LT(tracks.refused[0].reason.figure, 0.05);
+}
+
+TEST(JudgeShip, WithoutItItIsASchool) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.ship_drift_share = 0.0}).schools.size(), 1U);
+}
+
+// Bubbles under the surface, 60 m away, as a ship at rest sees them: in the two top fans, 7 to 14 m deep.
+TEST(JudgeSurface, WhatHangsFromTheSurfaceIsNoSchool) {
+  const Tracks tracks = seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 18);
+  EXPECT_TRUE(tracks.schools.empty());
+  ASSERT_EQ(tracks.refused.size(), 1U);
+  EXPECT_EQ(tracks.refused[0].reason.judge, "surface");
+  EXPECT_LT(tracks.refused[0].reason.figure, 16.0);
+  EXPECT_EQ(tracks.refused[0].reason.limit, 20.0);
+}
+
+TEST(JudgeSurface, WhatIsTooLoudForBubblesIsASchool) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 18, -42.0).schools.size(), 1U) << "a school that swims at the surface";
+}
+
+TEST(JudgeSurface, WhatHasWaterAboveItIsASchool) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 17).schools.size(), 1U) << "one fan deeper";
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "school/judge/reason.h"
+#include "school/track.h"
+
+namespace sonar {
+
+/// Judge `ship`: what was tracked goes where the ship goes. What keeps its place in the sonar frame while the ship makes more
+/// way than fish do, and so goes as fast over ground, is what the sonar hears of the seabed, the surface or itself
+/// there, through side lobes as well. Of what the sector's sides cut only a part is seen, whose place tells nothing.
+/// tracked  of one track, rising
+/// pings    those that were tracked, rising
+/// out      the figure is its drift beside the ship as a share of the ship's way
+[[nodiscard]] std::optional<Reason> judge_ship(std::span<const TrackedDetection> tracked,
+                                               std::span<const DetectedPing> pings, const TrackParams& params);
+
+}  // namespace sonar

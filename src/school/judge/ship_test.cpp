@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/judge/ship.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "model/school.h"
+
+namespace sonar {
+namespace {
+
+struct Passage {
+  double ship_mps = 3.1;
+  Point<Sonar> drift_mps{};  ///< of the echo, as the ship sees it
+  std::int32_t edges = kEdgeBottomFan;
+  double turn_deg = 0.0;  ///< of the ship, each ping
+};
+
+bool stays(const Passage& passage, int pings = 5, const TrackParams& params = {}) {
+  std::vector<DetectedPing> detected;
+  std::vector<TrackedDetection> tracked;
+  Geographic place{60.0, 179.9999};
+  for (int p = 0; p < pings; ++p) {
+    DetectedPing ping;
+    ping.ping_index = 10 + p;
+    ping.time = p * 5 * kSecondNs;
+    ping.placement.transducer = place;
+    ping.placement.heading_rad = rad_from_deg(passage.turn_deg * p);
+    Detection detection;
+    detection.centre = Point<Sonar>{10.0, -200.0, 200.0} + passage.drift_mps * (5.0 * p);
+    detection.edge_flags = passage.edges;
+    ping.detections = {{}, detection};
+    tracked.push_back({ping.ping_index, {1}, {}});
+    const double way_m = 5.0 * passage.ship_mps;
+    const double heading = ping.placement.heading_rad;
+    place = to_geographic(Point<Enu>{way_m * std::sin(heading), way_m * std::cos(heading), 0.0}, place);
+    detected.push_back(std::move(ping));
+  }
+  return judge_ship(tracked, detected, params).has_value();
+}
+
+TEST(JudgeShip, TheSeabedInTheLowestFanDoes) {
+  EXPECT_TRUE(stays({}));
+  EXPECT_TRUE(stays({.drift_mps = {0.2, 0.3, 0.0}})) << "its middle wanders a little";
+  EXPECT_TRUE(stays({.drift_mps = {0.0, 0.0, 0.5}})) << "the seabed sinks";
+  EXPECT_TRUE(stays({.turn_deg = 1.0})) << "and it turns with the ship";
+  EXPECT_TRUE(stays({.edges = 0})) << "side lobes hear what lies under the ship";
+}
+
+TEST(JudgeShip, WhatIsPassedDoesNot) {
+  EXPECT_FALSE(stays({.drift_mps = {-3.1, 0.0, 0.0}})) << "at rest";
+  EXPECT_FALSE(stays({.drift_mps = {-1.1, 0.0, 0.0}})) << "swims 2 m/s with the ship";
+}
+
+TEST(JudgeShip, ASchoolThatTheShipCirclesDoesNot) {
+  // 15.5 m a ping on a circle of 200 m round it: 4.44 degrees to port, where it stays abeam.
+  for (const int pings : {3, 5, 10, 40}) EXPECT_FALSE(stays({.turn_deg = -4.44}, pings)) << pings;
+}
+
+TEST(JudgeShip, WhatTellsNothingIsLeftAlone) {
+  EXPECT_FALSE(stays({.ship_mps = 2.5})) << "fish swim as fast, before a trawl for one";
+  EXPECT_FALSE(stays({.edges = kEdgeBottomFan | kEdgeFore})) << "one longer than the sector is wide seems to stay";
+  EXPECT_FALSE(stays({}, 2)) << "two pings give no drift that could be doubted";
+  TrackParams off;
+  off.ship_drift_share = 0.0;
+  EXPECT_FALSE(stays({}, 5, off));
+}
+
+}  // namespace
+}  // namespace sonar
