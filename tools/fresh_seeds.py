@@ -182,8 +182,8 @@ def judge(limits, scores):
                 ("elevation", by_elevation, "by_elevation_third", "from_deg", "to_deg", "deg")):
             for at, schools in zip(scores[0]["summary"][key], thirds):
                 where = f"{at[low]:.0f} .. {at[high]:.0f}" if at[low] is not None else "?"
-                lines.append(within(f"backscatter, dB, {name} {where} {unit}", limits.backscatter_db,
-                                    [s["backscatter_error_db"] for s in schools]))
+                lines.append(within(f"backscatter_total, dB, {name} {where} {unit}", limits.backscatter_db,
+                                    [s["total_backscatter_error_db"] for s in schools]))
     for side in ("length", "width", "height"):
         lines.append(within(f"corrected {side}, share", limits.size, off_one(found, f"{side}_corrected_ratio")))
     lines.append(at_least("mean purity", limits.purity, statistics.mean(purity) if purity else None,

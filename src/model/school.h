@@ -69,6 +69,8 @@ struct SchoolPingRow {
   std::int64_t provisional = 0;
   double backscatter_psi_error_db = kUnknown;
   double backscatter_calibration_se_db = kUnknown;
+  double backscatter_total_m2 = kUnknown;
+  double backscatter_total_se_m2 = kUnknown;
 };
 
 /// One school track: a row of schools.csv.
@@ -105,6 +107,8 @@ struct SchoolRow {
   std::string name;  ///< that a human gave it
   double backscatter_psi_error_db = kUnknown;
   double backscatter_calibration_se_db = kUnknown;
+  double backscatter_total_m2 = kUnknown;
+  double backscatter_total_se_m2 = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -158,6 +162,8 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("provisional", "1", r.provisional);
   v("backscatter_psi_error_db", "dB", r.backscatter_psi_error_db);
   v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
+  v("backscatter_total_m2", "m2", r.backscatter_total_m2);
+  v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
 }
 
 template <class Visitor>
@@ -194,11 +200,14 @@ void columns(Visitor& v, SchoolRow& r) {
   v("name", "", r.name);
   v("backscatter_psi_error_db", "dB", r.backscatter_psi_error_db);
   v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
+  v("backscatter_total_m2", "m2", r.backscatter_total_m2);
+  v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
-  return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db";
+  return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db" ||
+         column == "backscatter_total_m2" || column == "backscatter_total_se_m2";
 }
 
 }  // namespace sonar

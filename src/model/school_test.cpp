@@ -30,8 +30,9 @@ TEST(SchoolColumns, OfPings) {
             "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"
             "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
             "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
-            "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db");
-  EXPECT_EQ(names.seen.size(), 38U);
+            "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db,"
+            "backscatter_total_m2,backscatter_total_se_m2");
+  EXPECT_EQ(names.seen.size(), 40U);
 }
 
 TEST(SchoolColumns, OfTracks) {
@@ -42,8 +43,9 @@ TEST(SchoolColumns, OfTracks) {
             "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,"
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,"
             "backscatter_m2,speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,"
-            "operator,decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db");
-  EXPECT_EQ(names.seen.size(), 32U);
+            "operator,decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
+            "backscatter_total_m2,backscatter_total_se_m2");
+  EXPECT_EQ(names.seen.size(), 34U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -16,6 +17,7 @@
 #include "school/correct_sizes.h"
 #include "school/measure.h"
 #include "school/summarise.h"
+#include "school/total_echo.h"
 #include "school/two_way_beam.h"
 
 namespace sonar {
@@ -51,10 +53,9 @@ struct Measured {
   std::vector<bool> fault;
 };
 
-Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
-                     double area) {
+/// What measuring needs to know of a ping, whatever the school.
+MeasureInput input_of(const Engine& engine, const StagedPing& ping, double area) {
   const ObservationFiles& observation = engine.observation();
-  const PingMask others = others_than(all, index);
   MeasureInput input;
   input.sv = ping.sv.counts.view();
   input.filtered = ping.filtered->counts.view();
@@ -68,6 +69,13 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   input.psi_error_db = engine.beam_figures().psi_error_db;
   input.calibration_se_db = engine.beam_figures().calibration_se_db;
   input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
+  return input;
+}
+
+Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
+                     MeasureInput input) {
+  const ObservationFiles& observation = engine.observation();
+  const PingMask others = others_than(all, index);
   input.others = &others;
   input.threshold_db = all[index].in_ping->threshold_db;
   MeasuredSchool school = measure(input, all[index].in_ping->mask, engine.recipe().measure);
@@ -97,8 +105,16 @@ Hash128 key_of(const std::vector<InPingRef>& schools) {
 
 std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine, const std::vector<InPingRef>& schools,
                                    double area) {
+  MeasureInput input = input_of(engine, ping, area);
+  std::optional<EchoClaims> claims;
+  if (schools.size() > 1) {
+    std::vector<const PingMask*> masks;
+    for (const InPingRef& school : schools) masks.push_back(&school.in_ping->mask);
+    claims = echo_claims(input, masks);
+    input.claims = &*claims;
+  }
   std::vector<Measured> rows;
-  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, area));
+  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, input));
   return rows;
 }
 

@@ -117,7 +117,7 @@ double distance_m(const SchoolPingRow& a, const SchoolPingRow& b) {
 /// Errors over the unclipped pings in which both have a row.
 void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, const SchoolKey& partner,
                   const std::map<std::int64_t, BodyInPing>& bodies, SchoolScore& out) {
-  PairedMeans volume, corrected, length, width, height, backscatter, sv, body_volume, body_backscatter;
+  PairedMeans volume, corrected, length, width, height, backscatter, sv, body_volume, body_backscatter, total;
   double cog_m = 0.0;
   int cogs = 0;
   for (const PingPair& pair : pairs) {
@@ -140,6 +140,7 @@ void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, cons
     if (const auto body = bodies.find(pair.ping_index); body != bodies.end()) {
       body_volume.add(f.volume_corrected_m3, body->second.volume_m3);
       body_backscatter.add(f.backscatter_m2, body->second.backscatter_m2);
+      total.add(f.backscatter_total_m2, body->second.backscatter_m2);
     }
   }
   if (cogs > 0) out.cog_error_m = cog_m / cogs;
@@ -152,6 +153,7 @@ void compare_rows(const std::vector<PingPair>& pairs, const Indexed& found, cons
   out.sv_error_db = sv.error_db();
   out.body_volume_corrected_ratio = body_volume.ratio();
   out.body_backscatter_error_db = body_backscatter.error_db();
+  out.total_backscatter_error_db = total.error_db();
 }
 
 /// Mean Sv of the bodies over the unclipped pings, as a school's row takes it; over all where there are none.

@@ -94,6 +94,7 @@ struct SchoolScore {
   std::int64_t fragments = 0;  ///< further tracks that lie in it
   double body_volume_corrected_ratio = kUnknown;
   double body_backscatter_error_db = kUnknown;
+  double total_backscatter_error_db = kUnknown;  ///< backscatter_total_m2 against the bodies
   double body_sv_error_db =
       kUnknown;  ///< sv_corrected_db of the school's row against its bodies in the unclipped pings
 };

@@ -25,7 +25,7 @@ struct ErrorFigure {
 };
 
 /// Ratios count as their distance from 1.
-constexpr std::array<ErrorFigure, 12> kErrors = {{
+constexpr std::array<ErrorFigure, 13> kErrors = {{
     {"cog_error_m", [](const SchoolScore& s) { return s.cog_error_m; }},
     {"volume_ratio_error", [](const SchoolScore& s) { return s.volume_ratio - 1.0; }},
     {"volume_corrected_ratio_error", [](const SchoolScore& s) { return s.volume_corrected_ratio - 1.0; }},
@@ -38,6 +38,7 @@ constexpr std::array<ErrorFigure, 12> kErrors = {{
      [](const SchoolScore& s) { return s.n_unclipped >= kSpeedPings ? s.speed_error_mps : kUnknown; }},
     {"body_volume_corrected_ratio_error", [](const SchoolScore& s) { return s.body_volume_corrected_ratio - 1.0; }},
     {"body_backscatter_error_db", [](const SchoolScore& s) { return s.body_backscatter_error_db; }},
+    {"total_backscatter_error_db", [](const SchoolScore& s) { return s.total_backscatter_error_db; }},
     {"body_sv_error_db", [](const SchoolScore& s) { return s.body_sv_error_db; }},
 }};
 
@@ -227,6 +228,7 @@ json school_json(const SchoolScore& s) {
           {"fragments", s.fragments},
           {"body_volume_corrected_ratio", number(s.body_volume_corrected_ratio)},
           {"body_backscatter_error_db", number(s.body_backscatter_error_db)},
+          {"total_backscatter_error_db", number(s.total_backscatter_error_db)},
           {"body_sv_error_db", number(s.body_sv_error_db)}};
 }
 
@@ -244,8 +246,9 @@ std::string thirds_text(const Thirds& all, const char* title) {
     const char* title;
     const char* error;
   };
-  constexpr std::array<Column, 7> kColumns = {{{"bsc dB", "backscatter_error_db"},
+  constexpr std::array<Column, 8> kColumns = {{{"bsc dB", "backscatter_error_db"},
                                                {"body dB", "body_backscatter_error_db"},
+                                               {"total dB", "total_backscatter_error_db"},
                                                {"sv dB", "sv_error_db"},
                                                {"volume", "volume_corrected_ratio_error"},
                                                {"length", "length_corrected_ratio_error"},

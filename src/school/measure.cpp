@@ -14,6 +14,7 @@
 #include "school/edges.h"
 #include "school/mask_shape.h"
 #include "school/runs.h"
+#include "school/total_echo.h"
 
 namespace sonar {
 namespace {
@@ -205,6 +206,9 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
+  const TotalEcho total = total_echo(ping, mask, ping.claims);
+  row.backscatter_total_m2 = total.backscatter_m2;
+  row.backscatter_total_se_m2 = total.se_m2;
   if (ping.seabed != nullptr) {
     // The seabed is a plane in the sector; its depth under the school is that of the levelled place.
     const double depth =

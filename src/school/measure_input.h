@@ -16,6 +16,8 @@
 
 namespace sonar {
 
+struct EchoClaims;
+
 /// What one ping offers for measuring; borrowed.
 struct MeasureInput {
   View3<const std::int16_t> sv;        ///< unfiltered Sv counts
@@ -31,9 +33,10 @@ struct MeasureInput {
   /// the calibration; empty = not known.
   std::span<const double> psi_error_db;
   std::span<const double> calibration_se_db;
-  const Seabed* seabed = nullptr;    ///< null = none seen
-  const PingMask* others = nullptr;  ///< voxels of all other schools of the ping; null = none
-  double threshold_db = kUnknown;    ///< the mask's, for the record
+  const Seabed* seabed = nullptr;      ///< null = none seen
+  const PingMask* others = nullptr;    ///< voxels of all other schools of the ping; null = none
+  const EchoClaims* claims = nullptr;  ///< what each school of the ping reaches for; null = there is no other
+  double threshold_db = kUnknown;      ///< the mask's, for the record
 };
 
 }  // namespace sonar

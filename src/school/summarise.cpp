@@ -135,6 +135,22 @@ void summarise_place(const Rows& rows, SchoolRow& out) {
   out.longitude = where.longitude_deg;
 }
 
+/// Mean of the pings' total backscatter; fading differs from ping to ping, so that their errors do not add up.
+void summarise_total(const Rows& used, SchoolRow& out) {
+  double sum = 0.0;
+  double variance = 0.0;
+  int n = 0;
+  for (const SchoolPingRow* row : used) {
+    if (!std::isfinite(row->backscatter_total_m2)) continue;
+    sum += row->backscatter_total_m2;
+    variance += row->backscatter_total_se_m2 * row->backscatter_total_se_m2;
+    ++n;
+  }
+  if (n == 0) return;
+  out.backscatter_total_m2 = sum / n;
+  out.backscatter_total_se_m2 = std::sqrt(variance) / n;
+}
+
 /// Backscatter, corrected volume and their ratio over the pings that know both, where there are any.
 void summarise_echo(const Rows& used, SchoolRow& out) {
   Rows both;
@@ -178,6 +194,7 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   out.height_m = median_of(used, &SchoolPingRow::height_m);
   out.sv_mean_db = linear_mean_db(used, &SchoolPingRow::sv_mean_db);
   summarise_echo(used, out);
+  summarise_total(used, out);
   summarise_motion(rows, params, out);
   return out;
 }

@@ -15,7 +15,7 @@ LIMITS = fresh_seeds.Limits(found=0.9, dice=0.8, false_per_200=0.5, backscatter_
 
 def school(**changed):
     return {"counted": True, "found_id": "obs-0001/1", "merged": False, "dice": 0.9, "purity": 1.0, "range_m": 50.0,
-            "elevation_deg": -5.0, "n_unclipped": 9, "backscatter_error_db": 0.1, "body_backscatter_error_db": -0.5,
+            "elevation_deg": -5.0, "n_unclipped": 9, "backscatter_error_db": 0.1, "total_backscatter_error_db": 0.1, "body_backscatter_error_db": -0.5,
             "sv_error_db": 0.0, "speed_error_mps": 0.01, "volume_ratio": 1.1, "volume_corrected_ratio": 1.0,
             "length_corrected_ratio": 1.0, "width_corrected_ratio": 1.0, "height_corrected_ratio": 1.0, **changed}
 
@@ -79,20 +79,20 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(causes, {})
 
     def test_schools_are_pooled_by_third_with_their_sign(self):
-        near = [school(backscatter_error_db=-0.3, range_m=20.0, elevation_deg=-40.0) for _ in range(6)]
-        far = [school(backscatter_error_db=0.15, range_m=400.0, elevation_deg=5.0) for _ in range(6)]
+        near = [school(total_backscatter_error_db=-0.3, range_m=20.0, elevation_deg=-40.0) for _ in range(6)]
+        far = [school(total_backscatter_error_db=0.15, range_m=400.0, elevation_deg=5.0) for _ in range(6)]
         lines, _ = verdicts([survey(near[:3] + far[:3]), survey(near[3:] + far[3:])])
-        self.assertEqual(lines["backscatter, dB, range 0 .. 100 m"].figure, -0.3)
-        self.assertIs(lines["backscatter, dB, range 0 .. 100 m"].good, False)
-        self.assertIs(lines["backscatter, dB, range 200 .. 300 m"].good, True)
-        self.assertIsNone(lines["backscatter, dB, range 100 .. 200 m"].good, "nothing there to judge")
-        self.assertIs(lines["backscatter, dB, elevation -45 .. -30 deg"].good, False)
-        self.assertIs(lines["backscatter, dB, elevation -15 .. 0 deg"].good, True)
+        self.assertEqual(lines["backscatter_total, dB, range 0 .. 100 m"].figure, -0.3)
+        self.assertIs(lines["backscatter_total, dB, range 0 .. 100 m"].good, False)
+        self.assertIs(lines["backscatter_total, dB, range 200 .. 300 m"].good, True)
+        self.assertIsNone(lines["backscatter_total, dB, range 100 .. 200 m"].good, "nothing there to judge")
+        self.assertIs(lines["backscatter_total, dB, elevation -45 .. -30 deg"].good, False)
+        self.assertIs(lines["backscatter_total, dB, elevation -15 .. 0 deg"].good, True)
 
     def test_what_the_interval_leaves_open(self):
         def of(values):
-            lines, _ = verdicts([survey([school(backscatter_error_db=v) for v in values])])
-            line = lines["backscatter, dB, range 0 .. 100 m"]
+            lines, _ = verdicts([survey([school(total_backscatter_error_db=v) for v in values])])
+            line = lines["backscatter_total, dB, range 0 .. 100 m"]
             return line.good, line.open
 
         self.assertEqual(of([0.1] * 6), (True, False))
@@ -101,8 +101,8 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(of([0.3] * 6), (False, False))
 
     def test_few_are_not_judged(self):
-        lines, _ = verdicts([survey([school(backscatter_error_db=-3.0, length_corrected_ratio=2.0) for _ in range(5)])])
-        self.assertIsNone(lines["backscatter, dB, range 0 .. 100 m"].good)
+        lines, _ = verdicts([survey([school(total_backscatter_error_db=-3.0, length_corrected_ratio=2.0) for _ in range(5)])])
+        self.assertIsNone(lines["backscatter_total, dB, range 0 .. 100 m"].good)
         self.assertIsNone(lines["corrected length, share"].good)
         self.assertTrue(str(lines["corrected length, share"]).startswith("few"))
 
@@ -113,7 +113,7 @@ class Verdicts(unittest.TestCase):
         self.assertIs(lines["corrected width, share"].good, True)
 
     def test_what_was_not_found_or_shares_a_track_is_missed_and_gives_no_errors(self):
-        lost = school(found_id=None, dice=0.0, purity=None, backscatter_error_db=None)
+        lost = school(found_id=None, dice=0.0, purity=None, total_backscatter_error_db=None)
         lines, _ = verdicts([survey([school() for _ in range(8)] + [lost, school(merged=True, purity=0.4, sv_error_db=9.0),
                                                                      school(counted=False, sv_error_db=9.0)])])
         self.assertEqual(lines["counted schools found"].figure, 0.8)
