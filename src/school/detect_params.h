@@ -29,7 +29,7 @@ void describe(Visitor& v, DetectParams& p) {
   v.field("min_fans", p.min_fans, {.unit = "fans", .min = 1, .max = 1000, .text = "least number of fans of a school"});
 }
 
-/// Evidence that the blocks of a school reach where an hour of water without fish shows `false_alarm` of them.
+/// Evidence asked of a school's blocks for a rate of `false_alarm`; how the two go together is not calibrated yet.
 [[nodiscard]] double evidence_wanted(const DetectParams& params);
 /// Evidence from which echo extends a school that other pings show.
 inline constexpr double kLeastEvidence = 5.0;
