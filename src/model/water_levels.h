@@ -10,6 +10,9 @@
 
 namespace sonar {
 
+/// WaterLevels::patch counts in such steps, 0.19 dB.
+inline constexpr int kPatchStep = 16;
+
 /// A block of one beam that stands out of its water.
 struct EchoCell {
   std::int32_t row = 0;    ///< fan * beams + beam
@@ -25,6 +28,8 @@ struct WaterLevels {
   std::int32_t blocks = 0;          ///< of each beam
   std::vector<float> stretch;       ///< [row]; empty = 1 everywhere
   std::vector<std::int16_t> level;  ///< [fan][block] mean of the water, Sv counts; kMinCount = not known
+  std::vector<std::int8_t>
+      patch;  ///< [row][block] louder than that or than the noise in this ping, kPatchStep; empty = 0
   std::vector<std::int16_t> reach;  ///< [fan][block] so far above that single beams of it reach, counts
   std::vector<EchoCell> cells;      ///< by (row, block)
 

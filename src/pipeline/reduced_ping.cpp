@@ -90,6 +90,7 @@ bool fits(const WaterLevels& water, const Shape3& shape) {
       water.level.size() != per_fan * static_cast<std::size_t>(shape.fans))
     return false;
   if (water.reach.size() != water.level.size()) return false;
+  if (!water.patch.empty() && water.patch.size() != per_fan * shape.rows()) return false;
   if (!water.stretch.empty() && water.stretch.size() != shape.rows()) return false;
   if (!std::all_of(water.stretch.begin(), water.stretch.end(), [](float by) { return by > 0.1F && by < 10.0F; }))
     return false;

@@ -53,7 +53,7 @@ std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const De
       rows.back().echo_id = --id;
     }
   }
-  const double clear = evidence_wanted(engine.recipe().detect);
+  const double clear = clear_evidence(engine.recipe().detect);
   for (const RefusedTrack& track : tracks.refused) {
     const bool seen_clearly = std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
       return ping_of(pings, seen.ping_index)->detections[static_cast<std::size_t>(seen.detections.front())].evidence >=

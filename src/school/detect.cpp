@@ -82,7 +82,7 @@ class PingDetector {
   void tell_refusal(const Runs& component, double reference_db, std::vector<RefusedDetection>& refused) const {
     PingMask whole{component, {}};
     const double evidence = evidence_of(whole, echo_.water);
-    if (evidence < evidence_wanted(params_) || !refusal_) return;
+    if (evidence < clear_evidence(params_) || !refusal_) return;
     PingMask mask{refusal_->part, {}};
     std::size_t voxels = 0;
     for (const Run& run : mask.runs) voxels += static_cast<std::size_t>(run.count);

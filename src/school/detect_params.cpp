@@ -9,9 +9,14 @@ namespace sonar {
 double evidence_wanted(const DetectParams& params) {
   // A guess. Fading water without fish showed no school at any evidence down to 2.5; bubbles, plumes and single fish show
   // more than the rate says, and hardly depend on it.
-  constexpr double kAtOne = 8.0;
-  constexpr double kPerDecade = 1.0;
-  return std::max(kLeastEvidence, kAtOne - kPerDecade * std::log10(params.false_alarm));
+  constexpr double kAtOne = 18.0;
+  constexpr double kPerDecade = 2.0;
+  return std::max(0.0, kAtOne - kPerDecade * std::log10(params.false_alarm));
+}
+
+double clear_evidence(const DetectParams& params) {
+  constexpr double kSights = 3.0;
+  return kChanceEvidence + evidence_wanted(params) / kSights;
 }
 
 }  // namespace sonar

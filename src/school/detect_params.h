@@ -29,10 +29,17 @@ void describe(Visitor& v, DetectParams& p) {
   v.field("min_fans", p.min_fans, {.unit = "fans", .min = 1, .max = 1000, .text = "least number of fans of a school"});
 }
 
-/// Evidence asked of a school's blocks for a rate of `false_alarm`; how the two go together is not calibrated yet.
+/// Evidence asked of a school over its sights, each counted by what it has above kChanceEvidence, for a rate of
+/// `false_alarm`; how the two go together is not calibrated yet.
 [[nodiscard]] double evidence_wanted(const DetectParams& params);
-/// Evidence from which echo extends a school that other pings show.
-inline constexpr double kLeastEvidence = 5.0;
+/// Evidence of a single sight such that a few like it are a school: what is refused in spite of it is told.
+[[nodiscard]] double clear_evidence(const DetectParams& params);
+/// Evidence from which an echo may be a sight of a school: in fading water about one block of a ping has it.
+inline constexpr double kLeastEvidence = 3.5;
+/// What water without fish shows where a school might be.
+inline constexpr double kChanceEvidence = 2.5;
+/// A sight counts with so much at most: what one ping alone shows is another sounder's pulse.
+inline constexpr double kMostEvidence = 12.0;
 
 /// A candidate's school is sought so far beyond its box, and members lie so far outside what the filtered data show.
 struct SearchReach {

@@ -55,26 +55,31 @@ Thresholder::RowWater::RowWater(const Background& background, const WaterLevels*
   level_ = water->level.data() + fan;
   reach_ = water->reach.data() + fan;
   scale_ = water->stretch_of(row) / water->block_samples;
+  if (!water->patch.empty()) patch_ = water->patch.data() + static_cast<std::ptrdiff_t>(row) * water->blocks;
 }
 
-int Thresholder::RowWater::between(const std::int16_t* table, int sample) const {
+template <class Value>
+double Thresholder::RowWater::between(const Value* table, int sample) const {
   const double at = std::clamp((sample + 0.5) * scale_ - 0.5, 0.0, static_cast<double>(water_->blocks - 1));
   const int block = static_cast<int>(at);
   const int next = std::min(block + 1, water_->blocks - 1);
   const int here = table[block];
   const int there = table[next];
   if (here == kMinCount || there == kMinCount) return std::max(here, there);
-  return here + static_cast<int>((there - here) * (at - block));
+  return here + (there - here) * (at - block);
 }
 
 int Thresholder::RowWater::mean(int sample) const {
   int level = kMinCount;
   if (calibration_ != nullptr) level = std::max(level, power_ + calibration_[sample]);
-  if (water_ != nullptr) level = std::max(level, between(level_, sample));
+  if (water_ != nullptr) level = std::max(level, static_cast<int>(between(level_, sample)));
+  if (patch_ != nullptr && level > kMinCount) level += static_cast<int>(kPatchStep * between(patch_, sample));
   return level;
 }
 
-int Thresholder::RowWater::reach(int sample) const { return water_ == nullptr ? 0 : between(reach_, sample); }
+int Thresholder::RowWater::reach(int sample) const {
+  return water_ == nullptr ? 0 : static_cast<int>(between(reach_, sample));
+}
 
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
                          const WaterLevels* water, const PingMask* taken)

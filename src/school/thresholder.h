@@ -39,13 +39,15 @@ class Thresholder {
     [[nodiscard]] int reach(int sample) const;
 
    private:
-    [[nodiscard]] int between(const std::int16_t* table, int sample) const;
+    template <class Value>
+    [[nodiscard]] double between(const Value* table, int sample) const;
 
     const std::int16_t* calibration_ = nullptr;
     int power_ = 0;
     const WaterLevels* water_ = nullptr;
     const std::int16_t* level_ = nullptr;
     const std::int16_t* reach_ = nullptr;
+    const std::int8_t* patch_ = nullptr;
     double scale_ = 0.0;
   };
 

@@ -16,7 +16,7 @@
 namespace sonar {
 
 struct TrackParams {
-  double evidence = 0.0;  ///< a clear sight has so much; not a parameter: it follows from DetectParams::false_alarm
+  double evidence = 0.0;  ///< of a school over its sights; not a parameter: it follows from DetectParams::false_alarm
   double acceleration_mps2 = 0.05;
   double initial_speed_mps = 2.0;
   double position_share = 0.08;
@@ -46,8 +46,12 @@ struct TrackParams {
   static constexpr double divide_both_share =
       0.7;  ///< ... where the detection is this share of both schools' volumes or more
   static constexpr int divide_both_pings = 2;    ///< pings, ... or so often, which is enough ...
-  static constexpr double ship_least_mps = 3.0;  ///< m s-1, ... of a ship that is at least so fast; fish are not
+  static constexpr double ship_least_mps = 0.5;  ///< m s-1, ... of a ship that does not drift with the water
   static constexpr double ship_least_m = 20.0;   ///< m, ... and went so far
+  static constexpr double ship_cut_m =
+      200.0;                               ///< m, ... or, beside what the sector cuts, farther than schools are long
+  static constexpr double fish_mps = 1.0;  ///< m s-1, standard deviation of a school's velocity, per axis
+  static constexpr double fish_chance = 0.01;  ///< of schools go with the ship by chance, and are refused
 };
 
 template <class Visitor>

@@ -72,7 +72,7 @@ std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
   };
   std::size_t bytes = 0;
   if (rest.size() >= kReducedWaterHeadBytes && begins_with(rest, kReducedWaterMark)) {
-    bytes = kReducedWaterHeadBytes + 4 * number(12) + 4 * number(16) + 12 * number(20);
+    bytes = kReducedWaterHeadBytes + 4 * number(12) + 4 * number(16) + 12 * number(20) + number(24);
   } else if (rest.size() >= kReducedWaterHeadBytes1 && begins_with(rest, kReducedWaterMark1)) {
     bytes = kReducedWaterHeadBytes1 + 2 * number(8);
   }
@@ -83,7 +83,7 @@ std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
 std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) {
   if (!begins_with(rest, kReducedWaterMark) || rest.size() < kReducedWaterHeadBytes) return std::nullopt;
   const auto number = [&](std::size_t at) { return number_at<std::int32_t>(rest, at); };
-  const std::array<std::int32_t, 3> counts{number(12), number(16), number(20)};
+  const std::array<std::int32_t, 4> counts{number(12), number(16), number(20), number(24)};
   for (const std::int32_t count : counts) {
     if (count < 0 || count > kMaxSamples) return std::nullopt;
   }
@@ -94,8 +94,9 @@ std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) 
   water.level.resize(static_cast<std::size_t>(counts[1]));
   water.reach.resize(water.level.size());
   water.cells.resize(static_cast<std::size_t>(counts[2]));
-  const std::size_t wanted =
-      kReducedWaterHeadBytes + 4 * water.stretch.size() + 4 * water.level.size() + 12 * water.cells.size();
+  water.patch.resize(static_cast<std::size_t>(counts[3]));
+  const std::size_t wanted = kReducedWaterHeadBytes + 4 * water.stretch.size() + 4 * water.level.size() +
+                             12 * water.cells.size() + water.patch.size();
   if (rest.size() < wanted) return std::nullopt;
   std::size_t at = kReducedWaterHeadBytes;
   const auto next = [&]<class T>(T& value) {
@@ -110,6 +111,7 @@ std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) 
     next(cell.block);
     next(cell.evidence);
   }
+  for (std::int8_t& steps : water.patch) next(steps);
   return water;
 }
 

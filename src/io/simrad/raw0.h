@@ -28,7 +28,7 @@ inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
 /// and cells, then these, little-endian. (Files that were reduced earlier have SXW1: levels by range alone, passed over.)
 inline constexpr std::string_view kReducedWaterMark = "SXW2";
 inline constexpr std::string_view kReducedWaterMark1 = "SXW1";
-inline constexpr std::size_t kReducedWaterHeadBytes = 24;
+inline constexpr std::size_t kReducedWaterHeadBytes = 28;
 inline constexpr std::size_t kReducedWaterHeadBytes1 = 12;
 /// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.
 inline constexpr std::string_view kReducedShortMark = "SXL2";

@@ -109,7 +109,7 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
     const WaterLevels& water = *p.reduced_water;
     put(out, water.block_samples);
     put(out, water.blocks);
-    for (const std::size_t count : {water.stretch.size(), water.level.size(), water.cells.size()}) {
+    for (const std::size_t count : {water.stretch.size(), water.level.size(), water.cells.size(), water.patch.size()}) {
       put(out, static_cast<std::int32_t>(count));
     }
     for (const float stretch : water.stretch) put_f32(out, stretch);
@@ -120,6 +120,7 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
       put(out, cell.block);
       put_f32(out, cell.evidence);
     }
+    for (const std::int8_t steps : water.patch) out.push_back(std::bit_cast<std::byte>(steps));
   }
   if (p.reduced_short.empty()) return;
   put_mark(out, simrad::kReducedShortMark);

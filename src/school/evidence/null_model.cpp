@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/units.h"
+#include "school/evidence/patches.h"
 #include "school/evidence/seabed_stretch.h"
 
 namespace sonar {
@@ -21,6 +23,7 @@ constexpr std::size_t kPool = 3;         ///< blocks each side that lend theirs 
 constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
 constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the second look
 constexpr int kLooks = 3;
+constexpr double kClip = 2.0;         ///< spreads, up to which a block tells of the patch it lies in
 constexpr double kRise_db = 3.0;      ///< of the seabed out of the water before it
 constexpr double kUpperTail = 1.645;  ///< standard deviations from the median to the 95th percentile
 
@@ -248,7 +251,25 @@ class Window {
       }
       excess_.push_back(std::move(excess));
     }
+    level_patches();
     spread_ = tell(excess_);
+  }
+
+  /// Takes out of each ping's excess what is wider than schools.
+  void level_patches() {
+    std::vector<std::int16_t> clip(cells());
+    for (std::size_t i = 0; i < cells(); ++i) {
+      clip[i] = static_cast<std::int16_t>(kClip * std::max<double>(water_[i].below, counts_from_db(kLeastSpread_db)));
+    }
+    patches_.clear();
+    for (std::size_t p = 0; p < pings_.size(); ++p) {
+      patches_.push_back(local_patches(std::as_const(excess_[p]).view(), std::as_const(masked_[p]).view(), clip));
+      auto patch = patches_.back().begin();
+      for (std::int16_t& excess : excess_[p].all()) {
+        const int by = kPatchStep * *patch++;
+        if (excess != kNoData) excess = static_cast<std::int16_t>(excess - by);
+      }
+    }
   }
 
   /// Before what stands out is known the upper tail may be a school's; then it is the tail that schools must exceed.
@@ -333,6 +354,7 @@ class Window {
     out.block_samples = kPieces * piece_;
     out.blocks = shape_.samples;
     out.stretch = stretch_[p];
+    out.patch = patches_[p];
     for (std::size_t i = 0; i < cells(); ++i) {
       out.level.push_back(water_[i].middle == kNoData ? std::int16_t{kMinCount} : water_[i].middle);
       out.reach.push_back(spread_[i].middle == kNoData ? std::int16_t{0}
@@ -356,6 +378,7 @@ class Window {
   std::vector<Levels> levels_;
   std::vector<Levels> floors_;
   std::vector<Levels> excess_;
+  std::vector<std::vector<std::int8_t>> patches_;  ///< [ping][row][block]
   std::vector<Levels> evidence_;
   std::vector<Marks> masked_;
   std::vector<Told> water_;

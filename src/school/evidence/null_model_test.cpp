@@ -117,6 +117,51 @@ TEST(NullModel, WhatAllBeamsHearIsWater) {
   EXPECT_LE(cells, 20U);
 }
 
+/// Plankton 4 dB up and down, over 100 m along range and 30 degrees across; another phase in each ping.
+double patchy(int f, int b, int s, int p) {
+  const double phase = 2.0 * 3.14159265 * (s / 260.0 + b / 10.0 + f / 20.0) + 1.7 * p;
+  return water(f, b, s, p) * linear_from_db(4.0 * std::sin(phase));
+}
+
+TEST(NullModel, PatchesWiderThanSchoolsAreWater) {
+  std::size_t cells = 0;
+  for (const WaterLevels& ping : Pings(patchy).levels()) cells += ping.cells.size();
+  EXPECT_LE(cells, 20U);
+}
+
+// The same school as in even water, and the water it is held against follows the patches: 4 dB of them to one.
+TEST(NullModel, ASchoolStandsOutOfPatchyWater) {
+  const auto school = [](int f, int b, int s, int p) {
+    const bool inside = f >= 9 && f < 12 && b >= 11 && b < 14 && s >= 300 && s < 330;
+    return patchy(f, b, s, p) * (inside ? 10.0 : 1.0);
+  };
+  const Pings pings(school);
+  const std::vector<WaterLevels> told = pings.levels();
+  for (std::size_t p = 0; p < told.size(); ++p) {
+    const bool seen = std::ranges::any_of(told[p].cells, [&](const EchoCell& cell) {
+      return cell.row == 10 * 25 + 12 && cell.evidence > 7.0F &&
+             std::abs(cell.block - told[p].block_at(cell.row, 315)) < 1.5;
+    });
+    EXPECT_TRUE(seen) << p;
+  }
+  double squares = 0.0;
+  int number = 0;
+  for (int b = 4; b < 21; ++b) {
+    for (int s = 120; s < 780; s += 15) {
+      const int row = 4 * 25 + b;
+      const auto block = static_cast<std::size_t>(told[3].block_at(row, s) + 0.5);
+      const auto blocks = static_cast<std::size_t>(told[3].blocks);
+      const double level_db =
+          db_from_counts(told[3].level[4 * blocks + block]) +
+          db_from_counts(kPatchStep * told[3].patch[static_cast<std::size_t>(row) * blocks + block]);
+      const double off_db = level_db - db_from_linear(patchy(4, b, s, 3));
+      squares += off_db * off_db;
+      ++number;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / number), 1.5);
+}
+
 // Half the beams of every ping: they would be the water, were the ping looked at alone without its noise.
 TEST(NullModel, FaultySamplesHaveNoSay) {
   Array3<std::int16_t> counts(kShape, static_cast<std::int16_t>(counts_from_db(kWater_db)));

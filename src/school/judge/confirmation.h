@@ -9,11 +9,11 @@
 
 namespace sonar {
 
-/// Judge `confirmation`: pings near each other show a school clearly; fainter sights only carry it on. What one ping alone
-/// shows is another sounder's pulse, or chance.
+/// Judge `confirmation`: a school is seen in pings near each other, and what its sights show together is more than chance
+/// gives. Faint sights count for little and many of them for much; a ping that shows none counts against it.
 /// tracked  of one track, rising
 /// pings    those that were tracked, rising
-/// out      the figure is the most clear sights in a window
+/// out      the figure is the most sights in a window, or the evidence of all
 [[nodiscard]] std::optional<Reason> judge_confirmation(std::span<const TrackedDetection> tracked,
                                                        std::span<const DetectedPing> pings, const TrackParams& params);
 

@@ -60,7 +60,7 @@ constexpr double kInterval_s = 5.0;
 
 /// An echo at one place of the sonar's frame in some pings of a ship that sails at 5 m/s, and what the tracker makes of it.
 Tracks seen_in(const std::vector<int>& pings, const TrackParams& params, double ship_mps = 5.0, int first_fan = 10,
-               double level_db = -60.0) {
+               double level_db = -60.0, double evidence = 20.0) {
   const Sector sector = test::grid().sector(test::range_axis());
   const Array3<SampleFlags> flags({20, 25, 900});
   std::vector<DetectedPing> detected;
@@ -76,13 +76,13 @@ Tracks seen_in(const std::vector<int>& pings, const TrackParams& params, double 
       }
       mask.confidence.assign(180, 255);
       ping.detections.push_back(describe_mask(std::move(mask), flags.view(), sector));
-      ping.detections.back().evidence = 20.0;
+      ping.detections.back().evidence = evidence;
       ping.detections.back().reference_db = level_db;
     }
     detected.push_back(std::move(ping));
   }
   TrackParams asked = params;
-  asked.evidence = 9.0;
+  asked.evidence = 15.0;
   return track(detected, sector, test::grid().channel, asked);
 }
 
@@ -103,6 +103,23 @@ TEST(JudgeConfirmation, WithoutItItIsASchool) {
 TEST(JudgeConfirmation, SightsMustLieNearEachOther) {
   EXPECT_EQ(seen_in({2, 4, 6}, {}, 0.0).schools.size(), 1U) << "three in five pings";
   EXPECT_TRUE(seen_in({2, 5, 8}, {}, 0.0).schools.empty());
+}
+
+// 5 above nothing is 2.5 above what chance gives: nine sights have 22.5 together, three 7.5.
+TEST(JudgeConfirmation, ManyFaintSightsAreASchoolAndFewAreNot) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7, 8, 9, 10}, {}, 0.0, 10, -60.0, 5.0).schools.size(), 1U);
+  const Tracks few = seen_in({2, 3, 4}, {}, 0.0, 10, -60.0, 5.0);
+  EXPECT_TRUE(few.schools.empty());
+  ASSERT_EQ(few.refused.size(), 1U);
+  EXPECT_EQ(few.refused[0].reason.judge, "confirmation");
+  EXPECT_NEAR(few.refused[0].reason.figure, 7.5, 1e-9);
+  EXPECT_EQ(few.refused[0].reason.limit, 15.0);
+}
+
+// Each ping between that shows nothing takes 2.5: six sights with 15 together, and five such pings.
+TEST(JudgeConfirmation, PingsThatShowNothingCountAgainstIt) {
+  EXPECT_EQ(seen_in({1, 2, 3, 4, 5, 6}, {}, 0.0, 10, -60.0, 5.0).schools.size(), 1U);
+  EXPECT_TRUE(seen_in({1, 3, 5, 7, 9, 11}, {}, 0.0, 10, -60.0, 5.0).schools.empty());
 }
 
 // Bubbles that the hull carries along.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/school.h"
+#include "school/judge/confirmation.h"
 #include "school/motion.h"
 
 namespace sonar {
@@ -39,32 +40,54 @@ double rate(const std::vector<Sight>& sights, const Coordinate& coordinate) {
   return tt > 0.0 ? tx / tt : 0.0;
 }
 
+/// Length of a way along a few straight stretches: a ship that turns has made all of it, and what jitters to and fro none.
+template <class Place>
+double way_m(const std::vector<Sight>& sights, const Place& place) {
+  constexpr std::size_t kStretches = 4;
+  const std::size_t last = sights.size() - 1;
+  double way = 0.0;
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    const Point<Enu> step = place(sights[last * (i + 1) / kStretches]) - place(sights[last * i / kStretches]);
+    way += std::hypot(step.x, step.y);
+  }
+  return way;
+}
+
+/// Share of schools whose velocity lies so near the ship's.
+double chance(double ship_mps, double drift_mps) {
+  const double variance = TrackParams::fish_mps * TrackParams::fish_mps;
+  return drift_mps * drift_mps / (2.0 * variance) * std::exp(-ship_mps * ship_mps / (2.0 * variance));
+}
+
 }  // namespace
 
 std::optional<Reason> judge_ship(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
                                  const TrackParams& params) {
   if (params.ship_drift_share <= 0.0 || tracked.size() < 3) return std::nullopt;
   std::vector<Sight> sights;
-  const auto index_of = [](const DetectedPing& ping) { return ping.ping_index; };
+  bool cut = false;
   for (const TrackedDetection& there : tracked) {
-    const auto ping = std::ranges::lower_bound(pings, there.ping_index, {}, index_of);
+    const auto ping = ping_of(pings, there.ping_index);
     const Detection& detection = ping->detections[static_cast<std::size_t>(there.detections.front())];
-    if ((detection.edge_flags & kCutAside) != 0) return std::nullopt;
+    cut = cut || (detection.edge_flags & kCutAside) != 0;
     const PingFrame frame(ping->placement, pings.front().placement.transducer);
     const auto since = static_cast<double>(ping->time - pings.front().time) / static_cast<double>(kSecondNs);
     sights.push_back({since, detection.centre, frame.to_world({}), frame.to_world(detection.centre)});
   }
-  const Point<Enu> way = sights.back().ship - sights.front().ship;
-  const double way_m = std::hypot(way.x, way.y);
-  const Point<Enu> its_way = sights.back().there - sights.front().there;
   const double took_s = sights.back().time_s - sights.front().time_s;
-  if (way_m < TrackParams::ship_least_m || way_m < TrackParams::ship_least_mps * took_s) return std::nullopt;
+  const double ship_m = way_m(sights, [](const Sight& s) { return s.ship; });
+  if (ship_m < (cut ? TrackParams::ship_cut_m : TrackParams::ship_least_m)) return std::nullopt;
+  if (ship_m < TrackParams::ship_least_mps * took_s) return std::nullopt;
   // a ship that circles a school keeps it abeam
-  if (std::hypot(its_way.x, its_way.y) < (1.0 - params.ship_drift_share) * way_m) return std::nullopt;
+  if (way_m(sights, [](const Sight& s) { return s.there; }) < (1.0 - params.ship_drift_share) * ship_m) {
+    return std::nullopt;
+  }
   const double drift_mps = std::hypot(rate(sights, [](const Sight& s) { return s.seen.x; }),
                                       rate(sights, [](const Sight& s) { return s.seen.y; }));
-  const double share = drift_mps * took_s / way_m;
-  if (share > params.ship_drift_share) return std::nullopt;
+  const double share = drift_mps * took_s / ship_m;
+  if (share > params.ship_drift_share || chance(ship_m / took_s, drift_mps) > TrackParams::fish_chance) {
+    return std::nullopt;
+  }
   return Reason{"ship", share, params.ship_drift_share, "share of the ship's way"};
 }
 
