@@ -21,6 +21,7 @@
 #include "pipeline/measure_schools.h"
 #include "pipeline/refused_echoes.h"
 #include "school/detect_params.h"
+#include "school/steady_masks.h"
 #include "school/track.h"
 
 namespace sonar {
@@ -46,7 +47,9 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
 Tracks tracked(const Engine& engine, std::span<const DetectedPing> pings) {
   TrackParams params = engine.recipe().track;
   params.evidence = evidence_wanted(engine.recipe().detect);
-  return track(pings, engine.sector(), engine.grid().channel, params);
+  Tracks tracks = track(pings, engine.sector(), engine.grid().channel, params);
+  for (SchoolTrack& school : tracks.schools) steady_masks(school, pings, engine.sector());
+  return tracks;
 }
 
 std::vector<SchoolMasks> masks_of(const Tracks& tracks, std::span<const DetectedPing> pings) {

@@ -75,4 +75,14 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
   return tracks;
 }
 
+PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping) {
+  if (!tracked.part.empty()) return tracked.part;
+  PingMask mask;
+  for (const int d : tracked.detections) {
+    const PingMask& piece = ping.detections[static_cast<std::size_t>(d)].mask;
+    mask = mask.empty() ? piece : unite(mask, piece);
+  }
+  return mask;
+}
+
 }  // namespace sonar

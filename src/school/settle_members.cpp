@@ -18,7 +18,7 @@ namespace {
 constexpr double kMemberShare = 0.92;        ///< of a school's medians lies below its reference
 constexpr double kPeakShare = 0.995;         ///< of a school's filtered voxels lies below its peak
 constexpr double kPeakAbove_db = 1.5;        ///< the reference lies so far above the filtered peak at least
-constexpr double kLeastAboveWater_db = 1.5;  ///< members stand so far above the background
+constexpr double kLeastAboveWater_db = 2.5;  ///< members stand so far above the background
 constexpr double kLeastValley_db = 5.0;  ///< two schools that the filter joined stand so far above the valley between
 constexpr double kValleyStep_db = 1.0;   ///< which is sounded in such steps
 constexpr double kCrownShare = 0.5;      ///< both are as large as a school so far up from it to their tops

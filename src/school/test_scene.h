@@ -65,7 +65,7 @@ struct Scene {
                         water,
                         peaked};
     std::vector<Detection> found = detect(echo, params, taken, refused);
-    std::erase_if(found, [&](const Detection& d) { return d.evidence < evidence_wanted(params); });
+    std::erase_if(found, [&](const Detection& d) { return d.evidence < clear_evidence(params); });
     return found;
   }
 

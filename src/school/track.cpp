@@ -386,14 +386,4 @@ Tracks track(std::span<const DetectedPing> pings, const Sector& sector, std::spa
   return Tracker(pings, sector, channel, params).run();
 }
 
-PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping) {
-  if (!tracked.part.empty()) return tracked.part;
-  PingMask mask;
-  for (const int d : tracked.detections) {
-    const PingMask& piece = ping.detections[static_cast<std::size_t>(d)].mask;
-    mask = mask.empty() ? piece : unite(mask, piece);
-  }
-  return mask;
-}
-
 }  // namespace sonar

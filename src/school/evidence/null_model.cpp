@@ -25,6 +25,7 @@ constexpr double kMasked = 6.0;          ///< what stands out so far has no say 
 constexpr int kLooks = 3;
 constexpr double kClip = 2.0;         ///< spreads, up to which a block tells of the patch it lies in
 constexpr double kRise_db = 3.0;      ///< of the seabed out of the water before it
+constexpr double kWidestTail = 1.5;   ///< of the water's spread upwards, in those downwards
 constexpr double kUpperTail = 1.645;  ///< standard deviations from the median to the 95th percentile
 
 using Levels = Array3<std::int16_t>;  // [fan][beam][block]
@@ -272,9 +273,11 @@ class Window {
     }
   }
 
-  /// Before what stands out is known the upper tail may be a school's; then it is the tail that schools must exceed.
+  /// Before what stands out is known the upper tail may be a school's; then it is the tail that schools must exceed. What a
+  /// school leaves in it that keeps its place in the window is bounded by the spread downwards.
   [[nodiscard]] double width(const Told& told, double least) const {
-    const double spread = look_ == 0 ? static_cast<double>(told.below) : static_cast<double>(told.above) / kUpperTail;
+    const double below = told.below;
+    const double spread = look_ == 0 ? below : std::min(told.above / kUpperTail, kWidestTail * below);
     return std::max(spread, least);
   }
 

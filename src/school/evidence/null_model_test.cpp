@@ -117,9 +117,9 @@ TEST(NullModel, WhatAllBeamsHearIsWater) {
   EXPECT_LE(cells, 20U);
 }
 
-/// Plankton 4 dB up and down, over 100 m along range and 30 degrees across; another phase in each ping.
+/// Plankton 4 dB up and down, over 200 m along range and 75 degrees across; another phase in each ping.
 double patchy(int f, int b, int s, int p) {
-  const double phase = 2.0 * 3.14159265 * (s / 260.0 + b / 10.0 + f / 20.0) + 1.7 * p;
+  const double phase = 2.0 * 3.14159265 * (s / 520.0 + b / 25.0 + f / 40.0) + 1.7 * p;
   return water(f, b, s, p) * linear_from_db(4.0 * std::sin(phase));
 }
 
