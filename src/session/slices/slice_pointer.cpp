@@ -59,6 +59,7 @@ void SliceModel::point(const PointerEvent& event) {
   pointer_ = event.at;
   const auto voxel = voxel_at(event.at);
   workspace_.cursor.set(voxel);
+  if (const auto echo = echo_at(event.at)) workspace_.echo.set(echo);
   if (on_brush() || panned_) return;
   if (voxel) {
     seed_.hover(*voxel, event.shift, event.control);
