@@ -205,7 +205,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.beam = workspace.slices().beam;
   }
   options.masks = display.masks;
-  options.refused = display.refused;
+  options.refused = display.refused_echoes;
   options.filtered = kind == PictureKind::volume ? volume.filtered : display.filtered;
   options.put_back = put_back(display);
   options.flags = flag_style(display);

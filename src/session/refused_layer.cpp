@@ -18,7 +18,7 @@ std::optional<RefusedSights> sights_of(const std::vector<RefusedEcho>& rows, std
 
 RefusedPtr refused_layer(const Workspace& workspace, std::size_t observation) {
   static const auto kOff = std::make_shared<const std::vector<RefusedEcho>>();
-  return workspace.display.values().refused ? workspace.document.refused(observation) : kOff;
+  return workspace.display.values().refused_echoes ? workspace.document.refused(observation) : kOff;
 }
 
 std::vector<RefusedMark> refused_layer_in(const Workspace& workspace, std::int64_t ping_index) {

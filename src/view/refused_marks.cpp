@@ -12,7 +12,7 @@
 namespace sonar {
 namespace {
 
-constexpr double kHalf_em = 0.7;
+constexpr double kHalf_em = 0.6;
 
 PathItem diamond(PixelPoint at, double half_px, Rgba8 colour, double width_px, Rgba8 fill = {0, 0, 0, 0}) {
   return polyline_item({{at.x, at.y - half_px}, {at.x + half_px, at.y}, {at.x, at.y + half_px}, {at.x - half_px, at.y}},
@@ -77,8 +77,8 @@ double mark_reach_px(const Theme& theme) { return kHalf_em * theme.text_px; }
 
 void add_refused_mark(FrameDescription& frame, PixelPoint at, bool chosen, const Theme& theme) {
   const double half = mark_reach_px(theme);
-  const double line = (chosen ? 3.0 : 1.6) * theme.line_px;
-  frame.items.emplace_back(diamond(at, half, theme.halo, line + 2.0 * theme.line_px));
+  const double line = (chosen ? 2.8 : 1.4) * theme.line_px;
+  frame.items.emplace_back(diamond(at, half, with_alpha(theme.halo, 255), line + 2.4 * theme.line_px));
   frame.items.emplace_back(diamond(at, half, theme.text, line));
 }
 

@@ -48,6 +48,7 @@ TEST_F(Refused, TheListGoesToIt_HoverSaysWhy_IMakesItASchool_AndUndoTakesThatBac
   ASSERT_NE(mark, marks().end()) << "the slices lie through it";
   const PixelPoint at = mark->at;
   EXPECT_THAT(tooltip("top_slice", at), HasSubstr(why_no_school(document(), echo)));
+  keep_picture("refused-hover");
   EXPECT_THAT(why_no_school(document(), echo), HasSubstr("fans, 15 at least (judge size)"));
 
   key(Qt::Key_I);
