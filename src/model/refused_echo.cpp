@@ -20,6 +20,9 @@ std::string counted(double figure, std::string unit) {
 std::string measured(const RefusedEcho& echo) {
   const double figure = echo.figure;
   const double limit = echo.limit;
+  if (echo.judge == "confirmation" && echo.limit_unit == "sights") {
+    return fmt::format("seen in {}, {:.3g} at least", counted(figure, "pings"), limit);
+  }
   if (echo.judge == "confirmation" && echo.limit_unit == "clear sights") {
     return fmt::format("clearly seen in {}, {:.3g} at least", counted(figure, "pings"), limit);
   }
