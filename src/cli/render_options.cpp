@@ -129,6 +129,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--ping", a.picture.ping, "Ping index; default: the first with a school, else the middle one");
   verb.add_option("--schools", a.schools, "School ids between commas; default: all");
   verb.add_flag("--no-masks{false}", a.picture.masks, "Leave schools out");
+  verb.add_flag("--refused", a.picture.refused, "Mark the echoes that stood out and are no schools (/rejected)");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");
   verb.add_flag("--unfiltered", a.unfiltered, "As recorded; default of slices")->excludes(filtered);
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");

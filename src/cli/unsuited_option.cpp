@@ -21,9 +21,10 @@ struct Suits {
 };
 constexpr std::string_view kOfPing = "slice- volume propagation observation-map";
 constexpr std::string_view kOfSv = "slice- volume timeline";
-constexpr std::array<Suits, 46> kSuits{{
+constexpr std::array<Suits, 47> kSuits{{
     {"--observation", "slice- volume propagation observation-map timeline"},
     {"--ping", kOfPing},
+    {"--refused", "slice- volume observation-map timeline"},
     {"--filtered", kOfSv},
     {"--unfiltered", kOfSv},
     {"--map", kOfSv},

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "model/school.h"
 
@@ -51,5 +53,18 @@ void columns(Visitor& v, RefusedEcho& r) {
   v("limit", "", r.limit);
   v("limit_unit", "", r.limit_unit);
 }
+
+/// Why it is no school, for people: "no school: 3.8 m along range, 5 at least (judge size)".
+[[nodiscard]] std::string why_no_school(const RefusedEcho& echo);
+
+/// An echo as a whole: where it was loudest, and how long it was followed.
+struct RefusedSights {
+  const RefusedEcho* loudest = nullptr;
+  std::int64_t first_ping = 0;
+  std::int64_t last_ping = 0;
+  std::int64_t pings = 0;
+};
+/// Rows of one observation, echo by echo, by rising number; they outlive what comes back.
+[[nodiscard]] std::vector<RefusedSights> refused_sights(std::span<const RefusedEcho> rows);
 
 }  // namespace sonar

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <system_error>
+#include <utility>
 
 #include "base/hash.h"
 #include "io/product.h"
-#include "pipeline/state_product.h"
 
 namespace sonar {
 
@@ -19,14 +19,14 @@ std::filesystem::path detected_file(const IndexCache& cache, const SurveyFiles& 
   return cache.folder / (to_hex(hash_text(name)) + ".detected.nc");
 }
 
-std::optional<std::vector<SchoolMasks>> kept_detected(const std::filesystem::path& file, const std::string& key) {
+std::optional<ObservationProduct> kept_detected(const std::filesystem::path& file, const std::string& key) {
   std::error_code absent;
   if (file.empty() || !std::filesystem::exists(file, absent)) return std::nullopt;
   const auto known = read_product_key(file);
   if (!known || known->input_hash != key) return std::nullopt;
-  const auto product = read_product(file);
+  auto product = read_product(file);
   if (!product) return std::nullopt;
-  return detected_schools(*product);
+  return std::move(*product);
 }
 
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product) {

@@ -3,10 +3,9 @@
 
 #include <filesystem>
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "model/product.h"
-#include "pipeline/commands/state.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -16,10 +15,10 @@ namespace sonar {
 /// Where an observation's find is kept: one file each, written over when it is stale. Empty without a cache.
 [[nodiscard]] std::filesystem::path detected_file(const IndexCache& cache, const SurveyFiles& survey,
                                                   const ObservationFiles& observation);
-/// Schools of a find made from the same pings in the same way; empty where there is none, or a damaged one.
+/// A find made from the same pings in the same way; empty where there is none, or a damaged one.
 /// key  observation_key() of them
-[[nodiscard]] std::optional<std::vector<SchoolMasks>> kept_detected(const std::filesystem::path& file,
-                                                                    const std::string& key);
+[[nodiscard]] std::optional<ObservationProduct> kept_detected(const std::filesystem::path& file,
+                                                              const std::string& key);
 /// What cannot be kept is looked for again.
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product);
 

@@ -289,6 +289,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   }
   state = fold(options.journal, std::move(state), ground_of(engine, reach));
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
+  product.rejected = still_refused(std::move(product.rejected), state, engine.grid());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
   note_events(tracks.events, schools, product);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "geo/geodesic.h"
@@ -76,20 +77,32 @@ std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const De
   return rows;
 }
 
+std::vector<RefusedEcho> still_refused(std::vector<RefusedEcho> rows, const JournalState& state, const BeamGrid& grid) {
+  const std::vector<int> row_of_channel = grid.row_of_channel();
+  std::set<std::int64_t> taken_in;
+  for (const auto& school : state.schools) {
+    for (const SchoolMasks::InPing& there : school->masks.pings) {
+      for (const RefusedEcho& echo : std::ranges::equal_range(rows, there.ping_index, {}, &RefusedEcho::ping_index)) {
+        if (echo.channel < 0 || echo.channel >= std::ssize(row_of_channel)) continue;
+        const int row = row_of_channel[static_cast<std::size_t>(echo.channel)];
+        if (confidence_at(there.mask, row, static_cast<int>(echo.sample)) > 0) taken_in.insert(echo.echo_id);
+      }
+    }
+  }
+  std::erase_if(rows, [&](const RefusedEcho& echo) { return taken_in.contains(echo.echo_id); });
+  return rows;
+}
+
 std::vector<std::string> refusal_lines(const ObservationProduct& product) {
-  std::map<std::int64_t, std::vector<const RefusedEcho*>> echoes;
-  for (const RefusedEcho& row : product.rejected) echoes[row.echo_id].push_back(&row);
   std::vector<std::string> lines;
-  for (const auto& [id, rows] : echoes) {
-    const RefusedEcho& loudest = **std::ranges::max_element(rows, {}, [](const RefusedEcho* r) { return r->level_db; });
-    const std::string pings = rows.size() == 1 ? fmt::format("ping {}", rows.front()->ping_index)
-                                               : fmt::format("pings {} to {} ({} of them)", rows.front()->ping_index,
-                                                             rows.back()->ping_index, rows.size());
-    lines.push_back(fmt::format(
-        "{} {}: {:.0f} m away, {:.0f} m deep, {} fans x {} beams x {:.1f} m, {:.1f} dB: no school by {}: {:.3g} {}, "
-        "limit {:.3g}",
-        product.observation, pings, loudest.range_m, loudest.depth_m, loudest.n_fans, loudest.n_beams,
-        loudest.range_extent_m, loudest.level_db, loudest.judge, loudest.figure, loudest.limit_unit, loudest.limit));
+  for (const RefusedSights& echo : refused_sights(product.rejected)) {
+    const std::string pings =
+        echo.pings == 1 ? fmt::format("ping {}", echo.first_ping)
+                        : fmt::format("pings {} to {} ({} of them)", echo.first_ping, echo.last_ping, echo.pings);
+    const RefusedEcho& loudest = *echo.loudest;
+    lines.push_back(fmt::format("{} {}: {:.0f} m away, {:.0f} m deep, {} fans x {} beams x {:.1f} m, {:.1f} dB: {}",
+                                product.observation, pings, loudest.range_m, loudest.depth_m, loudest.n_fans,
+                                loudest.n_beams, loudest.range_extent_m, loudest.level_db, why_no_school(loudest)));
   }
   return lines;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/observe.h"
+#include "pipeline/refused_echoes.h"
 
 namespace sonar {
 
@@ -27,6 +28,7 @@ Result<ObservationProduct> state_product(Engine& engine, const JournalState& sta
   }
   const std::vector<TimeNs> times = datagram_times(engine.survey(), engine.observation());
   product.next_school_id = state.next_number;
+  product.rejected = still_refused({options.refused.begin(), options.refused.end()}, state, engine.grid());
   if (auto done = measure_schools(engine, measured_masks_of(counted, times), product, work, options.before); !done) {
     return pass_on(done);
   }

@@ -17,6 +17,8 @@ struct StateProductOptions {
   std::string program_version;
   bool background = false;  ///< with the background levels of all pings: what a file must hold, a window need not
   MeasuredPings* before = nullptr;  ///< of the same engine; null = everything is measured
+  std::span<const RefusedEcho> refused =
+      {};  ///< as detection told them: those that are no school in this state are kept
 };
 
 /// What a state's schools measure: a product that is known before it is a file. School numbers are the state's, so that what a

@@ -64,6 +64,13 @@ std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& 
   return layers;
 }
 
+std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,
+                                       std::int64_t ping_index, const PictureOptions& options) {
+  const ObservationProduct& product = observation.product();
+  if (!options.refused || !product.grid) return {};
+  return refused_marks(product.rejected, ping_index, product.grid->grid, sector);
+}
+
 std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams) {
   const auto largest = std::max_element(masks.begin(), masks.end(), [](const MaskLayer& a, const MaskLayer& b) {
     return a.mask->voxels() < b.mask->voxels();

@@ -30,6 +30,10 @@ struct SchoolKey {
 /// Of the masks that the options ask for, in their order.
 [[nodiscard]] std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
+/// What of a ping was refused, where the options ask for it.
+[[nodiscard]] std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,
+                                                     std::int64_t ping_index, const PictureOptions& options);
+
 /// Middle of the largest mask; empty without one.
 struct MaskMiddle {
   int fan = 0;

@@ -173,6 +173,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
   if (other_sector) context_key.reset();
   VolumeFigure figure{volume, input.masks, input.legend, input.navigation, input.title, input.title_line, true};
   figure.outlined = wants_outlines(figure, input.options);
+  figure.refused = input.refused;
   if (auto done = set(input, figure.outlined); !done) {
     // What the renderer holds now is not known.
     volume.reset();

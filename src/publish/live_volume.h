@@ -33,10 +33,11 @@ struct LiveVolumeInput {
   std::vector<MaskLayer> masks;
   std::size_t tried = 0;                              ///< the last so many masks are only tried: pointers pass through
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
-  bool scale_bar = true;                              ///< the colour bar shows the scale, else the transfer function
-  PictureOptions options;                             ///< what pictures of volumes know of them; no seabed
-  double scale = 1.0;                                 ///< device pixels a pixel of the picture
-  double moving_budget_s = 0.05;                      ///< what the first picture of a change may take
+  std::vector<RefusedMark> refused;
+  bool scale_bar = true;          ///< the colour bar shows the scale, else the transfer function
+  PictureOptions options;         ///< what pictures of volumes know of them; no seabed
+  double scale = 1.0;             ///< device pixels a pixel of the picture
+  double moving_budget_s = 0.05;  ///< what the first picture of a change may take
 };
 
 /// What stands in a picture, for pointers.

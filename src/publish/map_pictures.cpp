@@ -36,7 +36,7 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const auto ping = chosen_ping(observation, options);
   if (!ping) return pass_on(ping);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
-  auto base = observation_map_base(product, options.size, theme_of(options), {}, true);
+  auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.refused);
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
   base->left_out = observation.product().schools.size() - product.schools.size();
@@ -45,6 +45,7 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const PingNavigation& current = product.pings[static_cast<std::size_t>(*ping)];
   add_map_schools(frame, *base, map_schools(product),
                   current.has_position() ? base->map.at(current.transducer) : std::nullopt);
+  if (options.refused) add_map_refused(frame, *base, product.rejected);
   return frame;
 }
 

@@ -64,6 +64,7 @@ struct PictureOptions {
   std::optional<int> ping;                   ///< empty = the first with a school, else the middle one
   std::vector<std::int64_t> schools;         ///< empty = all
   bool masks = true;
+  bool refused = false;          ///< echoes that the product tells as refused are marked; not in strips and survey maps
   std::optional<bool> filtered;  ///< noise removed; empty = in volumes yes, in slices no
   bool north_up = false;
 

@@ -122,6 +122,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
     data.sv = nothing.view();
   }
   data.masks = masks;
+  data.refused = drawn_refused(observation, *sector, *index, options);
   SlicePing titled;
   titled.observation = observation.title() + (ping->staged ? "" : " (masks alone: no raw files)");
   titled.ping_index = *index;

@@ -87,7 +87,10 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
   }
   if (products.empty()) return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams to draw");
   std::vector<TimelineObservation> drawn;
-  for (std::size_t i = 0; i < products.size(); ++i) drawn.push_back({&products[i], echograms[i].get()});
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    TimelineObservation& one = drawn.emplace_back(TimelineObservation{&products[i], echograms[i].get()});
+    if (options.refused) one.refused = products[i].rejected;
+  }
   TimelineStyle style;
   style.value = options.maximum ? EchogramValue::maximum : EchogramValue::mean;
   style.axis = options.along_log ? TimelineAxis::log : TimelineAxis::time;

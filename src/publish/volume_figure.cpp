@@ -95,6 +95,10 @@ class SchoolLegend {
     frame_.items.emplace_back(rectangle_item({x_, y_ - 0.4 * em, 0.8 * em, 0.8 * em}, colour));
     text(words);
   }
+  void mark(const std::string& words) {
+    add_refused_mark(frame_, {x_ + 0.4 * theme_.text_px, y_}, false, theme_);
+    text(words);
+  }
   void outline(bool broken, const std::string& words) {
     const double em = theme_.text_px;
     PathItem item = line_item({x_ - 0.2 * em, y_}, {x_ + em, y_}, theme_.text, 2.0 * theme_.line_px);
@@ -120,8 +124,11 @@ class SchoolLegend {
 void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
                        const PixelRect& place, const Theme& theme) {
   constexpr std::size_t kMostEntries = 12;
-  if (!options.masks || figure.legend.empty() || figure.legend.size() > kMostEntries) return;
-  SchoolLegend legend(frame, place, theme, figure.legend.size() + 2);
+  const bool schools = options.masks && !figure.legend.empty() && figure.legend.size() <= kMostEntries;
+  const bool refused = !figure.refused.empty();
+  SchoolLegend legend(frame, place, theme, (schools ? figure.legend.size() + 2 : 0) + (refused ? 1 : 0));
+  if (refused) legend.mark(kRefusedWords);
+  if (!schools) return;
   const std::string core = fmt::format("core, confidence {:g} and more", options.mask_style.core_at);
   if (figure.outlined) {
     legend.outline(true, core);
@@ -131,6 +138,17 @@ void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, cons
     legend.area(with_alpha(theme.text, static_cast<int>(255.0F * options.mask_style.fuzzy_opacity)), "fuzzy area");
   }
   for (const auto& [colour, name] : figure.legend) legend.area(colour, name);
+}
+
+void add_refused(FrameDescription& frame, const VolumeFigure& figure, const VolumePlace& place,
+                 const VolumeView& view) {
+  const CameraBasis eye = basis(view.camera, view.size);
+  for (const RefusedMark& mark : figure.refused) {
+    const auto seen = eye.project(figure.sector().centre(mark.loudest.fan, mark.loudest.beam, mark.loudest.sample));
+    if (!seen) continue;
+    const PixelPoint at{place.rect.x + seen->pixel.x / place.scale, place.rect.y + seen->pixel.y / place.scale};
+    if (inside(place.rect, at)) add_refused_mark(frame, at, mark.chosen, place.theme);
+  }
 }
 
 }  // namespace
@@ -248,6 +266,7 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
       frame.items.emplace_back(std::move(*text));
     }
   }
+  add_refused(frame, figure, place, view);
   add_school_legend(frame, figure, options, place.rect, theme);
   if (!view.masks.data_too && figure.masks.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};

@@ -30,6 +30,7 @@ struct VolumeFigure {
   std::optional<SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
   bool outlined = false;                ///< masks are lines over the data, not a tint
   bool searched = true;                 ///< schools were looked for
+  std::vector<RefusedMark> refused{};   ///< marked, whatever stands before them
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };

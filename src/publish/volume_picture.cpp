@@ -34,6 +34,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   for (SchoolKey& school : school_keys(*ping, options)) {
     out.legend.emplace_back(school.colour, std::move(school.name));
   }
+  out.refused = drawn_refused(observation, *sector, *index, options);
   out.navigation = ping->navigation;
   out.samples = ping->staged != nullptr;
   out.searched = observation.has_product();

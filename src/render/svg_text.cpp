@@ -28,10 +28,6 @@ bool drawable(const TextItem& t) {
          t.size_px < 4096.0 && !t.text.empty();
 }
 
-bool inside(const PixelRect& r, const PixelPoint& p) {
-  return p.x >= r.x && p.y >= r.y && p.x <= r.x + r.width && p.y <= r.y + r.height;
-}
-
 std::string element(const TextItem& t) {
   const char* anchor = t.anchor == TextAnchor::left ? "start" : t.anchor == TextAnchor::centre ? "middle" : "end";
   const std::string turned =

@@ -18,6 +18,7 @@ constexpr std::array<Id, 7> kShape{"school.fill_holes",  "school.smooth", "schoo
                                    "school.split_piece", "school.merge",  "school.delete"};
 constexpr std::array<Id, 4> kReview{"review.next", "review.rule", "schools.detect", "schools.detect_all"};
 constexpr std::array<Id, 4> kParts{"school.split", "school.merge", "school.delete", "school.none"};
+constexpr std::array<Id, 2> kEcho{"school.take_in", "display.refused"};
 constexpr std::array<Id, 4> kSliceLook{"display.all", "display.filtered", "display.masks", "cursor.copy"};
 constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.starboard", "volume.port",
                                    "volume.behind"};
@@ -36,31 +37,33 @@ constexpr std::array<Id, 1> kAllPings{"list.pings_of_all"};
 constexpr std::array<Id, 2> kUndo{"edit.undo", "edit.redo"};
 constexpr std::array<Id, 1> kRows{"list.copy"};
 
-constexpr std::array<ActionGroup, 6> kSlice{kTools, kDecide, kFollow, kShape, kSliceLook, kPicture};
-constexpr std::array<ActionGroup, 6> kVolume{kDecide, kFollow, kParts, kSides, kReadOut, kPicture};
-constexpr std::array<ActionGroup, 4> kObservationMap{kDecide, kFollow, kMap, kPicture};
+constexpr std::array<ActionGroup, 7> kSlice{kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kPicture};
+constexpr std::array<ActionGroup, 7> kVolume{kDecide, kFollow, kParts, kEcho, kSides, kReadOut, kPicture};
+constexpr std::array<ActionGroup, 5> kObservationMap{kDecide, kFollow, kEcho, kMap, kPicture};
 constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
-constexpr std::array<ActionGroup, 5> kTimeline{kMark, kEvents, kBad, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
+constexpr std::array<ActionGroup, 2> kRefusedRows{kEcho, kRows};
 constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 20> kBegin{
+constexpr std::array<Id, 21> kBegin{
     "edit.undo",         "file.calibration", "file.save_view", "file.quit",
     "export.movie",      "volume.above",     "map.all",        "view.top_slice",
     "view.dark",         "ping.play",        "slice.fan_up",   "event.trawl",
     "event.previous",    "bad.ping",         "schools.detect", "school.propagate_forwards",
-    "school.fill_holes", "school.split",     "school.species", "school.delete"};
+    "school.fill_holes", "school.split",     "school.species", "school.delete",
+    "display.filtered"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 14> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 15> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"volume", kVolume},
                                        {"observation_map", kObservationMap},
@@ -72,6 +75,7 @@ constexpr std::array<Menu, 14> kMenus{{{"top_slice", kSlice},
                                        {"schools", kSchoolRows},
                                        {"review", kSchoolRows},
                                        {"school_pings", kPingRows},
+                                       {"refused", kRefusedRows},
                                        {"journal", kJournal},
                                        {"diagnostics", kNotes}}};
 

@@ -45,6 +45,7 @@ struct DisplayParams {
   double core_at = 0.64;
   double fuzzy_above = 0.0;
   bool rejected = true;
+  bool refused_echoes = true;
   bool grid_lines = false;
   bool north_up = false;
 };
@@ -64,6 +65,8 @@ void describe(Visitor& v, DisplayParams& p) {
   v.field("fuzzy_above", p.fuzzy_above,
           {.unit = "1", .min = 0, .max = 0.99, .text = "confidence above which a voxel belongs to the fuzzy area"});
   v.field("rejected", p.rejected, {.text = "show rejected schools too, in grey"});
+  v.field("refused_echoes", p.refused_echoes,
+          {.text = "mark the echoes that stood out where schools were looked for and are none; hover says why"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices"});
   v.field("north_up", p.north_up, {.text = "north points up in slices from above; off = the bow does"});
 }

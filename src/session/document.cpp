@@ -103,6 +103,8 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   replaying_ = {};
   propagating_.clear();
   detected_.clear();
+  found_refused_.clear();
+  refused_.clear();
   products_.clear();
   measured_.clear();
   survey_ = std::move(survey);
@@ -282,6 +284,7 @@ void Document::take_choices(ChoicesShown shown) {
     changes_.tell(DocumentChange::progress);
   }
   follow_calibration();
+  follow_refused(before);
   changes_.tell(DocumentChange::state);
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
@@ -340,29 +343,29 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   const ObserveOptions observe_options{{}, {}, options_.program_version};
   const auto file = detected_file(options_.cache, *survey, observation);
   const std::string key = observation_key(*survey, observation, recipe, observe_options);
-  if (auto kept = kept_detected(file, key)) {
-    return post(wanted, [this, survey, index, step, schools = std::move(*kept)] {
-      if (survey == survey_) take_detected(index, schools, step);
+  const auto take = [&](const ObservationProduct& found) {
+    post(wanted, [this, survey, index, step, schools = detected_schools(found), refused = found.rejected] {
+      if (survey == survey_) take_detected(index, schools, refused, step);
     });
-  }
+  };
+  if (const auto kept = kept_detected(file, key)) return take(*kept);
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;
     return post(wanted, [this, line = to_line(product.error())] { tell(line); });
   }
-  post(wanted, [this, survey, index, step, schools = detected_schools(*product)] {
-    if (survey == survey_) take_detected(index, schools, step);
-  });
+  take(*product);
   keep_detected(file, *product);
 }
 
-void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools,
+void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools, std::vector<RefusedEcho> refused,
                              const std::shared_ptr<JournalStep>& step) {
   const auto found = static_cast<std::int64_t>(schools.size());
   const OpenObservationPtr observation = opened(index);
   unreplayed_.erase(index);
   choices_thread_->open(chosen_on_[index], std::move(schools));
   detected_.insert(index);
+  found_refused_[index] = std::move(refused);
   if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
     act(index, 0, DetectCommand{found}, step);
   }

@@ -63,6 +63,7 @@ struct Progress {
 [[nodiscard]] std::string why_no_grid(const ObservationFiles& observation);
 
 using ProductPtr = std::shared_ptr<const ObservationProduct>;
+using RefusedPtr = std::shared_ptr<const std::vector<RefusedEcho>>;
 
 /// A survey at work: its files, one observation and ping on show, and every human choice. What takes long runs in the
 /// background and comes back through the change queue.
@@ -152,6 +153,8 @@ class Document {
   [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
   /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
   [[nodiscard]] bool lacks_detected(std::size_t observation) const;
+  /// What stood out where schools were looked for and is no school now: rows of /rejected. Never null.
+  [[nodiscard]] RefusedPtr refused(std::size_t observation) const;
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
 
@@ -168,13 +171,16 @@ class Document {
   OpenObservationPtr opened(std::size_t index);
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
-  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, const std::shared_ptr<JournalStep>& step);
+  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, std::vector<RefusedEcho> refused,
+                     const std::shared_ptr<JournalStep>& step);
+  void follow_refused(const ChoicesShown& before);
   void tell_unseen(const ChoicesShown& before);
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
   void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted, Work& work);
+                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
+                      const Wanted& wanted, Work& work);
   void take_measured();
   void follow_calibration();
   void replay_journal();
@@ -201,6 +207,8 @@ class Document {
   ChoicesShown choices_;
   std::map<std::int64_t, PingMask> propagating_;
   std::set<std::size_t> detected_;
+  std::map<std::size_t, std::vector<RefusedEcho>> found_refused_;  ///< as detection told them
+  std::map<std::size_t, RefusedPtr> refused_;                      ///< those of them that are no school now
   std::map<std::size_t, ProductPtr> products_;
   std::map<std::size_t, std::shared_ptr<MeasuredPings>> measured_;
   std::shared_ptr<Work> work_;

@@ -28,9 +28,9 @@ void Document::measure(std::size_t index) {
   const auto lines = choices_.lines;
   const auto work = std::make_shared<Work>(1);
   work->set_progress([give_way = GivesWay(way_)](std::string_view, std::int64_t, std::int64_t) mutable { give_way(); });
-  const Wanted posted =
-      measures_.post([this, observation, state, lines, work, kept = measured_[index]](const Wanted& wanted) {
-        if (wanted()) measure_behind(observation, *state, *lines, *kept, wanted, *work);
+  const Wanted posted = measures_.post(
+      [this, observation, state, lines, work, kept = measured_[index], refused = refused(index)](const Wanted& wanted) {
+        if (wanted()) measure_behind(observation, *state, *lines, refused, *kept, wanted, *work);
         queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
           if (!alive.expired()) take_measured();
         });
@@ -39,8 +39,8 @@ void Document::measure(std::size_t index) {
 }
 
 void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                              const std::vector<JournalLine>& lines, MeasuredPings& kept, const Wanted& wanted,
-                              Work& work) {
+                              const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
+                              const Wanted& wanted, Work& work) {
   GivesWay give_way(way_);
   for (const auto& school : state.schools) {
     for (const auto& there : school->masks.pings) {
@@ -51,7 +51,8 @@ void Document::measure_behind(const OpenObservationPtr& observation, const Journ
   }
   const std::vector<JournalLine> effective = effective_lines(lines);
   auto product = within_memory([&] {
-    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept}, work);
+    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept, *refused},
+                         work);
   });
   if (!product) {
     if (product.error().code != ErrorCode::no_space) return;

@@ -32,6 +32,7 @@ struct Snapshot {
   std::string program_version;
   std::shared_ptr<const std::vector<JournalLine>> lines;
   std::map<std::size_t, JournalStatePtr> states;
+  std::map<std::size_t, RefusedPtr> refused;
   std::map<std::size_t, ProductPtr> products;
   std::vector<fs::path> paths;
   std::uint64_t memory_bytes = 0;
@@ -47,12 +48,14 @@ Snapshot snapshot_of(const Workspace& workspace) {
                     document.choices().lines,
                     document.choices().states,
                     {},
+                    {},
                     document.paths(),
                     document.options().memory_bytes,
                     workspace.reduce.values()};
   // A state without the schools that its journal asks for is not what a run would leave.
   std::erase_if(snapshot.states, [&document](const auto& one) { return document.lacks_detected(one.first); });
   for (const auto& [index, state] : snapshot.states) {
+    snapshot.refused[index] = document.refused(index);
     if (auto product = document.product(index)) snapshot.products[index] = std::move(product);
   }
   return snapshot;
@@ -70,7 +73,8 @@ Result<ObservationProduct> product_of(const Snapshot& snapshot, std::size_t inde
     return observe(*snapshot.survey, observation, snapshot.recipe, {{}, lines, snapshot.program_version}, work);
   }
   Engine engine(*snapshot.survey, observation, snapshot.measuring);
-  return state_product(engine, *state->second, {lines, snapshot.program_version, true, nullptr}, work);
+  return state_product(engine, *state->second,
+                       {lines, snapshot.program_version, true, nullptr, *snapshot.refused.at(index)}, work);
 }
 
 ProductSource source_of_products(const Snapshot& snapshot, Work& work) {
@@ -201,6 +205,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.beam = workspace.slices().beam;
   }
   options.masks = display.masks;
+  options.refused = display.refused_echoes;
   options.filtered = kind == PictureKind::volume ? volume.filtered : display.filtered;
   options.put_back = put_back(display);
   options.flags = flag_style(display);

@@ -11,6 +11,7 @@
 #include "session/desk_parts.h"
 #include "session/lists/diagnostics_list.h"
 #include "session/lists/journal_list.h"
+#include "session/lists/refused_table.h"
 #include "session/lists/school_ping_table.h"
 #include "session/lists/school_table.h"
 #include "session/lists/survey_tree.h"
@@ -117,6 +118,7 @@ void add_lists(Desk& desk) {
   auto queue = std::make_unique<Review>(workspace, desk.preferences);
   Review& review = *queue;
   desk.lists.push_back({"review", "Review", DockPlace::bottom, std::move(queue)});
+  desk.lists.push_back({"refused", "Refused echoes", DockPlace::bottom, std::make_unique<RefusedTable>(workspace)});
   desk.lists.push_back({"journal", "Journal", DockPlace::bottom, std::make_unique<JournalList>(workspace)});
   desk.lists.push_back({"diagnostics", "Diagnostics", DockPlace::bottom, std::make_unique<DiagnosticsList>(workspace)});
 

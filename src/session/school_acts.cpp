@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "session/desk_parts.h"
+#include "session/refused_layer.h"
 #include "session/survey_schools.h"
 #include "session/timelines/timeline_actions.h"
 #include "session/tools/growth.h"
+#include "session/tools/seed_tool.h"
 
 namespace sonar {
 namespace {
@@ -135,6 +137,18 @@ void detect(Document& document, bool all) {
   document.detect(std::move(observations));
 }
 
+/// An echo of another ping is looked at first.
+void take_in(Workspace& workspace, SeedTool& seed) {
+  const auto echo = workspace.echo();
+  if (!echo) return;
+  const auto& staged = workspace.document.staged();
+  const auto voxel = loudest_on_show(workspace, *echo);
+  if (voxel && staged && staged->ping_index == workspace.document.ping()) return seed.take_in(*voxel);
+  go_to_echo(workspace, *echo);
+  workspace.document.tell(
+      fmt::format("refused echo {} is in ping {}: once more takes it in", echo->id, workspace.document.ping()));
+}
+
 void add_undo(Desk& desk) {
   Document& document = desk.workspace.document;
   desk.actions.add({.id = "edit.undo",
@@ -171,6 +185,14 @@ void add_search(Desk& desk) {
                     .tip = "Detect schools in every observation; what humans decided stays",
                     .run = [&document] { detect(document, true); },
                     .enabled = [&document] { return document.shown() != nullptr; }});
+  desk.actions.add(
+      {.id = "school.take_in",
+       .menu = kMenu,
+       .text = "Take in the refused echo",
+       .keys = {"I"},
+       .tip = "The refused echo last pointed at or chosen grows into a school and is followed through time",
+       .run = [&desk] { take_in(desk.workspace, *desk.seed_tool); },
+       .enabled = [&desk] { return desk.workspace.echo().has_value(); }});
 }
 
 void add_carrying(Desk& desk) {

@@ -36,6 +36,12 @@ bool still_there(const std::optional<ChosenMark>& mark, const Document& document
   return holds(state.bad_pings, std::get<BadPingsCommand>(mark->what));
 }
 
+bool still_there(const std::optional<EchoName>& echo, const Document& document) {
+  if (!echo) return true;
+  const auto& rows = *document.refused(echo->observation);
+  return std::any_of(rows.begin(), rows.end(), [&](const RefusedEcho& row) { return row.echo_id == echo->id; });
+}
+
 /// "school 3, f 0.82"; empty where nobody has the voxel.
 std::string school_text(const JournalState& state, std::int64_t ping_index, int row, int sample) {
   for (const auto& school : state.schools) {
@@ -90,6 +96,9 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
   document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(mark(), document))) {
       mark.set(std::nullopt);
+    }
+    if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(echo(), document))) {
+      echo.set(std::nullopt);
     }
   });
   view_curve.changed().add([this] { link(true); });

@@ -47,6 +47,13 @@ struct SchoolName {
   friend bool operator==(const SchoolName&, const SchoolName&) = default;
 };
 
+/// An echo that detection refused, as windows name it.
+struct EchoName {
+  std::size_t observation = 0;  ///< index in the survey
+  std::int64_t id = 0;          ///< RefusedEcho::echo_id
+  friend bool operator==(const EchoName&, const EchoName&) = default;
+};
+
 /// What a click would select, or what is being tried: drawn over the ping, part of nothing yet.
 struct Preview {
   std::int64_t ping_index = -1;
@@ -108,6 +115,7 @@ struct Workspace {
   Shared<std::optional<Voxel>> cursor;       ///< the voxel pointed at, in the ping looked at
   Shared<SlicePlaces> slices;                ///< where the slices lie
   Shared<std::optional<SchoolName>> school;  ///< the selected school
+  Shared<std::optional<EchoName>> echo;      ///< the refused echo last pointed at or chosen: its mark stands out
   Shared<Preview> preview;
   Shared<ToolName> tool;
   Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen

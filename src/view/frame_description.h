@@ -20,6 +20,11 @@ struct PixelRect {
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
+/// Edges belong to it.
+[[nodiscard]] inline bool inside(const PixelRect& rect, PixelPoint p) {
+  return p.x >= rect.x && p.y >= rect.y && p.x <= rect.x + rect.width && p.y <= rect.y + rect.height;
+}
+
 /// How a line is drawn; no dashes = solid.
 struct Stroke {
   Rgba8 colour{0, 0, 0, 255};

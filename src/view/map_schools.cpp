@@ -24,10 +24,6 @@ PathItem::Part path_of(const MapFrame& map, const MapSchool& school) {
   return part;
 }
 
-bool inside(const PixelRect& r, PixelPoint p) {
-  return p.x >= r.x && p.y >= r.y && p.x <= r.x + r.width && p.y <= r.y + r.height;
-}
-
 }  // namespace
 
 std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64_t selected, bool rejected) {

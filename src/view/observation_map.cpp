@@ -79,7 +79,7 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
 }  // namespace
 
 Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
-                                                const MapZoom& zoom, bool key) {
+                                                const MapZoom& zoom, bool key, bool refused) {
   if (size.width < 24.0 * theme.text_px || size.height < 16.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
@@ -102,6 +102,7 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
       geodesic({extent->south_deg, extent->west_deg}, {extent->north_deg, extent->east_deg}).distance_m;
   std::vector<KeyEntry> entries;
   if (key) entries = observation_map_key(product, theme);
+  if (key && refused && !product.rejected.empty()) entries.push_back(refused_key(theme));
   const double em = theme.text_px;
   const double key_width = size.width - 2.0 * em;
   const double key_px = key_lines(entries, key_width, theme) * kFootLine_em * em;
@@ -198,6 +199,22 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   layout.title = {base.map.place.x, 0.9 * em, base.map.place.width, base.map.place.y - em};
   add_title(frame, layout, theme, {base.title, line});
   return frame;
+}
+
+std::vector<PlacedMark> add_map_refused(FrameDescription& frame, const ObservationMapBase& base,
+                                        std::span<const RefusedEcho> rows, std::int64_t chosen) {
+  std::vector<PlacedMark> marks;
+  frame.items.emplace_back(ClipItem{base.map.place});
+  for (const RefusedSights& echo : refused_sights(rows)) {
+    const Geographic place{echo.loudest->latitude, echo.loudest->longitude};
+    if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) continue;
+    const auto at = base.map.at(place);
+    if (!at || !inside(base.map.place, *at)) continue;
+    marks.push_back({*at, echo.loudest->echo_id});
+    add_refused_mark(frame, *at, echo.loudest->echo_id == chosen, base.theme);
+  }
+  frame.items.emplace_back(ClipItem{});
+  return marks;
 }
 
 }  // namespace sonar

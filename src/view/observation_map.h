@@ -15,6 +15,7 @@
 #include "view/map_frame.h"
 #include "view/mask_colours.h"
 #include "view/mask_mosaic.h"
+#include "view/refused_marks.h"
 #include "view/theme.h"
 
 namespace sonar {
@@ -35,12 +36,12 @@ struct ObservationMapBase {
   std::optional<PixelPoint> start{};  ///< of the observation
 };
 
-/// key     with room for a key of lines and colours below the map
+/// key     with room for a key of lines and colours below the map; refused = of refused echoes too
 /// pings   of the observation; product may lack schools and masks
 /// errors  not_found: no ping has a position; bad_parameter: a picture too small for a map
 [[nodiscard]] Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size,
                                                               const Theme& theme, const MapZoom& zoom = {},
-                                                              bool key = false);
+                                                              bool key = false, bool refused = false);
 
 /// Without a mask: for whoever sets pings one by one.
 [[nodiscard]] MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings);
@@ -76,5 +77,12 @@ struct MapSchool {
 /// ship  where it is drawn: numbers keep off it; empty = nowhere
 void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, std::span<const MapSchool> schools,
                      std::optional<PixelPoint> ship = std::nullopt);
+
+/// Marks refused echoes, each where it was loudest. Over an observation map.
+/// rows    of the observation; those without a place are left out
+/// chosen  echo_id that stands out; 0 = none
+/// out     where they are
+std::vector<PlacedMark> add_map_refused(FrameDescription& frame, const ObservationMapBase& base,
+                                        std::span<const RefusedEcho> rows, std::int64_t chosen = 0);
 
 }  // namespace sonar

@@ -91,10 +91,39 @@ bool nothing_recorded(const SliceMap& map, const SliceData& data) {
                       [&](int voxel) { return voxel >= 0 && sv[static_cast<std::size_t>(voxel)] != kNoData; });
 }
 
+void add_refused(SlicePicture& out, const std::vector<RefusedMark>& marks, const Theme& theme) {
+  for (const RefusedMark& mark : marks) {
+    auto at = place_of(*out.map, mark);
+    if (!at) continue;
+    at = PixelPoint{at->x + out.plot.place.x, at->y + out.plot.place.y};
+    if (!inside(out.plot.place, *at)) continue;
+    out.refused.push_back({*at, mark.echo_id});
+    add_refused_mark(out.frame, *at, mark.chosen, theme);
+  }
+}
+
 void say_nothing_recorded(FrameDescription& frame, const PixelRect& plot, const Theme& theme) {
   const PixelPoint middle{plot.x + 0.5 * plot.width, plot.y + 0.5 * plot.height};
   frame.items.emplace_back(
       TextItem{middle, "no data in this ping", theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
+}
+
+std::vector<KeyEntry> key_of(const Sector& sector, const SliceData& data, const SliceView& view,
+                             const SliceStyle& style, const Theme& theme, PixelSize size) {
+  if (!style.key) return {};
+  std::vector<bool> cut;
+  bool refused = false;
+  if (!style.key->schools.empty() || !data.refused.empty()) {
+    // Of the slice without a key: how much room the key leaves depends on what the slice cuts.
+    if (const auto bare = whole_slice(sector, view, lay_out(size, theme).plot)) {
+      cut = cut_masks(*bare->map, data.masks);
+      refused = std::ranges::any_of(data.refused,
+                                    [&](const RefusedMark& mark) { return place_of(*bare->map, mark).has_value(); });
+    }
+  }
+  std::vector<KeyEntry> key = slice_key(style, cut, theme);
+  if (refused) key.push_back(refused_key(theme));
+  return key;
 }
 
 }  // namespace
@@ -124,13 +153,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   layout.plot = {0.0, 0.0, static_cast<double>(size.width), static_cast<double>(size.height)};
   std::vector<KeyEntry> key;
   if (style.decorations) {
-    std::vector<bool> cut;
-    if (style.key && !style.key->schools.empty()) {
-      // Of the slice without a key: how much room the key leaves depends on what the slice cuts.
-      const auto bare = whole_slice(sector, view, lay_out(size, theme).plot);
-      if (bare) cut = cut_masks(*bare->map, data.masks);
-    }
-    key = slice_key(style, cut, theme);
+    key = key_of(sector, data, view, style, theme, size);
     const double width = lay_out(size, theme, {.foot_lines = 1}).foot.width;
     layout = lay_out(size, theme, {.foot_lines = key_lines(key, width, theme)});
   }
@@ -157,6 +180,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
   out.frame.items.emplace_back(ImageItem{layout.plot, std::make_shared<const Image>(std::move(*image)), false});
   out.frame.items.emplace_back(ClipItem{layout.plot});
   add_slice_context(out.frame, *out.map, {layout.plot.x, layout.plot.y}, ping, style, theme);
+  add_refused(out, data.refused, theme);
   out.frame.items.emplace_back(ClipItem{});
   if (style.decorations && nothing_recorded(*out.map, data)) say_nothing_recorded(out.frame, layout.plot, theme);
   if (style.decorations) add_words(out, layout, ping, style, theme);

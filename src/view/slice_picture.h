@@ -15,6 +15,7 @@
 #include "base/time.h"
 #include "view/axes.h"
 #include "view/frame_description.h"
+#include "view/refused_marks.h"
 #include "view/slice.h"
 #include "view/sv_scale.h"
 #include "view/theme.h"
@@ -44,6 +45,7 @@ struct SliceData {
   View3<const std::int16_t> sv;    ///< [fan][beam][sample], Sv counts
   View3<const SampleFlags> flags;  ///< same shape, or empty
   std::vector<MaskLayer> masks;    ///< later ones lie above earlier ones
+  std::vector<RefusedMark> refused = {};
 };
 
 /// Colours a ping through a map: gather and look-up only.
@@ -94,6 +96,7 @@ struct SlicePicture {
   FrameDescription frame;
   PlotFrame plot;                       ///< axes as labelled (depths below the water line)
   std::shared_ptr<const SliceMap> map;  ///< of the plot's pixels
+  std::vector<PlacedMark> refused = {};
 
   /// The voxel under a place of the whole picture.
   [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint pixel) const;

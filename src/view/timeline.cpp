@@ -335,6 +335,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   for (const Strip& s : laid->strips) {
     if (style.schools) add_tracks(frame, s, plot, style, theme, numbers);
   }
+  for (const Strip& s : laid->strips) add_refused(frame, s, plot, theme);
   add_track_numbers(frame, numbers, plot, theme);
   add_marks(frame, laid->strips, plot, theme);
   frame.items.emplace_back(ClipItem{});

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "view/refused_marks.h"
 #include "view/shapes.h"
 #include "view/timeline_strip.h"
 
@@ -93,6 +94,15 @@ void add_silent(FrameDescription& frame, const Strip& s, const PlotFrame& plot, 
     const PixelRect place{from, plot.place.y, to - from, plot.place.height};
     frame.items.emplace_back(rectangle_item(place, theme.no_data));
     frame.items.emplace_back(hatch_item(place, 1.0, theme));
+  }
+}
+
+void add_refused(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
+  for (const RefusedSights& echo : refused_sights(s.observation->refused)) {
+    const RefusedEcho& row = *echo.loudest;
+    if (row.ping_index < 0 || row.ping_index >= std::ssize(s.along.x) || !std::isfinite(row.range_m)) continue;
+    const PixelPoint at = plot.at(s.along.x[static_cast<std::size_t>(row.ping_index)], row.range_m);
+    if (inside(plot.place, at)) add_refused_mark(frame, at, row.echo_id == s.observation->chosen_echo, theme);
   }
 }
 

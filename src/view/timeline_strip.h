@@ -66,6 +66,7 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
 /// left out.
 void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,
                        const Theme& theme);
+void add_refused(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// What the lines and the shades of a timeline are.
 [[nodiscard]] std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style,
                                                  const Theme& theme);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "view/label_room.h"
+#include "view/refused_marks.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
 #include "view/timeline_strip.h"
@@ -121,6 +122,9 @@ std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const Timeline
                      line.stroke.dashes_px = dashes;
                      frame.items.emplace_back(std::move(line));
                    }});
+  }
+  if (std::any_of(strips.begin(), strips.end(), [](const Strip& s) { return !s.observation->refused.empty(); })) {
+    out.push_back(refused_key(theme));
   }
   if (std::any_of(strips.begin(), strips.end(), any_silent)) {
     out.push_back(hatched("ping without data", theme.no_data, 1.0, theme));

@@ -124,7 +124,7 @@ class Product(Case):
         code, told, error = sonarx.run("run", sonarx.SURVEY, "--out", out, "--recipe", recipe, "--why")
         self.assertEqual(code, 0, error)
         self.assertEqual(sonarx.read_csv(out / "schools.csv"), [])
-        lines = [line for line in told.splitlines() if ": no school by " in line]
+        lines = [line for line in told.splitlines() if ": no school: " in line]
         for name in ("obs-0001", "obs-0002"):
             with netCDF4.Dataset(out / "products" / f"{name}.nc") as product:
                 rejected = product["rejected"]
@@ -132,6 +132,7 @@ class Product(Case):
                 self.assertGreater(len(ids), 0)
                 self.assertEqual(ids, set(range(1, len(ids) + 1)))
                 self.assertEqual(sum(line.startswith(name) for line in lines), len(ids))
+                self.assertTrue(all(re.search(r" dB: no school: .* at least \(judge \w+\)$", line) for line in lines))
                 for judge, figure, limit in zip(rejected["judge"][:], rejected["figure"][:], rejected["limit"][:]):
                     self.assertIn(judge, ("size", "prominence"))
                     self.assertLess(figure, limit, judge)

@@ -167,6 +167,7 @@ class BadInput(unittest.TestCase):
             (["--core", "0.5"], "survey-map", "slice-plane"),
             (["--fuzzy", "0.1"], "slice-top", "volume"),
             (["--masks-alone"], "slice-top", "volume"),
+            (["--refused"], "survey-map", "slice-top"),
             (["--mask-outline"], "slice-top", "volume"),
             (["--no-context"], "slice-top", "volume"),
             (["--ship-length-m", "40"], "observation-map", "volume"),

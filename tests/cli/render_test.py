@@ -28,6 +28,11 @@ DRAWN, TRACED = (64, 0.2), (96, 0.05)
 # 45; so few rays do that the mean stays below a step in one of a hundred pixels.
 SMOOTH, SURFACES = (2, 0.01), (45, 0.01)
 
+# What makes a survey's schools refused echoes: none is 15 fans high.
+TALL = '{"recipe_version": 1, "detect": {"min_fans": 15}}'
+REFUSED = sonarx.WORK / "refused"
+WITH_REFUSED = [sonarx.SURVEY, REFUSED, "--refused"]
+
 NEAR = ["--eye", "180,-60,-40", "--target", "30,-110,60"]
 PICTURES = {
     "slice-top": (["slice-top", *BOTH], DRAWN),
@@ -57,6 +62,11 @@ PICTURES = {
     "survey-map-dark": (["survey-map", sonarx.OUT, "--depth-raster", DEPTHS, "--dark"], DRAWN),
     "survey-map-without-schools": (["survey-map", sonarx.OUT, "--no-masks"], DRAWN),
     "timeline": (["timeline", *BOTH], DRAWN),
+    "slice-top-refused": (["slice-top", *WITH_REFUSED, "--ping", "10", "--fan", "18"], DRAWN),
+    "slice-side-refused": (["slice-side", *WITH_REFUSED, "--ping", "7", "--beam", "6", "--dark"], DRAWN),
+    "observation-map-refused": (["observation-map", REFUSED, "--refused"], DRAWN),
+    "timeline-refused": (["timeline", *WITH_REFUSED], DRAWN),
+    "volume-refused": (["volume", *WITH_REFUSED, "--ping", "10", "--frames", "0"], TRACED),
     "timeline-without-schools": (["timeline", *BOTH, "--no-masks", "--along-log", "--dark"], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
 }
@@ -69,8 +79,19 @@ PICTURES |= {f"print-{kind}": ([kind, *BOTH, "--ping", "10", "--size", "480x360"
              for kind in ("slice-side", "observation-map")}
 
 
+def make_refused():
+    recipe = sonarx.WORK / "tall.json"
+    recipe.write_text(TALL, encoding="utf-8")
+    code, out, error = sonarx.run("run", sonarx.SURVEY, "--out", REFUSED, "--recipe", recipe)
+    assert code == 0, out + error
+
+
 class Goldens(unittest.TestCase):
     maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        make_refused()
 
     def test_every_picture_is_as_it_was_looked_at(self):
         for name, (arguments, (largest, mean)) in PICTURES.items():
@@ -88,6 +109,16 @@ class Goldens(unittest.TestCase):
                      "observation-map", "survey-map", "timeline"):
             self.assertIn(kind, out)
             self.assertIn(kind, drawn)
+
+    def test_where_nothing_was_refused_nothing_is_marked(self):
+        """The small survey's product tells no refused echo, as no product does that is older than refusals."""
+        for name in ("slice-top", "slice-product-alone", "observation-map", "timeline"):
+            arguments, (largest, mean) = PICTURES[name]
+            code, out, error = render(*arguments, "--refused", *SIZE, "--reference", GOLDEN / f"{name}.png",
+                                      "--largest-difference", largest, "--mean-difference", mean)
+            self.assertEqual((code, error), (0, ""), out + error)
+        code, out, error = render("slice-top", sonarx.SURVEY, "--refused", *SIZE, "--out", sonarx.WORK / "raw-alone.png")
+        self.assertEqual((code, error), (0, ""), out)
 
     def test_a_changed_picture_is_found(self):
         for arguments in (["slice-top", *BOTH, "--fan", "2"], ["volume", *BOTH, "--frames", "2", "--orbit-deg", "2"]):
@@ -263,6 +294,7 @@ class KeptEchogram(unittest.TestCase):
 
 def look(folder):
     folder.mkdir(parents=True, exist_ok=True)
+    make_refused()
     for name, (arguments, _) in PICTURES.items():
         size = [] if "--size" in arguments else SIZE
         code, _, error = render(*arguments, *size, "--out", folder / f"{name}.png")

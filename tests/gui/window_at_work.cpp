@@ -9,7 +9,9 @@ namespace sonar {
 
 void WindowAtWork::open() {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
-  desk_ = std::make_unique<Desk>(pump_->queue(), TestSurvey::options(journal_));
+  DocumentOptions options = TestSurvey::options(journal_);
+  options.recipe = recipe_;
+  desk_ = std::make_unique<Desk>(pump_->queue(), std::move(options));
   // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
   VolumeParams quick;
   quick.frames = 1;

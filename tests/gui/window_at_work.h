@@ -115,6 +115,7 @@ class WindowAtWork : public testing::Test {
 
   std::filesystem::path survey_ = TestSurvey::easy().folder();
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
+  Recipe recipe_;  ///< that the window works under
   Gate gate_;
   std::unique_ptr<QueuePump> pump_;
   std::unique_ptr<Desk> desk_;

@@ -9,8 +9,10 @@
 
 #include "geo/geodesic.h"
 #include "session/maps/cursor_place.h"
+#include "session/maps/dock_theme.h"
 #include "session/maps/observation_map_painter.h"
 #include "session/place_text.h"
+#include "session/refused_layer.h"
 #include "session/survey_schools.h"
 #include "view/map_items.h"
 
@@ -62,6 +64,7 @@ ObservationMapModel::ObservationMapModel(Workspace& workspace)
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
   listening_.to(workspace.school.changed(), [this] { update(); });
+  listening_.to(workspace.echo.changed(), [this] { update(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(workspace.display, [this] { update(); });
 }
@@ -106,6 +109,8 @@ LivePicture::Build ObservationMapModel::build() {
   if (workspace_.school() && workspace_.school()->observation == index) wish.selected = workspace_.school()->number;
   const DisplayParams& display = workspace_.display.values();
   wish.rejected = display.rejected;
+  wish.refused = refused_layer(workspace_, index);
+  wish.chosen_echo = chosen_echo(workspace_, index);
   wish.palette.core_at = display.core_at;
   wish.palette.fuzzy_above = display.fuzzy_above;
   if (wish.state) wish.palette.rejected = rejected_schools(*wish.state);
@@ -148,9 +153,15 @@ bool ObservationMapModel::aim(PixelPoint at) {
   return school;
 }
 
+std::optional<EchoName> ObservationMapModel::echo_at(PixelPoint at) const {
+  const auto id = mark_at(places_->refused, at, mark_reach_px(dock_theme(size(), scale(), workspace_.dark())));
+  return id ? std::optional(EchoName{places_->observation, *id}) : std::nullopt;
+}
+
 void ObservationMapModel::click(PixelPoint at) {
   const auto& shown = workspace_.document.shown();
   if (!shown || shown->index() != places_->observation) return;
+  if (const auto echo = echo_at(at)) return go_to_echo(workspace_, *echo);
   if (const auto ping = places_->ping_at(at, kTrackReach_px * scale())) return workspace_.document.look_at(*ping);
   if (const std::int64_t school = places_->school_at(at)) workspace_.school.set(SchoolName{shown->index(), school});
 }
@@ -159,10 +170,7 @@ std::vector<Overlay> ObservationMapModel::overlays() const {
   const auto there = cursor_place(workspace_);
   if (!there || !places_ || !places_->map) return {};
   const auto at = places_->map->at(*there);
-  const PixelRect& place = places_->map->place;
-  if (!at || at->x < place.x || at->y < place.y || at->x > place.x + place.width || at->y > place.y + place.height) {
-    return {};
-  }
+  if (!at || !inside(places_->map->place, *at)) return {};
   Overlay cross;
   cross.cross = *at;
   return {cross};
@@ -172,7 +180,9 @@ std::string ObservationMapModel::hint(PixelPoint at) const {
   const auto& shown = workspace_.document.shown();
   if (!places_ || !places_->map || !shown) return {};
   std::string text;
-  if (const auto ping = places_->ping_at(at, kTrackReach_px * scale())) {
+  if (const auto echo = echo_at(at)) {
+    text = why_no_school(workspace_.document, *echo) + "\nclick goes there\n";
+  } else if (const auto ping = places_->ping_at(at, kTrackReach_px * scale())) {
     const TimeNs time = shown->files().navigation[static_cast<std::size_t>(*ping)].time;
     text = fmt::format("ping {}, {} UTC\n", *ping, clock_text(time, true));
   } else if (const std::int64_t school = places_->school_at(at)) {

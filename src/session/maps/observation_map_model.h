@@ -12,6 +12,7 @@
 #include "session/maps/map_gesture.h"
 #include "session/maps/masked_pings.h"
 #include "session/workspace.h"
+#include "view/refused_marks.h"
 
 namespace sonar {
 
@@ -29,8 +30,9 @@ struct ObservationMapPlaces {
   int height = 0;
   std::vector<MaskMosaic::Cell> cells;
   std::vector<std::int64_t> numbers;  ///< of the schools on show, rising
-  std::size_t pings_set = 0;          ///< of the mosaic, by this picture
-  std::uint64_t cells_touched = 0;    ///< of the mosaic so far
+  std::vector<PlacedMark> refused;
+  std::size_t pings_set = 0;        ///< of the mosaic, by this picture
+  std::uint64_t cells_touched = 0;  ///< of the mosaic so far
 
   /// Number of the school that has a place; 0 = none.
   [[nodiscard]] std::int64_t school_at(PixelPoint at) const;
@@ -59,6 +61,7 @@ class ObservationMapModel : public LivePicture {
  private:
   void hear(DocumentChange change);
   void click(PixelPoint at);
+  [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
 
   Workspace& workspace_;
   MapGesture gesture_;

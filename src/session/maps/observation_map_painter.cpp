@@ -57,6 +57,7 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
     add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected),
                     current.has_position() ? base_->map.at(current.transducer) : std::nullopt);
   }
+  places->refused = add_map_refused(painted.frame, *base_, *wish.refused, wish.chosen_echo);
   places->observation = observation_->index();
   places->map = map_;
   places->scale = wish.scale;

@@ -19,6 +19,8 @@ struct ObservationMapWish {
   std::int64_t ping = 0;
   std::int64_t selected = 0;  ///< school number; 0 = none
   bool rejected = true;
+  RefusedPtr refused;  ///< that are marked; never null
+  std::int64_t chosen_echo = 0;
   MaskPalette palette;
   bool dark = false;
   double scale = 1.0;  ///< pixels a unit of the window

@@ -59,6 +59,7 @@ void add_display_actions(Desk& desk) {
             [](DisplayParams& p) { p.scale.map = ColourMapName::viridis; });
   add_switch(desk, "display.filtered", "Slices: filtered data", "F8", &DisplayParams::filtered);
   add_switch(desk, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
+  add_switch(desk, "display.refused", "Refused echoes over the data", "Shift+M", &DisplayParams::refused_echoes);
   add_switch(desk, "display.north_up", "North up", "Ctrl+U", &DisplayParams::north_up);
   desk.actions.add({"display.all",
                     kMenu,

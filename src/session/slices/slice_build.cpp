@@ -84,6 +84,7 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
     layer.mask = fuzzy_area(layer.mask, wish.display.fuzzy_above);
     data.masks.push_back(std::move(layer));
   }
+  data.refused = wish.refused;
   SliceStyle style;
   style.colours = *wish.colours;
   style.flags = flag_style(wish.display);

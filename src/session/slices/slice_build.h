@@ -18,6 +18,7 @@ struct SliceWish {
   DisplayParams display;
   std::shared_ptr<const SvColours> colours;
   std::vector<SchoolLayer> layers;
+  std::vector<RefusedMark> refused;
   bool north_up = false;
   bool dark = false;
   double scale = 1.0;  ///< pixels a unit of the window: for text and lines

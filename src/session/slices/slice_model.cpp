@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/weak_samples.h"
+#include "session/refused_layer.h"
 #include "session/screen_theme.h"
 #include "session/slices/slice_build.h"
 
@@ -32,6 +33,7 @@ SliceModel::SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, Bru
   const auto recolour = [this] { forget_colours(); };
   listening_.push_back(listen(workspace.slices, anew));
   listening_.push_back(listen(workspace.school, anew));
+  listening_.push_back(listen(workspace.echo, anew));
   listening_.push_back(listen(workspace.preview, anew));
   listening_.push_back(listen(workspace.dark, anew));
   listening_.push_back(listen(workspace.view_curve, recolour));
@@ -98,6 +100,7 @@ LivePicture::Build SliceModel::build() {
   wish.scale = scale();
   const Theme theme = screen_theme(size(), wish.scale, wish.dark);
   wish.layers = school_layers(workspace_, wish.ping->ping_index, theme);
+  wish.refused = refused_layer_in(workspace_, wish.ping->ping_index);
   if (picture_) wish.earlier = picture_->map;
   wish.flags = flags_;
   return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
@@ -120,6 +123,13 @@ std::optional<Voxel> SliceModel::voxel_at(PixelPoint at) const {
   return picture_ ? picture_->voxel_at(at) : std::nullopt;
 }
 
+std::optional<EchoName> SliceModel::echo_at(PixelPoint at) const {
+  const auto& shown = workspace_.document.shown();
+  if (!picture_ || !shown) return std::nullopt;
+  const auto id = mark_at(picture_->refused, at, mark_reach_px(screen_theme(size(), scale(), workspace_.dark())));
+  return id ? std::optional(EchoName{shown->index(), *id}) : std::nullopt;
+}
+
 PixelPoint SliceModel::on_map(PixelPoint at) const {
   return {at.x - picture_->plot.place.x, at.y - picture_->plot.place.y};
 }
@@ -137,6 +147,7 @@ std::string SliceModel::hint(PixelPoint at) const {
     hint += fmt::format("\nweak: {:.1f} dB above the noise", *snr_db);
   }
   if (!text.school.empty()) hint += "\n" + text.school;
+  if (const auto echo = echo_at(at)) return hint + "\n" + refused_hint(workspace_, *echo);
   // Over a school the preview says which one it is, over what is removed why nothing grows: as the lines before do.
   const Preview& preview = workspace_.preview();
   const bool said = !text.school.empty() || !text.flags.empty();

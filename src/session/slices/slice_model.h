@@ -51,6 +51,8 @@ class SliceModel : public LivePicture {
   void hear(DocumentChange change);
   void forget_colours();
   [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint at) const;
+  /// The refused echo whose mark lies there.
+  [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   [[nodiscard]] PixelPoint on_map(PixelPoint at) const;
   [[nodiscard]] Slice slice() const;
   [[nodiscard]] bool on_brush() const { return workspace_.tool() != ToolName::seed; }

@@ -14,10 +14,6 @@ namespace {
 constexpr double kZoomPerStep = 1.25;
 constexpr double kLeastWidth_m = 2.0;
 
-bool inside(const PixelRect& rect, PixelPoint p) {
-  return p.x >= rect.x && p.y >= rect.y && p.x <= rect.x + rect.width && p.y <= rect.y + rect.height;
-}
-
 /// The part of a line that lies in a rectangle, by cutting it at each side; empty where none does.
 std::vector<PixelPoint> within(const PixelRect& rect, PixelPoint a, PixelPoint b) {
   double first = 0.0;
@@ -63,6 +59,7 @@ void SliceModel::point(const PointerEvent& event) {
   pointer_ = event.at;
   const auto voxel = voxel_at(event.at);
   workspace_.cursor.set(voxel);
+  if (const auto echo = echo_at(event.at)) workspace_.echo.set(echo);
   if (on_brush() || panned_) return;
   if (voxel) {
     seed_.hover(*voxel, event.shift, event.control);

@@ -18,7 +18,7 @@ namespace sonar {
 /// A desk on the small simulated survey, its two slices seen at 480 x 360; for tests.
 class SlicesDesk {
  public:
-  SlicesDesk() : desk(queue, TestSurvey::options(journal)) {
+  explicit SlicesDesk(const Recipe& recipe = {}) : desk(queue, options(journal, recipe)) {
     desk.workspace.document.open({TestSurvey::easy().folder()});
     for (SliceModel* slice : {&top(), &side()}) {
       slice->resize({480, 360}, 1.0);
@@ -86,6 +86,11 @@ class SlicesDesk {
   Desk desk;
 
  private:
+  static DocumentOptions options(const std::filesystem::path& journal, const Recipe& recipe) {
+    DocumentOptions options = TestSurvey::options(journal);
+    options.recipe = recipe;
+    return options;
+  }
   Bright find_bright() {
     Work work;
     const auto found = observe(*document().survey(), document().shown()->files(), Recipe{}, {{}, {}, "test"}, work);

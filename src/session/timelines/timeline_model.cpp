@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/timelines/timeline_model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "session/refused_layer.h"
 #include "session/timelines/timeline_painter.h"
-#include "view/map_items.h"
 
 namespace sonar {
 namespace {
-
-constexpr double kEventReach_px = 8.0;  ///< times the scale, as all that a hand reaches
 
 /// Opens the observation where needed.
 void look_at_ping(Document& document, std::size_t observation, std::int64_t ping) {
@@ -24,15 +20,6 @@ void look_at_ping(Document& document, std::size_t observation, std::int64_t ping
 
 constexpr double kWheelStep = 1.25;           ///< of one notch
 constexpr TimeNs kShortest = 10 * kSecondNs;  ///< that fills a timeline: a few pings
-constexpr double kMarkReach_px = 6.0;
-
-/// Bad pings are shaded up to the next one.
-TimeNs bad_until(const OpenObservation& observation, const BadPingsCommand& bad) {
-  const auto& times = observation.ground().times;
-  const auto after = std::upper_bound(times.begin(), times.end(), bad.last);
-  return after == times.end() ? shown_time(observation, bad.last) + 1
-                              : observation.files().navigation[static_cast<std::size_t>(after - times.begin())].time;
-}
 
 }  // namespace
 
@@ -52,6 +39,8 @@ TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> ec
       painter_(std::make_shared<TimelinePainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), [this] { update(); });
+  listening_.to(workspace.echo.changed(), [this] { update(); });
+  listening_.to(workspace.display, [this] { update(); });
   listening_.to(workspace.marked_interval.changed(), [this] { changed().tell(); });
   listening_.to(workspace.mark.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
@@ -133,6 +122,8 @@ LivePicture::Build TimelineModel::build() {
     }
     one.echogram = echograms_->of(index);
     if (workspace_.school() && workspace_.school()->observation == index) one.selected = workspace_.school()->number;
+    one.refused = refused_layer(workspace_, index);
+    one.chosen_echo = chosen_echo(workspace_, index);
     if (index != shown->index()) fill.push_back(index);
   }
   echograms_->want(this, std::move(fill));
@@ -149,29 +140,6 @@ LivePicture::Build TimelineModel::build() {
 
 void TimelineModel::take(const std::shared_ptr<const void>& detail) {
   places_ = std::static_pointer_cast<const TimelinePlaces>(detail);
-}
-
-std::optional<SurveyPlace> TimelineModel::ping_at(PixelPoint at) const {
-  const auto& shown = workspace_.document.shown();
-  if (!places_ || !shown) return std::nullopt;
-  const TimeNs time = places_->time_at(at.x);
-  std::optional<SurveyPlace> nearest;
-  TimeNs best = 0;
-  for (const std::size_t index : observations()) {
-    const auto& pings = shown->survey().observations[index].navigation;
-    const auto after = std::lower_bound(pings.begin(), pings.end(), time,
-                                        [](const PingNavigation& n, TimeNs t) { return n.time < t; });
-    for (const auto step : {std::ptrdiff_t{-1}, std::ptrdiff_t{0}}) {
-      const auto i = (after - pings.begin()) + step;
-      if (i < 0 || i >= static_cast<std::ptrdiff_t>(pings.size())) continue;
-      const TimeNs away = std::abs(pings[static_cast<std::size_t>(i)].time - time);
-      // Where two sounders ran at one time the observation on show is meant.
-      if (nearest && (away > best || (away == best && index != shown->index()))) continue;
-      best = away;
-      nearest = SurveyPlace{index, i};
-    }
-  }
-  return nearest;
 }
 
 void TimelineModel::mark(const SurveyPlace& from, const SurveyPlace& to) {
@@ -204,6 +172,7 @@ void TimelineModel::press(const PointerEvent& event, const SurveyPlace& there) {
   scrubbing_ = true;
   workspace_.marked_interval.set(std::nullopt);
   workspace_.mark.set(mark_at(event.at));
+  if (const auto echo = echo_at(event.at)) return go_to_echo(workspace_, *echo);
   go_to(there);
 }
 
@@ -282,31 +251,12 @@ void TimelineModel::follow_ping() {
   show_part(time - length / 2, length);
 }
 
-std::optional<ChosenMark> TimelineModel::mark_at(PixelPoint at) const {
-  if (!places_ || !workspace_.document.shown()) return std::nullopt;
-  std::optional<ChosenMark> found;
-  double best = kMarkReach_px * scale();
-  const TimeNs time = places_->time_at(at.x);
-  for (const std::size_t index : observations()) {
-    const auto open = workspace_.document.open_observation(index);
-    if (!open) continue;
-    const JournalState& state = workspace_.document.state(index);
-    for (const EventCommand& event : state.events) {
-      const double away = std::abs(places_->x_of(shown_time(*open, event.time)) - at.x);
-      if (away > best) continue;
-      best = away;
-      found = ChosenMark{index, event};
-    }
-    if (found) continue;
-    for (const BadPingsCommand& bad : state.bad_pings) {
-      if (time >= shown_time(*open, bad.first) && time < bad_until(*open, bad)) found = ChosenMark{index, bad};
-    }
-  }
-  return found;
-}
-
 bool TimelineModel::aim(PixelPoint at) {
   workspace_.mark.set(mark_at(at));
+  if (const auto echo = echo_at(at)) {
+    go_to_echo(workspace_, *echo);
+    return true;
+  }
   if (const auto there = ping_at(at)) look_at_ping(workspace_.document, there->observation, there->ping);
   return true;
 }
@@ -355,25 +305,6 @@ std::vector<Overlay> TimelineModel::overlays() const {
     }
   }
   return out;
-}
-
-std::string TimelineModel::hint(PixelPoint at) const {
-  const auto there = ping_at(at);
-  if (!there) return {};
-  const auto& observation = workspace_.document.shown()->survey().observations[there->observation];
-  const auto& navigation = observation.navigation[static_cast<std::size_t>(there->ping)];
-  std::string text =
-      fmt::format("{}, ping {}\n{} UTC", observation.name, there->ping, clock_text(navigation.time, true));
-  const auto open = workspace_.document.open_observation(there->observation);
-  if (!open) return text;
-  for (const EventCommand& event : workspace_.document.state(there->observation).events) {
-    if (std::abs(places_->x_of(shown_time(*open, event.time)) - at.x) > kEventReach_px * scale()) continue;
-    text += fmt::format("\n{}{}{}", event.kind, event.text.empty() ? "" : ": ", event.text);
-  }
-  if (const auto found = mark_at(at); found && std::holds_alternative<BadPingsCommand>(found->what)) {
-    text += "\nbad: takes no part in measures";
-  }
-  return text;
 }
 
 }  // namespace sonar

@@ -60,6 +60,8 @@ class TimelineModel : public LivePicture {
   [[nodiscard]] std::optional<SurveyPlace> ping_at(PixelPoint at) const;
   /// The event within reach of a place, else the bad interval that covers it.
   [[nodiscard]] std::optional<ChosenMark> mark_at(PixelPoint at) const;
+  /// The refused echo whose mark lies there.
+  [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   /// All of the time axis again.
   void show_all();
   [[nodiscard]] bool zoomed() const { return shown_.has_value(); }

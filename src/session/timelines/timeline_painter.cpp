@@ -18,6 +18,8 @@ TimelineObservation drawn(const TimelineWish::Observation& wish, const Observati
   out.product = &product;
   out.echogram = wish.echogram.get();
   out.selected = wish.selected;
+  out.refused = *wish.refused;
+  out.chosen_echo = wish.chosen_echo;
   if (!wish.state || !wish.open) return out;
   for (const EventCommand& event : wish.state->events) {
     out.marks.push_back({shown_time(*wish.open, event.time), event.kind, event.text});
@@ -37,6 +39,13 @@ TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time) {
   auto i = static_cast<std::size_t>(after - times.begin());
   if (i == times.size()) --i;
   return datagram_time + (observation.files().navigation[i].time - times[i]);
+}
+
+TimeNs bad_until(const OpenObservation& observation, const BadPingsCommand& bad) {
+  const auto& times = observation.ground().times;
+  const auto after = std::upper_bound(times.begin(), times.end(), bad.last);
+  return after == times.end() ? shown_time(observation, bad.last) + 1
+                              : observation.files().navigation[static_cast<std::size_t>(after - times.begin())].time;
 }
 
 Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish, PixelSize size) {

@@ -20,6 +20,8 @@ struct TimelineWish {
     OpenObservationPtr open;  ///< null where it is not: it has no state either
     EchogramPtr echogram;
     std::optional<std::int64_t> selected;
+    RefusedPtr refused;  ///< that are marked; never null
+    std::int64_t chosen_echo = 0;
   };
   std::shared_ptr<const SurveyFiles> survey;
   std::vector<Observation> observations;
@@ -47,5 +49,8 @@ class TimelinePainter {
 
 /// A time of the datagrams' clock on the clock of the pings that pictures show.
 [[nodiscard]] TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time);
+
+/// Where on that clock the shade of bad pings ends: at the next one.
+[[nodiscard]] TimeNs bad_until(const OpenObservation& observation, const BadPingsCommand& bad);
 
 }  // namespace sonar

@@ -133,12 +133,33 @@ void SeedTool::press(const Voxel& voxel, bool shift, bool control, bool double_p
   if (plain && school_under(voxel)) return select(voxel);
   auto command = command_at(*place_);
   if (!command) return document.tell(command.error().text);
+  grow(std::move(*command), {});
+}
+
+void SeedTool::take_in(const Voxel& voxel) {
+  finish_growing_anew();
+  const Document& document = workspace_.document;
+  if (!document.shown() || !document.staged()) return;
+  auto command = command_at({voxel});
+  if (!command) return;
+  std::vector<PropagateCommand> followed;
+  if (auto propagation =
+          propagation_from(document.shown()->index(), document.staged()->ping_index, command->seeds.front())) {
+    followed.push_back(std::move(*propagation));
+  }
+  grow(std::move(*command), std::move(followed));
+}
+
+/// In the ping on show.
+void SeedTool::grow(GrowCommand command, std::vector<PropagateCommand> followed) {
+  Document& document = workspace_.document;
   if (!document.shown()->recalibrated()) {
-    if (auto why = too_weak(*document.staged()->filtered, document.shown()->grid(), *command); !why.empty()) {
+    if (auto why = too_weak(*document.staged()->filtered, document.shown()->grid(), command); !why.empty()) {
       return document.tell(std::move(why));
     }
   }
-  act({observation, document.staged(), std::move(*command), false, 0, document.staged()->ping_index});
+  act({document.shown()->index(), document.staged(), std::move(command), false, 0, document.staged()->ping_index,
+       std::move(followed)});
 }
 
 void SeedTool::select(const Voxel& voxel) {
@@ -159,17 +180,24 @@ void SeedTool::act(Pending what) {
   }
 }
 
-void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed) {
-  Document& document = workspace_.document;
-  const auto open = document.open_observation(observation);
+/// Of the school that has the seed in a ping, as far and both ways as is set; empty where it is to stay in its ping.
+std::optional<PropagateCommand> SeedTool::propagation_from(std::size_t observation, std::int64_t ping,
+                                                           const SeedKey& seed) const {
+  const auto open = workspace_.document.open_observation(observation);
   const SelectParams& select = workspace_.select.values();
-  if (!open || (!select.backwards && !select.forwards)) return;
+  if (!open || (!select.backwards && !select.forwards)) return std::nullopt;
   PropagateCommand command = propagation_as_set(workspace_);
   command.grow = params_;
   if (!select.backwards) command.reach_backward = 0;
   if (!select.forwards) command.reach_forward = 0;
   command.school = SchoolKey{open->ground().times[static_cast<std::size_t>(ping)], seed.channel, seed.sample};
-  document.act(observation, ping, std::move(command));
+  return command;
+}
+
+void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed) {
+  if (auto command = propagation_from(observation, ping, seed)) {
+    workspace_.document.act(observation, ping, std::move(*command));
+  }
 }
 
 void SeedTool::hear(DocumentChange change) {
@@ -216,7 +244,10 @@ void SeedTool::take_state() {
     const JournalLine& last = now.lines->back();
     const bool first = pending_->done == 0 && last.command == command_name(pending_->command) &&
                        last.args == to_json(Command(pending_->command));
-    if (first) pending_->before = std::move(before);
+    if (first) {
+      pending_->before = std::move(before);
+      pending_->first_line = now.done_line;
+    }
     if (first || (pending_->done > 0 && last.command == "propagate")) ++pending_->done;
     if (pending_->done > pending_->followed.size()) take_made(*std::exchange(pending_, std::nullopt));
   }
@@ -240,7 +271,7 @@ void SeedTool::take_made(const Pending& done) {
                done.followed};
   if (done.command.to == GrowTo::school) {
     const auto made = std::find_if(state.schools.begin(), state.schools.end(),
-                                   [&](const auto& school) { return school->made_by == made_->line; });
+                                   [&](const auto& school) { return school->made_by == done.first_line; });
     if (made == state.schools.end()) return;
     made_->number = (*made)->number;
     workspace_.school.set(SchoolName{done.observation, made_->number});

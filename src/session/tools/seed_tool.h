@@ -40,6 +40,8 @@ class SeedTool {
   /// The pointer is over no voxel.
   void leave();
   void press(const Voxel& voxel, bool shift, bool control, bool double_press);
+  /// A press and a double press there in one step to undo: what was refused becomes a school after all.
+  void take_in(const Voxel& voxel);
   /// Selects the school there, or none; grows nothing.
   void select(const Voxel& voxel);
   /// Index in the state of the school that has a voxel of the ping on show.
@@ -79,6 +81,7 @@ class SeedTool {
     std::vector<PropagateCommand> followed = {};  ///< of the same step
     std::size_t done = 0;                         ///< lines of the step so far
     JournalStatePtr before = {};                  ///< known with the first line
+    std::int64_t first_line = 0;                  ///< its n
   };
   /// A growth that is looked at while its parameters move.
   struct Anew {
@@ -104,6 +107,9 @@ class SeedTool {
   void take_state();
   void take_made(const Pending& done);
   void act(Pending what);
+  void grow(GrowCommand command, std::vector<PropagateCommand> followed);
+  [[nodiscard]] std::optional<PropagateCommand> propagation_from(std::size_t observation, std::int64_t ping,
+                                                                 const SeedKey& seed) const;
   void carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed);
   // What is selected anew:
   void parameters_changed(bool tolerance);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "session/refused_layer.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/slice_look.h"
 #include "view/theme.h"
@@ -73,6 +74,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.dark = workspace.dark();
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
+  input.refused = refused_layer_in(workspace, input.staged->ping_index);
   input.scale_bar = workspace.curve_follows_scale();
   input.scale = scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;

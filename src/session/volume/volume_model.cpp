@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "session/refused_layer.h"
 #include "session/tools/growth.h"
 #include "session/volume/volume_input.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kWheelStep = 0.85;  ///< of the distance, a notch
 constexpr double kNearest_m = 0.5;
+constexpr double kMarkReach_px = 7.0;
 constexpr double kFarthest = 20.0;  ///< in ranges of the sonar
 
 /// A drag over the volume's height is half a turn.
@@ -39,8 +41,9 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
     stop_listening_.push_back([&listeners, id = listeners.add(std::move(what))] { listeners.remove(id); });
   };
   listen(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
-  for (Listeners<>* changed : {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
-                               &workspace.curve_follows_scale.changed(), &workspace.school.changed()}) {
+  for (Listeners<>* changed :
+       {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
+        &workspace.curve_follows_scale.changed(), &workspace.school.changed(), &workspace.echo.changed()}) {
     listen(*changed, [this] { update(); });
   }
   listen(workspace.cursor.changed(), [this] { changed().tell(); });
@@ -209,6 +212,19 @@ std::optional<Voxel> VolumeModel::voxel_at(PixelPoint at) const {
   return Voxel{picked->fan, picked->beam, picked->sample};
 }
 
+std::optional<EchoName> VolumeModel::echo_at(PixelPoint at) const {
+  const auto& observation = workspace_.document.shown();
+  if (!shown_ || !observation) return std::nullopt;
+  std::vector<PlacedMark> placed;
+  for (const RefusedMark& mark : refused_layer_in(workspace_, shown_->ping_index)) {
+    const Voxel& loudest = mark.loudest;
+    const auto there = shown_->place_of(observation->sector().centre(loudest.fan, loudest.beam, loudest.sample));
+    if (there) placed.push_back({*there, mark.echo_id});
+  }
+  const auto id = mark_at(placed, at, kMarkReach_px);
+  return id ? std::optional(EchoName{observation->index(), *id}) : std::nullopt;
+}
+
 void VolumeModel::press_voxel(const PointerEvent& event, bool double_press) {
   const auto voxel = voxel_at(event.at);
   if (!voxel) return;
@@ -223,6 +239,7 @@ void VolumeModel::hover(const PointerEvent& event) {
   if (event.button != PointerButton::none) return;
   const auto voxel = voxel_at(event.at);
   workspace_.cursor.set(voxel);
+  if (const auto echo = echo_at(event.at)) workspace_.echo.set(echo);
   if (workspace_.tool() != ToolName::seed) return;
   if (voxel && hooks.hover) hooks.hover(*voxel, event.shift, event.control);
   if (!voxel && hooks.leave) hooks.leave();
@@ -231,6 +248,7 @@ void VolumeModel::hover(const PointerEvent& event) {
 bool VolumeModel::aim(PixelPoint at) {
   const auto voxel = voxel_at(in_frame(at));
   const Document& document = workspace_.document;
+  if (const auto echo = echo_at(in_frame(at))) workspace_.echo.set(echo);
   if (!voxel) return false;
   workspace_.cursor.set(voxel);
   const auto under = school_of_voxel(document.state(), shown_->ping_index, document.shown()->sector(), *voxel);
@@ -255,6 +273,7 @@ std::vector<Overlay> VolumeModel::overlays() const {
 }
 
 std::string VolumeModel::hint(PixelPoint at) const {
+  if (const auto echo = echo_at(in_frame(at))) return refused_hint(workspace_, *echo);
   const auto voxel = voxel_at(in_frame(at));
   if (!voxel) return {};
   // The line below the views has the rest.

@@ -75,6 +75,8 @@ class VolumeModel : public LivePicture {
   void leave();
   void set_camera(const Camera& camera);
   [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint at) const;
+  /// The refused echo whose mark lies at a place of the frame.
+  [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   void press_voxel(const PointerEvent& event, bool double_press);
 
   Workspace& workspace_;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/refused_layer.h"
+
+#include <algorithm>
+
+#include "session/survey_schools.h"
+
+namespace sonar {
+namespace {
+
+std::optional<RefusedSights> sights_of(const std::vector<RefusedEcho>& rows, std::int64_t id) {
+  const std::vector<RefusedSights> all = refused_sights(rows);
+  const auto found = std::ranges::find_if(all, [id](const RefusedSights& one) { return one.loudest->echo_id == id; });
+  return found == all.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+RefusedPtr refused_layer(const Workspace& workspace, std::size_t observation) {
+  static const auto kOff = std::make_shared<const std::vector<RefusedEcho>>();
+  return workspace.display.values().refused_echoes ? workspace.document.refused(observation) : kOff;
+}
+
+std::vector<RefusedMark> refused_layer_in(const Workspace& workspace, std::int64_t ping_index) {
+  const auto& shown = workspace.document.shown();
+  if (!shown) return {};
+  return refused_marks(*refused_layer(workspace, shown->index()), ping_index, shown->grid(), shown->sector(),
+                       chosen_echo(workspace, shown->index()));
+}
+
+std::int64_t chosen_echo(const Workspace& workspace, std::size_t observation) {
+  const auto& echo = workspace.echo();
+  return echo && echo->observation == observation ? echo->id : 0;
+}
+
+std::string why_no_school(const Document& document, const EchoName& echo) {
+  const RefusedPtr rows = document.refused(echo.observation);
+  const auto sights = sights_of(*rows, echo.id);
+  return sights ? why_no_school(*sights->loudest) : std::string{};
+}
+
+std::string refused_hint(const Workspace& workspace, const EchoName& echo) {
+  const std::string why = why_no_school(workspace.document, echo);
+  return why.empty() ? why : why + "\nI takes it in after all";
+}
+
+std::optional<Voxel> loudest_on_show(const Workspace& workspace, const EchoName& echo) {
+  const auto& shown = workspace.document.shown();
+  if (!shown || shown->index() != echo.observation) return std::nullopt;
+  const auto marks = refused_marks(*workspace.document.refused(echo.observation), workspace.document.ping(),
+                                   shown->grid(), shown->sector());
+  const auto found = std::ranges::find(marks, echo.id, &RefusedMark::echo_id);
+  return found == marks.end() ? std::nullopt : std::optional(found->loudest);
+}
+
+void go_to_echo(Workspace& workspace, const EchoName& echo) {
+  const RefusedPtr rows = workspace.document.refused(echo.observation);
+  const auto sights = sights_of(*rows, echo.id);
+  if (!sights) return;
+  go_to_ping(workspace, echo.observation, sights->loudest->ping_index);
+  if (const auto voxel = loudest_on_show(workspace, echo)) workspace.slices.set({voxel->fan, voxel->beam});
+  workspace.echo.set(echo);
+}
+
+}  // namespace sonar

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/refused_layer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session/curves.h"
+#include "session/maps/observation_map_model.h"
+#include "session/slices/test_slices.h"
+#include "session/timelines/timeline_model.h"
+#include "session/volume/volume_model.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// No school is 15 fans high: the survey's schools, clean and bright, are all refused, by judge size.
+Recipe tall() {
+  Recipe recipe;
+  recipe.detect.min_fans = 15;
+  return recipe;
+}
+
+class Refused : public testing::Test {
+ protected:
+  void detect() {
+    desk_.ask("schools.detect");
+    desk_.settle();
+  }
+  Workspace& workspace() { return desk_.workspace(); }
+  Document& document() { return desk_.document(); }
+  const std::vector<JournalLine>& lines() { return *document().choices().lines; }
+  Rows& list() { return *desk_.desk.rows("refused"); }
+  /// Looks at an echo's loudest sight, as a click on its row does.
+  RefusedEcho choose(std::size_t row = 0) {
+    list().select(row);
+    desk_.settle();
+    const RefusedPtr rows = document().refused(0);
+    const std::vector<RefusedSights> sights = refused_sights(*rows);
+    return *sights.at(row).loudest;
+  }
+  PixelPoint mark_in(SliceModel& slice, std::int64_t id) {
+    const auto& marks = slice.picture()->refused;
+    const auto found = std::ranges::find(marks, id, &PlacedMark::echo_id);
+    EXPECT_NE(found, marks.end());
+    return found == marks.end() ? PixelPoint{} : found->at;
+  }
+
+  SlicesDesk desk_{tall()};
+};
+
+TEST_F(Refused, NothingIsRefusedBeforeAnybodyLooked) {
+  EXPECT_TRUE(document().refused(0)->empty());
+  EXPECT_TRUE(document().refused(17)->empty());
+  EXPECT_EQ(list().rows(), 0U);
+  EXPECT_TRUE(desk_.top().picture()->refused.empty());
+  EXPECT_FALSE(desk_.desk.actions.find("school.take_in")->enabled());
+  desk_.ask("school.take_in");
+  desk_.settle();
+  EXPECT_TRUE(lines().empty());
+}
+
+TEST_F(Refused, TheListHasEveryEchoAndAClickGoesToIt) {
+  detect();
+  ASSERT_GE(list().rows(), 1U);
+  EXPECT_EQ(document().state().schools.size(), 0U);
+  const RefusedEcho loudest = choose();
+  EXPECT_EQ(document().ping(), loudest.ping_index);
+  EXPECT_EQ(workspace().echo(), (EchoName{0, loudest.echo_id}));
+  EXPECT_EQ(list().selected(), 0U);
+  const BeamGrid& grid = document().shown()->grid();
+  const int row = grid.row_of_channel()[static_cast<std::size_t>(loudest.channel)];
+  EXPECT_EQ(workspace().slices(), (SlicePlaces{row / grid.beams(), row % grid.beams()}));
+  std::string all;
+  for (std::size_t c = 0; c < list().columns().size(); ++c) all += list().cell(0, c).text + "|";
+  EXPECT_THAT(all, HasSubstr(why_no_school(loudest)));
+  EXPECT_THAT(all, HasSubstr("|size|"));
+}
+
+TEST_F(Refused, SlicesMarkIt_HoverSaysWhy_AndTheLayerCanBeSwitchedOff) {
+  detect();
+  const RefusedEcho loudest = choose();
+  workspace().echo.set(std::nullopt);
+  desk_.settle();
+  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+    const PixelPoint at = mark_in(*slice, loudest.echo_id);
+    EXPECT_EQ(at, slice->picture()->place_of(*loudest_on_show(workspace(), {0, loudest.echo_id})));
+    EXPECT_THAT(slice->hint(at), HasSubstr(why_no_school(loudest)));
+    EXPECT_THAT(slice->hint(at), HasSubstr("I takes it in"));
+    EXPECT_THAT(slice->hint({at.x + 40.0, at.y}), Not(HasSubstr("no school")));
+    slice->pointer({PointerAction::move, PointerButton::none, at});
+    EXPECT_EQ(workspace().echo(), (EchoName{0, loudest.echo_id})) << "what is pointed at is what the key is about";
+    workspace().echo.set(std::nullopt);
+    desk_.settle();
+  }
+  desk_.ask("display.refused");
+  desk_.settle();
+  EXPECT_TRUE(desk_.top().picture()->refused.empty());
+  EXPECT_GE(list().rows(), 1U) << "the list stays";
+}
+
+TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
+  detect();
+  const std::size_t echoes = list().rows();
+  const RefusedEcho loudest = choose();
+  const std::size_t before = lines().size();
+  desk_.ask("school.take_in");
+  desk_.settle();
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  const StateSchool& school = *document().state().schools[0];
+  EXPECT_TRUE(school.by_hand);
+  const auto* there = in_ping(school.masks, loudest.ping_index);
+  ASSERT_NE(there, nullptr);
+  const int row = document().shown()->grid().row_of_channel()[static_cast<std::size_t>(loudest.channel)];
+  EXPECT_GT(confidence_at(there->mask, row, static_cast<int>(loudest.sample)), 0) << "it grew from its loudest voxel";
+  EXPECT_GT(school.masks.pings.size(), 1U) << "and was followed, as by a double click";
+  // The journal: what a double click writes, as one step.
+  ASSERT_EQ(lines().size(), before + 2);
+  EXPECT_EQ(lines()[before].command, "grow");
+  EXPECT_EQ(lines()[before + 1].command, "propagate");
+  EXPECT_EQ(lines()[before].step, lines()[before + 1].step);
+  EXPECT_NE(lines()[before].step, 0);
+  // It is a school now, and no refused echo.
+  EXPECT_LT(list().rows(), echoes) << "nor are its sights in other pings";
+  for (const RefusedEcho& left : *document().refused(0)) EXPECT_NE(left.echo_id, loudest.echo_id);
+  EXPECT_EQ(workspace().echo(), std::nullopt);
+  ASSERT_TRUE(workspace().school());
+  EXPECT_EQ(workspace().school()->number, school.number);
+  for (const PlacedMark& mark : desk_.top().picture()->refused) EXPECT_NE(mark.echo_id, loudest.echo_id);
+
+  desk_.ask("edit.undo");
+  desk_.settle();
+  EXPECT_EQ(document().state().schools.size(), 0U);
+  EXPECT_EQ(list().rows(), echoes) << "one undo, and it is refused again";
+  desk_.ask("edit.redo");
+  desk_.settle();
+  EXPECT_EQ(document().state().schools.size(), 1U);
+  EXPECT_LT(list().rows(), echoes);
+}
+
+// It is the last growth: the slider goes on with it, as after a click.
+TEST_F(Refused, WhatWasTakenInGrowsAnewWithAnotherTolerance) {
+  detect();
+  const RefusedEcho loudest = choose();
+  desk_.ask("school.take_in");
+  desk_.settle();
+  const auto voxels = [&] {
+    const auto& schools = document().state().schools;
+    const auto* there = schools.size() == 1 ? in_ping(schools[0]->masks, loudest.ping_index) : nullptr;
+    return there == nullptr ? std::size_t{0} : there->mask.voxels();
+  };
+  const std::size_t before = voxels();
+  SelectParams select = workspace().select.values();
+  select.tolerance_db = 5.0;
+  workspace().select.assign(select);
+  desk_.settle();
+  document().look_at(document().ping());  // anything else that is done ends the wait
+  desk_.settle();
+  EXPECT_GT(voxels(), 0U);
+  EXPECT_LT(voxels(), before);
+  EXPECT_GT(document().state().schools[0]->masks.pings.size(), 1U) << "and is followed again";
+  desk_.ask("edit.undo");
+  desk_.settle();
+  EXPECT_EQ(document().state().schools.size(), 0U) << "undo knows one growth";
+}
+
+TEST_F(Refused, WhereNothingGrowsOneLineSaysWhy) {
+  detect();
+  choose();
+  // No fish is as loud as -5 dB, below which this curve is 0.
+  workspace().growth_curve.set(*growth_curve_of({{-5.0, 0.0}, {0.0, 0.8}}));
+  desk_.settle();
+  const std::size_t before = lines().size();
+  const std::size_t told = document().notices().size();
+  desk_.ask("school.take_in");
+  desk_.settle();
+  EXPECT_EQ(lines().size(), before);
+  ASSERT_EQ(document().notices().size(), told + 1);
+  EXPECT_THAT(document().notices().back(), HasSubstr("too weak to grow from"));
+  EXPECT_TRUE(workspace().echo()) << "and the echo stays refused";
+}
+
+TEST_F(Refused, FromAnotherPingTheKeyGoesThereFirst) {
+  detect();
+  const RefusedEcho loudest = choose();
+  const RefusedPtr rows = document().refused(0);
+  const auto seen = [&](std::int64_t ping) {
+    return std::ranges::any_of(
+        *rows, [&](const RefusedEcho& row) { return row.ping_index == ping && row.echo_id == loudest.echo_id; });
+  };
+  std::int64_t elsewhere = 0;
+  while (seen(elsewhere)) ++elsewhere;
+  ASSERT_LT(elsewhere, TestSurvey::kPings);
+  document().look_at(elsewhere);
+  desk_.settle();
+  EXPECT_EQ(list().selected(), std::nullopt);
+  const std::size_t before = lines().size();
+  desk_.ask("school.take_in");
+  desk_.settle();
+  EXPECT_EQ(document().ping(), loudest.ping_index);
+  EXPECT_EQ(lines().size(), before);
+  EXPECT_THAT(document().notices().back(), HasSubstr("once more takes it in"));
+  desk_.ask("school.take_in");
+  desk_.settle();
+  EXPECT_EQ(lines().size(), before + 2);
+}
+
+TEST_F(Refused, UndoingTheSearchTakesTheLayerAwayAndAnotherRunBringsItBack) {
+  detect();
+  const std::size_t echoes = list().rows();
+  desk_.ask("edit.undo");
+  desk_.settle();
+  EXPECT_EQ(list().rows(), 0U);
+  desk_.ask("edit.redo");
+  desk_.settle();
+  EXPECT_EQ(list().rows(), echoes);
+  document().open({TestSurvey::easy().folder()});
+  desk_.settle();
+  EXPECT_EQ(list().rows(), echoes) << "the journal asks for the search";
+}
+
+TEST_F(Refused, MapsAndTimelinesMarkItToo) {
+  auto& map = dynamic_cast<ObservationMapModel&>(*desk_.desk.picture("observation_map"));
+  auto& timeline = dynamic_cast<TimelineModel&>(*desk_.desk.picture("observation_timeline"));
+  map.resize({480, 360}, 1.0);
+  timeline.resize({640, 360}, 1.0);
+  map.set_seen(true);
+  timeline.set_seen(true);
+  const auto settle = [&] {
+    desk_.settle();
+    map.wait();
+    timeline.wait();
+    desk_.settle();
+  };
+  detect();
+  settle();
+  const RefusedPtr rows = document().refused(0);
+  const std::vector<RefusedSights> sights = refused_sights(*rows);
+  ASSERT_FALSE(sights.empty());
+  ASSERT_EQ(map.places()->refused.size(), sights.size());
+  const PixelPoint at = map.places()->refused.front().at;
+  EXPECT_THAT(map.hint(at), HasSubstr(why_no_school(*sights.front().loudest)));
+  for (const PointerAction action : {PointerAction::press, PointerAction::release}) {
+    map.pointer({action, PointerButton::left, at});
+  }
+  settle();
+  EXPECT_EQ(workspace().echo(), (EchoName{0, sights.front().loudest->echo_id}));
+  EXPECT_EQ(document().ping(), sights.front().loudest->ping_index);
+
+  const RefusedEcho& loudest = *sights.front().loudest;
+  const TimeNs time = document().shown()->files().navigation[static_cast<std::size_t>(loudest.ping_index)].time;
+  const PixelPoint there{timeline.places()->x_of(time), timeline.places()->plot.at(0.0, loudest.range_m).y};
+  EXPECT_THAT(timeline.hint(there), HasSubstr(why_no_school(loudest)));
+  workspace().echo.set(std::nullopt);
+  timeline.pointer({PointerAction::press, PointerButton::left, there});
+  settle();
+  EXPECT_EQ(workspace().echo(), (EchoName{0, loudest.echo_id}));
+  desk_.ask("display.refused");
+  settle();
+  EXPECT_TRUE(map.places()->refused.empty());
+  EXPECT_THAT(timeline.hint(there), Not(HasSubstr("no school")));
+}
+
+TEST_F(Refused, TheVolumeMarksItWhateverStandsBeforeIt) {
+  VolumeParams quick;
+  quick.renderer = VolumeRendererName::cpu;
+  quick.frames = 0;
+  workspace().volume.assign(quick);
+  auto& volume = dynamic_cast<VolumeModel&>(*desk_.desk.picture("volume"));
+  volume.resize({340, 260}, 1.0);
+  volume.set_seen(true);
+  detect();
+  const RefusedEcho loudest = choose();
+  volume.wait();
+  desk_.settle();
+  const EchoName echo{0, loudest.echo_id};
+  const Voxel at = *loudest_on_show(workspace(), echo);
+  const auto place = volume.shown()->place_of(document().shown()->sector().centre(at.fan, at.beam, at.sample));
+  ASSERT_TRUE(place);
+  EXPECT_THAT(volume.hint(*place), HasSubstr(why_no_school(loudest)));
+  workspace().echo.set(std::nullopt);
+  volume.pointer({PointerAction::move, PointerButton::none, *place});
+  EXPECT_EQ(workspace().echo(), echo);
+  volume.wait();
+  desk_.settle();
+}
+
+// What a window measures and exports tells refusals as `run` does.
+TEST_F(Refused, TheWindowsProductsTellThem) {
+  detect();
+  const ProductPtr before = document().product(0);
+  ASSERT_TRUE(before);
+  Work work;
+  Recipe recipe = tall();
+  const auto of_run = observe(*document().survey(), document().shown()->files(), recipe, {{}, {}, "test"}, work);
+  ASSERT_TRUE(of_run.has_value());
+  const auto rows = [](const std::vector<RefusedEcho>& rejected) {
+    std::vector<std::string> told;
+    for (const RefusedEcho& row : rejected) {
+      told.push_back(
+          fmt::format("{} {} {} {} {}", row.ping_index, row.channel, row.sample, row.level_db, why_no_school(row)));
+    }
+    return told;
+  };
+  EXPECT_FALSE(of_run->rejected.empty());
+  EXPECT_EQ(rows(before->rejected), rows(of_run->rejected));
+  choose();
+  desk_.ask("school.take_in");
+  desk_.settle();
+  const auto with_journal =
+      observe(*document().survey(), document().shown()->files(), recipe, {{}, effective_lines(lines()), "test"}, work);
+  ASSERT_TRUE(with_journal.has_value());
+  EXPECT_EQ(with_journal->schools.size(), 1U);
+  EXPECT_LT(with_journal->rejected.size(), of_run->rejected.size()) << "what is a school is refused no more";
+  EXPECT_EQ(rows(document().product(0)->rejected), rows(with_journal->rejected));
+}
+
+}  // namespace
+}  // namespace sonar
