@@ -57,9 +57,13 @@ struct PropagateCommand {
 /// The command that ends so many pings before and after its own: what a stopped propagation is in the journal.
 [[nodiscard]] PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward);
 
+/// Whether a propagation was asked to go backwards, or forwards.
+[[nodiscard]] bool goes_backward(const PropagateCommand& command);
+[[nodiscard]] bool goes_forward(const PropagateCommand& command);
+
 /// A school that a human selected, and why its propagation ended on either side.
 struct ManualSchool {
-  SchoolMasks school;
+  SchoolMasks school;  ///< with the ends at which it was followed until the command asked no farther
   std::string note_backward;
   std::string note_forward;
   PropagateCommand reached;  ///< the command that gives this without an observer: itself, or as far as it was let go

@@ -22,7 +22,7 @@ namespace sonar {
 /// are not merged.
 inline constexpr std::string_view kStageVersions =
     "decode 3, flags 4, calibrate 1, background 3, median 1, seabed 6, detect 12, track 8, propagate 5, measure 12, "
-    "summarise 4";
+    "summarise 5";
 
 /// Inclusive range of ping indices.
 struct PingSelection {

@@ -47,6 +47,9 @@ class Edit {
   void set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings);
   /// All other schools lose these voxels. whole: a detected mask that shares much with them is the same fish and goes.
   void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
+  void set_reach(std::size_t school, const ReachEnds& ends) { writable(school).masks.reach = ends; }
+  /// What is known of a school's ends holds for the one that it becomes part of.
+  void take_ends(std::size_t from, std::size_t into);
   void note(DiagnosticCode code, std::string text);
   void add_event(const EventCommand& event);
   /// The propagation that gives what was made: as far as it was let go.
