@@ -19,6 +19,7 @@
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
 #include "io/product.h"
+#include "model/school_totals.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
 #include "pipeline/run.h"
@@ -148,7 +149,7 @@ void print_school(const ObservationProduct& product, std::int64_t reach) {
     // Where the background is louder than the echo there is no mean.
     const std::string sv_text = std::isfinite(row.sv_mean_db) ? fmt::format("{:.1f} dB", row.sv_mean_db) : "unknown";
     fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {}, backscatter {:.3g} m2\n", row.n_pings,
-               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, row.backscatter_m2);
+               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, echo_m2(row));
   }
   for (const Diagnostic& note : product.diagnostics) {
     if (note.code == DiagnosticCode::propagation_ended) fmt::print("{}\n", note.text);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/school_totals.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -20,7 +21,7 @@ struct SurveySchool {
   [[nodiscard]] const SchoolRow& decided() const { return state->masks.decided; }
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(state->masks.pings.size()); }
   [[nodiscard]] std::int64_t middle_ping() const;
-  [[nodiscard]] double backscatter_m2() const { return row == nullptr ? kUnknown : row->backscatter_m2; }
+  [[nodiscard]] double backscatter_m2() const { return row == nullptr ? kUnknown : echo_m2(*row); }
   /// Signal-to-noise over its pings: the mean of the linear ratios, each weighted by its volume, in dB; NaN = unknown.
   [[nodiscard]] double snr_db() const;
   /// Share of its pings that touch an edge; NaN = unknown.
