@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/join_tracks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -127,6 +129,13 @@ MergeParams params_of(const ObservationProduct& product) {
   return recipe ? recipe->merge : MergeParams{};
 }
 
+void note(const SchoolRow& school, const char* side, std::int64_t ping_index, ObservationProduct& product) {
+  product.diagnostics.push_back(
+      {DiagnosticCode::ended_at_reach, "", -1, ping_index,
+       fmt::format("school {} goes on {} ping {}, where its propagation by hand had its reach: carry it on from there",
+                   school.school_id, side, ping_index)});
+}
+
 }  // namespace
 
 void join_over_cuts(std::span<ObservationProduct> products, const std::optional<MergeParams>& given) {
@@ -139,6 +148,19 @@ void join_over_cuts(std::span<ObservationProduct> products, const std::optional<
         return a.end->ping_index >= last_ping - params.edge_pings && b.begin->ping_index <= params.edge_pings;
       });
     }
+  }
+}
+
+void join_at_reach(ObservationProduct& product, const MergeParams& params) {
+  const std::vector<Track> tracks = tracks_of(product);
+  join(tracks, tracks, params, [&](const Track& a, const Track& b) {
+    const std::int64_t unseen = b.begin->ping_index - a.end->ping_index - 1;
+    const bool at_reach = ends_last(a.at_end->ended_at_reach) || ends_first(b.at_begin->ended_at_reach);
+    return at_reach && unseen >= 0 && unseen <= params.edge_pings;
+  });
+  for (const Track& track : tracks_of(product)) {
+    if (ends_first(track.at_begin->ended_at_reach)) note(*track.at_begin, "before", track.begin->ping_index, product);
+    if (ends_last(track.at_end->ended_at_reach)) note(*track.at_end, "after", track.end->ping_index, product);
   }
 }
 

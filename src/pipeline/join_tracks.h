@@ -16,4 +16,7 @@ namespace sonar {
 /// params    empty = those of the products' recipe, the defaults where it tells none
 void join_over_cuts(std::span<ObservationProduct> products, const std::optional<MergeParams>& params = {});
 
+/// Where a propagation by hand had its reach. Ends at which nothing goes on are noted (`ended-at-reach`).
+void join_at_reach(ObservationProduct& product, const MergeParams& params);
+
 }  // namespace sonar

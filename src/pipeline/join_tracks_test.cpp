@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that are joined over a cut.
+// Rows that are joined where a propagation by hand ended at its reach, and over a cut.
 #include "pipeline/join_tracks.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,79 @@ void beside_the_ship(ObservationProduct& product) {
   }
 }
 
+/// Ten pings; school 1 was carried from ping 2 to 5, its reach both ways; 2 begins two pings later, 3 is before it.
+ObservationProduct cut_by_hand() {
+  ObservationProduct p = example::empty("obs-0001", 10);
+  const PingMask mask = example::block(1, 1, 2, 20, 10);
+  example::add_school(p, 1, 2, 5, mask);
+  example::add_school(p, 2, 7, 9, mask);
+  example::add_school(p, 3, 0, 1, mask);
+  beside_the_ship(p);
+  p.schools[0].ended_at_reach = "both";
+  return p;
+}
+
 std::vector<std::string> continues(const ObservationProduct& product) {
   std::vector<std::string> names;
   for (const SchoolRow& school : product.schools) names.push_back(school.continues);
   return names;
+}
+
+std::vector<std::int64_t> open_ends(const ObservationProduct& product) {
+  std::vector<std::int64_t> pings;
+  for (const Diagnostic& note : product.diagnostics) {
+    if (note.code == DiagnosticCode::ended_at_reach) pings.push_back(note.ping_index);
+  }
+  return pings;
+}
+
+TEST(JoinAtReach, WhatBeginsThereIsTheSameSchool) {
+  ObservationProduct p = cut_by_hand();
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"obs-0001/3", "obs-0001/1", ""}));
+  EXPECT_EQ(school_count(p), 1);
+  EXPECT_TRUE(open_ends(p).empty());
+}
+
+TEST(JoinAtReach, AnEndOfItsOwnIsNoCut) {
+  ObservationProduct p = cut_by_hand();
+  p.schools[0].ended_at_reach = "last";
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"", "obs-0001/1", ""}));
+  ObservationProduct ended = cut_by_hand();
+  ended.schools[0].ended_at_reach = "";
+  join_at_reach(ended, {});
+  EXPECT_EQ(continues(ended), (std::vector<std::string>{"", "", ""}));
+}
+
+TEST(JoinAtReach, WhatLiesElsewhereIsAnotherAndTheEndIsNoted) {
+  ObservationProduct p = cut_by_hand();
+  for (SchoolPingRow& row : p.school_pings) {
+    if (row.school_id != 1) row.depth_m += 50.0;
+  }
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"", "", ""}));
+  EXPECT_EQ(open_ends(p), (std::vector<std::int64_t>{2, 5}));
+  // Too late is another as well.
+  ObservationProduct late = cut_by_hand();
+  MergeParams params;
+  params.edge_pings = 0;
+  join_at_reach(late, params);
+  EXPECT_EQ(continues(late), (std::vector<std::string>{"obs-0001/3", "", ""}));
+  EXPECT_EQ(open_ends(late), (std::vector<std::int64_t>{5}));
+}
+
+// The rest of the school that detection found goes on beyond the reach: what begins there beside it is another school.
+TEST(JoinAtReach, AnEndBeyondWhichTheSchoolIsKnownToGoOnIsNone) {
+  ObservationProduct p = cut_by_hand();
+  const PingMask mask = example::block(1, 1, 2, 20, 10);
+  example::add_school(p, 4, 6, 9, mask);
+  beside_the_ship(p);
+  p.schools[3].continues = "obs-0001/1";
+  p.schools[0].ended_at_reach = "last";
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"", "", "", "obs-0001/1"}));
+  EXPECT_TRUE(open_ends(p).empty());
 }
 
 // The rest of a school is found before what a human selected of it, at the beginning of an observation that the clock cut:

@@ -74,11 +74,9 @@ struct CommandGround {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
-  std::vector<TimeNs> times;  ///< [ping_index], datagram times
-  PingReach limits;           ///< pings that may be visited
-  double human_share =
-      0.25;             ///< of the smaller mask: a detection that shares more with a human's school is that school
-  int least_pings = 1;  ///< a detected school of which humans left fewer is gone
+  std::vector<TimeNs> times;         ///< [ping_index], datagram times
+  PingReach limits;                  ///< pings that may be visited
+  int least_pings = 1;               ///< a detected school of which humans left fewer is gone
   PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
 [[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);

@@ -32,6 +32,8 @@ struct SchoolMasks {
   /// Origin, status, operator, decided_utc, species, comment, name, continues, ended_at_reach; the rest is measured.
   SchoolRow decided;
   ReachEnds reach;
+  /// The masks that detection found, where humans took voxels of them; null = it has them all, or was not found.
+  std::shared_ptr<const std::vector<InPing>> found = {};
 };
 
 /// SchoolRow::ended_at_reach: what is known of the ends holds while the school begins, or ends, there.

@@ -32,6 +32,8 @@ struct SurveySchool {
 
 /// Of all observations that are open, by observation and number.
 [[nodiscard]] std::vector<SurveySchool> survey_schools(const Document& document);
+/// How many schools an observation has, as totals count them; those that are not measured yet are there as well.
+[[nodiscard]] std::int64_t school_count(const JournalState& state, const ProductPtr& product);
 /// Empty where there is none, or none is selected.
 [[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
 

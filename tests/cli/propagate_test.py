@@ -79,11 +79,14 @@ class Propagate(Case):
                                out)
             lines = [line for line in said.splitlines() if line.startswith("goes on beyond ")]
             self.assertEqual(sonarx.read_csv(out / "schools.csv")[0]["ended_at_reach"], expected)
+            notes = json.loads((out / "survey.json").read_text())["observations"][0]["notes"]
             if expected:
                 self.assertEqual(len(lines), 1, said)
                 self.assertIn("beyond 1 ping both ways: continue?", lines[0])
+                self.assertEqual(notes["ended-at-reach"], 2)
             else:
                 self.assertEqual(lines, [])
+                self.assertNotIn("ended-at-reach", notes)
 
     def test_a_seed_in_the_noise_is_refused_in_one_line(self):
         # A side of the sector, towards the record's end; a curve that lets noise be grown from.

@@ -9,14 +9,16 @@
 #include <memory>
 #include <utility>
 
+#include "pipeline/continued.h"
+
 namespace sonar {
 namespace {
 
 /// Of a detected mask what a human's voxels leave.
-PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole, double same_share) {
+PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole) {
   const auto shared = static_cast<double>(overlap(mask, voxels));
   const auto smaller = static_cast<double>(std::min(mask.voxels(), voxels.voxels()));
-  if (whole && shared >= same_share * smaller) return {};
+  if (whole && shared >= kSameFishShare * smaller) return {};
   return subtract(mask, voxels);
 }
 
@@ -129,13 +131,20 @@ void Edit::set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings)
   writable(school).masks.pings = std::move(pings);
 }
 
+void Edit::reduce(std::size_t school) {
+  StateSchool& reduced = writable(school);
+  reduced_.push_back(reduced.number);
+  auto& found = reduced.masks.found;
+  if (!found) found = std::make_shared<const std::vector<SchoolMasks::InPing>>(reduced.masks.pings);
+}
+
 void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole) {
   for (std::size_t i = 0; i < state_.schools.size(); ++i) {
     const PingMask& there = mask(i, ping_index);
     if (i == owner || overlap(there, voxels) == 0) continue;
     const bool detected = !state_.schools[i]->by_hand;
-    PingMask left = left_beside(there, voxels, whole && detected, ground_.human_share);
-    if (detected) reduced_.push_back(state_.schools[i]->number);
+    PingMask left = left_beside(there, voxels, whole && detected);
+    if (detected) reduce(i);
     set_mask(i, ping_index, std::move(left));
   }
 }

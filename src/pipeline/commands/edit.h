@@ -68,6 +68,8 @@ class Edit {
 
  private:
   StateSchool& writable(std::size_t school);
+  /// A detected one of which a human takes voxels: what was found is kept.
+  void reduce(std::size_t school);
 
   const JournalAct& act_;
   std::int64_t ping_;
