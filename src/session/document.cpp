@@ -286,6 +286,7 @@ void Document::take_choices(ChoicesShown shown) {
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
   tell_unseen(before);
+  tell_beyond_reach();
   if (!choices_.failure.empty()) tell(choices_.failure);
 }
 

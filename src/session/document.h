@@ -170,6 +170,7 @@ class Document {
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
   void take_detected(std::size_t index, std::vector<SchoolMasks> schools, const std::shared_ptr<JournalStep>& step);
   void tell_unseen(const ChoicesShown& before);
+  void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
