@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "model/product.h"
 #include "pipeline/commands/state.h"
+#include "pipeline/school_numbers.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -20,6 +22,11 @@ namespace sonar {
 /// key  observation_key() of them
 [[nodiscard]] std::optional<std::vector<SchoolMasks>> kept_detected(const std::filesystem::path& file,
                                                                     const std::string& key);
+/// What other versions found in these pings, for choices that name schools by voxels of theirs; null = nothing. A find of
+/// theirs that lies in `file` is held on to first, in a folder beside it, for it will be written over.
+[[nodiscard]] std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file,
+                                                                  const SurveyFiles& survey,
+                                                                  const ObservationFiles& observation);
 /// What cannot be kept is looked for again.
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product);
 

@@ -69,14 +69,17 @@ struct ManualSchool {
   PropagateCommand reached;  ///< the command that gives this without an observer: itself, or as far as it was let go
 };
 
+struct EarlierSchools;
+
 /// What commands need of an observation. Views: what they show outlives the commands.
 struct CommandGround {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
-  std::vector<TimeNs> times;         ///< [ping_index], datagram times
-  PingReach limits;                  ///< pings that may be visited
-  int least_pings = 1;               ///< a detected school of which humans left fewer is gone
+  std::vector<TimeNs> times;                ///< [ping_index], datagram times
+  PingReach limits;                         ///< pings that may be visited
+  int least_pings = 1;                      ///< a detected school of which humans left fewer is gone
+  const EarlierSchools* earlier = nullptr;  ///< where schools lay that choices may name; null = nobody knows
   PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
 [[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);

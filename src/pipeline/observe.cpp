@@ -129,8 +129,8 @@ void keep_name_of_whole(const std::string& before, const std::string& now, Schoo
 void keep_notes_of_masks(const ObservationProduct& before, ObservationProduct& product) {
   for (const Diagnostic& note : before.diagnostics) {
     if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::decision_lost ||
-        note.code == DiagnosticCode::propagation_ended || note.code == DiagnosticCode::ended_at_reach ||
-        note.code == DiagnosticCode::pings_left_out) {
+        note.code == DiagnosticCode::decision_carried || note.code == DiagnosticCode::propagation_ended ||
+        note.code == DiagnosticCode::ended_at_reach || note.code == DiagnosticCode::pings_left_out) {
       product.diagnostics.push_back(note);
     }
   }
@@ -292,7 +292,9 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     product.rejected = refused_echoes(engine, detected, tracks);
     state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
   }
-  state = fold(options.journal, std::move(state), ground_of(engine, reach));
+  CommandGround ground = ground_of(engine, reach);
+  ground.earlier = options.earlier;
+  state = fold(options.journal, std::move(state), ground);
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);

@@ -35,7 +35,7 @@ struct ObserveOptions {
   std::optional<PingSelection> pings;    ///< empty = all
   std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
   std::string program_version;
-  const EarlierSchools* earlier = nullptr;  ///< numbers that schools of these pings had; null = number from 1
+  const EarlierSchools* earlier = nullptr;  ///< what was known of schools of these pings; null = number from 1
 };
 
 /// Sounder and version as they stand in products.

@@ -341,28 +341,28 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   const ObserveOptions observe_options{{}, {}, options_.program_version};
   const auto file = detected_file(options_.cache, *survey, observation);
   const std::string key = observation_key(*survey, observation, recipe, observe_options);
-  if (auto kept = kept_detected(file, key)) {
-    return post(wanted, [this, survey, index, step, schools = std::move(*kept)] {
-      if (survey == survey_) take_detected(index, schools, step);
+  const auto earlier = earlier_found(file, *survey, observation);
+  const auto found = [&](std::vector<SchoolMasks> schools) {
+    post(wanted, [this, survey, index, step, earlier, schools = std::move(schools)] {
+      if (survey == survey_) take_detected(index, schools, earlier, step);
     });
-  }
+  };
+  if (auto kept = kept_detected(file, key)) return found(std::move(*kept));
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;
     return post(wanted, [this, line = to_line(product.error())] { tell(line); });
   }
-  post(wanted, [this, survey, index, step, schools = detected_schools(*product)] {
-    if (survey == survey_) take_detected(index, schools, step);
-  });
+  found(detected_schools(*product));
   keep_detected(file, *product);
 }
 
 void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools,
-                             const std::shared_ptr<JournalStep>& step) {
+                             std::shared_ptr<const EarlierSchools> earlier, const std::shared_ptr<JournalStep>& step) {
   const auto found = static_cast<std::int64_t>(schools.size());
   const OpenObservationPtr observation = opened(index);
   unreplayed_.erase(index);
-  choices_thread_->open(chosen_on_[index], std::move(schools));
+  choices_thread_->open(chosen_on_[index], std::move(schools), std::move(earlier));
   detected_.insert(index);
   if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
     act(index, 0, DetectCommand{found}, step);

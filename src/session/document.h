@@ -168,7 +168,8 @@ class Document {
   OpenObservationPtr opened(std::size_t index);
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
-  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, const std::shared_ptr<JournalStep>& step);
+  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, std::shared_ptr<const EarlierSchools> earlier,
+                     const std::shared_ptr<JournalStep>& step);
   void tell_unseen(const ChoicesShown& before);
   void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);

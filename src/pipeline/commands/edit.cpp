@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "pipeline/carried.h"
 #include "pipeline/continued.h"
 
 namespace sonar {
@@ -24,9 +25,13 @@ PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole) {
 
 }  // namespace
 
-Result<std::size_t> Edit::find(const SchoolKey& key) const {
+Result<std::size_t> Edit::find(const SchoolKey& key) {
   const auto found = school_at(state_, ground_, key);
   if (found) return *found;
+  if (const auto heir = ground_.earlier != nullptr ? heir_of(key, state_, ground_, *ground_.earlier) : std::nullopt) {
+    note_carried(key, key_of(masks(*heir), ground_));
+    return *heir;
+  }
   return fail(ErrorCode::bad_parameter,
               fmt::format("there is no school at channel {}, sample {} of that ping", key.channel, key.sample));
 }
@@ -158,6 +163,15 @@ void Edit::take_ends(std::size_t from, std::size_t into) {
 
 void Edit::note(DiagnosticCode code, std::string text) {
   state_.notes.push_back({code, "", -1, ping_, std::move(text)});
+}
+
+void Edit::note_carried(const SchoolKey& then, const SchoolKey& now) {
+  const auto index = [&](const SchoolKey& key) { return ping_at(ground_, key.ping_time).value_or(-1); };
+  std::string text = fmt::format("choice {} ({}): channel {}, sample {} lies in no school any more", act_.n,
+                                 command_name(act_.command), then.channel, then.sample);
+  text +=
+      fmt::format("; what was there is that of channel {}, sample {} of ping {}", now.channel, now.sample, index(now));
+  state_.notes.push_back({DiagnosticCode::decision_carried, "", -1, index(then), std::move(text)});
 }
 
 void Edit::add_event(const EventCommand& event) {

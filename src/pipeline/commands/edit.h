@@ -23,8 +23,8 @@ class Edit {
   [[nodiscard]] const CommandGround& ground() const { return ground_; }
   [[nodiscard]] const JournalState& state() const { return state_; }
   [[nodiscard]] const SchoolMasks& masks(std::size_t school) const { return state_.schools[school]->masks; }
-  /// Index of the school that a key names. errors: bad_parameter
-  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key) const;
+  /// Index of the school that a key names; that it is known by an older product alone is noted. errors: bad_parameter
+  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key);
   /// The act's runs by rows of the grid. errors: bad_parameter: a run outside the grid
   [[nodiscard]] Result<std::vector<Run>> rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const;
   /// Voxels of other schools than this one that humans gave or confirmed to them.
@@ -70,6 +70,7 @@ class Edit {
   StateSchool& writable(std::size_t school);
   /// A detected one of which a human takes voxels: what was found is kept.
   void reduce(std::size_t school);
+  void note_carried(const SchoolKey& then, const SchoolKey& now);
 
   const JournalAct& act_;
   std::int64_t ping_;
