@@ -21,8 +21,8 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
 - threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and
   confidences follow from it, not the other way round.
 - bottom_depth_m: not recounted. It is a plane through echoes of the seabed, no sample of which is a member.
-- schools.csv: origin, status, operator, decided_utc, species, comment, name and continues are no measures; the table only has
-  to say what the product says (continues excepted, which the merge may fill in).
+- schools.csv: origin, status, operator, decided_utc, species, comment, name, continues and ended_at_reach are
+  no measures; the table only has to say what the product says (continues excepted, which the merge may fill in).
 """
 import argparse
 import datetime

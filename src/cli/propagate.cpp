@@ -19,6 +19,7 @@
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
 #include "io/product.h"
+#include "model/school_totals.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
 #include "pipeline/run.h"
@@ -143,15 +144,22 @@ Result<PropagateCommand> make_command(const PropagateArguments& arguments, const
   return command;
 }
 
-void print_school(const ObservationProduct& product) {
+void print_school(const ObservationProduct& product, std::int64_t reach) {
   for (const SchoolRow& row : product.schools) {
     // Where the background is louder than the echo there is no mean.
     const std::string sv_text = std::isfinite(row.sv_mean_db) ? fmt::format("{:.1f} dB", row.sv_mean_db) : "unknown";
     fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {}, backscatter {:.3g} m2\n", row.n_pings,
-               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, row.backscatter_m2);
+               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, echo_m2(row));
   }
   for (const Diagnostic& note : product.diagnostics) {
     if (note.code == DiagnosticCode::propagation_ended) fmt::print("{}\n", note.text);
+  }
+  for (const SchoolRow& row : product.schools) {
+    if (row.ended_at_reach.empty()) continue;
+    const char* sides =
+        ends_first(row.ended_at_reach) ? ends_last(row.ended_at_reach) ? "both ways" : "backwards" : "forwards";
+    fmt::print("goes on beyond {} ping{} {}: continue? (a larger --reach, or none)\n", reach, reach == 1 ? "" : "s",
+               sides);
   }
 }
 
@@ -260,7 +268,7 @@ int propagate_verb(const PropagateArguments& arguments) {
     return report(written.error());
   const auto merged = merge_after(options.out, RunReport{}, work);
   if (!merged) return report(merged.error());
-  print_school(*product);
+  print_school(*product, arguments.reach);
   return kExitDone;
 }
 

@@ -91,7 +91,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   }
   add_tool_bar(*this, desk);
   add_panels_menu(*this);
-  add_status_line(*this, desk.workspace);
+  add_status_line(*this, desk);
   answer();
   const auto theme = [this, &desk] {
     take_theme(desk.workspace.dark());

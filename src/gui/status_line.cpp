@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "gui/own_keys.h"
+#include "session/beyond_reach.h"
 
 namespace sonar {
 namespace {
@@ -48,9 +49,31 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   bar.setValue(static_cast<int>(progress.done));
 }
 
+/// A school that was carried as far as its reach waits for a human to go on: a button beside the notice that says so.
+void add_continue_button(QStatusBar& status, Desk& desk) {
+  const Action action = *desk.actions.find(kContinueAction);
+  auto* button = new QPushButton(QString::fromStdString(action.text), &status);
+  button->setObjectName("continue");
+  button->setToolTip(QString::fromStdString(action.tip));
+  keep_own_keys(*button);
+  status.addPermanentWidget(button);
+  const auto show = [button, action] { button->setVisible(action.enabled()); };
+  show();
+  QObject::connect(button, &QPushButton::clicked, &status, [action] {
+    if (action.enabled()) action.run();
+  });
+  desk.workspace.school.changed().add(show);
+  desk.workspace.document.changes().add([show](DocumentChange change) {
+    const bool may_matter =
+        change == DocumentChange::state || change == DocumentChange::observation || change == DocumentChange::progress;
+    if (may_matter) show();
+  });
+}
+
 }  // namespace
 
-void add_status_line(QMainWindow& window, Workspace& workspace) {
+void add_status_line(QMainWindow& window, Desk& desk) {
+  Workspace& workspace = desk.workspace;
   QStatusBar* status = window.statusBar();
   // A line of text, not a label: a label's new text has the whole window laid out anew.
   auto* cursor = new QLineEdit(status);
@@ -65,6 +88,7 @@ void add_status_line(QMainWindow& window, Workspace& workspace) {
   cancel->setFlat(true);
   keep_own_keys(*cancel);
   status->addWidget(cursor, 1);
+  add_continue_button(*status, desk);
   status->addPermanentWidget(bar);
   status->addPermanentWidget(cancel);
   // What comes and goes must not push the views about.

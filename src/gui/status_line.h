@@ -3,11 +3,12 @@
 
 #include <QMainWindow>
 
-#include "session/workspace.h"
+#include "session/desk.h"
 
 namespace sonar {
 
-/// The line below the window: what the cursor points at, what runs in the background, the last notice.
-void add_status_line(QMainWindow& window, Workspace& workspace);
+/// The line below the window: what the cursor points at, what runs in the background, the last notice, and an action that the
+/// selected school waits for.
+void add_status_line(QMainWindow& window, Desk& desk);
 
 }  // namespace sonar

@@ -108,6 +108,7 @@ inline void add_school(ObservationProduct& p, std::int64_t id, int first, int la
   school.depth_m = 20.0;
   school.volume_m3 = 1000.0;
   school.sv_mean_db = -45.0;
+  school.backscatter_m2 = 0.0316;
   school.comment = "a \"quoted\", comma";
   p.schools.push_back(school);
 }

@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "io/map_geometry.h"
 #include "io/map_layers.h"
+#include "model/school_totals.h"
 
 namespace sonar {
 namespace {
@@ -61,7 +62,7 @@ ObservationRow observation_row(const ObservationProduct& product) {
     row.last_time_utc = product.pings.back().time;
   }
   row.n_pings = static_cast<std::int64_t>(product.pings.size());
-  row.n_schools = static_cast<std::int64_t>(product.schools.size());
+  row.n_schools = school_count(product);
   return row;
 }
 

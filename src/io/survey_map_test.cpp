@@ -95,7 +95,7 @@ TEST_F(Map, layers_types_and_counts) {
     }
   }
   OGRLayer* schools = data->GetLayerByName("schools");
-  EXPECT_EQ(schools->GetLayerDefn()->GetFieldCount(), 34);
+  EXPECT_EQ(schools->GetLayerDefn()->GetFieldCount(), 35);
   const auto first = first_of(schools);
   EXPECT_EQ(first->GetFieldAsInteger64("school_id"), 1);
   EXPECT_EQ(first->GetFieldAsDouble("sv_mean_db"), -45.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -73,6 +74,11 @@ struct SchoolPingRow {
   double backscatter_total_se_m2 = kUnknown;
 };
 
+/// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
+inline constexpr std::array<std::string_view, 4> kEndNames{"", "first", "last", "both"};
+[[nodiscard]] constexpr bool ends_first(std::string_view ends) { return ends == kEndNames[1] || ends == kEndNames[3]; }
+[[nodiscard]] constexpr bool ends_last(std::string_view ends) { return ends == kEndNames[2] || ends == kEndNames[3]; }
+
 /// One school track: a row of schools.csv.
 struct SchoolRow {
   std::string observation;
@@ -109,6 +115,8 @@ struct SchoolRow {
   double backscatter_calibration_se_db = kUnknown;
   double backscatter_total_m2 = kUnknown;
   double backscatter_total_se_m2 = kUnknown;
+  /// kEndNames: ends of the track that a propagation by hand left only because it was asked no farther.
+  std::string ended_at_reach;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -202,12 +210,13 @@ void columns(Visitor& v, SchoolRow& r) {
   v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
   v("backscatter_total_m2", "m2", r.backscatter_total_m2);
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
+  v("ended_at_reach", "", r.ended_at_reach);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
   return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db" ||
-         column == "backscatter_total_m2" || column == "backscatter_total_se_m2";
+         column == "backscatter_total_m2" || column == "backscatter_total_se_m2" || column == "ended_at_reach";
 }
 
 }  // namespace sonar

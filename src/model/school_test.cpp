@@ -44,8 +44,8 @@ TEST(SchoolColumns, OfTracks) {
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,"
             "backscatter_m2,speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,"
             "operator,decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2");
-  EXPECT_EQ(names.seen.size(), 34U);
+            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach");
+  EXPECT_EQ(names.seen.size(), 35U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

@@ -8,6 +8,8 @@
 
 #include "base/hash.h"
 #include "io/product.h"
+#include "pipeline/earlier.h"
+#include "pipeline/observe.h"
 
 namespace sonar {
 
@@ -27,6 +29,19 @@ std::optional<ObservationProduct> kept_detected(const std::filesystem::path& fil
   auto product = read_product(file);
   if (!product) return std::nullopt;
   return std::move(*product);
+}
+
+std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file, const SurveyFiles& survey,
+                                                    const ObservationFiles& observation) {
+  if (file.empty()) return nullptr;
+  const std::filesystem::path beside = std::filesystem::path(file).replace_extension();
+  std::error_code absent;
+  if (std::filesystem::exists(file, absent)) {
+    const auto key = read_product_key(file);
+    if (key && key->stage_versions != kStageVersions) (void)hold(beside, file, *key);
+  }
+  auto schools = EarlierProducts(beside).schools_of(source_of(observation), datagram_times(survey, observation));
+  return schools ? std::make_shared<const EarlierSchools>(std::move(*schools)) : nullptr;
 }
 
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "model/product.h"
+#include "pipeline/school_numbers.h"
 #include "pipeline/survey.h"
 
 namespace sonar {
@@ -19,6 +21,11 @@ namespace sonar {
 /// key  observation_key() of them
 [[nodiscard]] std::optional<ObservationProduct> kept_detected(const std::filesystem::path& file,
                                                               const std::string& key);
+/// What other versions found in these pings, for choices that name schools by voxels of theirs; null = nothing. A find of
+/// theirs that lies in `file` is held on to first, in a folder beside it, for it will be written over.
+[[nodiscard]] std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file,
+                                                                  const SurveyFiles& survey,
+                                                                  const ObservationFiles& observation);
 /// What cannot be kept is looked for again.
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product);
 

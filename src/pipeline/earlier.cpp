@@ -23,18 +23,6 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& out) { return out / "earlier"; }
 
-/// Link, or copy where the file system knows no links.
-Result<void> hold(const fs::path& product, const fs::path& held) {
-  std::error_code error;
-  if (fs::exists(held, error)) return {};
-  fs::create_directories(held.parent_path(), error);
-  fs::create_hard_link(product, held, error);
-  if (!error) return {};
-  auto bytes = read_file(product);
-  if (!bytes) return pass_on(bytes);
-  return write_file(held, *bytes);
-}
-
 TimeNs offset_ns(const std::string& recipe_json) {
   return static_cast<TimeNs>(std::llround(time_offset_s(recipe_json) * 1e9));
 }
@@ -42,6 +30,13 @@ TimeNs offset_ns(const std::string& recipe_json) {
 /// Unsigned inside: a foreign file's times may be as far apart as no difference can say.
 TimeNs minus(TimeNs time, TimeNs offset) {
   return static_cast<TimeNs>(static_cast<std::uint64_t>(time) - static_cast<std::uint64_t>(offset));
+}
+
+/// What places its choices, or may do so when schools are found anew, is not in it.
+bool needs_older(const ObservationProduct& product) {
+  return std::any_of(product.diagnostics.begin(), product.diagnostics.end(), [](const Diagnostic& note) {
+    return note.code == DiagnosticCode::decision_carried || note.code == DiagnosticCode::decision_lost;
+  });
 }
 
 std::size_t shared_pings(const ObservationProduct& product, std::span<const TimeNs> times) {
@@ -65,6 +60,18 @@ double time_offset_s(const std::string& recipe_json) {
   return std::abs(seconds) <= kMost ? seconds : 0.0;
 }
 
+Result<void> hold(const fs::path& out, const fs::path& product, const ProductKey& key) {
+  const fs::path held = folder_of(out) / (to_hex(hash_text(key.input_hash + " " + key.source)) + ".nc");
+  std::error_code error;
+  if (fs::exists(held, error)) return {};
+  fs::create_directories(held.parent_path(), error);
+  fs::create_hard_link(product, held, error);
+  if (!error) return {};
+  auto bytes = read_file(product);  // the file system knows no links
+  if (!bytes) return pass_on(bytes);
+  return write_file(held, *bytes);
+}
+
 Result<void> set_aside(const fs::path& out, const Plan& plan) {
   std::error_code error;
   if (!fs::is_directory(out / "products", error)) return {};
@@ -77,8 +84,7 @@ Result<void> set_aside(const fs::path& out, const Plan& plan) {
       return task.observation == file.stem().string() && task.key == key->input_hash;
     });
     if (right) continue;
-    const std::string name = to_hex(hash_text(key->input_hash + " " + key->source));
-    if (auto held = hold(file, folder_of(out) / (name + ".nc")); !held) return held;
+    if (auto held = hold(out, file, *key); !held) return held;
   }
   return {};
 }
@@ -155,7 +161,7 @@ void forget_superseded(const fs::path& out, const std::vector<ObservationProduct
     const auto inside = [&](TimeNs time) {
       return std::any_of(finished.begin(), finished.end(), [&](const ObservationProduct& product) {
         const TimeNs now = offset_ns(product.recipe_json);
-        return product.source == key->source && !product.pings.empty() &&
+        return product.source == key->source && !product.pings.empty() && !needs_older(product) &&
                minus(product.pings.front().time, now) <= time && time <= minus(product.pings.back().time, now);
       });
     };

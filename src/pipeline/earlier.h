@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
+#include "io/product.h"
 #include "model/product.h"
 #include "pipeline/plan.h"
 #include "pipeline/school_numbers.h"
@@ -20,6 +21,11 @@ namespace sonar {
 /// school numbers from. Called before plan.json is written.
 /// errors  io, no_space
 [[nodiscard]] Result<void> set_aside(const std::filesystem::path& out, const Plan& plan);
+
+/// Holds on to one product, under OUT/earlier.
+/// errors  io, no_space
+[[nodiscard]] Result<void> hold(const std::filesystem::path& out, const std::filesystem::path& product,
+                                const ProductKey& key);
 
 /// The products in OUT/earlier. Which one a task finds does not depend on what other tasks have done.
 /// threads  const members from any
@@ -57,7 +63,7 @@ class EarlierProducts {
 [[nodiscard]] double time_offset_s(const std::string& recipe_json);
 
 /// Lets go of products in OUT/earlier that begin and end inside these finished ones. What no product has any more stays,
-/// for its files may come back.
+/// for its files may come back; so does what places choices that no voxel of a finished one does.
 void forget_superseded(const std::filesystem::path& out, const std::vector<ObservationProduct>& finished);
 
 }  // namespace sonar

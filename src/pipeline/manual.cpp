@@ -110,11 +110,31 @@ Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs 
   return command;
 }
 
+bool goes_backward(const PropagateCommand& command) { return command.reach_backward.value_or(command.reach) != 0; }
+bool goes_forward(const PropagateCommand& command) { return command.reach_forward.value_or(command.reach) != 0; }
+
 PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward) {
   command.reach_backward = backward;
   command.reach_forward = forward;
   return command;
 }
+
+namespace {
+
+/// Ends that only the reach made: nothing else ended it there, and there are more pings.
+void mark_ends(ManualSchool& made, std::int64_t ping_index, PingReach limits) {
+  const auto& pings = made.school.pings;
+  // One that was stopped has the reach that it came to.
+  const PingReach asked = reach_round(ping_index, made.reached, limits);
+  if (goes_backward(made.reached) && made.note_backward.empty() && asked.first > limits.first) {
+    made.school.reach.first = pings.front().ping_index;
+  }
+  if (goes_forward(made.reached) && made.note_forward.empty() && asked.last < limits.last) {
+    made.school.reach.last = pings.back().ping_index;
+  }
+}
+
+}  // namespace
 
 CommandGround ground_of(Engine& engine, PingReach limits) {
   CommandGround ground;
@@ -169,6 +189,7 @@ Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
   made.school = school_of(*propagation);
   made.note_backward = propagation->note_backward;
   made.note_forward = propagation->note_forward;
+  mark_ends(made, ping_index, ground.limits);
   return made;
 }
 

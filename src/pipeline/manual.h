@@ -57,24 +57,29 @@ struct PropagateCommand {
 /// The command that ends so many pings before and after its own: what a stopped propagation is in the journal.
 [[nodiscard]] PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward);
 
+/// Whether a propagation was asked to go backwards, or forwards.
+[[nodiscard]] bool goes_backward(const PropagateCommand& command);
+[[nodiscard]] bool goes_forward(const PropagateCommand& command);
+
 /// A school that a human selected, and why its propagation ended on either side.
 struct ManualSchool {
-  SchoolMasks school;
+  SchoolMasks school;  ///< with the ends at which it was followed until the command asked no farther
   std::string note_backward;
   std::string note_forward;
   PropagateCommand reached;  ///< the command that gives this without an observer: itself, or as far as it was let go
 };
+
+struct EarlierSchools;
 
 /// What commands need of an observation. Views: what they show outlives the commands.
 struct CommandGround {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
-  std::vector<TimeNs> times;  ///< [ping_index], datagram times
-  PingReach limits;           ///< pings that may be visited
-  double human_share =
-      0.25;             ///< of the smaller mask: a detection that shares more with a human's school is that school
-  int least_pings = 1;  ///< a detected school of which humans left fewer is gone
+  std::vector<TimeNs> times;                ///< [ping_index], datagram times
+  PingReach limits;                         ///< pings that may be visited
+  int least_pings = 1;                      ///< a detected school of which humans left fewer is gone
+  const EarlierSchools* earlier = nullptr;  ///< where schools lay that choices may name; null = nobody knows
   PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
 [[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);

@@ -141,6 +141,7 @@ void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& re
     row.comment = school.decided.comment;
     row.name = school.decided.name;
     row.continues = school.decided.continues;
+    row.ended_at_reach = school.decided.ended_at_reach;
     product.schools.push_back(std::move(row));
   }
 }
@@ -175,6 +176,13 @@ void take_masks(std::vector<SchoolMasks>& schools, Faults& faults, ObservationPr
 }
 
 }  // namespace
+
+std::string ended_at_reach(const SchoolMasks& school) {
+  if (school.pings.empty()) return {};
+  const bool first = school.reach.first == school.pings.front().ping_index;
+  const bool last = school.reach.last == school.pings.back().ping_index;
+  return std::string(kEndNames[static_cast<std::size_t>(first) + 2 * static_cast<std::size_t>(last)]);
+}
 
 std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid) {
   std::erase_if(schools, [](const SchoolMasks& school) { return school.pings.empty(); });

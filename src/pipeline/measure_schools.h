@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@
 
 namespace sonar {
 
+/// Pings at which a propagation by hand ended only because it was asked no farther; empty = no such end.
+struct ReachEnds {
+  std::optional<std::int64_t> first;
+  std::optional<std::int64_t> last;
+};
+
 /// A school as its masks through time; what a human decided about it comes along.
 struct SchoolMasks {
   struct InPing {
@@ -22,8 +29,15 @@ struct SchoolMasks {
   };
   std::vector<InPing> pings;  ///< rising
   std::int64_t track_id = 0;  ///< number among the tracked schools; 0 = a human's
-  SchoolRow decided;          ///< origin, status, operator, decided_utc, species, comment, name; the rest is measured
+  /// Origin, status, operator, decided_utc, species, comment, name, continues, ended_at_reach; the rest is measured.
+  SchoolRow decided;
+  ReachEnds reach;
+  /// The masks that detection found, where humans took voxels of them; null = it has them all, or was not found.
+  std::shared_ptr<const std::vector<InPing>> found = {};
 };
+
+/// SchoolRow::ended_at_reach: what is known of the ends holds while the school begins, or ends, there.
+[[nodiscard]] std::string ended_at_reach(const SchoolMasks& school);
 
 /// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.
 [[nodiscard]] std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid);

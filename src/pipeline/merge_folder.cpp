@@ -13,6 +13,7 @@
 #include "io/csv.h"
 #include "io/product.h"
 #include "io/survey_map.h"
+#include "model/school_totals.h"
 #include "pipeline/earlier.h"
 #include "pipeline/merge.h"
 #include "pipeline/plan.h"
@@ -48,7 +49,7 @@ json observation_json(const ObservationProduct& product) {
               {"history", product.history},
               {"pings", product.pings.size()},
               {"bad_pings", bad},
-              {"schools", product.schools.size()},
+              {"schools", school_count(product)},
               {"input_hash", product.input_hash},
               {"input_files", files},
               {"notes", notes},
@@ -81,8 +82,13 @@ std::string survey_json(const MergeReport& report) {
   for (const Diagnostic& note : report.notes) {
     notes.push_back({{"code", name(note.code)}, {"file", note.file}, {"text", note.text}});
   }
-  const auto continued = std::count_if(report.survey.schools.begin(), report.survey.schools.end(),
-                                       [](const SchoolRow& s) { return !s.continues.empty(); });
+  const std::vector<SchoolRow>& rows = report.survey.schools;
+  const auto rejected =
+      std::count_if(rows.begin(), rows.end(), [](const SchoolRow& s) { return s.status == "rejected"; });
+  const auto over_a_cut = std::count_if(rows.begin(), rows.end(), [](const SchoolRow& s) {
+    return !s.continues.empty() && !s.continues.starts_with(s.observation + "/");
+  });
+  const std::vector<CountedSchool> schools = counted_schools(report.survey.observations);
   json provenance = nullptr;
   if (!report.survey.observations.empty()) {
     const ObservationProduct& first = report.survey.observations.front();
@@ -96,8 +102,12 @@ std::string survey_json(const MergeReport& report) {
   const json out = {{"summary",
                      {{"observations", report.survey.observations.size()},
                       {"pings", pings},
-                      {"schools", report.survey.schools.size()},
-                      {"schools_continued_over_a_cut", continued},
+                      {"schools", schools.size()},
+                      {"backscatter_total_m2", total_backscatter_m2(schools)},
+                      {"school_rows", rows.size()},
+                      {"school_rows_rejected", rejected},
+                      {"school_rows_continued", std::ssize(rows) - rejected - std::ssize(schools)},
+                      {"schools_continued_over_a_cut", over_a_cut},
                       {"school_pings", report.survey.school_pings.size()},
                       {"complete", report.complete() && partly_run(report).empty()}}},
                     {"provenance", provenance},
@@ -238,7 +248,7 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   std::size_t pings = 0;
   for (const ObservationProduct& product : report.survey.observations) pings += product.pings.size();
   std::string text = fmt::format("{} observations, {} pings, {} schools\n", report.survey.observations.size(), pings,
-                                 report.survey.schools.size());
+                                 counted_schools(report.survey.observations).size());
   const auto list = [&](const char* what, const std::vector<std::string>& names) {
     if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
   };

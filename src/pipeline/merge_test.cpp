@@ -164,7 +164,13 @@ TEST_F(MergeFolder, writes_tables_map_and_summary) {
   EXPECT_EQ(read_csv_rows<SchoolPingRow>(out_ / "school_pings.csv")->size(), 15U);
   EXPECT_TRUE(fs::exists(out_ / "survey.gpkg"));
   const nlohmann::json json = survey_json();
-  EXPECT_EQ(json["summary"]["schools"], 3);
+  EXPECT_EQ(json["summary"]["schools"], 2) << "one goes on over the cut";
+  EXPECT_EQ(json["summary"]["school_rows"], 3);
+  EXPECT_EQ(json["summary"]["school_rows_continued"], 1);
+  EXPECT_EQ(json["summary"]["school_rows_rejected"], 0);
+  EXPECT_EQ(json["summary"]["schools_continued_over_a_cut"], 1);
+  EXPECT_NEAR(json["summary"]["backscatter_total_m2"].get<double>(), 2 * 0.0316, 1e-12)
+      << "of each ping of the example";
   EXPECT_EQ(json["provenance"]["recipe"]["recipe_version"], 1);
   EXPECT_EQ(json["observations"][0]["input_files"][0]["name"], "a file.raw");
   const std::string map = *read_file(out_ / "survey.gpkg");

@@ -14,9 +14,11 @@
 #include "pipeline/beam_figures.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/state.h"
+#include "pipeline/continued.h"
 #include "pipeline/detect_pings.h"
 #include "pipeline/earlier.h"
 #include "pipeline/engine.h"
+#include "pipeline/join_tracks.h"
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
 #include "pipeline/refused_echoes.h"
@@ -121,11 +123,17 @@ void note_schools_without_place(ObservationProduct& product) {
                                  fmt::format("{} pings have no position; their schools have no place", lost)});
 }
 
+/// Display names may have shifted since.
+void keep_name_of_whole(const std::string& before, const std::string& now, SchoolRow& row) {
+  if (row.continues.starts_with(before + "/")) row.continues = now + row.continues.substr(before.size());
+}
+
 /// What is known of how the kept masks were made.
 void keep_notes_of_masks(const ObservationProduct& before, ObservationProduct& product) {
   for (const Diagnostic& note : before.diagnostics) {
     if (note.code == DiagnosticCode::track_event || note.code == DiagnosticCode::decision_lost ||
-        note.code == DiagnosticCode::propagation_ended || note.code == DiagnosticCode::pings_left_out) {
+        note.code == DiagnosticCode::decision_carried || note.code == DiagnosticCode::propagation_ended ||
+        note.code == DiagnosticCode::ended_at_reach || note.code == DiagnosticCode::pings_left_out) {
       product.diagnostics.push_back(note);
     }
   }
@@ -287,11 +295,14 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     product.rejected = refused_echoes(engine, detected, tracks);
     state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
   }
-  state = fold(options.journal, std::move(state), ground_of(engine, reach));
+  CommandGround ground = ground_of(engine, reach);
+  ground.earlier = options.earlier;
+  state = fold(options.journal, std::move(state), ground);
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
   product.rejected = still_refused(std::move(product.rejected), state, engine.grid());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
+  name_parts(schools, product.observation);
   note_events(tracks.events, schools, product);
   if (state.calibration) {
     const Recipe measuring = measuring_recipe(recipe, state);
@@ -301,6 +312,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   } else if (auto done = measure_schools(engine, std::move(schools), product, work); !done) {
     return pass_on(done);
   }
+  join_at_reach(product, recipe.merge);
   note_schools_without_place(product);
   return product;
 }
@@ -327,6 +339,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
   for (const SchoolRow& row : before.schools) {
     SchoolMasks school;
     school.decided = row;
+    keep_name_of_whole(before.observation, product.observation, school.decided);
     for (const SchoolMask& mask : before.masks) {
       if (mask.school_id != row.school_id) continue;
       const auto old = std::find_if(before.school_pings.begin(), before.school_pings.end(), [&](const auto& r) {

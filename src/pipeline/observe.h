@@ -22,7 +22,7 @@ namespace sonar {
 /// are not merged.
 inline constexpr std::string_view kStageVersions =
     "decode 3, flags 4, calibrate 1, background 3, median 1, seabed 6, detect 12, track 8, propagate 5, measure 12, "
-    "summarise 4";
+    "summarise 5";
 
 /// Inclusive range of ping indices.
 struct PingSelection {
@@ -35,7 +35,7 @@ struct ObserveOptions {
   std::optional<PingSelection> pings;    ///< empty = all
   std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
   std::string program_version;
-  const EarlierSchools* earlier = nullptr;  ///< numbers that schools of these pings had; null = number from 1
+  const EarlierSchools* earlier = nullptr;  ///< what was known of schools of these pings; null = number from 1
 };
 
 /// Sounder and version as they stand in products.

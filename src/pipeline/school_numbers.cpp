@@ -20,21 +20,10 @@ struct Candidate {
   [[nodiscard]] auto order() const { return std::tuple(~shared, school, number); }
 };
 
-/// The mask's runs on another grid's rows; beams that it has not are left out. Confidences are not needed.
-PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row, const std::vector<int>& row_of_channel) {
-  PingMask moved;
-  for (Run run : mask.runs) {
-    const auto channel = static_cast<std::size_t>(channel_of_row[static_cast<std::size_t>(run.row)]);
-    run.row = channel < row_of_channel.size() ? row_of_channel[channel] : -1;
-    if (run.row >= 0) moved.runs.push_back(run);
-  }
-  std::sort(moved.runs.begin(), moved.runs.end());
-  return moved;
-}
-
 std::map<TimeNs, std::vector<const SchoolMask*>> by_time(const EarlierSchools::Layer& layer) {
   std::map<TimeNs, std::vector<const SchoolMask*>> masks;
   for (const SchoolMask& mask : layer.masks) {
+    if (mask.school_id < layer.first_number) continue;
     masks[layer.ping_times[static_cast<std::size_t>(mask.ping_index)]].push_back(&mask);
   }
   return masks;
@@ -73,6 +62,21 @@ std::vector<Candidate> candidates(const std::vector<SchoolMasks>& schools, const
 
 }  // namespace
 
+PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row, const std::vector<int>& row_of_channel) {
+  PingMask moved;
+  std::size_t voxels = 0;
+  for (Run run : mask.runs) {
+    const auto channel = static_cast<std::size_t>(channel_of_row[static_cast<std::size_t>(run.row)]);
+    run.row = channel < row_of_channel.size() ? row_of_channel[channel] : -1;
+    if (run.row < 0) continue;
+    moved.runs.push_back(run);
+    voxels += static_cast<std::size_t>(run.count);
+  }
+  std::sort(moved.runs.begin(), moved.runs.end());
+  moved.confidence.assign(voxels, 255);
+  return moved;
+}
+
 void EarlierSchools::add(ObservationProduct product, double time_offset_s) {
   const std::int64_t next = sonar::next_school_id(product);
   const auto offset = static_cast<std::uint64_t>(std::llround(time_offset_s * 1e9));
@@ -82,8 +86,7 @@ void EarlierSchools::add(ObservationProduct product, double time_offset_s) {
   }
   if (product.grid) layer.channel_of_row = std::move(product.grid->grid.channel);
   layer.masks = std::move(product.masks);
-  std::erase_if(layer.masks,
-                [&](const SchoolMask& mask) { return !layers.empty() && mask.school_id < next_school_id; });
+  if (!layers.empty()) layer.first_number = next_school_id;
   layers.push_back(std::move(layer));
   next_school_id = std::max(next_school_id, next);
 }

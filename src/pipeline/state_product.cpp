@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/continued.h"
+#include "pipeline/join_tracks.h"
 #include "pipeline/observe.h"
 #include "pipeline/refused_echoes.h"
 
@@ -29,9 +31,12 @@ Result<ObservationProduct> state_product(Engine& engine, const JournalState& sta
   const std::vector<TimeNs> times = datagram_times(engine.survey(), engine.observation());
   product.next_school_id = state.next_number;
   product.rejected = still_refused({options.refused.begin(), options.refused.end()}, state, engine.grid());
-  if (auto done = measure_schools(engine, measured_masks_of(counted, times), product, work, options.before); !done) {
+  std::vector<SchoolMasks> schools = measured_masks_of(counted, times);
+  name_parts(schools, product.observation);
+  if (auto done = measure_schools(engine, std::move(schools), product, work, options.before); !done) {
     return pass_on(done);
   }
+  join_at_reach(product, engine.recipe().merge);
   return product;
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/depth_raster.h"
 #include "io/map_outlines.h"
+#include "model/school_totals.h"
 #include "publish/drawn_schools.h"
 #include "view/observation_map.h"
 #include "view/propagation_view.h"
@@ -39,7 +40,7 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.refused);
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
-  base->left_out = observation.product().schools.size() - product.schools.size();
+  base->left_out = static_cast<std::size_t>(school_count(observation.product()) - school_count(product));
   FrameDescription frame = observation_map(*base, product, mask_mosaic(*base, product), static_cast<std::size_t>(*ping),
                                            palette_of(product, options));
   const PingNavigation& current = product.pings[static_cast<std::size_t>(*ping)];
@@ -82,13 +83,10 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   }
   std::vector<ObservationProduct> products;
   SurveyMapStyle style;
-  for (const DrawnObservation& observation : observations) {
-    products.push_back(with_chosen_schools(observation.product(), options));
-    const auto& all = observation.product().schools;
-    style.left_out += static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const SchoolRow& row) {
-      return row.status != "rejected" && !(options.masks && wanted(row.school_id, options));
-    }));
-  }
+  for (const DrawnObservation& observation : observations) products.push_back(observation.product());
+  style.left_out = counted_schools(products).size();
+  for (ObservationProduct& product : products) product = with_chosen_schools(product, options);
+  style.left_out -= counted_schools(products).size();
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {
     outlines[static_cast<std::size_t>(i)] = map_outlines(products[static_cast<std::size_t>(i)]);

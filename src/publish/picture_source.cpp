@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/product.h"
+#include "pipeline/join_tracks.h"
 #include "pipeline/merge.h"
 #include "pipeline/observe.h"
 
@@ -184,6 +185,7 @@ std::string PictureSource::why_no_pings() const {
 }
 
 void PictureSource::match() {
+  join_over_cuts(products_);
   std::vector<bool> matched(products_.size());
   if (survey_) {
     for (const ObservationFiles& files : survey_->observations) {

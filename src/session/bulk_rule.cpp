@@ -78,7 +78,7 @@ double value_of(Quantity quantity, const SurveySchool& school) {
     case Quantity::sv_db:
       return figure(&SchoolRow::sv_mean_db);
     case Quantity::backscatter_m2:
-      return figure(&SchoolRow::backscatter_m2);
+      return school.backscatter_m2();
   }
   return kUnknown;
 }

@@ -61,10 +61,19 @@ void Choices::publish(std::string failure, std::int64_t line) {
   });
 }
 
-void Choices::open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected) {
-  run([this, observation = std::move(observation), detected = std::move(detected)]() -> Result<std::int64_t> {
+CommandGround Choices::OnObservation::ground() const {
+  CommandGround ground = observation->ground();
+  ground.earlier = earlier.get();
+  return ground;
+}
+
+void Choices::open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected,
+                   std::shared_ptr<const EarlierSchools> earlier) {
+  run([this, observation = std::move(observation), detected = std::move(detected),
+       earlier = std::move(earlier)]() -> Result<std::int64_t> {
     open_[observation->index()] = {observation, detected.has_value(),
-                                   state_before_detection(detected.value_or(std::vector<SchoolMasks>{})), nullptr};
+                                   state_before_detection(detected.value_or(std::vector<SchoolMasks>{})), nullptr,
+                                   earlier};
     rebuild(observation->index());
     return 0;
   });
@@ -125,7 +134,7 @@ void Choices::rebuild() {
     Turn turn{line.n, line.step, line.command, {}, {}};
     for (auto& [index, of] : open_) {
       turn.before[index] = of.state;
-      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.observation->ground()));
+      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.ground()));
       turn.after[index] = of.state;
     }
     if (const auto act = act_of(line)) turn.name = name_of(*act, turn);
@@ -149,7 +158,7 @@ void Choices::rebuild(std::size_t index) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     tell_replayed(i, lines.size());
     done_[i].before[index] = of.state;
-    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.observation->ground()));
+    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.ground()));
     done_[i].after[index] = of.state;
     if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
     names_[done_[i].n] = done_[i].name;
@@ -194,7 +203,7 @@ Result<void> Choices::write(const JournalLine& line) {
 }
 
 CommandGround Choices::watched(std::size_t observation) {
-  CommandGround ground = open_.at(observation).observation->ground();
+  CommandGround ground = open_.at(observation).ground();
   ground.on_step = [this, observation](std::int64_t ping_index, const PingMask& mask) {
     queue_.post([this, alive = std::weak_ptr<bool>(alive_), observation, ping_index, mask] {
       if (!alive.expired()) step_(observation, ping_index, mask);
@@ -223,7 +232,7 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   for (const auto& [index, of] : open_) {
     if (index == observation) continue;
     // One that cannot be done there says nothing of that observation.
-    auto other = apply(act, *of.state, of.observation->ground());
+    auto other = apply(act, *of.state, of.ground());
     if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
   }
   JournalLine line = line_of(act);

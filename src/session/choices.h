@@ -15,6 +15,7 @@
 #include "base/task_thread.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/journal_lock.h"
+#include "pipeline/school_numbers.h"
 #include "session/change_queue.h"
 #include "session/history.h"
 #include "session/journal_place.h"
@@ -69,7 +70,9 @@ class Choices {
 
   /// An observation takes part from now on: what the journal says of it is carried out.
   /// detected  schools that were found in it; none = nobody looked
-  void open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected = {});
+  /// earlier   what other versions found there; null = nothing
+  void open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected = {},
+            std::shared_ptr<const EarlierSchools> earlier = {});
   /// On a ping of an open observation.
   /// step  that the act is part of; null = it stands alone
   void act(std::size_t observation, std::int64_t ping_index, Command command,
@@ -89,6 +92,9 @@ class Choices {
     bool searched = false;
     JournalState detected;  ///< lies under the journal where its lines ask for detection, and only there
     JournalStatePtr state;
+    std::shared_ptr<const EarlierSchools> earlier;
+    /// What the observation's choices stand on.
+    [[nodiscard]] CommandGround ground() const;
   };
   /// One act, and the states round it.
   struct Turn {

@@ -12,8 +12,8 @@ using Id = std::string_view;
 constexpr std::array<Id, 3> kTools{"tool.seed", "tool.brush", "tool.eraser"};
 constexpr std::array<Id, 6> kDecide{"review.accept",  "review.reject", "review.unreview",
                                     "school.species", "school.rename", "school.comment"};
-constexpr std::array<Id, 4> kFollow{"school.propagate", "school.propagate_forwards", "school.propagate_backwards",
-                                    "school.stop"};
+constexpr std::array<Id, 5> kFollow{"school.propagate", "school.propagate_forwards", "school.propagate_backwards",
+                                    "school.continue", "school.stop"};
 constexpr std::array<Id, 7> kShape{"school.fill_holes",  "school.smooth", "school.largest_part", "school.split",
                                    "school.split_piece", "school.merge",  "school.delete"};
 constexpr std::array<Id, 4> kReview{"review.next", "review.rule", "schools.detect", "schools.detect_all"};

@@ -289,6 +289,7 @@ void Document::take_choices(ChoicesShown shown) {
   changes_.tell(DocumentChange::propagating);
   measure_changed(before);
   tell_unseen(before);
+  tell_beyond_reach();
   if (!choices_.failure.empty()) tell(choices_.failure);
 }
 
@@ -343,9 +344,9 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   const ObserveOptions observe_options{{}, {}, options_.program_version};
   const auto file = detected_file(options_.cache, *survey, observation);
   const std::string key = observation_key(*survey, observation, recipe, observe_options);
-  const auto take = [&](const ObservationProduct& found) {
-    post(wanted, [this, survey, index, step, schools = detected_schools(found), refused = found.rejected] {
-      if (survey == survey_) take_detected(index, schools, refused, step);
+  const auto take = [&, earlier = earlier_found(file, *survey, observation)](const ObservationProduct& product) {
+    post(wanted, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
+      if (survey == survey_) take_detected(index, found, step);
     });
   };
   if (const auto kept = kept_detected(file, key)) return take(*kept);
@@ -358,16 +359,15 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   keep_detected(file, *product);
 }
 
-void Document::take_detected(std::size_t index, std::vector<SchoolMasks> schools, std::vector<RefusedEcho> refused,
-                             const std::shared_ptr<JournalStep>& step) {
-  const auto found = static_cast<std::int64_t>(schools.size());
+void Document::take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step) {
+  const auto number = static_cast<std::int64_t>(found.schools.size());
   const OpenObservationPtr observation = opened(index);
   unreplayed_.erase(index);
-  choices_thread_->open(chosen_on_[index], std::move(schools));
+  choices_thread_->open(chosen_on_[index], std::move(found.schools), std::move(found.earlier));
   detected_.insert(index);
-  found_refused_[index] = std::move(refused);
+  found_refused_[index] = std::move(found.refused);
   if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
-    act(index, 0, DetectCommand{found}, step);
+    act(index, 0, DetectCommand{number}, step);
   }
 }
 

@@ -165,16 +165,22 @@ class Document {
   void settle();
 
  private:
+  /// What detection gave of one observation.
+  struct Found {
+    std::vector<SchoolMasks> schools;
+    std::vector<RefusedEcho> refused;
+    std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
+  };
   void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
   OpenObservationPtr opened(std::size_t index);
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
-  void take_detected(std::size_t index, std::vector<SchoolMasks> schools, std::vector<RefusedEcho> refused,
-                     const std::shared_ptr<JournalStep>& step);
+  void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
   void follow_refused(const ChoicesShown& before);
   void tell_unseen(const ChoicesShown& before);
+  void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "session/document.h"
 
@@ -44,6 +45,19 @@ bool same_choices(const JournalState& a, const JournalState& b) {
          (a.calibration == nullptr) == (b.calibration == nullptr);
 }
 
+/// The school that a propagation made, or carried on; null where there is none.
+/// n  of its line
+const StateSchool* followed_school(const JournalState& state, const CommandGround& ground, std::int64_t n,
+                                   const PropagateCommand& command) {
+  if (command.school) {
+    const auto known = school_at(state, ground, *command.school);
+    return known ? state.schools[*known].get() : nullptr;
+  }
+  const auto made =
+      std::find_if(state.schools.begin(), state.schools.end(), [n](const auto& one) { return one->made_by == n; });
+  return made == state.schools.end() ? nullptr : made->get();
+}
+
 std::vector<std::string> names_of(const std::vector<std::filesystem::path>& paths) {
   std::vector<std::string> names;
   for (const auto& path : paths) names.push_back(path.string());
@@ -70,6 +84,27 @@ std::string Document::nothing_shown() const {
   std::string why = why_no_grid(all.front());
   if (all.size() > 1) why += fmt::format("; nor can {} more observations", all.size() - 1);
   return why;
+}
+
+void Document::tell_beyond_reach() {
+  const JournalLine* line = done_line(choices_);
+  if (line == nullptr || line->command != "propagate") return;
+  const auto act = act_of(*line);
+  if (!act) return;
+  const auto& command = std::get<PropagateCommand>(act->command);
+  for (const auto& [index, state] : choices_.states) {
+    const OpenObservationPtr observation = open_observation(index);
+    if (!observation || !state || !ping_at(observation->ground(), line->ping_time)) continue;
+    const StateSchool* school = followed_school(*state, observation->ground(), line->n, command);
+    const std::string ends = school == nullptr ? std::string{} : ended_at_reach(school->masks);
+    // Of the sides that it was just followed to.
+    std::int64_t pings = 0;
+    if (ends_first(ends) && goes_backward(command)) pings = command.reach_backward.value_or(command.reach);
+    if (ends_last(ends) && goes_forward(command)) pings = command.reach_forward.value_or(command.reach);
+    if (pings == 0) continue;
+    tell(fmt::format("{} goes on beyond {} ping{}: continue? (Ctrl+Shift+P)", school_title(*school), pings,
+                     pings == 1 ? "" : "s"));
+  }
 }
 
 void Document::tell_unseen(const ChoicesShown& before) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/school_totals.h"
 #include "pipeline/export.h"
 #include "pipeline/observe.h"
 #include "pipeline/write_survey.h"
@@ -181,7 +182,7 @@ void export_results(Workspace& workspace, const fs::path& folder) {
     const auto report = write_survey(*snapshot.survey, folder, source_of_products(snapshot, work), work);
     if (!report) return pass_on(report);
     return fmt::format("written: {} observations with {} schools in {}", report->survey.observations.size(),
-                       report->survey.schools.size(), folder.string());
+                       counted_schools(report->survey.observations).size(), folder.string());
   });
 }
 

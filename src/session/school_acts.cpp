@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "session/beyond_reach.h"
 #include "session/desk_parts.h"
 #include "session/refused_layer.h"
 #include "session/survey_schools.h"
@@ -210,6 +211,7 @@ void add_carrying(Desk& desk) {
   add("school.propagate_forwards", "Propagate forwards from here", "P", false, true);
   add("school.propagate_backwards", "Propagate backwards from here", "Shift+P", true, false);
   add("school.propagate", "Propagate both ways from here", "Ctrl+P", true, true);
+  add_continuing(desk);
 }
 
 void add_reshaping(Desk& desk) {

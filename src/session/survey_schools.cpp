@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "pipeline/continued.h"
 
 namespace sonar {
 namespace {
@@ -83,6 +84,28 @@ std::vector<SurveySchool> survey_schools(const Document& document) {
     for (const auto& school : state->schools) schools.push_back(made(document, index, school));
   }
   return schools;
+}
+
+std::int64_t school_count(const JournalState& state, const ProductPtr& product) {
+  std::vector<const SchoolMasks*> masks;
+  for (const auto& school : state.schools) masks.push_back(&school->masks);
+  const std::vector<int> continues = continued(masks);
+  ObservationProduct counted;
+  counted.observation = product ? product->observation : std::string{};
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    SchoolRow row;
+    row.observation = counted.observation;
+    row.school_id = state.schools[i]->number;
+    row.status = masks[i]->decided.status;
+    if (continues[i] >= 0) {
+      row.continues = school_name(row.observation, state.schools[static_cast<std::size_t>(continues[i])]->number);
+    } else if (const SchoolRow* measured = product ? row_of(*product, row.school_id) : nullptr; measured != nullptr) {
+      // Where a propagation had its reach, places tell what goes on.
+      row.continues = measured->continues;
+    }
+    counted.schools.push_back(std::move(row));
+  }
+  return school_count(counted);
 }
 
 std::optional<SurveySchool> selected_school(const Workspace& workspace) {

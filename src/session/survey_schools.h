@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/school_totals.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -20,7 +21,7 @@ struct SurveySchool {
   [[nodiscard]] const SchoolRow& decided() const { return state->masks.decided; }
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(state->masks.pings.size()); }
   [[nodiscard]] std::int64_t middle_ping() const;
-  [[nodiscard]] double backscatter_m2() const { return row == nullptr ? kUnknown : row->backscatter_m2; }
+  [[nodiscard]] double backscatter_m2() const { return row == nullptr ? kUnknown : echo_m2(*row); }
   /// Signal-to-noise over its pings: the mean of the linear ratios, each weighted by its volume, in dB; NaN = unknown.
   [[nodiscard]] double snr_db() const;
   /// Share of its pings that touch an edge; NaN = unknown.
@@ -31,6 +32,8 @@ struct SurveySchool {
 
 /// Of all observations that are open, by observation and number.
 [[nodiscard]] std::vector<SurveySchool> survey_schools(const Document& document);
+/// How many schools an observation has, as totals count them; those that are not measured yet are there as well.
+[[nodiscard]] std::int64_t school_count(const JournalState& state, const ProductPtr& product);
 /// Empty where there is none, or none is selected.
 [[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
 

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "model/outline.h"
+#include "model/school_totals.h"
 #include "view/axes.h"
 #include "view/graticule.h"
 #include "view/map_items.h"
@@ -160,7 +161,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
                                  const MaskMosaic& mosaic, std::optional<std::size_t> current,
                                  const MaskPalette& palette, std::optional<std::size_t> schools) {
   const Theme& theme = base.theme;
-  const std::size_t told = schools.value_or(product.schools.size());
+  const std::size_t told = schools.value_or(static_cast<std::size_t>(school_count(product)));
   FrameDescription frame;
   frame.size = base.size;
   frame.background = theme.background;

@@ -39,12 +39,15 @@ std::vector<double> status_dashes(const std::string& status, const Theme& theme)
 
 SchoolLook::SchoolLook(std::span<const ObservationProduct> observations, const SurveyMapStyle& style,
                        const Theme& theme)
-    : style_(style), theme_(theme), map_(colour_map(ColourMapName::thermal)) {
+    : style_(style), theme_(theme), map_(colour_map(ColourMapName::thermal)), schools_(counted_schools(observations)) {
+  for (std::size_t i = 0; i < schools_.size(); ++i) {
+    for (const SchoolRow* row : schools_[i].rows) school_of_row_[row] = i;
+    largest_m2_ = std::fmax(largest_m2_, schools_[i].backscatter_m2);
+  }
   std::array<bool, kStatuses.size()> seen{};
   for (const ObservationProduct& product : observations) {
     for (const SchoolRow& school : product.schools) {
       if (!shown(school)) continue;
-      if (std::isfinite(school.backscatter_m2)) largest_m2_ = std::max(largest_m2_, school.backscatter_m2);
       species_.push_back(school.species);
       for (std::size_t i = 0; i < kStatuses.size(); ++i) seen[i] = seen[i] || school.status == kStatuses[i];
     }
@@ -81,6 +84,17 @@ Rgba8 SchoolLook::colour(const SchoolRow& school) const {
   if (!std::isfinite(school.sv_mean_db)) return theme_.muted;
   const double t = (school.sv_mean_db - style_.sv_low_db) / std::max(1e-9, style_.sv_high_db - style_.sv_low_db);
   return map_.at(t);
+}
+
+const CountedSchool* SchoolLook::school_of(const SchoolRow& row) const {
+  const auto found = school_of_row_.find(&row);
+  return found == school_of_row_.end() ? nullptr : &schools_[found->second];
+}
+
+double SchoolLook::backscatter_m2(const SchoolRow& row) const {
+  const CountedSchool* school = school_of(row);
+  if (school == nullptr) return echo_m2(row);
+  return school->rows.front() == &row ? school->backscatter_m2 : 0.0;
 }
 
 double SchoolLook::radius_px(double backscatter_m2) const {

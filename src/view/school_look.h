@@ -2,10 +2,11 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "model/school.h"
+#include "model/school_totals.h"
 #include "view/survey_map.h"
 #include "view/volume_scene.h"
 
@@ -19,14 +20,20 @@ namespace sonar {
 [[nodiscard]] std::vector<double> line_dashes(OutlineLine line, const Theme& theme);
 [[nodiscard]] std::vector<double> status_dashes(const std::string& status, const Theme& theme);
 
-/// Colours and sizes of a map's schools.
+/// Colours and sizes of a map's schools. Rows are those of the observations, which outlive it.
 class SchoolLook {
  public:
   SchoolLook(std::span<const ObservationProduct> observations, const SurveyMapStyle& style, const Theme& theme);
   [[nodiscard]] Rgba8 colour(const SchoolRow& school) const;
   [[nodiscard]] bool shown(const SchoolRow& school) const;
+  /// The school that counts the row; null where it is rejected.
+  [[nodiscard]] const CountedSchool* school_of(const SchoolRow& row) const;
+  /// What a row's circle stands for: the whole school's backscatter in the first of its rows, nothing in the others.
+  [[nodiscard]] double backscatter_m2(const SchoolRow& row) const;
   /// Radius of a circle whose area is proportional to backscatter, within sensible bounds.
   [[nodiscard]] double radius_px(double backscatter_m2) const;
+  /// How many schools there are, as totals count them.
+  [[nodiscard]] std::size_t schools() const { return schools_.size(); }
   /// Entries of the legend: colour and name; empty for mean Sv, which has a colour bar.
   [[nodiscard]] const std::vector<std::pair<Rgba8, std::string>>& entries() const { return entries_; }
   /// Backscatters for the legend's circles, rising; at most three.
@@ -40,6 +47,8 @@ class SchoolLook {
   ColourMap map_;
   std::vector<std::pair<Rgba8, std::string>> entries_;
   std::vector<std::string> species_;
+  std::vector<CountedSchool> schools_;
+  std::unordered_map<const SchoolRow*, std::size_t> school_of_row_;
   double largest_m2_ = 0.0;
 };
 

@@ -105,12 +105,12 @@ std::string left_out_text(std::span<const std::string> labels, const char* what)
   return out;
 }
 
-std::string numbers_text(std::span<const std::int64_t> numbers) {
+std::string numbers_text(std::span<const std::int64_t> numbers, std::size_t schools) {
   const auto count = static_cast<std::int64_t>(numbers.size());
   if (count > 2 && numbers.back() - numbers.front() + 1 == count) {
     return fmt::format("{}\u2013{}", numbers.front(), numbers.back());
   }
-  if (count > 3) return fmt::format("{} schools", count);
+  if (count > 3) return fmt::format("{} school{}", schools, schools == 1 ? "" : "s");
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 

@@ -46,6 +46,7 @@ struct NumberedPlace {
 
 /// Numbers as one text: "3", "1, 4", "1–5", "7 schools" where that is too long.
 /// numbers  rising, at least one
-[[nodiscard]] std::string numbers_text(std::span<const std::int64_t> numbers);
+/// schools  that these are
+[[nodiscard]] std::string numbers_text(std::span<const std::int64_t> numbers, std::size_t schools);
 
 }  // namespace sonar

@@ -107,7 +107,7 @@ void add_school(const SurveyMapDrawing& d, const SchoolRow& school, const Observ
   const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
   if (!centre) return;
   // Where the outline can be seen the circle must not hide it.
-  const double radius = d.look.radius_px(school.backscatter_m2);
+  const double radius = d.look.radius_px(d.look.backscatter_m2(school));
   const bool hides = area > 12.0 && area > 0.25 * 3.14 * radius * radius;
   d.frame.items.emplace_back(circle_item(*centre, radius, hides ? Rgba8{0, 0, 0, 0} : with_alpha(colour, 215),
                                          {d.theme.text, 0.8 * d.theme.line_px, {}}));
@@ -142,10 +142,8 @@ std::string second_line(std::span<const ObservationProduct> observations, const 
   const int unsearched = style.unsearched;
   TimeNs first = 0;
   TimeNs last = 0;
-  std::size_t schools = 0;
+  const std::size_t schools = look.schools();
   for (const ObservationProduct& product : observations) {
-    schools += static_cast<std::size_t>(
-        std::count_if(product.schools.begin(), product.schools.end(), [&](const auto& s) { return look.shown(s); }));
     if (product.pings.empty()) continue;
     first = first == 0 ? product.pings.front().time : std::min(first, product.pings.front().time);
     last = std::max(last, product.pings.back().time);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "geo/geodesic.h"
@@ -39,7 +40,7 @@ std::vector<Circle> circles(const SurveyMapDrawing& d, std::span<const Observati
     for (const SchoolRow& school : product.schools) {
       if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
       const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
-      if (centre) out.push_back({*centre, d.look.radius_px(school.backscatter_m2)});
+      if (centre) out.push_back({*centre, d.look.radius_px(d.look.backscatter_m2(school))});
     }
   }
   return out;
@@ -83,6 +84,16 @@ std::string names_text(std::vector<const SchoolRow*> schools, const Theme& theme
   return out;
 }
 
+/// Rejected ones are told where they are shown.
+std::size_t count_of(const SchoolLook& look, const std::vector<const SchoolRow*>& rows) {
+  std::set<const void*> schools;
+  for (const SchoolRow* row : rows) {
+    const CountedSchool* school = look.school_of(*row);
+    schools.insert(school == nullptr ? static_cast<const void*>(row) : school);
+  }
+  return schools.size();
+}
+
 /// Schools of one observation whose markers lie on each other share one number, from the first of them on.
 std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
                                             std::span<const ObservationProduct> observations) {
@@ -100,13 +111,13 @@ std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
       if (!d.look.shown(school) || !std::isfinite(school.latitude) || !std::isfinite(school.longitude)) continue;
       const auto centre = d.map.at(Geographic{school.latitude, school.longitude});
       if (!centre) continue;
-      const double radius = d.look.radius_px(school.backscatter_m2);
+      const double echo_m2 = d.look.backscatter_m2(school);
       const auto shared = std::find_if(
           markers.begin() + static_cast<std::ptrdiff_t>(first), markers.end(),
           [&](const Marker& m) { return std::hypot(m.at.x - centre->x, m.at.y - centre->y) < 0.8 * d.em; });
       Marker& marker = shared != markers.end() ? *shared : markers.emplace_back(Marker{*centre, 0.0, 0.0, {}, {}});
-      marker.radius_px = std::max(marker.radius_px, radius);
-      marker.backscatter_m2 += std::isfinite(school.backscatter_m2) ? school.backscatter_m2 : 0.0;
+      marker.radius_px = std::max(marker.radius_px, d.look.radius_px(echo_m2));
+      marker.backscatter_m2 += std::isfinite(echo_m2) ? echo_m2 : 0.0;
       marker.numbers.push_back(school.school_id);
       marker.schools.push_back(&school);
     }
@@ -119,8 +130,8 @@ std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
     std::sort(marker.numbers.begin(), marker.numbers.end());
     const PixelRect& r = d.map.place;
     if (marker.at.x < r.x || marker.at.y < r.y || marker.at.x > r.x + r.width || marker.at.y > r.y + r.height) continue;
-    out.push_back(
-        {marker.at, numbers_text(marker.numbers), marker.radius_px, false, names_text(marker.schools, d.theme)});
+    out.push_back({marker.at, numbers_text(marker.numbers, count_of(d.look, marker.schools)), marker.radius_px, false,
+                   names_text(marker.schools, d.theme)});
   }
   return out;
 }

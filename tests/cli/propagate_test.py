@@ -70,6 +70,24 @@ class Propagate(Case):
             tables.append(sonarx.read_csv(out / "school_pings.csv"))
         self.assertEqual(*tables)
 
+    def test_a_school_that_goes_on_beyond_the_reach_is_told_so(self):
+        place, pings = seed()
+        self.assertGreaterEqual(pings, 5)
+        for reach, expected in (("1", "both"), (str(10 * pings), "")):
+            out = self.fresh(f"propagate-reach-{reach}")
+            said = self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, "--reach", reach, "--out",
+                               out)
+            lines = [line for line in said.splitlines() if line.startswith("goes on beyond ")]
+            self.assertEqual(sonarx.read_csv(out / "schools.csv")[0]["ended_at_reach"], expected)
+            notes = json.loads((out / "survey.json").read_text())["observations"][0]["notes"]
+            if expected:
+                self.assertEqual(len(lines), 1, said)
+                self.assertIn("beyond 1 ping both ways: continue?", lines[0])
+                self.assertEqual(notes["ended-at-reach"], 2)
+            else:
+                self.assertEqual(lines, [])
+                self.assertNotIn("ended-at-reach", notes)
+
     def test_a_seed_in_the_noise_is_refused_in_one_line(self):
         # A side of the sector, towards the record's end; a curve that lets noise be grown from.
         _, beams = shape()

@@ -27,7 +27,7 @@ SCHOOLS = (
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
     "comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

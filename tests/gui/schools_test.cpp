@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QPushButton>
 #include <QScrollArea>
 #include <QSlider>
+#include <QStatusBar>
 #include <QStyleOptionSlider>
 #include <algorithm>
 #include <cmath>
@@ -96,6 +98,41 @@ TEST_F(Schools, KeysMoveTheSliderThatHasThem) {
   EXPECT_EQ(tolerance_db(), 3.0);
   key(Qt::Key_End);
   EXPECT_EQ(tolerance_db(), 25.0);
+}
+
+TEST_F(Schools, OneThatGoesOnBeyondTheReachIsContinuedByAButton) {
+  const Target target = look_at_school();
+  auto* button = window_->findChild<QPushButton*>("continue");
+  EXPECT_FALSE(button->isVisible());
+  ASSERT_TRUE(workspace().select.set("reach_pings", 1));
+  QStringList said;
+  const auto heard = QObject::connect(window_->statusBar(), &QStatusBar::messageChanged,
+                                      [&said](const QString& text) { said.append(text); });
+  double_click("top_slice", place_in("top_slice", target.voxel));
+  EXPECT_THAT(commands(), testing::ElementsAre("grow", "propagate"));
+  ASSERT_EQ(masks().size(), 3U);
+  EXPECT_TRUE(said.contains("school 1 goes on beyond 1 ping: continue? (Ctrl+Shift+P)"))
+      << said.join("; ").toStdString();
+  ASSERT_TRUE(button->isVisible());
+  EXPECT_THAT(button->text().toStdString(), testing::HasSubstr("Continue"));
+  QObject::disconnect(heard);
+  keep_picture("continue-offered");
+  const PixelPoint middle{0.5 * button->width(), 0.5 * button->height()};
+  click_on(button, middle);
+  EXPECT_EQ(masks().size(), 5U) << "a ping more on either side";
+  EXPECT_TRUE(button->isVisible());
+  // Nothing selected, nothing to go on with.
+  key(Qt::Key_Escape);
+  EXPECT_FALSE(button->isVisible());
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(masks().size(), 3U) << "both sides were one step";
+  workspace().school.set(SchoolName{document().shown()->index(), 1});
+  settle();
+  ASSERT_TRUE(button->isVisible());
+  ASSERT_TRUE(workspace().select.set("reach_pings", 30));
+  click_on(button, middle);
+  EXPECT_GT(masks().size(), 5U);
+  EXPECT_FALSE(button->isVisible()) << "it was followed to its ends";
 }
 
 TEST_F(Schools, PropagationStopsAtEscapeAndIsCarriedOn) {

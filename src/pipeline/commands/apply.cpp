@@ -19,8 +19,8 @@ std::string place_of(const SchoolKey& key) {
 /// What a propagation replaces of a school that is carried on: the sides that it was asked for.
 std::vector<SchoolMasks::InPing> kept_pings(const SchoolMasks& school, std::int64_t from,
                                             const PropagateCommand& command, PingReach limits) {
-  const bool backward = command.reach_backward.value_or(command.reach) != 0;
-  const bool forward = command.reach_forward.value_or(command.reach) != 0;
+  const bool backward = goes_backward(command);
+  const bool forward = goes_forward(command);
   std::vector<SchoolMasks::InPing> kept;
   for (const SchoolMasks::InPing& there : school.pings) {
     const bool within = there.ping_index >= limits.first && there.ping_index <= limits.last;
@@ -38,11 +38,9 @@ void note_ends(Edit& edit, const ManualSchool& made) {
 
 /// What is carried on again replaces what was carried to the same sides before.
 std::shared_ptr<const GrownFrom> followed_by(const GrownFrom& before, const PropagateCommand& command) {
-  const auto backward = [](const PropagateCommand& one) { return one.reach_backward.value_or(one.reach) != 0; };
-  const auto forward = [](const PropagateCommand& one) { return one.reach_forward.value_or(one.reach) != 0; };
   auto grown = std::make_shared<GrownFrom>(before);
   std::erase_if(grown->followed, [&](const PropagateCommand& one) {
-    return (backward(command) || !backward(one)) && (forward(command) || !forward(one));
+    return (goes_backward(command) || !goes_backward(one)) && (goes_forward(command) || !goes_forward(one));
   });
   grown->followed.push_back(command);
   return grown;
@@ -127,6 +125,11 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
     if (before && before->ping_index == edit.ping()) edit.set_grown(*school, followed_by(*before, made->reached));
     edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.ground().limits));
     for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
+    // A side that was not followed ends as it did before.
+    ReachEnds ends = edit.masks(*school).reach;
+    if (goes_backward(made->reached)) ends.first = made->school.reach.first;
+    if (goes_forward(made->reached)) ends.last = made->school.reach.last;
+    edit.set_reach(*school, ends);
   } else {
     school = edit.add(std::move(made->school));
   }

@@ -9,22 +9,29 @@
 #include <memory>
 #include <utility>
 
+#include "pipeline/carried.h"
+#include "pipeline/continued.h"
+
 namespace sonar {
 namespace {
 
 /// Of a detected mask what a human's voxels leave.
-PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole, double same_share) {
+PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole) {
   const auto shared = static_cast<double>(overlap(mask, voxels));
   const auto smaller = static_cast<double>(std::min(mask.voxels(), voxels.voxels()));
-  if (whole && shared >= same_share * smaller) return {};
+  if (whole && shared >= kSameFishShare * smaller) return {};
   return subtract(mask, voxels);
 }
 
 }  // namespace
 
-Result<std::size_t> Edit::find(const SchoolKey& key) const {
+Result<std::size_t> Edit::find(const SchoolKey& key) {
   const auto found = school_at(state_, ground_, key);
   if (found) return *found;
+  if (const auto heir = ground_.earlier != nullptr ? heir_of(key, state_, ground_, *ground_.earlier) : std::nullopt) {
+    note_carried(key, key_of(masks(*heir), ground_));
+    return *heir;
+  }
   return fail(ErrorCode::bad_parameter,
               fmt::format("there is no school at channel {}, sample {} of that ping", key.channel, key.sample));
 }
@@ -129,19 +136,42 @@ void Edit::set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings)
   writable(school).masks.pings = std::move(pings);
 }
 
+void Edit::reduce(std::size_t school) {
+  StateSchool& reduced = writable(school);
+  reduced_.push_back(reduced.number);
+  auto& found = reduced.masks.found;
+  if (!found) found = std::make_shared<const std::vector<SchoolMasks::InPing>>(reduced.masks.pings);
+}
+
 void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole) {
   for (std::size_t i = 0; i < state_.schools.size(); ++i) {
     const PingMask& there = mask(i, ping_index);
     if (i == owner || overlap(there, voxels) == 0) continue;
     const bool detected = !state_.schools[i]->by_hand;
-    PingMask left = left_beside(there, voxels, whole && detected, ground_.human_share);
-    if (detected) reduced_.push_back(state_.schools[i]->number);
+    PingMask left = left_beside(there, voxels, whole && detected);
+    if (detected) reduce(i);
     set_mask(i, ping_index, std::move(left));
   }
 }
 
+void Edit::take_ends(std::size_t from, std::size_t into) {
+  const ReachEnds gone = masks(from).reach;
+  ReachEnds& ends = writable(into).masks.reach;
+  if (gone.first) ends.first = std::min(*gone.first, ends.first.value_or(*gone.first));
+  if (gone.last) ends.last = std::max(*gone.last, ends.last.value_or(*gone.last));
+}
+
 void Edit::note(DiagnosticCode code, std::string text) {
   state_.notes.push_back({code, "", -1, ping_, std::move(text)});
+}
+
+void Edit::note_carried(const SchoolKey& then, const SchoolKey& now) {
+  const auto index = [&](const SchoolKey& key) { return ping_at(ground_, key.ping_time).value_or(-1); };
+  std::string text = fmt::format("choice {} ({}): channel {}, sample {} lies in no school any more", act_.n,
+                                 command_name(act_.command), then.channel, then.sample);
+  text +=
+      fmt::format("; what was there is that of channel {}, sample {} of ping {}", now.channel, now.sample, index(now));
+  state_.notes.push_back({DiagnosticCode::decision_carried, "", -1, index(then), std::move(text)});
 }
 
 void Edit::add_event(const EventCommand& event) {

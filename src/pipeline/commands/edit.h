@@ -23,8 +23,8 @@ class Edit {
   [[nodiscard]] const CommandGround& ground() const { return ground_; }
   [[nodiscard]] const JournalState& state() const { return state_; }
   [[nodiscard]] const SchoolMasks& masks(std::size_t school) const { return state_.schools[school]->masks; }
-  /// Index of the school that a key names. errors: bad_parameter
-  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key) const;
+  /// Index of the school that a key names; that it is known by an older product alone is noted. errors: bad_parameter
+  [[nodiscard]] Result<std::size_t> find(const SchoolKey& key);
   /// The act's runs by rows of the grid. errors: bad_parameter: a run outside the grid
   [[nodiscard]] Result<std::vector<Run>> rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const;
   /// Voxels of other schools than this one that humans gave or confirmed to them.
@@ -47,6 +47,9 @@ class Edit {
   void set_pings(std::size_t school, std::vector<SchoolMasks::InPing> pings);
   /// All other schools lose these voxels. whole: a detected mask that shares much with them is the same fish and goes.
   void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
+  void set_reach(std::size_t school, const ReachEnds& ends) { writable(school).masks.reach = ends; }
+  /// What is known of a school's ends holds for the one that it becomes part of.
+  void take_ends(std::size_t from, std::size_t into);
   void note(DiagnosticCode code, std::string text);
   void add_event(const EventCommand& event);
   /// The propagation that gives what was made: as far as it was let go.
@@ -65,6 +68,9 @@ class Edit {
 
  private:
   StateSchool& writable(std::size_t school);
+  /// A detected one of which a human takes voxels: what was found is kept.
+  void reduce(std::size_t school);
+  void note_carried(const SchoolKey& then, const SchoolKey& now);
 
   const JournalAct& act_;
   std::int64_t ping_;

@@ -84,6 +84,7 @@ Result<void> split_in_space(Edit& edit, std::size_t school, const SeedKey& seed)
     if (!now.rest.empty()) rest.push_back({old.ping_index, now.rest, old.threshold_db});
   }
   apart.decided = before.decided;
+  apart.reach = before.reach;
   edit.set_pings(school, std::move(rest));
   edit.touch(school);
   edit.touch(edit.add(std::move(apart)));
@@ -99,6 +100,7 @@ Result<void> split_in_time(Edit& edit, std::size_t school) {
   }
   SchoolMasks later;
   later.decided = edit.masks(school).decided;
+  later.reach = edit.masks(school).reach;
   later.pings.assign(std::make_move_iterator(cut), std::make_move_iterator(before.end()));
   before.erase(cut, before.end());
   edit.set_pings(school, std::move(before));
@@ -123,6 +125,7 @@ Result<void> carry_out(Edit& edit, const MergeCommand& command) {
     for (const InPing& there : edit.masks(schools[i]).pings) {
       edit.set_mask(into, there.ping_index, unite(edit.mask(into, there.ping_index), there.mask), there.threshold_db);
     }
+    edit.take_ends(schools[i], into);
     edit.remove(schools[i]);
   }
   return {};

@@ -113,7 +113,10 @@ Recipe measuring_recipe(const Recipe& recipe, const JournalState& state) {
 
 std::vector<SchoolMasks> masks_of(const JournalState& state) {
   std::vector<SchoolMasks> masks;
-  for (const auto& school : state.schools) masks.push_back(school->masks);
+  for (const auto& school : state.schools) {
+    masks.push_back(school->masks);
+    masks.back().decided.ended_at_reach = ended_at_reach(school->masks);
+  }
   return masks;
 }
 

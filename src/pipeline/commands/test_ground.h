@@ -130,6 +130,7 @@ inline std::string told(const JournalState& state) {
     const SchoolRow& row = school->masks.decided;
     text += std::to_string(school->number) + " " + row.origin + row.status + row.species + row.comment + row.name +
             row.operator_name + std::to_string(row.decided_utc) + (school->by_hand ? "h" : "d");
+    text += ended_at_reach(school->masks);
     for (const auto& there : school->masks.pings) {
       text += "|" + std::to_string(there.ping_index) + ":" + std::to_string(there.threshold_db);
       for (const Run& run : there.mask.runs) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/school_totals.h"
 #include "session/lists/cells.h"
 
 namespace sonar {
@@ -55,7 +56,7 @@ const std::vector<ColumnOf<SchoolInPing>>& ping_columns() {
       {{"Sv 95 %", "dB re 1 m\u207B\u00B9", "exceeded by 5 % of its voxels", true}, figure<&R::sv_p95_db, 1>},
       {{"Sv max", "dB re 1 m\u207B\u00B9", "", true}, figure<&R::sv_max_db, 1>},
       {{"Backscatter", "m\u00B2", "backscattering cross-section of the whole school", true},
-       [](const S& s) { return broad_cell(s.row->backscatter_m2); }},
+       [](const S& s) { return broad_cell(echo_m2(*s.row)); }},
       {{"SNR", "dB", "signal-to-noise ratio", true}, figure<&R::snr_db, 1>},
       {{"Edges", "", "edges of what the sonar sees that it touches", false},
        [](const S& s) { return text_cell(edge_text(s.row->edge_flags)); }},

@@ -24,7 +24,7 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Observation", "", "", false}, [](const S& s) { return text_cell(s.observation->name()); }},
       {{"Status", "", "what a human decided", false}, [](const S& s) { return text_cell(s.decided().status); }},
       {{"Backscatter", "m\u00B2", "backscattering cross-section of the whole school", true},
-       [](const S& s) { return broad_cell(figure<&R::backscatter_m2>(s)); }},
+       [](const S& s) { return broad_cell(s.backscatter_m2()); }},
       {{"Name", "", "that a human gave it", false}, [](const S& s) { return text_cell(s.decided().name); }},
       {{"Species", "", "", false}, [](const S& s) { return text_cell(s.decided().species); }},
       {{"First seen", "UTC", "time of its first ping", false},

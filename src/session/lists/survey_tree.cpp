@@ -9,6 +9,7 @@
 
 #include "model/beam_angles.h"
 #include "session/lists/cells.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
@@ -27,7 +28,8 @@ Cell span_cell(TimeNs first, TimeNs last) {
 }  // namespace
 
 SurveyTree::SurveyTree(Workspace& workspace)
-    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state}),
+    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
+                               DocumentChange::measures}),
       titles_{{"Survey", "", "observations, their files, and what is wrong with them", false},
               {"Time", "UTC", "from the first ping to the last", false},
               {"Pings", "", "", true},
@@ -85,7 +87,7 @@ void SurveyTree::add_observation(std::size_t index) {
     row.time = span_cell(observation.navigation.front().time, observation.navigation.back().time);
   }
   if (document.choices().states.contains(index)) {
-    row.schools = count_cell(static_cast<std::int64_t>(document.state(index).schools.size()));
+    row.schools = count_cell(school_count(document.state(index), document.product(index)));
   }
   std::size_t remarks = observation.diagnostics.size();
   for (const std::uint32_t file : observation.files) {

@@ -6,6 +6,7 @@
 
 #include "session/maps/dock_theme.h"
 #include "session/maps/observation_head.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
@@ -50,8 +51,9 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   const ObservationProduct& shown = wish.product ? *wish.product : head_;
   Painted painted;
   // Those that are not measured yet are there as well.
-  const std::size_t schools = wish.state ? wish.state->schools.size() : shown.schools.size();
-  painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette, schools);
+  const std::int64_t schools = wish.state ? school_count(*wish.state, wish.product) : school_count(shown);
+  painted.frame = observation_map(*base_, shown, mosaic, static_cast<std::size_t>(wish.ping), wish.palette,
+                                  static_cast<std::size_t>(schools));
   if (wish.product) {
     const PingNavigation& current = shown.pings[static_cast<std::size_t>(wish.ping)];
     add_map_schools(painted.frame, *base_, map_schools(shown, wish.selected, wish.rejected),

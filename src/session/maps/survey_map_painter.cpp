@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/join_tracks.h"
 #include "publish/chart_layers.h"
 #include "session/maps/dock_theme.h"
 #include "session/maps/observation_head.h"
@@ -52,15 +53,26 @@ bool SurveyMapPainter::know(const SurveyMapWish& wish) {
     swept_known_.assign(count, false);
     raster_extent_.reset();
   }
+  if (products_ != wish.products) take_products(wish.products);
   bool more = false;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (products_[i] != wish.products[i]) {
-      products_[i] = wish.products[i];
-      light_[i].schools = products_[i] ? products_[i]->schools : std::vector<SchoolRow>{};
-    }
-    more = more || !swept_known_[i] || outlined_[i] != products_[i];
-  }
+  for (std::size_t i = 0; i < count; ++i) more = more || !swept_known_[i] || outlined_[i] != products_[i];
   return !more;
+}
+
+void SurveyMapPainter::take_products(const std::vector<ProductPtr>& products) {
+  products_ = products;
+  for (std::size_t i = 0; i < light_.size(); ++i) {
+    ObservationProduct& light = light_[i];
+    light.schools.clear();
+    light.school_pings.clear();
+    if (!products_[i]) continue;
+    light.schools = products_[i]->schools;
+    light.school_pings = products_[i]->school_pings;
+    light.source = products_[i]->source;
+    light.cut_after = products_[i]->cut_after;
+    light.recipe_json = products_[i]->recipe_json;
+  }
+  join_over_cuts(light_);
 }
 
 bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const Wanted& wanted) {
@@ -119,7 +131,7 @@ Result<SurveyMapPainter::Painted> SurveyMapPainter::painted(const SurveyMapWish&
       places->schools.push_back({{i, school.school_id},
                                  first_ping(*products_[i], school.school_id),
                                  *at,
-                                 look.radius_px(school.backscatter_m2)});
+                                 look.radius_px(look.backscatter_m2(school))});
     }
     auto& track = places->tracks.emplace_back();
     for (const PingNavigation& n : light_[i].pings) {

@@ -41,12 +41,13 @@ class SurveyMapPainter {
 
  private:
   [[nodiscard]] bool know(const SurveyMapWish& wish);
+  void take_products(const std::vector<ProductPtr>& products);
   bool know_more(const SurveyMapWish& wish, const Wanted& wanted);
   [[nodiscard]] Result<Painted> painted(const SurveyMapWish& wish, PixelSize size);
   const DepthGrid* depths(const SurveyMapWish& wish, const MapFrame& map, std::string& note);
 
   std::shared_ptr<const SurveyFiles> survey_;
-  std::vector<ObservationProduct> light_;      ///< [observation] without masks and rows of pings
+  std::vector<ObservationProduct> light_;      ///< [observation] without masks
   std::vector<ProductPtr> products_;           ///< that light_ was made from
   std::vector<ProductPtr> outlined_;           ///< that outlines_ was made from
   std::vector<ObservationOutlines> outlines_;  ///< [observation]
