@@ -16,7 +16,7 @@ namespace {
 /// Pings of a ship that passes a ball; in some the mask holds more than the ball.
 struct Passage {
   explicit Passage(const std::vector<PingMask>& more,
-                   const test::Ball& ball = {{-200.0, 60.0, -100.0}, {0.4, 0.3, 0.0}}) {
+                   const test::Ball& ball = {{-200.0, 60.0, -100.0}, {0.4, 0.3, 0.0}, 25.0}) {
     const Geographic start{60.0, 4.0};
     for (int p = 0; p < static_cast<int>(more.size()); ++p) {
       DetectedPing ping{p, p * 5 * kSecondNs, test::ship_at(p), {}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct Scene {
 
   /// Clear sights of a ping whose neighbours hold the same, or nothing but noise.
   std::vector<Detection> look(std::uint64_t seed, const DetectParams& params = {}, const PingMask* taken = nullptr) {
-    counts = counts_of(expected, seed);
+    counts = counts_of(in_water(0, expected), seed);
     disturb(counts);
     Array3<std::int16_t> sv(counts.shape());
     median_into(std::as_const(counts).view(), std::as_const(flags).view(), box, sv.view());
@@ -48,7 +49,9 @@ struct Scene {
     std::vector<Array3<float>> means;
     for (std::uint64_t k = 0; k < 5; ++k) {
       Array3<std::int16_t> other = counts;
-      if (k > 0) other = counts_of(alone ? Array3<double>(expected.shape()) : expected, 1000 * k + seed);
+      if (k > 0) {
+        other = counts_of(in_water(k, alone ? Array3<double>(expected.shape()) : expected), 1000 * k + seed);
+      }
       disturb(other);
       means.push_back(
           short_means(std::as_const(other).view(), std::as_const(flags).view(), piece_samples(sector.range())));
@@ -67,6 +70,15 @@ struct Scene {
     std::vector<Detection> found = detect(echo, params, taken, refused);
     std::erase_if(found, [&](const Detection& d) { return d.evidence < clear_evidence(params); });
     return found;
+  }
+
+  /// A ping of the window: its echoes with the water's own.
+  [[nodiscard]] Array3<double> in_water(std::uint64_t ping, Array3<double> echoes) const {
+    if (!reverberation) return echoes;
+    for (int row = 0; row < 500; ++row) {
+      for (int s = 0; s < 900; ++s) echoes.view().row(row)[static_cast<std::size_t>(s)] += reverberation(ping, row, s);
+    }
+    return echoes;
   }
 
   /// The median of so many samples of a beam about one, where none is faulty.
@@ -99,6 +111,7 @@ struct Scene {
   MedianParams box;
   bool peaked = true;
   std::vector<RefusedDetection>* refused = nullptr;
+  std::function<double(std::uint64_t ping, int row, int sample)> reverberation;  ///< its s_v, another one in each ping
   bool alone = false;  ///< the pings before and behind show none of it
   std::vector<PingMask> truths;
 };

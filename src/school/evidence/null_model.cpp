@@ -2,15 +2,14 @@
 #include "school/evidence/null_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/units.h"
 #include "school/evidence/patches.h"
+#include "school/evidence/place_statistics.h"
 #include "school/evidence/seabed_stretch.h"
 
 namespace sonar {
@@ -18,50 +17,14 @@ namespace {
 
 constexpr double kPiece_m = 1.9;         ///< a block of three is about as long as the shortest school
 constexpr int kPieces = 3;               ///< of a block
-constexpr std::size_t kEnough = 60;      ///< values that tell a level and a spread
-constexpr std::size_t kPool = 3;         ///< blocks each side that lend theirs where there are fewer
 constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
 constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the second look
 constexpr int kLooks = 3;
-constexpr double kClip = 2.0;         ///< spreads, up to which a block tells of the patch it lies in
-constexpr double kRise_db = 3.0;      ///< of the seabed out of the water before it
-constexpr double kWidestTail = 1.5;   ///< of the water's spread upwards, in those downwards
-constexpr double kUpperTail = 1.645;  ///< standard deviations from the median to the 95th percentile
+constexpr double kClip = 2.0;     ///< spreads, up to which a block tells of the patch it lies in
+constexpr double kRise_db = 3.0;  ///< of the seabed out of the water before it
 
 using Levels = Array3<std::int16_t>;  // [fan][beam][block]
 using Marks = Array3<std::uint8_t>;
-
-/// What the values of one fan and block tell.
-struct Told {
-  std::int16_t middle = kNoData;
-  std::int16_t below = 0;  ///< down to the 16th percentile
-  std::int16_t above = 0;  ///< up to the 95th
-};
-
-/// The value of a rank from 0, between the least and the greatest: halving counts what lies below, many values at once.
-std::int16_t ranked(std::span<const std::int16_t> values, std::size_t rank, int least, int greatest) {
-  while (least < greatest) {
-    const int middle = least + (greatest - least) / 2;
-    std::int32_t below = 0;
-    for (const std::int16_t value : values) below += value <= middle ? 1 : 0;
-    if (static_cast<std::size_t>(below) > rank) {
-      greatest = middle;
-    } else {
-      least = middle + 1;
-    }
-  }
-  return static_cast<std::int16_t>(least);
-}
-
-Told told_by(std::span<const std::int16_t> values) {
-  if (values.size() < kEnough) return {};
-  const auto rank = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(values.size())); };
-  const auto [least, greatest] = std::ranges::minmax(values);
-  const std::int16_t middle = ranked(values, rank(0.5), least, greatest);
-  const std::int16_t low = ranked(values, rank(0.16), least, middle);
-  const std::int16_t high = ranked(values, rank(0.95), middle, greatest);
-  return {middle, static_cast<std::int16_t>(middle - low), static_cast<std::int16_t>(high - middle)};
-}
 
 class Window {
  public:
@@ -149,66 +112,8 @@ class Window {
     return floors;
   }
 
-  /// For each fan and block what the unmasked values of all pings and beams there tell; too few are joined by those of the
-  /// blocks beside.
-  [[nodiscard]] std::vector<Told> tell(const std::vector<Levels>& of_pings) const {
-    std::vector<Told> told(cells());
-    const auto blocks = static_cast<std::size_t>(shape_.samples);
-    const std::size_t most = of_pings.size() * static_cast<std::size_t>(shape_.beams);
-    std::vector<std::int16_t> values(blocks * most + 1);
-    std::vector<std::size_t> known(blocks);
-    const auto of_block = [&](std::size_t b) { return std::span(values).subspan(b * most, known[b]); };
-    std::vector<std::int16_t> pooled;
-    for (int fan = 0; fan < shape_.fans; ++fan) {
-      std::ranges::fill(known, 0);
-      for (std::size_t p = 0; p < of_pings.size(); ++p) {
-        for (int beam = 0; beam < shape_.beams; ++beam) {
-          const auto row = of_pings[p].row(fan, beam);
-          const auto masked = masked_[p].row(fan, beam);
-          for (std::size_t b = 0; b < blocks; ++b) {
-            values[b * most + known[b]] = row[b];
-            known[b] += row[b] != kNoData && masked[b] == 0 ? std::size_t{1} : std::size_t{0};
-          }
-        }
-      }
-      for (std::size_t b = 0; b < blocks; ++b) {
-        Told& here = told[cell(fan, static_cast<int>(b))];
-        if (known[b] >= kEnough) {
-          here = told_by(of_block(b));
-          continue;
-        }
-        pooled.assign(of_block(b).begin(), of_block(b).end());
-        for (std::size_t r = 1; r <= kPool && pooled.size() < kEnough; ++r) {
-          if (b >= r) pooled.insert(pooled.end(), of_block(b - r).begin(), of_block(b - r).end());
-          if (b + r < blocks) pooled.insert(pooled.end(), of_block(b + r).begin(), of_block(b + r).end());
-        }
-        here = told_by(pooled);
-      }
-      fill(std::span(told).subspan(cell(fan, 0), blocks));
-    }
-    return told;
-  }
-
-  /// Where nothing is told, as behind a school that fills a fan, the water goes on between what lies nearer and farther.
-  static void fill(std::span<Told> told) {
-    std::ptrdiff_t last = -1;
-    for (std::ptrdiff_t b = 0; b < std::ssize(told); ++b) {
-      const Told here = told[static_cast<std::size_t>(b)];
-      if (here.middle == kNoData) continue;
-      for (std::ptrdiff_t i = last + 1; last >= 0 && i < b; ++i) {
-        const Told before = told[static_cast<std::size_t>(last)];
-        const auto between = [&](int from, int to) {
-          return static_cast<std::int16_t>(from + (to - from) * (i - last) / (b - last));
-        };
-        told[static_cast<std::size_t>(i)] = {between(before.middle, here.middle), between(before.below, here.below),
-                                             between(before.above, here.above)};
-      }
-      last = b;
-    }
-  }
-
   void find_level() {
-    water_ = tell(levels_);
+    water_ = statistics_of_places(levels_, masked_);
     lift_seabed();
   }
 
@@ -219,7 +124,7 @@ class Window {
     if (!(nearer < 1.0)) return;
     for (int fan = 0; fan < shape_.fans; ++fan) {
       if (sector_.elevation_rad(fan) >= 0.0) continue;
-      const std::span<Told> told = std::span(water_).subspan(cell(fan, 0), static_cast<std::size_t>(shape_.samples));
+      const auto told = std::span(water_).subspan(cell(fan, 0), static_cast<std::size_t>(shape_.samples));
       for (std::size_t b = 0; b < told.size(); ++b) {
         const auto last = std::min(told.size() - 1, static_cast<std::size_t>(static_cast<double>(b) / nearer));
         std::int16_t loudest = told[b].middle;
@@ -253,7 +158,7 @@ class Window {
       excess_.push_back(std::move(excess));
     }
     level_patches();
-    spread_ = tell(excess_);
+    spread_ = statistics_of_places(excess_, masked_);
   }
 
   /// Takes out of each ping's excess what is wider than schools.
@@ -273,12 +178,10 @@ class Window {
     }
   }
 
-  /// Before what stands out is known the upper tail may be a school's; then it is the tail that schools must exceed. What a
-  /// school leaves in it that keeps its place in the window is bounded by the spread downwards.
-  [[nodiscard]] double width(const Told& told, double least) const {
-    const double below = told.below;
-    const double spread = look_ == 0 ? below : std::min(told.above / kUpperTail, kWidestTail * below);
-    return std::max(spread, least);
+  /// Before what stands out is known the upper half may hold a school; then it is the half that schools must exceed. A
+  /// school that keeps its place in the window fills less than a sixth of it.
+  [[nodiscard]] double width(const PlaceStatistics& told, double least) const {
+    return std::max<double>(look_ == 0 ? told.below : told.above, least);
   }
 
   /// Sum of the whitened excess over 3 x 3 beams, over the root of their number, in 1/256.
@@ -324,18 +227,19 @@ class Window {
   void find_evidence() {
     evidence_.clear();
     for (const Levels& excess : excess_) evidence_.push_back(averaged(excess));
-    own_ = tell(evidence_);
+    own_ = statistics_of_places(evidence_, masked_);
   }
 
   [[nodiscard]] double evidence(std::size_t p, int row, int block) const {
     const std::int16_t value = evidence_[p].view().row(row)[static_cast<std::size_t>(block)];
-    const Told& own = own_[cell(row / shape_.beams, block)];
+    const PlaceStatistics& own = own_[cell(row / shape_.beams, block)];
     if (value == kNoData || own.middle == kNoData) return -std::numeric_limits<double>::infinity();
     return (value - std::max<int>(0, own.middle)) / width(own, 128.0);
   }
 
+  /// Once masked, always masked: a school that keeps its place would else have a say again as soon as it has none.
   void mask(std::size_t p) {
-    Marks marks(shape_);
+    Marks& marks = masked_[p];
     for (int fan = 0; fan < shape_.fans; ++fan) {
       for (int beam = 0; beam < shape_.beams; ++beam) {
         for (int block = 0; block < shape_.samples; ++block) {
@@ -349,7 +253,6 @@ class Window {
         }
       }
     }
-    masked_[p] = std::move(marks);
   }
 
   [[nodiscard]] WaterLevels answer(std::size_t p, double least) const {
@@ -384,9 +287,9 @@ class Window {
   std::vector<std::vector<std::int8_t>> patches_;  ///< [ping][row][block]
   std::vector<Levels> evidence_;
   std::vector<Marks> masked_;
-  std::vector<Told> water_;
-  std::vector<Told> spread_;
-  std::vector<Told> own_;
+  std::vector<PlaceStatistics> water_;
+  std::vector<PlaceStatistics> spread_;
+  std::vector<PlaceStatistics> own_;
 };
 
 }  // namespace
