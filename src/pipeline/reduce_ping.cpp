@@ -52,23 +52,15 @@ std::vector<IndexBox> candidate_boxes(const WaterLevels& water, const Shape3& sh
   return boxes;
 }
 
-/// The boxes that meet a mask, and those that meet one of these: stronger neighbours take their voxels first.
+/// The boxes that meet a mask's own: stronger neighbours take their voxels first.
 std::vector<IndexBox> deciding_boxes(const WaterLevels& water, const Shape3& shape,
                                      const std::vector<const PingMask*>& masks) {
-  const std::vector<IndexBox> all = candidate_boxes(water, shape);
-  std::vector<IndexBox> of_masks;
-  for (const PingMask* mask : masks) {
-    of_masks.push_back(enlarged(box_of(*mask, shape.beams), kDetectionReach, shape));
-  }
-  const auto those_that_meet = [&](const std::vector<IndexBox>& wanted) {
-    std::vector<IndexBox> out;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(out), [&](const IndexBox& box) {
-      return std::any_of(wanted.begin(), wanted.end(), [&](const IndexBox& w) { return meet(box, w); });
-    });
-    return out;
-  };
-  std::vector<IndexBox> boxes = those_that_meet(those_that_meet(of_masks));
-  boxes.insert(boxes.end(), of_masks.begin(), of_masks.end());
+  std::vector<IndexBox> boxes;
+  for (const PingMask* mask : masks) boxes.push_back(enlarged(box_of(*mask, shape.beams), kDetectionReach, shape));
+  const std::vector<IndexBox> of_masks = boxes;
+  std::ranges::copy_if(candidate_boxes(water, shape), std::back_inserter(boxes), [&](const IndexBox& box) {
+    return std::ranges::any_of(of_masks, [&](const IndexBox& of_mask) { return meet(box, of_mask); });
+  });
   return boxes;
 }
 

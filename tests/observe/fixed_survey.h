@@ -39,7 +39,7 @@ inline std::int16_t power(int ping, int fan, int beam, int sample) {
   const int seabed = fan < 4 ? kSeabedSample[static_cast<std::size_t>(fan)] : kSamples;
   if (sample >= seabed && sample < seabed + 40) counts = -7'500;
   if (ping == 3 && fan == 4 && beam == 2 && sample > 60) counts = -7'000;
-  if (ping == 4 && sample >= 95 && sample < 98) counts = -9'800;
+  if (ping == 4 && sample >= 105 && sample < 108) counts = -9'800;
   return static_cast<std::int16_t>(counts + speckle(ping, fan * kBeams + beam, sample));
 }
 
