@@ -31,12 +31,10 @@ TEST(RefusedEcho, EveryJudgeHasItsSentence) {
   EXPECT_EQ(why_no_school(judged("size", 2.0, 3.0, "fans")), "no school: 2 fans, 3 at least (judge size)");
   EXPECT_EQ(why_no_school(judged("prominence", 4.21, 6.0, "dB")),
             "no school: stands 4.21 dB out of a stronger echo's skirt, 6 at least (judge prominence)");
-  EXPECT_EQ(why_no_school(judged("confirmation", 1.0, 2.0, "clear sights")),
-            "no school: clearly seen in 1 ping, 2 at least (judge confirmation)");
   EXPECT_EQ(why_no_school(judged("confirmation", 2.0, 3.0, "sights")),
             "no school: seen in 2 pings, 3 at least (judge confirmation)");
   EXPECT_EQ(why_no_school(judged("confirmation", 8.12, 10.3, "evidence of all sights")),
-            "no school: 8.12 evidence of all sights, 10.3 at least (judge confirmation)");
+            "no school: evidence of 8.12 in all sights together, 10.3 at least (judge confirmation)");
   EXPECT_EQ(why_no_school(judged("surface", 14.24, 20.0, "m deep at most")),
             "no school: hangs from the surface down to 14.2 m, as bubbles do to 20 m (judge surface)");
   EXPECT_EQ(why_no_school(judged("ship", 0.031, 0.15, "share of the ship's way")),

@@ -9,7 +9,7 @@
 
 namespace sonar {
 
-// Vector kernels on one row of counts, chosen at run time for the processor. Internal to this room.
+// Vector kernels on one row of counts, chosen at run time for the processor.
 
 /// counts += table, saturating to kMinCount..kMaxCount; kNoData on either side gives kNoData. Equal lengths.
 void add_saturating(std::span<std::int16_t> counts, std::span<const std::int16_t> table);

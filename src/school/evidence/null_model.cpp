@@ -2,6 +2,7 @@
 #include "school/evidence/null_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -25,6 +26,38 @@ constexpr double kRise_db = 3.0;  ///< of the seabed out of the water before it
 
 using Levels = Array3<std::int16_t>;  // [fan][beam][block]
 using Marks = Array3<std::uint8_t>;
+
+/// Of a sum of so many whitened values, what it has in their spreads.
+const std::array<float, 10> kPerRoot = [] {
+  std::array<float, 10> per_root{};
+  for (std::size_t n = 1; n < per_root.size(); ++n) per_root[n] = 1.0F / std::sqrt(static_cast<float>(n));
+  return per_root;
+}();
+
+/// Sums over each beam and those beside it in its own fan and in the next ones, always in the same order.
+Array3<float> of_three_by_three(const Array3<float>& values) {
+  const Shape3 shape = values.shape();
+  Array3<float> of_beams(shape);
+  Array3<float> of_fans(shape);
+  const auto add = [](std::span<const float> from, std::span<float> to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+  };
+  for (int fan = 0; fan < shape.fans; ++fan) {
+    for (int beam = 0; beam < shape.beams; ++beam) {
+      for (int b = std::max(0, beam - 1); b <= std::min(shape.beams - 1, beam + 1); ++b) {
+        add(values.row(fan, b), of_beams.row(fan, beam));
+      }
+    }
+  }
+  for (int fan = 0; fan < shape.fans; ++fan) {
+    for (int beam = 0; beam < shape.beams; ++beam) {
+      for (int f = std::max(0, fan - 1); f <= std::min(shape.fans - 1, fan + 1); ++f) {
+        add(of_beams.row(f, beam), of_fans.row(fan, beam));
+      }
+    }
+  }
+  return of_fans;
+}
 
 class Window {
  public:
@@ -186,40 +219,35 @@ class Window {
 
   /// Sum of the whitened excess over 3 x 3 beams, over the root of their number, in 1/256.
   [[nodiscard]] Levels averaged(const Levels& excess) const {
-    std::vector<float> scale(cells(), 0.0F);
     std::vector<float> middle(cells(), 0.0F);
+    std::vector<float> scale(cells(), 0.0F);
     for (std::size_t i = 0; i < cells(); ++i) {
       if (spread_[i].middle == kNoData) continue;
       middle[i] = std::max<float>(0.0F, spread_[i].middle);
-      scale[i] = static_cast<float>(1.0 / width(spread_[i], counts_from_db(kLeastSpread_db)));
+      scale[i] = static_cast<float>(256.0 / width(spread_[i], counts_from_db(kLeastSpread_db)));
     }
-    Levels out(shape_, kNoData);
-    std::vector<float> sum(static_cast<std::size_t>(shape_.samples));
-    std::vector<float> number(sum.size());
-    for (int fan = 0; fan < shape_.fans; ++fan) {
-      for (int beam = 0; beam < shape_.beams; ++beam) {
-        std::fill(sum.begin(), sum.end(), 0.0F);
-        std::fill(number.begin(), number.end(), 0.0F);
-        for (int f = std::max(0, fan - 1); f <= std::min(shape_.fans - 1, fan + 1); ++f) {
-          for (int b = std::max(0, beam - 1); b <= std::min(shape_.beams - 1, beam + 1); ++b) {
-            const auto row = excess.row(f, b);
-            const float* mid = middle.data() + cell(f, 0);
-            const float* scaled = scale.data() + cell(f, 0);
-            for (std::size_t i = 0; i < sum.size(); ++i) {
-              if (row[i] == kNoData || scaled[i] == 0.0F) continue;
-              sum[i] += (static_cast<float>(row[i]) - mid[i]) * scaled[i];
-              number[i] += 1.0F;
-            }
-          }
-        }
-        const auto own = excess.row(fan, beam);
-        const auto to = out.row(fan, beam);
-        for (std::size_t i = 0; i < sum.size(); ++i) {
-          if (own[i] == kNoData || number[i] == 0.0F) continue;
-          to[i] = static_cast<std::int16_t>(
-              std::lround(std::clamp(sum[i] / std::sqrt(number[i]) * 256.0F, -32000.0F, 32000.0F)));
-        }
+    Array3<float> sum(shape_);
+    Array3<float> number(shape_);
+    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+      const auto from = excess.view().row(row);
+      const auto whitened = sum.view().row(row);
+      const auto known = number.view().row(row);
+      const std::size_t first = cell(row / shape_.beams, 0);
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        const float by = from[i] == kNoData ? 0.0F : scale[first + i];
+        whitened[i] = (static_cast<float>(from[i]) - middle[first + i]) * by;
+        known[i] = by == 0.0F ? 0.0F : 1.0F;
       }
+    }
+    sum = of_three_by_three(sum);
+    number = of_three_by_three(number);
+    Levels out(shape_, kNoData);
+    const auto own = excess.all();
+    const auto of = number.all();
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (own[i] == kNoData || of[i] == 0.0F) continue;
+      const float mean = std::as_const(sum).all()[i] * kPerRoot[static_cast<std::size_t>(of[i])];
+      out.all()[i] = static_cast<std::int16_t>(std::clamp(mean, -32000.0F, 32000.0F));
     }
     return out;
   }

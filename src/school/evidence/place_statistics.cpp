@@ -5,35 +5,21 @@
 #include <cstddef>
 #include <span>
 
+#include "signal/row_kernels.h"
+
 namespace sonar {
 namespace {
 
 constexpr std::size_t kEnough = 60;  ///< values that tell a level and a spread
 constexpr std::size_t kPool = 3;     ///< blocks each side that lend theirs where there are fewer
 
-/// The value of a rank from 0, between the least and the greatest: halving counts what lies below, many values at once.
-std::int16_t ranked(std::span<const std::int16_t> values, std::size_t rank, int least, int greatest) {
-  while (least < greatest) {
-    const int middle = least + (greatest - least) / 2;
-    std::int32_t below = 0;
-    for (const std::int16_t value : values) below += value <= middle ? 1 : 0;
-    if (static_cast<std::size_t>(below) > rank) {
-      greatest = middle;
-    } else {
-      least = middle + 1;
-    }
-  }
-  return static_cast<std::int16_t>(least);
-}
-
 PlaceStatistics told_by(std::span<const std::int16_t> values) {
   if (values.size() < kEnough) return {};
-  const auto rank = [&](double share) { return static_cast<std::size_t>(share * static_cast<double>(values.size())); };
-  const auto [least, greatest] = std::ranges::minmax(values);
-  const std::int16_t middle = ranked(values, rank(0.5), least, greatest);
-  const std::int16_t low = ranked(values, rank(0.16), least, middle);
-  const std::int16_t high = ranked(values, rank(0.84), middle, greatest);
-  return {middle, static_cast<std::int16_t>(middle - low), static_cast<std::int16_t>(high - middle)};
+  const auto at = [&](double share) {
+    return select_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+  };
+  const std::int16_t middle = at(0.5);
+  return {middle, static_cast<std::int16_t>(middle - at(0.16)), static_cast<std::int16_t>(at(0.84) - middle)};
 }
 
 /// Where nothing is told, as behind a school that fills a fan, the water goes on between what lies nearer and farther.
