@@ -52,7 +52,8 @@ std::vector<IndexBox> candidate_boxes(const WaterLevels& water, const Shape3& sh
   return boxes;
 }
 
-/// The boxes that meet a mask's own: stronger neighbours take their voxels first.
+/// The boxes that meet a mask's own: stronger neighbours take their voxels first. Where these are detections they are among
+/// the masks, with neighbours of their own.
 std::vector<IndexBox> deciding_boxes(const WaterLevels& water, const Shape3& shape,
                                      const std::vector<const PingMask*>& masks) {
   std::vector<IndexBox> boxes;

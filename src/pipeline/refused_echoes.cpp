@@ -42,6 +42,18 @@ RefusedEcho row_of(const Engine& engine, std::int64_t ping_index, const Detectio
   return row;
 }
 
+/// Whether a human may miss it: one sight is clear, or the sights together have half of what is asked. Water alone shows
+/// fainter ones everywhere.
+bool stands_out(const RefusedTrack& track, std::span<const DetectedPing> pings, double clear) {
+  const Reason& reason = track.reason;
+  if (reason.judge == "confirmation" && reason.unit == kAllSights && 2.0 * reason.figure >= reason.limit) return true;
+  return std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
+    const std::vector<Detection>& found = ping_of(pings, seen.ping_index)->detections;
+    return std::ranges::any_of(seen.detections,
+                               [&](int d) { return found[static_cast<std::size_t>(d)].evidence >= clear; });
+  });
+}
+
 }  // namespace
 
 std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const DetectedPing> pings,
@@ -56,11 +68,7 @@ std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const De
   }
   const double clear = clear_evidence(engine.recipe().detect);
   for (const RefusedTrack& track : tracks.refused) {
-    const bool seen_clearly = std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
-      return ping_of(pings, seen.ping_index)->detections[static_cast<std::size_t>(seen.detections.front())].evidence >=
-             clear;
-    });
-    if (!seen_clearly) continue;  // what the false-alarm rate leaves out
+    if (!stands_out(track, pings, clear)) continue;
     --id;
     for (const TrackedDetection& seen : track.pings) {
       const DetectedPing& ping = *ping_of(pings, seen.ping_index);

@@ -7,8 +7,8 @@
 namespace sonar {
 
 double evidence_wanted(const DetectParams& params) {
-  // A guess. Fading water without fish showed no school at any evidence down to 2.5; bubbles, plumes and single fish show
-  // more than the rate says, and hardly depend on it.
+  // A guess. Fading water without fish showed no school in any simulation; bubbles, plumes and single fish show more than
+  // the rate says, and hardly depend on it.
   constexpr double kAtOne = 18.0;
   constexpr double kPerDecade = 2.0;
   return std::max(0.0, kAtOne - kPerDecade * std::log10(params.false_alarm));

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "model/school.h"
 #include "school/judge/confirmation.h"
 #include "school/mask_shape.h"
 #include "school/motion.h"
@@ -28,6 +30,7 @@ struct Sight {
   PingFrame frame;
   double time_s = 0.0;
   Point<Enu> centre;
+  bool cut = false;  ///< by the sector's borders: its centre goes partly with the ship
 };
 
 std::vector<Sight> sights_of(const SchoolTrack& school, std::span<const DetectedPing> pings, const Sector& sector) {
@@ -40,32 +43,35 @@ std::vector<Sight> sights_of(const SchoolTrack& school, std::span<const Detected
     const Point<Enu> centre = frame.to_world(shape_of(mask, sector).centre);
     const auto since = static_cast<double>(ping.time - pings.front().time) / static_cast<double>(kSecondNs);
     std::vector<int> index = index_rows(mask.runs, rows);
-    sights.push_back({std::move(mask), std::move(index), frame, since, centre});
+    const bool cut = std::ranges::any_of(seen.detections, [&](int d) {
+      return (ping.detections[static_cast<std::size_t>(d)].edge_flags & kCutsCentre) != 0;
+    });
+    sights.push_back({std::move(mask), std::move(index), frame, since, centre, cut});
   }
   return sights;
 }
 
 double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
   return *middle;
 }
 
-/// Median, so that masks that hold too much do not tell it.
-Point<Enu> velocity_mps(std::span<const Sight> sights) {
+/// Median over whole sights, so that masks that hold too much do not tell it; none where there are too few.
+std::optional<Point<Enu>> velocity_mps(std::span<const Sight> sights) {
   std::vector<double> east;
   std::vector<double> north;
   std::vector<double> up;
   for (std::size_t i = kPace; i < sights.size(); ++i) {
     const double took_s = sights[i].time_s - sights[i - kPace].time_s;
-    if (!(took_s > 0.0)) continue;
+    if (!(took_s > 0.0) || sights[i].cut || sights[i - kPace].cut) continue;
     const Point<Enu> way = sights[i].centre - sights[i - kPace].centre;
     east.push_back(way.x / took_s);
     north.push_back(way.y / took_s);
     up.push_back(way.z / took_s);
   }
-  return {median_of(std::move(east)), median_of(std::move(north)), median_of(std::move(up))};
+  if (east.empty()) return std::nullopt;
+  return Point<Enu>{median_of(std::move(east)), median_of(std::move(north)), median_of(std::move(up))};
 }
 
 bool holds(const Sight& sight, const Sector& sector, const SectorIndex& index) {
@@ -130,11 +136,12 @@ PingMask steadied(const Sight& here, std::span<const Sight* const> others, const
 
 void steady_masks(SchoolTrack& school, std::span<const DetectedPing> pings, const Sector& sector) {
   const std::vector<Sight> sights = sights_of(school, pings, sector);
-  const Point<Enu> velocity = velocity_mps(sights);
+  const auto velocity = velocity_mps(sights);
+  if (!velocity) return;
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const std::vector<const Sight*> others = others_of(sights, i);
     if (others.size() < 2) continue;
-    PingMask kept = steadied(sights[i], others, velocity, sector);
+    PingMask kept = steadied(sights[i], others, *velocity, sector);
     if (!kept.empty()) school.pings[i].part = std::move(kept);
   }
 }

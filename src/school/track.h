@@ -95,7 +95,7 @@ struct DetectedPing {
 struct TrackedDetection {
   std::int64_t ping_index = 0;
   std::vector<int> detections;  ///< indices into DetectedPing::detections, rising; the main one first
-  PingMask part;                ///< the school's share of a detection in which schools met; empty = all of them
+  PingMask part;                ///< of their voxels those that are the school's; empty = all
 };
 
 struct SchoolTrack {

@@ -73,6 +73,8 @@ std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
   std::size_t bytes = 0;
   if (rest.size() >= kReducedWaterHeadBytes && begins_with(rest, kReducedWaterMark)) {
     bytes = kReducedWaterHeadBytes + 4 * number(12) + 4 * number(16) + 12 * number(20) + number(24);
+  } else if (rest.size() >= kReducedWaterHeadBytes2 && begins_with(rest, kReducedWaterMark2)) {
+    bytes = kReducedWaterHeadBytes2 + 4 * number(12) + 4 * number(16) + 12 * number(20);
   } else if (rest.size() >= kReducedWaterHeadBytes1 && begins_with(rest, kReducedWaterMark1)) {
     bytes = kReducedWaterHeadBytes1 + 2 * number(8);
   }

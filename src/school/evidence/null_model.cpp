@@ -19,7 +19,7 @@ namespace {
 constexpr double kPiece_m = 1.9;         ///< a block of three is about as long as the shortest school
 constexpr int kPieces = 3;               ///< of a block
 constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
-constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the second look
+constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the next looks
 constexpr int kLooks = 3;
 constexpr double kClip = 2.0;     ///< spreads, up to which a block tells of the patch it lies in
 constexpr double kRise_db = 3.0;  ///< of the seabed out of the water before it

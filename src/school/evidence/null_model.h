@@ -25,9 +25,9 @@ struct WaterPing {
 /// The water of neighbouring pings, and what stands out of it in each: the null model of that place and hour.
 ///
 /// For each fan and block of range the water is what most beams of most pings return there, in ship-fixed coordinates: its
-/// median, and its spread downwards, which schools do not move. The excess over that (or over a beam's own noise, where
-/// that is louder), in spreads, is averaged over 3 x 3 beams and judged by its own median and spread. What stands out is
-/// left out of a second look, which also learns how far the water itself reaches upwards.
+/// median. The excess over that (or over a beam's own noise, where that is louder) and over the patch it lies in, in
+/// spreads, is averaged over 3 x 3 beams and judged by its own median and spread. At the first look the spread is that
+/// downwards, which schools do not move; what stands out is left out of the next looks, which take that upwards.
 /// window  pings in order; all of one shape
 /// least   cells of less evidence are not listed
 /// out     [ping of the window]

@@ -21,26 +21,29 @@ double evidence_of(const TrackedDetection& seen, const DetectedPing& ping) {
   return std::min(most, kMostEvidence);
 }
 
-/// Largest sum over neighbouring sights of what each has above chance; pings between them have none.
+/// Largest sum over neighbouring sights of what each has above chance. Pings between them have none; those that nobody
+/// could look at are not in the list and tell nothing.
 double evidence_together(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings) {
   double sum = 0.0;
   double largest = 0.0;
-  std::int64_t next = tracked.front().ping_index;
+  auto next = ping_of(pings, tracked.front().ping_index);
   for (const TrackedDetection& seen : tracked) {
-    sum = std::max(0.0, sum - kChanceEvidence * static_cast<double>(seen.ping_index - next));
-    sum = std::max(0.0, sum + evidence_of(seen, *ping_of(pings, seen.ping_index)) - kChanceEvidence);
+    const auto at = ping_of(pings, seen.ping_index);
+    sum = std::max(0.0, sum - kChanceEvidence * static_cast<double>(at - next));
+    sum = std::max(0.0, sum + evidence_of(seen, *at) - kChanceEvidence);
     largest = std::max(largest, sum);
-    next = seen.ping_index + 1;
+    next = at + 1;
   }
   return largest;
 }
 
-std::size_t most_sights(std::span<const TrackedDetection> tracked, int window) {
+/// In so many pings of the list.
+std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings, int window) {
   std::size_t most = 0;
+  auto behind = tracked.begin();
   for (auto first = tracked.begin(); first != tracked.end(); ++first) {
-    const auto behind = std::lower_bound(
-        first, tracked.end(), first->ping_index + window,
-        [](const TrackedDetection& seen, std::int64_t ping_index) { return seen.ping_index < ping_index; });
+    const auto from = ping_of(pings, first->ping_index);
+    while (behind != tracked.end() && ping_of(pings, behind->ping_index) - from < window) ++behind;
     most = std::max(most, static_cast<std::size_t>(behind - first));
   }
   return most;
@@ -50,13 +53,15 @@ std::size_t most_sights(std::span<const TrackedDetection> tracked, int window) {
 
 std::optional<Reason> judge_confirmation(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
                                          const TrackParams& params) {
-  const std::size_t sights = most_sights(tracked, params.confirm_window);
+  const std::size_t sights = most_sights(tracked, pings, params.confirm_window);
   if (sights < static_cast<std::size_t>(params.confirm_pings)) {
     return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.confirm_pings), "sights"};
   }
   const double evidence = evidence_together(tracked, pings);
-  if (evidence >= params.evidence) return std::nullopt;
-  return Reason{"confirmation", evidence, params.evidence, "evidence of all sights"};
+  // so many of the clearest are always enough
+  const double wanted = std::min(params.evidence, params.confirm_pings * (kMostEvidence - kChanceEvidence));
+  if (evidence >= wanted) return std::nullopt;
+  return Reason{"confirmation", evidence, wanted, kAllSights};
 }
 
 }  // namespace sonar

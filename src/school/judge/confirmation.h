@@ -3,11 +3,15 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "school/judge/reason.h"
 #include "school/track.h"
 
 namespace sonar {
+
+/// Unit of the evidence of a track's sights together.
+inline constexpr std::string_view kAllSights = "evidence of all sights";
 
 /// Judge `confirmation`: a school is seen in pings near each other, and what its sights show together is more than chance
 /// gives. Faint sights count for little and many of them for much; a ping that shows none counts against it.

@@ -60,11 +60,12 @@ constexpr double kInterval_s = 5.0;
 
 /// An echo at one place of the sonar's frame in some pings of a ship that sails at 5 m/s, and what the tracker makes of it.
 Tracks seen_in(const std::vector<int>& pings, const TrackParams& params, double ship_mps = 5.0, int first_fan = 10,
-               double level_db = -60.0, double evidence = 20.0) {
+               double level_db = -60.0, double evidence = 20.0, const std::vector<int>& unread = {}) {
   const Sector sector = test::grid().sector(test::range_axis());
   const Array3<SampleFlags> flags({20, 25, 900});
   std::vector<DetectedPing> detected;
   for (int p = 0; p < 12; ++p) {
+    if (std::ranges::count(unread, p) > 0) continue;
     DetectedPing ping;
     ping.ping_index = p;
     ping.time = static_cast<TimeNs>(p * kInterval_s) * kSecondNs;
@@ -120,6 +121,15 @@ TEST(JudgeConfirmation, ManyFaintSightsAreASchoolAndFewAreNot) {
 TEST(JudgeConfirmation, PingsThatShowNothingCountAgainstIt) {
   EXPECT_EQ(seen_in({1, 2, 3, 4, 5, 6}, {}, 0.0, 10, -60.0, 5.0).schools.size(), 1U);
   EXPECT_TRUE(seen_in({1, 3, 5, 7, 9, 11}, {}, 0.0, 10, -60.0, 5.0).schools.empty());
+}
+
+TEST(JudgeConfirmation, PingsThatNobodyCouldReadDoNot) {
+  EXPECT_EQ(seen_in({1, 3, 5, 7, 9, 11}, {}, 0.0, 10, -60.0, 5.0, {2, 4, 6, 8, 10}).schools.size(), 1U);
+}
+
+// Another sounder's pulse in two pings is a school to those who ask no more.
+TEST(JudgeConfirmation, AsManyClearSightsAsAreAskedForAreEnough) {
+  EXPECT_EQ(seen_in({4}, {.confirm_pings = 1}, 0.0).schools.size(), 1U);
 }
 
 // Bubbles that the hull carries along.

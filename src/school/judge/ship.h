@@ -9,9 +9,10 @@
 
 namespace sonar {
 
-/// Judge `ship`: what was tracked goes where the ship goes. What keeps its place in the sonar frame while the ship makes more
-/// way than fish do, and so goes as fast over ground, is what the sonar hears of the seabed, the surface or itself
-/// there, through side lobes as well. Of what the sector's sides cut only a part is seen, whose place tells nothing.
+/// Judge `ship`: what was tracked goes where the ship goes. What keeps its place in the sonar frame while the ship makes way,
+/// more closely than a school would by chance, is what the sonar hears of the seabed, the surface or itself there, through
+/// side lobes as well. Of what the sector's sides cut only a part is seen: its place tells something only after a way
+/// longer than schools are.
 /// tracked  of one track, rising
 /// pings    those that were tracked, rising
 /// out      the figure is its drift beside the ship as a share of the ship's way
