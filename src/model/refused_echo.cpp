@@ -26,6 +26,7 @@ std::string measured(const RefusedEcho& echo) {
   if (echo.judge == "confirmation" && echo.limit_unit == "evidence of all sights") {
     return fmt::format("evidence of {:.3g} in all sights together, {:.3g} at least", figure, limit);
   }
+  if (echo.judge == "level") return fmt::format("its Sv is {:.3g} dB, {:.3g} at least", figure, limit);
   if (echo.judge == "surface" && echo.limit_unit == "m deep at most") {
     return fmt::format("hangs from the surface down to {:.3g} m, as bubbles do to {:.3g} m", figure, limit);
   }

@@ -35,6 +35,8 @@ TEST(RefusedEcho, EveryJudgeHasItsSentence) {
             "no school: seen in 2 pings, 3 at least (judge confirmation)");
   EXPECT_EQ(why_no_school(judged("confirmation", 8.12, 10.3, "evidence of all sights")),
             "no school: evidence of 8.12 in all sights together, 10.3 at least (judge confirmation)");
+  EXPECT_EQ(why_no_school(judged("level", -82.14, -77.0, "dB re 1 m-1")),
+            "no school: its Sv is -82.1 dB, -77 at least (judge level)");
   EXPECT_EQ(why_no_school(judged("surface", 14.24, 20.0, "m deep at most")),
             "no school: hangs from the surface down to 14.2 m, as bubbles do to 20 m (judge surface)");
   EXPECT_EQ(why_no_school(judged("ship", 0.031, 0.15, "share of the ship's way")),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "school/judge/confirmation.h"
+#include "school/judge/level.h"
 #include "school/judge/ship.h"
 #include "school/judge/surface.h"
 #include "school/open_track.h"
@@ -37,6 +38,7 @@ std::optional<Reason> refused(std::span<const TrackedDetection> tracked, std::sp
                               const TrackParams& params) {
   if (auto reason = judge_confirmation(tracked, pings, params)) return reason;
   if (auto reason = judge_ship(tracked, pings, params)) return reason;
+  if (auto reason = judge_level(tracked, pings, params)) return reason;
   return judge_surface(tracked, pings);
 }
 

@@ -28,6 +28,7 @@ struct TrackParams {
   int confirm_window = 5;
   bool divide_joined = true;
   double ship_drift_share = 0.3;
+  double min_level_db = -77.0;  ///< a fish of 10 cm (TS -50 dB) in 500 m3, what a beam tells apart at 250 m
 
   static constexpr double overlap_weight = 4.0;  ///< cost of no overlap with the moved mask
   static constexpr double size_weight = 1.0;     ///< cost of one e-fold of volume
@@ -80,6 +81,11 @@ void describe(Visitor& v, TrackParams& p) {
            .min = 0,
            .max = 1,
            .text = "no school: moves by less beside the ship than this share of the ship's way; 0 = not looked at"});
+  v.field("min_level_db", p.min_level_db,
+          {.unit = "dB",
+           .min = -200,
+           .max = 0,
+           .text = "no school: the Sv of its members together is lower; lower for krill"});
 }
 
 /// The detections of one ping, for association.

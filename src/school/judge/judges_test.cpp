@@ -145,6 +145,20 @@ TEST(JudgeShip, WithoutItItIsASchool) {
   EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.ship_drift_share = 0.0}).schools.size(), 1U);
 }
 
+// A few fish far from each other in quiet water: as clear as can be.
+TEST(JudgeLevel, WhatIsFainterThanFishTogetherIsNoSchool) {
+  const Tracks tracks = seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 10, -82.0);
+  EXPECT_TRUE(tracks.schools.empty());
+  ASSERT_EQ(tracks.refused.size(), 1U);
+  EXPECT_EQ(tracks.refused[0].reason.judge, "level");
+  EXPECT_EQ(tracks.refused[0].reason.figure, -82.0);
+  EXPECT_EQ(tracks.refused[0].reason.limit, -77.0);
+}
+
+TEST(JudgeLevel, WithoutItItIsASchool) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.min_level_db = -90.0}, 0.0, 10, -82.0).schools.size(), 1U);
+}
+
 // Bubbles under the surface, 60 m away, as a ship at rest sees them: in the two top fans, 7 to 14 m deep.
 TEST(JudgeSurface, WhatHangsFromTheSurfaceIsNoSchool) {
   const Tracks tracks = seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 18);
