@@ -27,7 +27,8 @@ struct InPing {
 };
 
 double mean_m2(const std::map<InProduct, InPing>& pings) {
-  const bool whole = std::any_of(pings.begin(), pings.end(), [](const auto& p) { return !p.second.touches_edge; });
+  const bool whole =
+      std::any_of(pings.begin(), pings.end(), [](const auto& p) { return p.second.known && !p.second.touches_edge; });
   double sum = 0.0;
   int n = 0;
   for (const auto& [ping, in_ping] : pings) {

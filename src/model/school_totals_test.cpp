@@ -101,6 +101,16 @@ TEST(SchoolTotals, PingsThatTouchAnEdgeCountWhereThereAreNoOthers) {
   EXPECT_NEAR(total_m2({p}), (2.0 + 6.0 + 4.0) / 3.0, 1e-12);
 }
 
+// No figure is known where no edge is touched: those that are known count all the same.
+TEST(SchoolTotals, AnUnknownFigureTakesNoPlaceOfAKnownOne) {
+  ObservationProduct p = observation("obs-0001");
+  add(p, 1, 0, 0, 2.0);
+  add(p, 2, 1, 1, 4.0, "obs-0001/1");
+  p.school_pings[0].touches_edge = 1;
+  p.school_pings[1].backscatter_m2 = p.school_pings[1].backscatter_total_m2 = kUnknown;
+  EXPECT_NEAR(total_m2({p}), 2.0, 1e-12);
+}
+
 TEST(SchoolTotals, TakeTheWholeEchoWhereItIsKnown) {
   ObservationProduct p = observation("obs-0001");
   add(p, 1, 0, 1, 2.0);

@@ -19,7 +19,8 @@
 namespace sonar {
 namespace {
 
-/// A school through one observation, however many rows tell of it.
+/// A school through one observation, however many rows tell of it; as for totals, rejected ones tell of none, but hold a chain
+/// together.
 struct Track {
   SchoolRow* first = nullptr;  ///< the row that continues none of the others
   SchoolRow* at_begin = nullptr;
@@ -55,6 +56,7 @@ std::vector<Track> tracks_of(ObservationProduct& product) {
     Track& track = tracks[at->second];
     SchoolRow* row = &product.schools[i];
     if (track.first == nullptr || row->continues.empty()) track.first = row;
+    if (row->status == "rejected") continue;
     const auto& [begin, end] = span->second;
     if (track.begin == nullptr || begin->ping_index < track.begin->ping_index) {
       track.begin = begin;
@@ -65,6 +67,7 @@ std::vector<Track> tracks_of(ObservationProduct& product) {
       track.at_end = row;
     }
   }
+  std::erase_if(tracks, [](const Track& track) { return track.begin == nullptr; });
   return tracks;
 }
 

@@ -98,6 +98,35 @@ TEST(JoinAtReach, AnEndBeyondWhichTheSchoolIsKnownToGoOnIsNone) {
   EXPECT_TRUE(open_ends(p).empty());
 }
 
+// A rejected one lies nearest: what goes on is the other one, and the rejected one's own end is nobody's.
+TEST(JoinAtReach, ARejectedOneIsNoSchool) {
+  ObservationProduct p = cut_by_hand();
+  for (SchoolPingRow& row : p.school_pings) {
+    if (row.school_id == 2) row.depth_m += 1.0;
+    if (row.school_id == 2) row.latitude += 5.0 / 111'000.0;
+  }
+  example::add_school(p, 4, 6, 8, example::block(1, 1, 2, 20, 10));
+  beside_the_ship(p);
+  p.schools[3].status = "rejected";
+  p.schools[3].ended_at_reach = "last";
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"obs-0001/3", "obs-0001/1", "", ""}));
+  EXPECT_EQ(school_count(p), 1);
+  EXPECT_TRUE(open_ends(p).empty());
+}
+
+// As for totals, a chain holds together where a row in its middle is rejected; only its end is not that row's.
+TEST(JoinAtReach, ARejectedRowHoldsAChainTogether) {
+  ObservationProduct p = cut_by_hand();
+  example::add_school(p, 4, 6, 6, example::block(1, 1, 2, 20, 10));
+  beside_the_ship(p);
+  p.schools[0].continues = "obs-0001/4";
+  p.schools[3].status = "rejected";
+  join_at_reach(p, {});
+  EXPECT_EQ(continues(p), (std::vector<std::string>{"obs-0001/4", "obs-0001/1", "", "obs-0001/3"}));
+  EXPECT_EQ(school_count(p), 1);
+}
+
 // The rest of a school is found before what a human selected of it, at the beginning of an observation that the clock cut:
 // it is the school that goes on, in whatever order products come.
 TEST(JoinOverCuts, ASchoolOfSeveralRowsIsJoinedOnce) {

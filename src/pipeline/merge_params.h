@@ -5,7 +5,7 @@
 
 namespace sonar {
 
-/// How a school is followed over a cut made by observation_max_s. Depends on products alone.
+/// How a school is followed over a cut made by observation_max_s, or beyond the end of a reach. Depends on products alone.
 struct MergeParams {
   double gate_m = 20.0;
   double length_share = 0.25;
@@ -21,7 +21,10 @@ void describe(Visitor& v, MergeParams& p) {
           {.unit = "1", .min = 0, .max = 10, .text = "... and this share of the lengths of both"});
   v.field("depth_gate_m", p.depth_gate_m, {.unit = "m", .min = 0, .max = 10000, .text = "the same for the depth"});
   v.field("edge_pings", p.edge_pings,
-          {.unit = "pings", .min = 0, .max = 1000, .text = "pings a school may be missing before or after the cut"});
+          {.unit = "pings",
+           .min = 0,
+           .max = 1000,
+           .text = "pings a school may be missing before or after the cut, or the end of a reach"});
 }
 
 }  // namespace sonar

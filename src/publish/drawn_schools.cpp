@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "model/school_totals.h"
 #include "view/school_look.h"
 
 namespace sonar {
@@ -92,13 +95,44 @@ std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks,
   return MaskMiddle{nearest(fan), nearest(beam), nearest(sample)};
 }
 
-ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options) {
-  ObservationProduct chosen = product;
+namespace {
+
+/// Rows of one school continue the first of them that is drawn: what they continued may not be.
+void hang_together(std::span<ObservationProduct> products, const PictureOptions& options) {
+  std::vector<SchoolRow*> rows;
+  for (ObservationProduct& product : products) {
+    for (SchoolRow& row : product.schools) rows.push_back(&row);
+  }
+  const std::vector<int> chains = chains_of(std::vector<const SchoolRow*>(rows.begin(), rows.end()));
+  std::map<int, SchoolRow*> heads;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!wanted(rows[i]->school_id, options)) continue;
+    SchoolRow*& head = heads[chains[i]];
+    if (head == nullptr || (rows[i]->continues.empty() && !head->continues.empty())) head = rows[i];
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!wanted(rows[i]->school_id, options)) continue;
+    const SchoolRow* head = heads[chains[i]];
+    rows[i]->continues = rows[i] == head ? std::string{} : school_name(head->observation, head->school_id);
+  }
+}
+
+}  // namespace
+
+std::vector<ObservationProduct> with_chosen_schools(std::vector<ObservationProduct> products,
+                                                    const PictureOptions& options) {
+  hang_together(products, options);
   const auto unwanted = [&](std::int64_t id) { return !options.masks || !wanted(id, options); };
-  std::erase_if(chosen.schools, [&](const SchoolRow& row) { return unwanted(row.school_id); });
-  std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
-  std::erase_if(chosen.masks, [&](const SchoolMask& mask) { return unwanted(mask.school_id); });
-  return chosen;
+  for (ObservationProduct& chosen : products) {
+    std::erase_if(chosen.schools, [&](const SchoolRow& row) { return unwanted(row.school_id); });
+    std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
+    std::erase_if(chosen.masks, [&](const SchoolMask& mask) { return unwanted(mask.school_id); });
+  }
+  return products;
+}
+
+ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options) {
+  return std::move(with_chosen_schools(std::vector{product}, options).front());
 }
 
 Result<void> require_schools(const DrawnObservation& observation, const PictureOptions& options) {

@@ -42,7 +42,10 @@ struct MaskMiddle {
 };
 [[nodiscard]] std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams);
 
-/// The product with the schools that the options ask for; rows and masks of the others are left out.
+/// The products with the schools that the options ask for; rows and masks of the others are left out. What is drawn of one
+/// school stays one.
+[[nodiscard]] std::vector<ObservationProduct> with_chosen_schools(std::vector<ObservationProduct> products,
+                                                                  const PictureOptions& options);
 [[nodiscard]] ObservationProduct with_chosen_schools(const ObservationProduct& product, const PictureOptions& options);
 
 /// errors  usage: a school that the observation has not

@@ -85,7 +85,7 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   SurveyMapStyle style;
   for (const DrawnObservation& observation : observations) products.push_back(observation.product());
   style.left_out = counted_schools(products).size();
-  for (ObservationProduct& product : products) product = with_chosen_schools(product, options);
+  products = with_chosen_schools(std::move(products), options);
   style.left_out -= counted_schools(products).size();
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {

@@ -23,6 +23,16 @@ PingMask left_beside(const PingMask& mask, const PingMask& voxels, bool whole) {
   return subtract(mask, voxels);
 }
 
+std::vector<SchoolMasks::InPing> without(std::vector<SchoolMasks::InPing> pings,
+                                         const std::vector<SchoolMasks::InPing>& voxels) {
+  for (SchoolMasks::InPing& there : pings) {
+    for (const SchoolMasks::InPing& other : voxels) {
+      if (other.ping_index == there.ping_index) there.mask = subtract(there.mask, other.mask);
+    }
+  }
+  return pings;
+}
+
 }  // namespace
 
 Result<std::size_t> Edit::find(const SchoolKey& key) {
@@ -159,6 +169,20 @@ void Edit::take_ends(std::size_t from, std::size_t into) {
   ReachEnds& ends = writable(into).masks.reach;
   if (gone.first) ends.first = std::min(*gone.first, ends.first.value_or(*gone.first));
   if (gone.last) ends.last = std::max(*gone.last, ends.last.value_or(*gone.last));
+}
+
+void Edit::part(std::size_t from, std::size_t apart) {
+  for (std::size_t i = 0; i < state_.schools.size(); ++i) {
+    const auto found = masks(i).found;
+    if (!found || !same_fish(*found, masks(apart).pings)) continue;
+    if (i != from && !same_fish(*found, masks(from).pings)) continue;
+    writable(i).masks.found =
+        std::make_shared<const std::vector<SchoolMasks::InPing>>(without(*found, masks(apart).pings));
+  }
+}
+
+void Edit::give_found(std::size_t from, std::size_t to) {
+  writable(to).masks.found = std::exchange(writable(from).masks.found, nullptr);
 }
 
 void Edit::note(DiagnosticCode code, std::string text) {

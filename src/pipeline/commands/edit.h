@@ -50,6 +50,10 @@ class Edit {
   void set_reach(std::size_t school, const ReachEnds& ends) { writable(school).masks.reach = ends; }
   /// What is known of a school's ends holds for the one that it becomes part of.
   void take_ends(std::size_t from, std::size_t into);
+  /// What is split off is another school: detection joins it no more with what it is split from.
+  void part(std::size_t from, std::size_t apart);
+  /// What was found of a detected school tells from now on what belongs to another one.
+  void give_found(std::size_t from, std::size_t to);
   void note(DiagnosticCode code, std::string text);
   void add_event(const EventCommand& event);
   /// The propagation that gives what was made: as far as it was let go.

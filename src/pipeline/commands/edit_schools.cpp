@@ -64,6 +64,19 @@ Result<std::vector<Halves>> halves_of(const SchoolMasks& school, std::size_t cli
   return halves;
 }
 
+/// Whether humans took more of a detected school after the cut than before it.
+bool taken_later(const SchoolMasks& school, std::int64_t cut) {
+  if (!school.found) return false;
+  std::size_t before = 0;
+  std::size_t after = 0;
+  for (const InPing& found : *school.found) {
+    const auto* left = in_ping(school, found.ping_index);
+    const std::size_t kept = left == nullptr ? 0 : overlap(found.mask, left->mask);
+    (found.ping_index < cut ? before : after) += found.mask.voxels() - kept;
+  }
+  return after > before;
+}
+
 Result<void> split_in_space(Edit& edit, std::size_t school, const SeedKey& seed) {
   const SchoolMasks before = edit.masks(school);
   const auto* there = in_ping(before, edit.ping());
@@ -87,7 +100,9 @@ Result<void> split_in_space(Edit& edit, std::size_t school, const SeedKey& seed)
   apart.reach = before.reach;
   edit.set_pings(school, std::move(rest));
   edit.touch(school);
-  edit.touch(edit.add(std::move(apart)));
+  const std::size_t added = edit.add(std::move(apart));
+  edit.touch(added);
+  edit.part(school, added);
   return {};
 }
 
@@ -98,6 +113,7 @@ Result<void> split_in_time(Edit& edit, std::size_t school) {
   if (cut == before.begin() || cut == before.end()) {
     return fail(ErrorCode::bad_parameter, "the school has no pings on both sides of the cut");
   }
+  const bool later_taken = taken_later(edit.masks(school), edit.ping());
   SchoolMasks later;
   later.decided = edit.masks(school).decided;
   later.reach = edit.masks(school).reach;
@@ -105,7 +121,11 @@ Result<void> split_in_time(Edit& edit, std::size_t school) {
   before.erase(cut, before.end());
   edit.set_pings(school, std::move(before));
   edit.touch(school);
-  edit.touch(edit.add(std::move(later)));
+  const std::size_t added = edit.add(std::move(later));
+  edit.touch(added);
+  // What was taken is a part of the half beside it.
+  if (later_taken) edit.give_found(school, added);
+  edit.part(later_taken ? added : school, later_taken ? school : added);
   return {};
 }
 

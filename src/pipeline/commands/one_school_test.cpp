@@ -174,6 +174,37 @@ TEST(OneSchool, AnotherSchoolThatTouchesItIsNone) {
   EXPECT_EQ(parts(state), "");
 }
 
+// Numbers: 1 the rest of A, 2 B, 3 what was clicked, 4 what was split off.
+TEST(OneSchool, WhatAHumanSplitsOffIsAnother) {
+  const SplitCommand in_time{key_a(), {}};
+  const JournalState before_it = after({{4, reaching(1)}, {2, in_time}});
+  EXPECT_EQ(school_count(tables_of(before_it)), 3);
+  EXPECT_EQ(parts(before_it), "4>3 ") << "pings 2 and later lie about what was clicked";
+  const JournalState behind_it = after({{4, reaching(1)}, {7, in_time}});
+  EXPECT_EQ(school_count(tables_of(behind_it)), 3);
+  EXPECT_EQ(parts(behind_it), "1>3 ");
+  const JournalState itself = after({{4, reaching(1)}, {4, SplitCommand{key_a(4), {}}}});
+  EXPECT_EQ(school_count(tables_of(itself)), 3);
+  EXPECT_EQ(parts(itself), "1>3 ");
+  // Detection took A and B for one.
+  std::vector<SchoolMasks> joined(1);
+  for (int i = 0; i < kPings; ++i) joined[0].pings.push_back({i, unite(block_mask(kA), block_mask(kB)), -50.0});
+  const Acts in_space{{4, reaching(0)}, {2, SplitCommand{key_a(), SeedKey{channel_at(2, 3), 47}}}};
+  const JournalState apart = after(in_space, state_of_detected(joined));
+  EXPECT_EQ(school_count(tables_of(apart)), 2);
+  EXPECT_EQ(parts(apart), "1>2 ");
+  EXPECT_EQ(total(apart), kBoth);
+}
+
+// A click upon two that were found keeps them together until it is split between them.
+TEST(OneSchool, SplitBetweenTwoThatWereFoundEachHasItsOwnRest) {
+  std::vector<SchoolMasks> two(2);
+  for (int i = 0; i < kPings; ++i) two[i < 4 ? 0 : 1].pings.push_back({i, block_mask(kA), -50.0});
+  const JournalState state =
+      after({{4, reaching(1)}, {4, SplitCommand{key_a(4), {}}}}, state_of_detected(std::move(two)));
+  EXPECT_EQ(parts(state), "1>3 2>4 ");
+}
+
 TEST(OneSchool, ADeletedOrRefusedSelectionIsNoPart) {
   const JournalState state = after({{4, reaching(1)}, {4, DeleteCommand{key_a(4)}}});
   EXPECT_EQ(state.schools.size(), 2U);
