@@ -77,6 +77,27 @@ std::vector<int> continued(std::span<const SchoolMasks* const> schools) {
   return continues;
 }
 
+std::string open_ends(const JournalState& state, const StateSchool& school) {
+  const std::string ends = ended_at_reach(school.masks);
+  if (ends.empty()) return ends;
+  std::vector<const SchoolMasks*> all;
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < state.schools.size(); ++i) {
+    if (state.schools[i]->number == school.number) own = i;
+    all.push_back(&state.schools[i]->masks);
+  }
+  const std::vector<int> continues = continued(all);
+  bool first = ends_first(ends);
+  bool last = ends_last(ends);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool part = first_of(continues, i) == first_of(continues, own) && !all[i]->pings.empty();
+    if (!part || all[i]->decided.status == "rejected") continue;
+    first = first && all[i]->pings.front().ping_index >= school.masks.pings.front().ping_index;
+    last = last && all[i]->pings.back().ping_index <= school.masks.pings.back().ping_index;
+  }
+  return std::string(kEndNames[static_cast<std::size_t>(first) + 2 * static_cast<std::size_t>(last)]);
+}
+
 void name_parts(std::vector<SchoolMasks>& schools, const std::string& observation) {
   std::vector<const SchoolMasks*> all;
   for (const SchoolMasks& school : schools) all.push_back(&school);

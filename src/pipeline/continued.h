@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/commands/state.h"
 #include "pipeline/measure_schools.h"
 
 // A school is one school: what detection finds of fish that a human has selected is no second one. Detection knows nothing of
@@ -24,6 +25,10 @@ inline constexpr double kSameFishShare = 0.25;
 /// these voxels. Of what one detected school joins, all is part of the human's that begins first.
 /// out  [school] index of the school that it continues; -1 = none
 [[nodiscard]] std::vector<int> continued(std::span<const SchoolMasks* const> schools);
+
+/// The ends of a school of a state at which it had its reach, and beyond which no other part of it is known.
+/// out  as SchoolRow::ended_at_reach
+[[nodiscard]] std::string open_ends(const JournalState& state, const StateSchool& school);
 
 /// Fills in decided.continues of numbered schools.
 /// observation  its name, which stands in the column

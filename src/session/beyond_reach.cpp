@@ -6,18 +6,23 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/continued.h"
 #include "session/survey_schools.h"
 #include "session/tools/growth.h"
 
 namespace sonar {
 namespace {
 
+std::string open_ends(const Workspace& workspace, const SurveySchool& school) {
+  return open_ends(workspace.document.state(school.name.observation), *school.state);
+}
+
 /// The selected school, where it lies in the observation on show and may be carried on.
 std::optional<SurveySchool> open_school(const Workspace& workspace) {
   auto school = selected_school(workspace);
   const auto& shown = workspace.document.shown();
   if (!school || !shown || shown->index() != school->name.observation) return std::nullopt;
-  if (workspace.document.busy() || ended_at_reach(school->state->masks).empty()) return std::nullopt;
+  if (workspace.document.busy() || open_ends(workspace, *school).empty()) return std::nullopt;
   return school;
 }
 
@@ -38,7 +43,7 @@ void carry_on_from(Workspace& workspace, const SurveySchool& school, bool forwar
 void continue_beyond_reach(Workspace& workspace) {
   const auto school = open_school(workspace);
   if (!school) return;
-  const std::string ends = ended_at_reach(school->state->masks);
+  const std::string ends = open_ends(workspace, *school);
   const auto step = std::make_shared<JournalStep>();
   if (ends_first(ends)) carry_on_from(workspace, *school, false, step);
   if (ends_last(ends)) carry_on_from(workspace, *school, true, step);

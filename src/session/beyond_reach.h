@@ -14,7 +14,7 @@ inline constexpr std::string_view kContinueAction = "school.continue";
 /// step to undo.
 void continue_beyond_reach(Workspace& workspace);
 
-/// Adds school.continue, which is enabled while the selected school has such an end.
+/// Adds school.continue, which is enabled while the selected school has such an end and no other part of it is known beyond.
 void add_continuing(Desk& desk);
 
 }  // namespace sonar

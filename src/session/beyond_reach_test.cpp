@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,20 @@ class BeyondReach : public TestDesk, public testing::Test {
     ASSERT_GE(found_.pings.size(), 6U);
   }
 
+  /// Nobody looked for schools yet.
+  void forget() {
+    document().undo();
+    document().settle();
+    ASSERT_TRUE(document().state().schools.empty());
+  }
   /// A click on the middle ping of the longest school that was found, followed so many pings to each side.
-  void click(std::int64_t reach) {
+  void click(std::int64_t reach, std::optional<std::int64_t> forward = {}) {
     const auto& middle = found_.pings[found_.pings.size() / 2];
     const SchoolKey key = key_of(found_, document().shown()->ground());
     PropagateCommand command;
     command.seeds = {{key.channel, key.sample}};
     command.reach = reach;
+    command.reach_forward = forward;
     document().act(middle.ping_index, std::move(command));
     document().settle();
     select(document().state().schools.back()->number);
@@ -49,6 +57,7 @@ class BeyondReach : public TestDesk, public testing::Test {
 };
 
 TEST_F(BeyondReach, IsSaidAtOnceAndOneActionGoesOn) {
+  forget();
   EXPECT_FALSE(offered());
   click(1);
   EXPECT_THAT(document().notices().back(), HasSubstr("goes on beyond 1 ping: continue?"));
@@ -71,6 +80,7 @@ TEST_F(BeyondReach, IsSaidAtOnceAndOneActionGoesOn) {
 }
 
 TEST_F(BeyondReach, ContinuedItMayHaveItsReachAgain) {
+  forget();
   click(1);
   ASSERT_TRUE(workspace().select.set("reach_pings", 1));
   press(std::string(kContinueAction));
@@ -81,12 +91,31 @@ TEST_F(BeyondReach, ContinuedItMayHaveItsReachAgain) {
 }
 
 TEST_F(BeyondReach, NothingIsSaidOfASchoolThatEndsByItself) {
+  forget();
   const std::size_t before = document().notices().size();
   click(-1);
   for (std::size_t i = before; i < document().notices().size(); ++i) {
     EXPECT_THAT(document().notices()[i], testing::Not(HasSubstr("goes on beyond")));
   }
   EXPECT_FALSE(offered());
+}
+
+// What detection found beyond the reach is the rest of it: there is nothing to go on with.
+TEST_F(BeyondReach, NothingIsSaidWhereTheRestIsKnown) {
+  const std::size_t before = document().notices().size();
+  click(1);
+  for (std::size_t i = before; i < document().notices().size(); ++i) {
+    EXPECT_THAT(document().notices()[i], testing::Not(HasSubstr("goes on beyond")));
+  }
+  EXPECT_EQ(ended_at_reach(clicked().masks), "both");
+  EXPECT_FALSE(offered());
+}
+
+TEST_F(BeyondReach, OneNumberIsNotSaidOfTwoReaches) {
+  forget();
+  click(1, 2);
+  EXPECT_EQ(ended_at_reach(clicked().masks), "both");
+  EXPECT_THAT(document().notices().back(), HasSubstr("goes on beyond its reach: continue?"));
 }
 
 TEST_F(BeyondReach, WindowCountsASchoolOfSeveralRowsOnce) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "pipeline/continued.h"
 #include "session/document.h"
 
 namespace sonar {
@@ -58,6 +59,13 @@ const StateSchool* followed_school(const JournalState& state, const CommandGroun
   return made == state.schools.end() ? nullptr : made->get();
 }
 
+/// "30 pings"; by two numbers a line would be a riddle.
+std::string reach_text(std::int64_t backward, std::int64_t forward) {
+  if (backward > 0 && forward > 0 && backward != forward) return "its reach";
+  const std::int64_t pings = std::max(backward, forward);
+  return fmt::format("{} ping{}", pings, pings == 1 ? "" : "s");
+}
+
 std::vector<std::string> names_of(const std::vector<std::filesystem::path>& paths) {
   std::vector<std::string> names;
   for (const auto& path : paths) names.push_back(path.string());
@@ -96,14 +104,15 @@ void Document::tell_beyond_reach() {
     const OpenObservationPtr observation = open_observation(index);
     if (!observation || !state || !ping_at(observation->ground(), line->ping_time)) continue;
     const StateSchool* school = followed_school(*state, observation->ground(), line->n, command);
-    const std::string ends = school == nullptr ? std::string{} : ended_at_reach(school->masks);
+    const std::string ends = school == nullptr ? std::string{} : open_ends(*state, *school);
     // Of the sides that it was just followed to.
-    std::int64_t pings = 0;
-    if (ends_first(ends) && goes_backward(command)) pings = command.reach_backward.value_or(command.reach);
-    if (ends_last(ends) && goes_forward(command)) pings = command.reach_forward.value_or(command.reach);
-    if (pings == 0) continue;
-    tell(fmt::format("{} goes on beyond {} ping{}: continue? (Ctrl+Shift+P)", school_title(*school), pings,
-                     pings == 1 ? "" : "s"));
+    std::int64_t backward = 0;
+    std::int64_t forward = 0;
+    if (ends_first(ends) && goes_backward(command)) backward = command.reach_backward.value_or(command.reach);
+    if (ends_last(ends) && goes_forward(command)) forward = command.reach_forward.value_or(command.reach);
+    if (backward == 0 && forward == 0) continue;
+    tell(fmt::format("{} goes on beyond {}: continue? (Ctrl+Shift+P)", school_title(*school),
+                     reach_text(backward, forward)));
   }
 }
 

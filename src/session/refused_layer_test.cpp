@@ -99,6 +99,10 @@ TEST_F(Refused, SlicesMarkIt_HoverSaysWhy_AndTheLayerCanBeSwitchedOff) {
   desk_.settle();
   EXPECT_TRUE(desk_.top().picture()->refused.empty());
   EXPECT_GE(list().rows(), 1U) << "the list stays";
+  workspace().echo.set(EchoName{0, loudest.echo_id});
+  EXPECT_FALSE(desk_.desk.actions.find("school.take_in")->enabled()) << "what nobody sees is not taken in";
+  desk_.ask("display.refused");
+  EXPECT_TRUE(desk_.desk.actions.find("school.take_in")->enabled());
 }
 
 TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {

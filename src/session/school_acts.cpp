@@ -191,9 +191,11 @@ void add_search(Desk& desk) {
        .menu = kMenu,
        .text = "Take in the refused echo",
        .keys = {"I"},
-       .tip = "The refused echo last pointed at or chosen grows into a school and is followed through time",
+       .tip = "The refused echo last pointed at or chosen grows into a school and is followed through time; where "
+              "it is in another ping, the first press goes there",
        .run = [&desk] { take_in(desk.workspace, *desk.seed_tool); },
-       .enabled = [&desk] { return desk.workspace.echo().has_value(); }});
+       .enabled =
+           [&desk] { return desk.workspace.display.values().refused_echoes && desk.workspace.echo().has_value(); }});
 }
 
 void add_carrying(Desk& desk) {

@@ -106,6 +106,23 @@ TEST(OneSchool, WhatDetectionFoundBeyondTheReachIsTheRestOfIt) {
   EXPECT_EQ(total(whole), kBoth);
 }
 
+// What is known beyond the reach need not be asked for; a rejected part is none.
+TEST(OneSchool, AnEndBeyondWhichItIsKnownIsNotOpen) {
+  const JournalState state = after({{4, reaching(1)}});
+  EXPECT_EQ(open_ends(state, *state.schools[2]), "");
+  EXPECT_EQ(open_ends(state, *state.schools[0]), "");
+  const DecideCommand reject{{Decision{key_a(), "rejected", {}, {}}}, ""};
+  const JournalState rejected = after({{4, reaching(1)}, {0, reject}});
+  EXPECT_EQ(open_ends(rejected, *rejected.schools[2]), "both");
+  const JournalState undetected = after({{4, reaching(1)}}, {});
+  EXPECT_EQ(open_ends(undetected, *undetected.schools[0]), "both");
+  std::vector<SchoolMasks> early(1);
+  for (int i = 0; i < 5; ++i) early[0].pings.push_back({i, block_mask(kA), -50.0});
+  const JournalState half = after({{4, reaching(1)}}, state_of_detected(std::move(early)));
+  ASSERT_EQ(half.schools.size(), 2U);
+  EXPECT_EQ(open_ends(half, *half.schools[1]), "last");
+}
+
 // Whatever came first, fish are counted once: in every ping A and B, or one of them where nobody looked for the other.
 TEST(OneSchool, TotalsDoNotRiseWithTheOrderOfClicksDetectionAndMerge) {
   const Acts acts{{1, reaching(1)}, {6, reaching(1)}, {0, DetectCommand{2}}, {4, MergeCommand{{key_a(4), key_b(4)}}}};
