@@ -22,11 +22,11 @@ namespace {
 
 using Runs = std::vector<Run>;
 
-constexpr double kReferenceShare = 0.9;      ///< of a candidate lies below its reference
-constexpr double kLink_db = 3.0;             ///< parts joined by echo this far below the threshold are one school
-constexpr double kStep_db = 3.0;             ///< in which weaker schools beside a strong one are sought
-constexpr double kLeastProminence_db = 6.0;  ///< of a school above where it meets a stronger one
-constexpr double kLeastAboveWater_db = 1.5;  ///< of members
+constexpr double kReferenceShare = 0.9;       ///< of a candidate lies below its reference
+constexpr double kLink_db = 3.0;              ///< parts joined by echo this far below the threshold are one school
+constexpr double kStep_db = 3.0;              ///< in which weaker schools beside a strong one are sought
+constexpr double kLeastProminence_db = 6.0;   ///< of a school above where it meets a stronger one
+constexpr double kSearchAboveWater_db = 1.5;  ///< where members are sought
 
 IndexBox box_of_runs(const Runs& runs, int beams) {
   PingMask mask;
@@ -137,7 +137,7 @@ class PingDetector {
 
   bool search(const Runs& component, const IndexBox& box, double level_db) {
     bool found = false;
-    for (const Runs& part : connected_parts(thresholder_.above(box, level_db, kLeastAboveWater_db), echo_.sv.shape(),
+    for (const Runs& part : connected_parts(thresholder_.above(box, level_db, kSearchAboveWater_db), echo_.sv.shape(),
                                             Connectivity::faces)) {
       if (!share_a_voxel(part, component)) continue;
       if (const auto reason = size_of(part)) {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
+#include "base/median.h"
 #include "base/units.h"
 #include "school/background.h"
 #include "school/runs.h"
@@ -168,14 +170,6 @@ std::map<int, std::array<Sum, 4>> sums_of(const MeasureInput& ping, const Surrou
   return rows;
 }
 
-/// A loud neighbour fills few of the beams that hear the water: their median is the water's. 0 = not heard.
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, at);
-  return *at;
-}
-
 }  // namespace
 
 EchoClaims echo_claims(const MeasureInput& ping, std::span<const PingMask* const> masks) {
@@ -208,7 +202,8 @@ TotalEcho total_echo(const MeasureInput& ping, const PingMask& mask, const EchoC
     levels.push_back(of_row.sv());
   }
   if (members.heard == 0 || !(members.heard_m3 > 0.0)) return {};
-  const double level = middle(levels);
+  // A loud neighbour fills few of the beams that hear the water: their median is the water's.
+  const double level = levels.empty() ? 0.0 : middle_of(std::move(levels));
   Sum round;
   const double most = std::isnan(ping.threshold_db) ? INFINITY : kOthers * linear_from_db(ping.threshold_db);
   for (const auto& [row, zones] : rows) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "base/median.h"
 #include "school/seabed_echoes.h"
 #include "school/seabed_plane.h"
 
@@ -48,11 +50,10 @@ std::vector<std::vector<float>> seabed_stretch(std::span<const WaterPing> window
     if (ping.seabed != nullptr && ping.seabed->found) depths_m.push_back(ping.seabed->offset_m);
   }
   if (depths_m.empty()) return stretch;
-  const auto middle = depths_m.begin() + std::ssize(depths_m) / 2;
-  std::nth_element(depths_m.begin(), middle, depths_m.end());
+  const double depth_m = middle_of(std::move(depths_m));
   for (std::size_t p = 0; p < window.size(); ++p) {
     const Seabed* seabed = window[p].seabed;
-    if (seabed != nullptr && seabed->found) stretch[p] = stretch_of(*seabed, sector, *middle);
+    if (seabed != nullptr && seabed->found) stretch[p] = stretch_of(*seabed, sector, depth_m);
   }
   return stretch;
 }
@@ -63,10 +64,7 @@ double seabed_nearer(std::span<const WaterPing> window) {
     if (ping.seabed == nullptr || !ping.seabed->found) continue;
     shares.push_back(std::max(1.0 - kHills * ping.seabed->roughness_m / ping.seabed->offset_m, kNearest));
   }
-  if (shares.empty()) return 1.0;
-  const auto middle = shares.begin() + std::ssize(shares) / 2;
-  std::nth_element(shares.begin(), middle, shares.end());
-  return *middle;
+  return shares.empty() ? 1.0 : middle_of(std::move(shares));
 }
 
 }  // namespace sonar
