@@ -41,7 +41,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
     {"seabed", 6, "bd52c987c7035c50998bb977009262fe"},
     {"detect", 13, "7e4e0a8d2ece36a18ba632594f618f8a"},
-    {"track", 9, "d8a5fef2d830c5a17c60742b4c624e8f"},
+    {"track", 10, "d8a5fef2d830c5a17c60742b4c624e8f"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
     {"measure", 12, "eb0652bdf7ce785eb86639dbb68bd198"},
     {"summarise", 5, "7b6e8b992501d8337f38366369c6d65c"},
