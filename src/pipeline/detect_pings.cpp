@@ -81,6 +81,7 @@ class Detecting {
     const auto& ping = staged_[at];
     DetectedPing& into = detected_[at];
     into.detections = detect(engine_.echo(*ping, water), engine_.recipe().detect, nullptr, &into.refused);
+    into.water = water;
     work_.progress("detecting", ++done_, count_);
   }
 

@@ -219,7 +219,7 @@ MedianParams Engine::filter_box() const {
 WaterLevels Engine::own_water(const StagedPing& ping) const {
   if (ping.water) return *ping.water;
   const WaterPing alone{&ping.means, &ping.seabed, ping.background()};
-  return water_levels({&alone, 1}, sector_, kLeastEvidence).front();
+  return water_levels({&alone, 1}, sector_, kChanceEvidence).front();
 }
 
 PingEcho Engine::echo(const StagedPing& ping, const WaterLevels& water) const {
@@ -298,7 +298,7 @@ FilteredPing Engine::filtered(const StagedPing& ping) const {
     if (above == Above::noise) return standing_out(counts, flags, background, nullptr, margin_db);
     if (known) return standing_out(counts, flags, background, &*known, margin_db);
     const WaterPing alone{&means, &seabed, background};
-    const WaterLevels water = water_levels({&alone, 1}, sector_, kLeastEvidence).front();
+    const WaterLevels water = water_levels({&alone, 1}, sector_, kChanceEvidence).front();
     return standing_out(counts, flags, background, &water, margin_db);
   };
   return out;

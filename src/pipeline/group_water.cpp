@@ -22,7 +22,7 @@ std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_pt
     told.push_back({&window[i]->means, &window[i]->seabed, window[i]->background()});
     of_told.push_back(i);
   }
-  std::vector<WaterLevels> levels = water_levels(told, sector, kLeastEvidence);
+  std::vector<WaterLevels> levels = water_levels(told, sector, kChanceEvidence);
   for (std::size_t i = 0; i < levels.size(); ++i) waters[of_told[i]] = std::move(levels[i]);
   return waters;
 }

@@ -22,8 +22,8 @@
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
 #include "pipeline/refused_echoes.h"
+#include "pipeline/track_schools.h"
 #include "school/detect_params.h"
-#include "school/steady_masks.h"
 #include "school/track.h"
 
 namespace sonar {
@@ -44,14 +44,6 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
         at.distance_nmi, at.pitch_deg, at.roll_deg, at.heave_m, at.transducer_depth_m}) {
     add_number(hasher, value);
   }
-}
-
-Tracks tracked(const Engine& engine, std::span<const DetectedPing> pings) {
-  TrackParams params = engine.recipe().track;
-  params.evidence = evidence_wanted(engine.recipe().detect);
-  Tracks tracks = track(pings, engine.sector(), engine.grid().channel, params);
-  for (SchoolTrack& school : tracks.schools) steady_masks(school, pings, engine.sector());
-  return tracks;
 }
 
 std::vector<SchoolMasks> masks_of(const Tracks& tracks, std::span<const DetectedPing> pings) {
@@ -289,9 +281,10 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   JournalState state;
   Tracks tracks;
   if (automatic) {
-    const std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
+    std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    tracks = tracked(engine, detected);
+    tracks = track_schools(engine, detected, work);
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     product.rejected = refused_echoes(engine, detected, tracks);
     state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
   }

@@ -53,5 +53,7 @@ struct SearchReach {
 };
 /// Members are told by a median along each beam of so many samples.
 inline constexpr int kMemberSamples = 23;
+/// They stand so far above the background.
+inline constexpr double kMemberAboveWater_db = 2.5;
 
 }  // namespace sonar

@@ -9,9 +9,11 @@
 #include "school/judge/confirmation.h"
 #include "school/judge/level.h"
 #include "school/judge/ship.h"
+#include "school/judge/side_lobe.h"
 #include "school/judge/surface.h"
 #include "school/open_track.h"
 #include "school/runs.h"
+#include "school/second_look.h"
 
 namespace sonar {
 namespace {
@@ -34,22 +36,26 @@ std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const De
   return key;
 }
 
-std::optional<Reason> refused(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
+std::optional<Reason> refused(const OpenTrack& track, std::span<const DetectedPing> pings, const Sector& sector,
                               const TrackParams& params) {
-  if (auto reason = judge_confirmation(tracked, pings, params)) return reason;
+  const std::span<const TrackedDetection> tracked = track.pings;
+  const Passage passage = look_again(tracked, pings, sector, track.motion.velocity());
+  if (auto reason = judge_confirmation(tracked, pings, passage.evidence, params)) return reason;
   if (auto reason = judge_ship(tracked, pings, params)) return reason;
   if (auto reason = judge_level(tracked, pings, params)) return reason;
+  if (auto reason = judge_side_lobe(tracked, pings)) return reason;
   return judge_surface(tracked, pings);
 }
 
 }  // namespace
 
 Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent> events,
-                     std::span<const DetectedPing> pings, std::span<const int> channel, const TrackParams& params) {
+                     std::span<const DetectedPing> pings, const Sector& sector, std::span<const int> channel,
+                     const TrackParams& params) {
   Tracks tracks;
   std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
   for (const OpenTrack& track : closed) {
-    if (auto reason = refused(track.pings, pings, params)) {
+    if (auto reason = refused(track, pings, sector, params)) {
       tracks.refused.push_back({*reason, track.pings});
       continue;
     }
@@ -62,7 +68,7 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
   for (const auto& [key, track] : order) {
     const auto id = static_cast<std::int64_t>(tracks.schools.size()) + 1;
     id_of[static_cast<std::size_t>(track->number)] = id;
-    tracks.schools.push_back({id, track->pings});
+    tracks.schools.push_back({id, track->motion.velocity(), track->pings});
   }
   for (const RawEvent& raw : events) {
     const std::int64_t id = id_of[static_cast<std::size_t>(raw.track)];

@@ -57,7 +57,7 @@ void divide_again(std::span<OpenTrack> open, std::span<const std::size_t> parted
 /// closed  all tracks
 /// pings, channel, params  as track()
 [[nodiscard]] Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent> events,
-                                   std::span<const DetectedPing> pings, std::span<const int> channel,
-                                   const TrackParams& params);
+                                   std::span<const DetectedPing> pings, const Sector& sector,
+                                   std::span<const int> channel, const TrackParams& params);
 
 }  // namespace sonar

@@ -18,7 +18,6 @@ namespace {
 constexpr double kMemberShare = 0.92;        ///< of a school's medians lies below its reference
 constexpr double kPeakShare = 0.995;         ///< of a school's filtered voxels lies below its peak
 constexpr double kPeakAbove_db = 1.5;        ///< the reference lies so far above the filtered peak at least
-constexpr double kLeastAboveWater_db = 2.5;  ///< members stand so far above the background
 constexpr double kLeastValley_db = 5.0;  ///< two schools that the filter joined stand so far above the valley between
 constexpr double kValleyStep_db = 1.0;   ///< which is sounded in such steps
 constexpr double kCrownShare = 0.5;      ///< both are as large as a school so far up from it to their tops
@@ -110,7 +109,7 @@ double MemberSettler::level(const std::vector<Run>& part) const {
 }
 
 MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double threshold_db) const {
-  const std::vector<Run> all = thresholder_.above(box_, threshold_db, kLeastAboveWater_db);
+  const std::vector<Run> all = thresholder_.above(box_, threshold_db, kMemberAboveWater_db);
   Parts parts = connected_parts(all, filtered_.shape(), Connectivity::faces);
   std::erase_if(parts, [&](const std::vector<Run>& piece) { return !share_a_voxel(piece, part); });
   return parts;
@@ -118,7 +117,7 @@ MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double 
 
 bool MemberSettler::has_crown(const std::vector<Run>& piece, double level_db,
                               const std::function<bool(const std::vector<Run>&)>& large) const {
-  const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, kLeastAboveWater_db));
+  const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, kMemberAboveWater_db));
   const Parts parts = connected_parts(above, filtered_.shape(), Connectivity::faces);
   return std::any_of(parts.begin(), parts.end(), large);
 }
@@ -206,7 +205,7 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
   std::vector<Settled> settled;
   for (std::size_t i = 0; i < schools.size(); ++i) {
     const auto above = [&](double level_db) {
-      return common_runs(sides[i], thresholder_.above(box_, level_db, kLeastAboveWater_db));
+      return common_runs(sides[i], thresholder_.above(box_, level_db, kMemberAboveWater_db));
     };
     const std::vector<Run> loud = above(schools[i].top_db - tolerance_db_);
     // With the background taken off, less than the tolerance may be left of it.
@@ -214,6 +213,13 @@ std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>
     settled.push_back(members(above(own_db - tolerance_db_), own_db, own_db - tolerance_db_, claimed));
   }
   return settled;
+}
+
+MemberSettler::Settled MemberSettler::settle_at(const std::vector<Run>& place, double reference_db, double threshold_db,
+                                                View3<std::uint8_t> claimed) {
+  box_ = box_round(place, 1);
+  look_along_beams();
+  return members(joined(pieces(place, threshold_db)), reference_db, threshold_db, claimed);
 }
 
 MemberSettler::Settled MemberSettler::members(const std::vector<Run>& runs, double reference_db, double threshold_db,

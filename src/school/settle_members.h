@@ -43,6 +43,9 @@ class MemberSettler {
   [[nodiscard]] std::vector<Settled> settle(const std::vector<Run>& part, double depth_db,
                                             const std::function<bool(const std::vector<Run>&)>& large,
                                             View3<std::uint8_t> claimed);
+  /// What lies above a threshold and hangs together with a place where a school is known to be.
+  [[nodiscard]] Settled settle_at(const std::vector<Run>& place, double reference_db, double threshold_db,
+                                  View3<std::uint8_t> claimed);
 
  private:
   using Parts = std::vector<std::vector<Run>>;

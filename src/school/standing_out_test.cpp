@@ -38,7 +38,7 @@ struct Water {
     const Background noise{flat.power_db, flat.calibration.view()};
     const Array3<float> means = short_means(counts.view(), flags.view(), piece_samples(sector.range()));
     const WaterPing alone{&means, nullptr, noise};
-    const WaterLevels water = water_levels({&alone, 1}, sector, kLeastEvidence).front();
+    const WaterLevels water = water_levels({&alone, 1}, sector, kChanceEvidence).front();
     PingMask mask;
     mask.runs = standing_out(sv.view(), flags.view(), noise, above == Above::water ? &water : nullptr, margin_db);
     return mask;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/median.h"
 #include "model/school.h"
 #include "school/judge/confirmation.h"
 #include "school/mask_shape.h"
@@ -51,12 +52,6 @@ std::vector<Sight> sights_of(const SchoolTrack& school, std::span<const Detected
   return sights;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Median over whole sights, so that masks that hold too much do not tell it; none where there are too few.
 std::optional<Point<Enu>> velocity_mps(std::span<const Sight> sights) {
   std::vector<double> east;
@@ -71,7 +66,7 @@ std::optional<Point<Enu>> velocity_mps(std::span<const Sight> sights) {
     up.push_back(way.z / took_s);
   }
   if (east.empty()) return std::nullopt;
-  return Point<Enu>{median_of(std::move(east)), median_of(std::move(north)), median_of(std::move(up))};
+  return Point<Enu>{middle_of(std::move(east)), middle_of(std::move(north)), middle_of(std::move(up))};
 }
 
 bool holds(const Sight& sight, const Sector& sector, const SectorIndex& index) {

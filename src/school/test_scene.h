@@ -58,7 +58,7 @@ struct Scene {
     }
     std::vector<WaterPing> window;
     for (const Array3<float>& mean : means) window.push_back({&mean, &seabed, background});
-    const WaterLevels water = water_levels(window, sector, kLeastEvidence).front();
+    const WaterLevels water = water_levels(window, sector, kChanceEvidence).front();
     const PingEcho echo{std::as_const(sv).view(),
                         std::as_const(counts).view(),
                         std::as_const(flags).view(),

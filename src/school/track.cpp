@@ -10,6 +10,7 @@
 #include "school/assign.h"
 #include "school/detection_owners.h"
 #include "school/divide.h"
+#include "school/inseparable.h"
 #include "school/moved_mask.h"
 #include "school/open_track.h"
 
@@ -35,7 +36,8 @@ class Tracker {
     for (std::size_t p = 0; p < pings_.size(); ++p) step(p);
     for (OpenTrack& track : open_) close(std::move(track));
     open_.clear();
-    return number_tracks(closed_, events_, pings_, channel_, params_);
+    join_inseparable(closed_, events_, pings_, sector_);
+    return number_tracks(closed_, events_, pings_, sector_, channel_, params_);
   }
 
  private:

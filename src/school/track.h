@@ -11,6 +11,7 @@
 #include "base/time.h"
 #include "geo/frames.h"
 #include "geo/sector.h"
+#include "model/water_levels.h"
 #include "school/detect.h"
 
 namespace sonar {
@@ -94,6 +95,7 @@ struct DetectedPing {
   TimeNs time = 0;
   Placement placement;
   std::vector<Detection> detections;
+  WaterLevels water = {};  ///< by which they were judged
   std::vector<RefusedDetection> refused = {};  ///< what stood out clearly and is no school; tracks do not see it
 };
 
@@ -106,6 +108,7 @@ struct TrackedDetection {
 
 struct SchoolTrack {
   std::int64_t school_id = 0;  ///< 1.. by (first ping, channel, sample)
+  Point<Enu> velocity_mps;     ///< over ground, when last seen
   std::vector<TrackedDetection> pings;
 };
 

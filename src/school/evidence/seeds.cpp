@@ -6,9 +6,10 @@
 
 namespace sonar {
 
-std::vector<Run> seed_runs(const WaterLevels& water, const Shape3& shape) {
+std::vector<Run> seed_runs(const WaterLevels& water, const Shape3& shape, double least) {
   std::vector<Run> runs;
   for (const EchoCell& cell : water.cells) {
+    if (static_cast<double>(cell.evidence) < least) continue;
     const int first = std::clamp(water.first_sample(cell.row, cell.block), 0, shape.samples);
     const int end = std::clamp(water.first_sample(cell.row, cell.block + 1), 0, shape.samples);
     if (end <= first) continue;

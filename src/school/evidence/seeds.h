@@ -6,11 +6,12 @@
 #include "base/array.h"
 #include "model/mask.h"
 #include "model/water_levels.h"
+#include "school/detect_params.h"
 
 namespace sonar {
 
-/// The samples of the blocks that stand out, as sorted runs within the recorded samples.
-[[nodiscard]] std::vector<Run> seed_runs(const WaterLevels& water, const Shape3& shape);
+/// The samples of the blocks that stand out so far, as sorted runs within the recorded samples.
+[[nodiscard]] std::vector<Run> seed_runs(const WaterLevels& water, const Shape3& shape, double least = kLeastEvidence);
 
 /// The most evidence of a block that holds a voxel of a mask; 0 where none does.
 [[nodiscard]] double evidence_of(const PingMask& mask, const WaterLevels& water);

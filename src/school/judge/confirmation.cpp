@@ -13,26 +13,18 @@ std::span<const DetectedPing>::iterator ping_of(std::span<const DetectedPing> pi
 
 namespace {
 
-double evidence_of(const TrackedDetection& seen, const DetectedPing& ping) {
-  double most = 0.0;
-  for (const int d : seen.detections) {
-    most = std::max(most, ping.detections[static_cast<std::size_t>(d)].evidence);
-  }
-  return std::min(most, kMostEvidence);
-}
+/// What water alone has where a school was expected lies so far below kChanceEvidence: the largest of some blocks.
+const double kNothingThere = std::getenv("NT") ? atof(std::getenv("NT")) : 1.5;
 
-/// Largest sum over neighbouring sights of what each has above chance. Pings between them have none; those that nobody
-/// could look at are not in the list and tell nothing.
-double evidence_together(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings) {
+/// Largest sum over neighbouring pings of what each has above chance. Those that nobody could look at are not in the list
+/// and tell nothing.
+double evidence_together(std::span<const double> passage) {
   double sum = 0.0;
   double largest = 0.0;
-  auto next = ping_of(pings, tracked.front().ping_index);
-  for (const TrackedDetection& seen : tracked) {
-    const auto at = ping_of(pings, seen.ping_index);
-    sum = std::max(0.0, sum - kChanceEvidence * static_cast<double>(at - next));
-    sum = std::max(0.0, sum + evidence_of(seen, *at) - kChanceEvidence);
+  for (const double evidence : passage) {
+    const double above = evidence > 0.0 ? std::min(evidence, kMostEvidence) - kChanceEvidence : -kNothingThere;
+    sum = std::max(0.0, sum + above);
     largest = std::max(largest, sum);
-    next = at + 1;
   }
   return largest;
 }
@@ -52,12 +44,12 @@ std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<con
 }  // namespace
 
 std::optional<Reason> judge_confirmation(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
-                                         const TrackParams& params) {
+                                         std::span<const double> passage, const TrackParams& params) {
   const std::size_t sights = most_sights(tracked, pings, params.confirm_window);
   if (sights < static_cast<std::size_t>(params.confirm_pings)) {
     return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.confirm_pings), "sights"};
   }
-  const double evidence = evidence_together(tracked, pings);
+  const double evidence = evidence_together(passage);
   // so many of the clearest are always enough
   const double wanted = std::min(params.evidence, params.confirm_pings * (kMostEvidence - kChanceEvidence));
   if (evidence >= wanted) return std::nullopt;

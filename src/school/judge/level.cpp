@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "school/judge/level.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "base/median.h"
 #include "school/judge/confirmation.h"
 
 namespace sonar {
@@ -16,10 +17,9 @@ std::optional<Reason> judge_level(std::span<const TrackedDetection> tracked, std
     const DetectedPing& ping = *ping_of(pings, seen.ping_index);
     level_db.push_back(ping.detections[static_cast<std::size_t>(seen.detections.front())].reference_db);
   }
-  const auto middle = level_db.begin() + std::ssize(level_db) / 2;
-  std::ranges::nth_element(level_db, middle);
-  if (*middle >= params.min_level_db) return std::nullopt;
-  return Reason{"level", *middle, params.min_level_db, "dB re 1 m-1"};
+  const double middle_db = middle_of(std::move(level_db));
+  if (middle_db >= params.min_level_db) return std::nullopt;
+  return Reason{"level", middle_db, params.min_level_db, "dB re 1 m-1"};
 }
 
 }  // namespace sonar

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/school.h"
+#include "base/median.h"
 #include "school/judge/confirmation.h"
 
 namespace sonar {
@@ -35,10 +36,9 @@ std::optional<Reason> judge_surface(std::span<const TrackedDetection> tracked, s
     reach_m.push_back(centre_m + kHalfHeight * std::sqrt(echo.covariance[5]));
   }
   if (2 * attached < tracked.size() || level_db > kBubbleLevel_db) return std::nullopt;
-  const auto middle = reach_m.begin() + std::ssize(reach_m) / 2;
-  std::ranges::nth_element(reach_m, middle);
-  if (!(*middle <= kBubbleDepth_m)) return std::nullopt;
-  return Reason{"surface", *middle, kBubbleDepth_m, "m deep at most"};
+  const double middle_m = middle_of(std::move(reach_m));
+  if (!(middle_m <= kBubbleDepth_m)) return std::nullopt;
+  return Reason{"surface", middle_m, kBubbleDepth_m, "m deep at most"};
 }
 
 }  // namespace sonar
