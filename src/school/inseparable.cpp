@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLeastSights = 3;  ///< of both, in which they touch
 constexpr std::size_t kSights = 4;       ///< in three of so many sights of both they touch
 
-/// Whether no more lies between two masks of a ping than a beam or what the filter along beams bridges.
+/// Whether two masks of a ping lie in the same beam or in beams side by side, no farther apart along range than a rim.
 bool touch(const PingMask& a, const PingMask& b, const Sector& sector) {
   const Shape3 shape{sector.fans(), sector.beams(), sector.range().count};
   const std::vector<int> first = index_rows(b.runs, shape.rows());

@@ -130,7 +130,7 @@ struct RefusedTrack {
 struct Tracks {
   std::vector<SchoolTrack> schools;   ///< by school_id
   std::vector<TrackEvent> events;     ///< by ping, kind, school_id; confirmed schools only
-  std::vector<RefusedTrack> refused;  ///< in the order in which they ended
+  std::vector<RefusedTrack> refused;  ///< in the order in which they were first seen
 };
 
 /// Joins the detections of an observation to schools: constant velocity over ground, gate, overlap of the moved mask,
