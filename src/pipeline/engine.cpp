@@ -11,7 +11,7 @@
 #include "pipeline/reduced_ping.h"
 #include "school/detect_params.h"
 #include "school/evidence/null_model.h"
-#include "school/evidence/short_means.h"
+#include "school/evidence/block_means.h"
 #include "school/standing_out.h"
 #include "signal/beam_overlap.h"
 #include "signal/calibrate.h"
@@ -263,8 +263,8 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     flag_ground(ping.seabed, ping.sv.flags.view());
   }
   if (!ping.water) {
-    ping.means = short_means(std::as_const(ping.sv.counts).view(), std::as_const(ping.sv.flags).view(),
-                             piece_samples(sector_.range()));
+    ping.means = block_means(std::as_const(ping.sv.counts).view(), std::as_const(ping.sv.flags).view(),
+                             block_samples(sector_.range()));
   }
   return ping;
 }

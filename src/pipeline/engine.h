@@ -33,7 +33,7 @@ struct StagedPing {
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known
   std::optional<WaterLevels> water;   ///< where a reduced file brings them; else its neighbours are needed to tell
-  Array3<float> means;                ///< short_means() of the unfiltered Sv; empty where water is known
+  Array3<std::int16_t> means;         ///< block_means() of the unfiltered Sv; empty where water is known
 
   [[nodiscard]] Background background() const { return {background_db, calibration->view()}; }
 };

@@ -85,12 +85,10 @@ std::vector<float> reduced_background_db(std::span<const ChannelPing> heads, std
 namespace {
 
 bool fits(const WaterLevels& water, const Shape3& shape) {
-  const auto per_fan = static_cast<std::size_t>(std::max(water.blocks, 0));
-  if (water.block_samples < 1 || water.blocks < 1 ||
-      water.level.size() != per_fan * static_cast<std::size_t>(shape.fans))
-    return false;
+  if (water.block_samples < 1 || water.blocks < 1 || water.places < 1) return false;
+  if (water.level.size() != static_cast<std::size_t>(water.places) * static_cast<std::size_t>(shape.fans)) return false;
   if (water.reach.size() != water.level.size()) return false;
-  if (!water.patch.empty() && water.patch.size() != per_fan * shape.rows()) return false;
+  if (!water.patch.empty() && water.patch.size() != static_cast<std::size_t>(water.blocks) * shape.rows()) return false;
   if (!water.stretch.empty() && water.stretch.size() != shape.rows()) return false;
   if (!std::all_of(water.stretch.begin(), water.stretch.end(), [](float by) { return by > 0.1F && by < 10.0F; }))
     return false;

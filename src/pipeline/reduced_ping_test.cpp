@@ -54,8 +54,8 @@ TEST(ReducedPing, record_survives_the_file) {
   EXPECT_EQ(seabed.first_sample, (std::vector<std::int32_t>{1400, 700, 1400, 1400, 1400, 1400}));
   EXPECT_FALSE(with_plane.head.reduced_water);
   // The water stands behind the plane, or alone.
-  p.reduced_water =
-      WaterLevels{15, 2, {1.0F, 1.25F}, {-2711, -2800}, {3, -2, 0, 127}, {300, 280}, {{0, 1, 9.5F}, {1, 0, 4.0F}}};
+  p.reduced_water = WaterLevels{
+      15, 2, 3, {1.0F, 1.25F}, {-2711, -2800, -2750}, {3, -2, 0, 127}, {300, 280, 290}, {{0, 1, 9.5F}, {1, 0, 4.0F}}};
   const Shape3 shape{1, 2, 30};
   for (const bool plane : {true, false}) {
     ChannelPing told = p;

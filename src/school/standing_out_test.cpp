@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "school/detect_params.h"
 #include "school/evidence/null_model.h"
-#include "school/evidence/short_means.h"
+#include "school/evidence/block_means.h"
 #include "school/filtered_ping.h"
 #include "school/grow.h"
 #include "school/test_water.h"
@@ -36,7 +36,7 @@ struct Water {
   [[nodiscard]] PingMask standing(double margin_db, Above above) const {
     const test::FlatBackground flat(kShape);
     const Background noise{flat.power_db, flat.calibration.view()};
-    const Array3<float> means = short_means(counts.view(), flags.view(), piece_samples(sector.range()));
+    const Array3<std::int16_t> means = block_means(counts.view(), flags.view(), block_samples(sector.range()));
     const WaterPing alone{&means, nullptr, noise};
     const WaterLevels water = water_levels({&alone, 1}, sector, kLeastEvidence).front();
     PingMask mask;

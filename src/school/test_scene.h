@@ -9,7 +9,7 @@
 
 #include "school/detect.h"
 #include "school/evidence/null_model.h"
-#include "school/evidence/short_means.h"
+#include "school/evidence/block_means.h"
 #include "school/seabed.h"
 #include "school/test_water.h"
 
@@ -46,7 +46,7 @@ struct Scene {
     const Seabed seabed = find_seabed(std::as_const(sv).view(), std::as_const(flags).view(), background, sector,
                                       test::grid().vertical_width_deg, {});
     flag_ground(seabed, flags.view());
-    std::vector<Array3<float>> means;
+    std::vector<Array3<std::int16_t>> means;
     for (std::uint64_t k = 0; k < 5; ++k) {
       Array3<std::int16_t> other = counts;
       if (k > 0) {
@@ -54,10 +54,10 @@ struct Scene {
       }
       disturb(other);
       means.push_back(
-          short_means(std::as_const(other).view(), std::as_const(flags).view(), piece_samples(sector.range())));
+          block_means(std::as_const(other).view(), std::as_const(flags).view(), block_samples(sector.range())));
     }
     std::vector<WaterPing> window;
-    for (const Array3<float>& mean : means) window.push_back({&mean, &seabed, background});
+    for (const Array3<std::int16_t>& mean : means) window.push_back({&mean, &seabed, background});
     const WaterLevels water = water_levels(window, sector, kLeastEvidence).front();
     const PingEcho echo{std::as_const(sv).view(),
                         std::as_const(counts).view(),

@@ -51,34 +51,43 @@ Thresholder::RowWater::RowWater(const Background& background, const WaterLevels*
   }
   if (water == nullptr || !water->known()) return;
   water_ = water;
-  const auto fan = static_cast<std::size_t>(row / beams) * static_cast<std::size_t>(water->blocks);
+  const auto fan = static_cast<std::size_t>(row / beams) * static_cast<std::size_t>(water->places);
   level_ = water->level.data() + fan;
   reach_ = water->reach.data() + fan;
-  scale_ = water->stretch_of(row) / water->block_samples;
+  blocks_ = 1.0 / water->block_samples;
+  places_ = water->stretch_of(row) * blocks_;
   if (!water->patch.empty()) patch_ = water->patch.data() + static_cast<std::ptrdiff_t>(row) * water->blocks;
 }
 
+/// table  values at the middle of each of `count` pieces of range
+/// at     0 = the middle of the first
 template <class Value>
-double Thresholder::RowWater::between(const Value* table, int sample) const {
-  const double at = std::clamp((sample + 0.5) * scale_ - 0.5, 0.0, static_cast<double>(water_->blocks - 1));
-  const int block = static_cast<int>(at);
-  const int next = std::min(block + 1, water_->blocks - 1);
-  const int here = table[block];
+double Thresholder::RowWater::between(const Value* table, int count, double at) {
+  at = std::clamp(at, 0.0, static_cast<double>(count - 1));
+  const int piece = static_cast<int>(at);
+  const int next = std::min(piece + 1, count - 1);
+  const int here = table[piece];
   const int there = table[next];
   if (here == kMinCount || there == kMinCount) return std::max(here, there);
-  return here + (there - here) * (at - block);
+  return here + (there - here) * (at - piece);
+}
+
+double Thresholder::RowWater::at_place(const std::int16_t* table, int sample) const {
+  return between(table, water_->places, (sample + 0.5) * places_ - 0.5);
 }
 
 int Thresholder::RowWater::mean(int sample) const {
   int level = kMinCount;
   if (calibration_ != nullptr) level = std::max(level, power_ + calibration_[sample]);
-  if (water_ != nullptr) level = std::max(level, static_cast<int>(between(level_, sample)));
-  if (patch_ != nullptr && level > kMinCount) level += static_cast<int>(kPatchStep * between(patch_, sample));
+  if (water_ != nullptr) level = std::max(level, static_cast<int>(at_place(level_, sample)));
+  if (patch_ != nullptr && level > kMinCount) {
+    level += static_cast<int>(kPatchStep * between(patch_, water_->blocks, (sample + 0.5) * blocks_ - 0.5));
+  }
   return level;
 }
 
 int Thresholder::RowWater::reach(int sample) const {
-  return water_ == nullptr ? 0 : static_cast<int>(between(reach_, sample));
+  return water_ == nullptr ? 0 : static_cast<int>(at_place(reach_, sample));
 }
 
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,

@@ -40,7 +40,8 @@ class Thresholder {
 
    private:
     template <class Value>
-    [[nodiscard]] double between(const Value* table, int sample) const;
+    [[nodiscard]] static double between(const Value* table, int count, double at);
+    [[nodiscard]] double at_place(const std::int16_t* table, int sample) const;
 
     const std::int16_t* calibration_ = nullptr;
     int power_ = 0;
@@ -48,7 +49,8 @@ class Thresholder {
     const std::int16_t* level_ = nullptr;
     const std::int16_t* reach_ = nullptr;
     const std::int8_t* patch_ = nullptr;
-    double scale_ = 0.0;
+    double places_ = 0.0;  ///< of a sample
+    double blocks_ = 0.0;
   };
 
   void cut(int row, int first, int end, std::vector<Run>& runs) const;

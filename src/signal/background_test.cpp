@@ -181,6 +181,10 @@ TEST(background, select_rank_is_exact) {
       std::sort(sorted.begin(), sorted.end());
       for (std::size_t rank = 0; rank < values.size(); rank += 1 + values.size() / 9) {
         ASSERT_EQ(select_rank(values, rank), sorted[rank]);
+        ASSERT_EQ(select_rank(values, rank, sorted.front(), sorted[rank]), sorted[rank]);
+        ASSERT_EQ(select_rank(values, rank, sorted[rank], sorted.back()), sorted[rank]);
+        ASSERT_EQ(select_rank(values, rank, sorted.front(), sorted[rank]), sorted[rank]);
+        ASSERT_EQ(select_rank(values, rank, sorted[rank], sorted.back()), sorted[rank]);
       }
     }
   }

@@ -49,14 +49,17 @@ std::size_t CountBelow(const std::int16_t* values, std::size_t size, std::int16_
   return below;
 }
 
-std::int16_t SelectRank(const std::int16_t* values, std::size_t size, std::size_t rank) {
-  // The largest v with fewer than rank + 1 values below it, found bit by bit.
-  int v = -32768;
-  for (int step = 32768; step > 0; step /= 2) {
-    const int candidate = v + step;
-    if (candidate <= 32767 && CountBelow(values, size, static_cast<std::int16_t>(candidate)) <= rank) v = candidate;
+std::int16_t SelectRank(const std::int16_t* values, std::size_t size, std::size_t rank, int least, int most) {
+  // The largest v with fewer than rank + 1 values below it, by halving.
+  while (least < most) {
+    const int middle = most - (most - least) / 2;
+    if (CountBelow(values, size, static_cast<std::int16_t>(middle)) <= rank) {
+      least = middle;
+    } else {
+      most = middle - 1;
+    }
   }
-  return static_cast<std::int16_t>(v);
+  return static_cast<std::int16_t>(least);
 }
 
 bool MaskRow(const std::int16_t* counts, const std::uint8_t* flags, std::size_t size, int parity, std::int16_t* out) {
@@ -163,9 +166,10 @@ void add_saturating(std::span<std::int16_t> counts, std::span<const std::int16_t
   HWY_DYNAMIC_DISPATCH(AddSaturating)(counts.data(), table.data(), counts.size());
 }
 
-std::int16_t select_rank(std::span<const std::int16_t> values, std::size_t rank) {
+std::int16_t select_rank(std::span<const std::int16_t> values, std::size_t rank, std::int16_t least,
+                         std::int16_t most) {
   SONAR_CHECK(rank < values.size());
-  return HWY_DYNAMIC_DISPATCH(SelectRank)(values.data(), values.size(), rank);
+  return HWY_DYNAMIC_DISPATCH(SelectRank)(values.data(), values.size(), rank, least, most);
 }
 
 std::size_t count_data(std::span<const std::int16_t> counts) {

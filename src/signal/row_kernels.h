@@ -15,7 +15,9 @@ namespace sonar {
 void add_saturating(std::span<std::int16_t> counts, std::span<const std::int16_t> table);
 
 /// The value of a given rank (0 = smallest) among `values`; exact. rank < values.size().
-[[nodiscard]] std::int16_t select_rank(std::span<const std::int16_t> values, std::size_t rank);
+/// least, most  between which it is known to lie: the narrower, the faster
+[[nodiscard]] std::int16_t select_rank(std::span<const std::int16_t> values, std::size_t rank,
+                                       std::int16_t least = -32768, std::int16_t most = 32767);
 
 /// How many samples are not kNoData.
 [[nodiscard]] std::size_t count_data(std::span<const std::int16_t> counts);

@@ -72,7 +72,9 @@ std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
   };
   std::size_t bytes = 0;
   if (rest.size() >= kReducedWaterHeadBytes && begins_with(rest, kReducedWaterMark)) {
-    bytes = kReducedWaterHeadBytes + 4 * number(12) + 4 * number(16) + 12 * number(20) + number(24);
+    bytes = kReducedWaterHeadBytes + 4 * number(16) + 4 * number(20) + 12 * number(24) + number(28);
+  } else if (rest.size() >= kReducedWaterHeadBytes3 && begins_with(rest, kReducedWaterMark3)) {
+    bytes = kReducedWaterHeadBytes3 + 4 * number(12) + 4 * number(16) + 12 * number(20) + number(24);
   } else if (rest.size() >= kReducedWaterHeadBytes2 && begins_with(rest, kReducedWaterMark2)) {
     bytes = kReducedWaterHeadBytes2 + 4 * number(12) + 4 * number(16) + 12 * number(20);
   } else if (rest.size() >= kReducedWaterHeadBytes1 && begins_with(rest, kReducedWaterMark1)) {
@@ -85,13 +87,14 @@ std::size_t reduced_water_bytes(std::span<const std::byte> rest) {
 std::optional<WaterLevels> parse_reduced_water(std::span<const std::byte> rest) {
   if (!begins_with(rest, kReducedWaterMark) || rest.size() < kReducedWaterHeadBytes) return std::nullopt;
   const auto number = [&](std::size_t at) { return number_at<std::int32_t>(rest, at); };
-  const std::array<std::int32_t, 4> counts{number(12), number(16), number(20), number(24)};
+  const std::array<std::int32_t, 4> counts{number(16), number(20), number(24), number(28)};
   for (const std::int32_t count : counts) {
     if (count < 0 || count > kMaxSamples) return std::nullopt;
   }
   WaterLevels water;
   water.block_samples = number(4);
   water.blocks = number(8);
+  water.places = number(12);
   water.stretch.resize(static_cast<std::size_t>(counts[0]));
   water.level.resize(static_cast<std::size_t>(counts[1]));
   water.reach.resize(water.level.size());

@@ -24,13 +24,15 @@ inline constexpr std::size_t kOpenBytes = 8;
 /// this mark, then ReducedSeabed's seven members, little-endian;
 inline constexpr std::string_view kReducedSeabedMark = "SXB1";
 inline constexpr std::size_t kReducedSeabedBytes = 4 + 7 * 8;
-/// this mark, WaterLevels' block_samples and blocks, then as 4-byte numbers how many follow of stretch, level (and reach),
-/// cells and patch, then these, little-endian. (Files that were reduced earlier have SXW1, levels by range alone, or SXW2,
-/// which tells no patches; both are passed over.)
-inline constexpr std::string_view kReducedWaterMark = "SXW3";
+/// this mark, WaterLevels' block_samples, blocks and places, then as 4-byte numbers how many follow of stretch, level (and
+/// reach), cells and patch, then these, little-endian. (Files that were reduced earlier have SXW1, levels by range alone,
+/// SXW2, which tells no patches, or SXW3, whose blocks were places; all are passed over.)
+inline constexpr std::string_view kReducedWaterMark = "SXW4";
+inline constexpr std::string_view kReducedWaterMark3 = "SXW3";
 inline constexpr std::string_view kReducedWaterMark2 = "SXW2";
 inline constexpr std::string_view kReducedWaterMark1 = "SXW1";
-inline constexpr std::size_t kReducedWaterHeadBytes = 28;
+inline constexpr std::size_t kReducedWaterHeadBytes = 32;
+inline constexpr std::size_t kReducedWaterHeadBytes3 = 28;
 inline constexpr std::size_t kReducedWaterHeadBytes2 = 24;
 inline constexpr std::size_t kReducedWaterHeadBytes1 = 12;
 /// this mark, a 4-byte number and so many ReducedChannel: the 4-byte channel number from 1, ReducedRow's members.

@@ -109,6 +109,7 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
     const WaterLevels& water = *p.reduced_water;
     put(out, water.block_samples);
     put(out, water.blocks);
+    put(out, water.places);
     for (const std::size_t count : {water.stretch.size(), water.level.size(), water.cells.size(), water.patch.size()}) {
       put(out, static_cast<std::int32_t>(count));
     }

@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "base/units.h"
+#include "school/evidence/block_means.h"
 #include "school/evidence/patches.h"
 #include "school/evidence/place_statistics.h"
+#include "school/evidence/places.h"
 #include "school/evidence/seabed_stretch.h"
 
 namespace sonar {
 namespace {
 
-constexpr double kPiece_m = 1.9;         ///< a block of three is about as long as the shortest school
-constexpr int kPieces = 3;               ///< of a block
 constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
 constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the next looks
 constexpr int kLooks = 3;
@@ -62,12 +62,14 @@ Array3<float> of_three_by_three(const Array3<float>& values) {
 class Window {
  public:
   Window(std::span<const WaterPing> pings, const Sector& sector)
-      : pings_(pings), sector_(sector), piece_(piece_samples(sector.range())), stretch_(seabed_stretch(pings, sector)) {
-    const Shape3 pieces = pings.front().means->shape();
-    shape_ = {pieces.fans, pieces.beams, (pieces.samples + kPieces - 1) / kPieces};
-    for (std::size_t p = 0; p < pings.size(); ++p) {
-      levels_.push_back(levels_of(p));
-      floors_.push_back(floors_of(p));
+      : pings_(pings),
+        sector_(sector),
+        block_samples_(block_samples(sector.range())),
+        shape_(pings.front().means->shape()),
+        places_(seabed_stretch(pings, sector), shape_) {
+    for (const WaterPing& ping : pings) {
+      levels_.push_back(*ping.means);
+      floors_.push_back(block_noise(ping.noise, shape_, block_samples_));
       masked_.emplace_back(shape_);
     }
   }
@@ -87,66 +89,25 @@ class Window {
 
  private:
   [[nodiscard]] std::size_t cells() const {
-    return static_cast<std::size_t>(shape_.fans) * static_cast<std::size_t>(shape_.samples);
+    return static_cast<std::size_t>(shape_.fans) * static_cast<std::size_t>(places_.count());
   }
-  [[nodiscard]] std::size_t cell(int fan, int block) const {
-    return static_cast<std::size_t>(fan) * static_cast<std::size_t>(shape_.samples) + static_cast<std::size_t>(block);
-  }
-
-  [[nodiscard]] double stretch(std::size_t ping, int row) const {
-    return stretch_[ping].empty() ? 1.0 : static_cast<double>(stretch_[ping][static_cast<std::size_t>(row)]);
+  [[nodiscard]] std::size_t cell(int fan, int place) const {
+    return static_cast<std::size_t>(fan) * static_cast<std::size_t>(places_.count()) + static_cast<std::size_t>(place);
   }
 
-  [[nodiscard]] Levels levels_of(std::size_t p) const {
-    Levels levels(shape_, kNoData);
-    const Array3<float>& means = *pings_[p].means;
+  /// Calls act(i, cell) for each block of a ping, i of its arrays.
+  template <class Act>
+  void for_each_block(std::size_t p, const Act& act) const {
+    std::size_t i = 0;
     for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-      const auto pieces = means.view().row(row);
-      const auto out = levels.view().row(row);
-      const double per_block = kPieces / stretch(p, row);
-      for (int block = 0; block < shape_.samples; ++block) {
-        const auto first = static_cast<std::ptrdiff_t>(std::lround(block * per_block));
-        const auto end = std::min(
-            std::ssize(pieces), std::max(first + 1, static_cast<std::ptrdiff_t>(std::lround((block + 1) * per_block))));
-        double sum = 0.0;
-        int known = 0;
-        for (auto i = first; i < end; ++i) {
-          const auto mean = static_cast<double>(pieces[static_cast<std::size_t>(i)]);
-          if (!(mean > 0.0)) continue;
-          sum += mean;
-          ++known;
-        }
-        if (2 * known < end - first || known == 0) continue;
-        const double counts =
-            std::clamp(counts_from_db(db_from_linear(sum / known)), double{kMinCount}, double{kMaxCount});
-        out[static_cast<std::size_t>(block)] = static_cast<std::int16_t>(std::lround(counts));
-      }
+      const std::size_t first = cell(row / shape_.beams, 0);
+      places_.for_each(p, row, shape_.samples,
+                       [&](int /*block*/, int place) { act(i++, first + static_cast<std::size_t>(place)); });
     }
-    return levels;
-  }
-
-  /// Mean noise of each beam at the middle of each block.
-  [[nodiscard]] Levels floors_of(std::size_t p) const {
-    Levels floors(shape_, kMinCount);
-    const Background& noise = pings_[p].noise;
-    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-      if (!noise.known(row)) continue;
-      const double power = noise.power_counts(row);
-      const auto table = noise.calibration.row(row);
-      const auto out = floors.view().row(row);
-      for (int block = 0; block < shape_.samples; ++block) {
-        const double middle = (block + 0.5) * kPieces * piece_ / stretch(p, row);
-        const auto s = std::min(table.size() - 1, static_cast<std::size_t>(middle));
-        if (table[s] == kNoData) continue;
-        out[static_cast<std::size_t>(block)] =
-            static_cast<std::int16_t>(std::lround(std::clamp(power + table[s], double{kMinCount}, double{kMaxCount})));
-      }
-    }
-    return floors;
   }
 
   void find_level() {
-    water_ = statistics_of_places(levels_, masked_);
+    water_ = statistics_of_places(levels_, masked_, places_);
     lift_seabed();
   }
 
@@ -157,7 +118,7 @@ class Window {
     if (!(nearer < 1.0)) return;
     for (int fan = 0; fan < shape_.fans; ++fan) {
       if (sector_.elevation_rad(fan) >= 0.0) continue;
-      const auto told = std::span(water_).subspan(cell(fan, 0), static_cast<std::size_t>(shape_.samples));
+      const auto told = std::span(water_).subspan(cell(fan, 0), static_cast<std::size_t>(places_.count()));
       for (std::size_t b = 0; b < told.size(); ++b) {
         const auto last = std::min(told.size() - 1, static_cast<std::size_t>(static_cast<double>(b) / nearer));
         std::int16_t loudest = told[b].middle;
@@ -167,42 +128,39 @@ class Window {
     }
   }
 
-  [[nodiscard]] int background(std::size_t p, int row, int block) const {
-    const int floor = floors_[p].view().row(row)[static_cast<std::size_t>(block)];
-    const std::int16_t water = water_[cell(row / shape_.beams, block)].middle;
-    return water == kNoData ? floor : std::max(int{water}, floor);
-  }
-
   void find_excess() {
     excess_.clear();
     for (std::size_t p = 0; p < pings_.size(); ++p) {
       Levels excess(shape_, kNoData);
-      for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-        const auto level = levels_[p].view().row(row);
-        const auto out = excess.view().row(row);
-        for (int block = 0; block < shape_.samples; ++block) {
-          const auto b = static_cast<std::size_t>(block);
-          if (level[b] == kNoData) continue;
-          const int below = background(p, row, block);
-          if (below <= kMinCount) continue;
-          out[b] = static_cast<std::int16_t>(std::clamp(level[b] - below, -30000, 30000));
+      const auto level = levels_[p].all();
+      const auto floor = std::as_const(floors_[p]).all();
+      for_each_block(p, [&](std::size_t i, std::size_t cell) {
+        const int below =
+            std::max(int{water_[cell].middle == kNoData ? kMinCount : water_[cell].middle}, int{floor[i]});
+        if (level[i] != kNoData && below > kMinCount) {
+          excess.all()[i] = static_cast<std::int16_t>(std::clamp(level[i] - below, -30000, 30000));
         }
-      }
+      });
       excess_.push_back(std::move(excess));
     }
     level_patches();
-    spread_ = statistics_of_places(excess_, masked_);
+    spread_ = statistics_of_places(excess_, masked_, places_);
   }
 
   /// Takes out of each ping's excess what is wider than schools.
   void level_patches() {
-    std::vector<std::int16_t> clip(cells());
-    for (std::size_t i = 0; i < cells(); ++i) {
-      clip[i] = static_cast<std::int16_t>(kClip * std::max<double>(water_[i].below, counts_from_db(kLeastSpread_db)));
-    }
     patches_.clear();
     for (std::size_t p = 0; p < pings_.size(); ++p) {
-      patches_.push_back(local_patches(std::as_const(excess_[p]).view(), std::as_const(masked_[p]).view(), clip));
+      Levels heard(shape_, kNoData);
+      for_each_block(p, [&](std::size_t i, std::size_t cell) {
+        const std::int16_t excess = excess_[p].all()[i];
+        if (excess != kNoData && masked_[p].all()[i] == 0) {
+          const int clip =
+              static_cast<int>(kClip * std::max<double>(water_[cell].below, counts_from_db(kLeastSpread_db)));
+          heard.all()[i] = static_cast<std::int16_t>(std::clamp<int>(excess, -clip, clip));
+        }
+      });
+      patches_.push_back(local_patches(std::as_const(heard).view()));
       auto patch = patches_.back().begin();
       for (std::int16_t& excess : excess_[p].all()) {
         const int by = kPatchStep * *patch++;
@@ -218,7 +176,7 @@ class Window {
   }
 
   /// Sum of the whitened excess over 3 x 3 beams, over the root of their number, in 1/256.
-  [[nodiscard]] Levels averaged(const Levels& excess) const {
+  [[nodiscard]] Levels averaged(std::size_t p) const {
     std::vector<float> middle(cells(), 0.0F);
     std::vector<float> scale(cells(), 0.0F);
     for (std::size_t i = 0; i < cells(); ++i) {
@@ -226,23 +184,17 @@ class Window {
       middle[i] = std::max<float>(0.0F, spread_[i].middle);
       scale[i] = static_cast<float>(256.0 / width(spread_[i], counts_from_db(kLeastSpread_db)));
     }
+    const auto own = excess_[p].all();
     Array3<float> sum(shape_);
     Array3<float> number(shape_);
-    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-      const auto from = excess.view().row(row);
-      const auto whitened = sum.view().row(row);
-      const auto known = number.view().row(row);
-      const std::size_t first = cell(row / shape_.beams, 0);
-      for (std::size_t i = 0; i < from.size(); ++i) {
-        const float by = from[i] == kNoData ? 0.0F : scale[first + i];
-        whitened[i] = (static_cast<float>(from[i]) - middle[first + i]) * by;
-        known[i] = by == 0.0F ? 0.0F : 1.0F;
-      }
-    }
+    for_each_block(p, [&](std::size_t i, std::size_t cell) {
+      const float by = own[i] == kNoData ? 0.0F : scale[cell];
+      sum.all()[i] = (static_cast<float>(own[i]) - middle[cell]) * by;
+      number.all()[i] = by == 0.0F ? 0.0F : 1.0F;
+    });
     sum = of_three_by_three(sum);
     number = of_three_by_three(number);
     Levels out(shape_, kNoData);
-    const auto own = excess.all();
     const auto of = number.all();
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (own[i] == kNoData || of[i] == 0.0F) continue;
@@ -254,13 +206,13 @@ class Window {
 
   void find_evidence() {
     evidence_.clear();
-    for (const Levels& excess : excess_) evidence_.push_back(averaged(excess));
-    own_ = statistics_of_places(evidence_, masked_);
+    for (std::size_t p = 0; p < pings_.size(); ++p) evidence_.push_back(averaged(p));
+    own_ = statistics_of_places(evidence_, masked_, places_);
   }
 
   [[nodiscard]] double evidence(std::size_t p, int row, int block) const {
     const std::int16_t value = evidence_[p].view().row(row)[static_cast<std::size_t>(block)];
-    const PlaceStatistics& own = own_[cell(row / shape_.beams, block)];
+    const PlaceStatistics& own = own_[cell(row / shape_.beams, places_.of(p, row, block))];
     if (value == kNoData || own.middle == kNoData) return -std::numeric_limits<double>::infinity();
     return (value - std::max<int>(0, own.middle)) / width(own, 128.0);
   }
@@ -285,9 +237,10 @@ class Window {
 
   [[nodiscard]] WaterLevels answer(std::size_t p, double least) const {
     WaterLevels out;
-    out.block_samples = kPieces * piece_;
+    out.block_samples = block_samples_;
     out.blocks = shape_.samples;
-    out.stretch = stretch_[p];
+    out.places = places_.count();
+    out.stretch = places_.stretch(p);
     out.patch = patches_[p];
     for (std::size_t i = 0; i < cells(); ++i) {
       out.level.push_back(water_[i].middle == kNoData ? std::int16_t{kMinCount} : water_[i].middle);
@@ -305,10 +258,10 @@ class Window {
 
   std::span<const WaterPing> pings_;
   const Sector& sector_;
-  int piece_;
+  int block_samples_;
+  Shape3 shape_;  ///< fans, beams, blocks
+  Places places_;
   int look_ = 0;
-  std::vector<std::vector<float>> stretch_;  ///< [ping][row]
-  Shape3 shape_;                             ///< fans, beams, blocks
   std::vector<Levels> levels_;
   std::vector<Levels> floors_;
   std::vector<Levels> excess_;
@@ -321,10 +274,6 @@ class Window {
 };
 
 }  // namespace
-
-int piece_samples(const RangeAxis& range) {
-  return std::max(1, static_cast<int>(std::lround(kPiece_m / range.spacing_m)));
-}
 
 std::vector<WaterLevels> water_levels(std::span<const WaterPing> window, const Sector& sector, double least) {
   if (window.empty()) return {};

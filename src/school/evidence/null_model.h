@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,17 +15,14 @@ namespace sonar {
 
 /// One ping as its water is judged by; the means and the seabed are borrowed.
 struct WaterPing {
-  const Array3<float>* means = nullptr;  ///< short_means() of piece_samples()
-  const Seabed* seabed = nullptr;        ///< null = none found
+  const Array3<std::int16_t>* means = nullptr;  ///< block_means() of block_samples()
+  const Seabed* seabed = nullptr;               ///< null = none found
   Background noise;
 };
 
-/// Samples of a piece of short_means(): a third of a block.
-[[nodiscard]] int piece_samples(const RangeAxis& range);
-
 /// The water of neighbouring pings, and what stands out of it in each: the null model of that place and hour.
 ///
-/// For each fan and block of range the water is what most beams of most pings return there, in ship-fixed coordinates: its
+/// For each place of a fan the water is what most beams of most pings return there, in ship-fixed coordinates: its
 /// median. The excess over that (or over a beam's own noise, where that is louder) and over the patch it lies in, in
 /// spreads, is averaged over 3 x 3 beams and judged by its own median and spread. At the first look the spread is that
 /// downwards, which schools do not move; what stands out is left out of the next looks, which take that upwards.

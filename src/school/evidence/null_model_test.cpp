@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/units.h"
-#include "school/evidence/short_means.h"
+#include "school/evidence/block_means.h"
 #include "school/test_water.h"
 
 namespace sonar {
@@ -34,19 +34,19 @@ struct Pings {
         }
       }
       const Array3<std::int16_t> counts = test::counts_of(expected, 700 + static_cast<std::uint64_t>(p));
-      means.push_back(short_means(counts.view(), flags.view(), piece_samples(sector.range())));
+      means.push_back(block_means(counts.view(), flags.view(), block_samples(sector.range())));
     }
   }
   [[nodiscard]] std::vector<WaterLevels> levels() const {
     std::vector<WaterPing> window;
-    for (const Array3<float>& mean : means) {
+    for (const Array3<std::int16_t>& mean : means) {
       window.push_back({&mean, nullptr, {flat.power_db, flat.calibration.view()}});
     }
     return water_levels(window, sector, kLeast);
   }
   Sector sector = test::grid().sector(test::range_axis());
   test::FlatBackground flat;
-  std::vector<Array3<float>> means;
+  std::vector<Array3<std::int16_t>> means;
 };
 
 double water(int /*fan*/, int /*beam*/, int /*sample*/, int /*ping*/) { return linear_from_db(kWater_db); }
@@ -94,8 +94,8 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
   };
   const Pings pings(school);
   const WaterLevels told = pings.levels()[3];
-  const int block = static_cast<int>(told.block_at(9 * 25 + 12, 322) + 0.5);
-  const auto cell = static_cast<std::size_t>(9 * told.blocks + block);
+  const int block = static_cast<int>(told.place_at(9 * 25 + 12, 322) + 0.5);
+  const auto cell = static_cast<std::size_t>(9 * told.places + block);
   EXPECT_NEAR(db_from_counts(told.level[cell]), kWater_db, 0.4);
   std::size_t inside = 0;
   for (const EchoCell& one : told.cells) {
@@ -139,8 +139,7 @@ TEST(NullModel, ASchoolStandsOutOfPatchyWater) {
   const std::vector<WaterLevels> told = pings.levels();
   for (std::size_t p = 0; p < told.size(); ++p) {
     const bool seen = std::ranges::any_of(told[p].cells, [&](const EchoCell& cell) {
-      return cell.row == 10 * 25 + 12 && cell.evidence > 7.0F &&
-             std::abs(cell.block - told[p].block_at(cell.row, 315)) < 1.5;
+      return cell.row == 10 * 25 + 12 && cell.evidence > 7.0F && std::abs(cell.block - told[p].block_at(315)) < 1.5;
     });
     EXPECT_TRUE(seen) << p;
   }
@@ -149,10 +148,10 @@ TEST(NullModel, ASchoolStandsOutOfPatchyWater) {
   for (int b = 4; b < 21; ++b) {
     for (int s = 120; s < 780; s += 15) {
       const int row = 4 * 25 + b;
-      const auto block = static_cast<std::size_t>(told[3].block_at(row, s) + 0.5);
+      const auto block = static_cast<std::size_t>(told[3].block_at(s) + 0.5);
       const auto blocks = static_cast<std::size_t>(told[3].blocks);
       const double level_db =
-          db_from_counts(told[3].level[4 * blocks + block]) +
+          db_from_counts(told[3].level[4 * blocks + block]) +  // as many places: no seabed
           db_from_counts(kPatchStep * told[3].patch[static_cast<std::size_t>(row) * blocks + block]);
       const double off_db = level_db - db_from_linear(patchy(4, b, s, 3));
       squares += off_db * off_db;
@@ -170,10 +169,9 @@ TEST(NullModel, FaultySamplesHaveNoSay) {
     counts(3, 4, s) = static_cast<std::int16_t>(counts_from_db(-10.0));
     flags(3, 4, s) = SampleFlags::hot_beam;
   }
-  const Array3<float> means = short_means(std::as_const(counts).view(), std::as_const(flags).view(), 5);
-  for (const float mean : means.view().row(3 * 25 + 4)) EXPECT_TRUE(std::isnan(mean));
-  for (const float mean : means.view().row(3 * 25 + 5))
-    EXPECT_NEAR(db_from_linear(static_cast<double>(mean)), kWater_db, 0.02);
+  const Array3<std::int16_t> means = block_means(std::as_const(counts).view(), std::as_const(flags).view(), 5);
+  for (const std::int16_t mean : means.view().row(3 * 25 + 4)) EXPECT_EQ(mean, kNoData);
+  for (const std::int16_t mean : means.view().row(3 * 25 + 5)) EXPECT_NEAR(db_from_counts(mean), kWater_db, 0.02);
 }
 
 }  // namespace

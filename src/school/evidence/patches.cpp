@@ -39,24 +39,19 @@ void sum_along(std::span<float> values, std::size_t n, std::size_t inner, std::s
 
 }  // namespace
 
-std::vector<std::int8_t> local_patches(View3<const std::int16_t> excess, View3<const std::uint8_t> masked,
-                                       std::span<const std::int16_t> clip) {
+std::vector<std::int8_t> local_patches(View3<const std::int16_t> excess) {
   const Shape3 shape = excess.shape();
   const auto fans = static_cast<std::size_t>(shape.fans);
   const auto beams = static_cast<std::size_t>(shape.beams);
   const auto blocks = static_cast<std::size_t>(shape.samples);
   std::vector<float> sum(fans * beams * blocks, 0.0F);
   std::vector<float> number(sum.size(), 0.0F);
-  for (std::size_t row = 0; row < fans * beams; ++row) {
-    const auto values = excess.row(static_cast<int>(row));
-    const auto marks = masked.row(static_cast<int>(row));
-    const auto most = clip.subspan(row / beams * blocks, blocks);
-    for (std::size_t b = 0; b < blocks; ++b) {
-      if (values[b] == kNoData || marks[b] != 0) continue;
-      // whole counts: their sums are exact in whatever order they are added
-      sum[row * blocks + b] = static_cast<float>(std::clamp<int>(values[b], -most[b], most[b]));
-      number[row * blocks + b] = 1.0F;
-    }
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const std::int16_t value = excess.all()[i];
+    if (value == kNoData) continue;
+    // whole counts: their sums are exact in whatever order they are added
+    sum[i] = value;
+    number[i] = 1.0F;
   }
   for (std::vector<float>* of : {&sum, &number}) {
     sum_along(*of, blocks, 1, kBlocks);

@@ -6,22 +6,24 @@
 
 #include "base/array.h"
 #include "base/units.h"
+#include "school/evidence/places.h"
 
 namespace sonar {
 
-/// What the values of one fan and block tell.
+/// What the values of one place tell.
 struct PlaceStatistics {
   std::int16_t middle = kNoData;
   std::int16_t below = 0;  ///< down to the 16th percentile
   std::int16_t above = 0;  ///< up to the 84th
 };
 
-/// For each fan and block what the values of all pings and beams there tell; too few are joined by those of the blocks
+/// For each place of a fan what the values of all pings and beams there tell; too few are joined by those of the places
 /// beside, and where even these are too few, what lies nearer and farther is interpolated.
 /// of_pings  [ping][fan][beam][block]
 /// masked    same shape; values whose mark is not 0 have no say
-/// returns   [fan][block]
+/// returns   [fan][place]
 [[nodiscard]] std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::int16_t>>& of_pings,
-                                                                const std::vector<Array3<std::uint8_t>>& masked);
+                                                                const std::vector<Array3<std::uint8_t>>& masked,
+                                                                const Places& places);
 
 }  // namespace sonar

@@ -13,16 +13,19 @@
 namespace sonar {
 namespace {
 
-constexpr double kMost = 1.6;           ///< a beam whose range differs more is judged with the water, not the seabed
-constexpr double kHills = 3.0;          ///< standard deviations of its depth above which few hills rise
-constexpr double kNearest = 0.5;        ///< share of its depth that hills leave at least
+constexpr double kMost = 1.6;     ///< a beam whose range differs more is judged with the water, not the seabed
+constexpr double kHills = 3.0;    ///< standard deviations of its depth above which few hills rise
+constexpr double kNearest = 0.5;  ///< share of its depth that hills leave at least
+/// A beam hears the seabed first by the foot of its main lobe; that meets it at angles at which a plane's slope, which is
+/// never quite known, moves its range less than on the axes of beams that graze it.
+constexpr double kFlank_rad = 0.105;
 constexpr double kBeyondRecord = 1.25;  ///< a seabed so far beyond the record is not heard
 
 SeabedPlane plane_of(const Seabed& seabed) { return {seabed.offset_m, seabed.slope_x, seabed.slope_y}; }
 
 /// Range of a fan's beams to a level seabed at the window's depth; infinite where they meet none.
 double usual_range_m(const Sector& sector, int fan, double depth_m) {
-  const double down = -std::sin(sector.elevation_rad(fan));
+  const double down = -std::sin(sector.elevation_rad(fan) - kFlank_rad);
   return down > 1e-6 ? depth_m / down : INFINITY;
 }
 
@@ -34,7 +37,8 @@ std::vector<float> stretch_of(const Seabed& seabed, const Sector& sector, double
     if (!(usual_m < kBeyondRecord * last_m)) continue;
     for (int beam = 0; beam < sector.beams(); ++beam) {
       const int row = fan * sector.beams() + beam;
-      const double by = usual_m / plane_of(seabed).range(beam_axis(sector, row));
+      const double by = usual_m / plane_of(seabed).range(Sector::direction(sector.elevation_rad(fan) - kFlank_rad,
+                                                                           sector.azimuth_rad(beam)));
       stretch[static_cast<std::size_t>(row)] = static_cast<float>(std::clamp(by, 1.0 / kMost, kMost));
     }
   }
