@@ -50,7 +50,7 @@ Tracks tracked(const Engine& engine, std::span<const DetectedPing> pings) {
   TrackParams params = engine.recipe().track;
   params.evidence = evidence_wanted(engine.recipe().detect);
   Tracks tracks = track(pings, engine.sector(), engine.grid().channel, params);
-  for (SchoolTrack& school : tracks.schools) steady_masks(school, pings, engine.sector());
+  steady_masks(tracks.schools, pings, engine.sector(), engine.recipe().detect.tolerance_db);
   return tracks;
 }
 
@@ -63,8 +63,9 @@ std::vector<SchoolMasks> masks_of(const Tracks& tracks, std::span<const Detected
       const auto ping =
           std::lower_bound(pings.begin(), pings.end(), in_ping.ping_index,
                            [](const DetectedPing& a, std::int64_t wanted) { return a.ping_index < wanted; });
-      const double threshold_db = ping->detections[static_cast<std::size_t>(in_ping.detections.front())].threshold_db;
-      school.pings.push_back({in_ping.ping_index, mask_of(in_ping, *ping), threshold_db});
+      const Detection& main = ping->detections[static_cast<std::size_t>(in_ping.detections.front())];
+      school.pings.push_back(
+          {in_ping.ping_index, mask_of(in_ping, *ping), in_ping.threshold_db.value_or(main.threshold_db)});
     }
     schools.push_back(std::move(school));
   }

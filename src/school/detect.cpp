@@ -221,6 +221,7 @@ class PingDetector {
     } else if (detection.evidence >= kLeastEvidence) {
       held_ = true;
       detection.loudest = loudest(detection.mask.runs);
+      detection.pieces = echo_pieces(echo_, thresholder_, detection.box, detection.reference_db);
       found_.push_back(std::move(detection));
     }
   }

@@ -5,6 +5,7 @@
 
 #include "geo/frames.h"
 #include "model/mask.h"
+#include "school/echo_pieces.h"
 #include "school/judge/reason.h"
 #include "school/mask_shape.h"
 #include "school/runs.h"
@@ -22,6 +23,7 @@ struct Detection {
   double threshold_db = 0.0;
   double evidence = 0.0;        ///< the most that a block of it reaches
   std::int32_t edge_flags = 0;  ///< EdgeFlags
+  EchoPieces pieces;            ///< in and round the mask; empty where it is very large
   Run loudest;                  ///< one voxel, where the filtered echo is loudest
 };
 

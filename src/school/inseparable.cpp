@@ -15,15 +15,15 @@ namespace {
 constexpr std::size_t kLeastSights = 3;  ///< of both, in which they touch
 constexpr std::size_t kSights = 4;       ///< in three of so many sights of both they touch
 
-/// Whether two masks of a ping lie in the same beam or in beams side by side, no farther apart along range than a rim.
+/// Whether two masks of a ping lie in the same beam or in beams side by side, no farther apart along range than detection looks round.
 bool touch(const PingMask& a, const PingMask& b, const Sector& sector) {
   const Shape3 shape{sector.fans(), sector.beams(), sector.range().count};
   const std::vector<int> first = index_rows(b.runs, shape.rows());
   const auto meets = [&](const Run& run, int row) {
     const auto r = static_cast<std::size_t>(row);
     return std::any_of(b.runs.begin() + first[r], b.runs.begin() + first[r + 1], [&](const Run& other) {
-      return other.first_sample < run.end() + SearchReach::rim_samples &&
-             run.first_sample < other.end() + SearchReach::rim_samples;
+      return other.first_sample < run.end() + SearchReach::samples &&
+             run.first_sample < other.end() + SearchReach::samples;
     });
   };
   return std::ranges::any_of(a.runs, [&](const Run& run) {

@@ -7,8 +7,8 @@
 
 #include "base/units.h"
 #include "school/detect_params.h"
-#include "school/evidence/null_model.h"
 #include "school/evidence/block_means.h"
+#include "school/evidence/null_model.h"
 #include "school/filtered_ping.h"
 #include "school/grow.h"
 #include "school/test_water.h"

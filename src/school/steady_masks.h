@@ -2,17 +2,21 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "geo/sector.h"
 #include "school/track.h"
 
 namespace sonar {
 
-/// A school's masks of neighbouring pings show the same fish. What a mask holds and the others, looked at where the school
-/// swam to, hardly ever do is water that one ping's fading let in, or a neighbour that was touched then.
-/// Puts what is left of each mask into its sight as `part`; sights with fewer than two near them stay as they are.
-/// school  of these pings
-/// pings   those that were tracked, rising
-void steady_masks(SchoolTrack& school, std::span<const DetectedPing> pings, const Sector& sector);
+/// The sights of neighbouring pings show the same fish, each through another fading. The echo of a school's sights is
+/// averaged where the school swam, nearer ones weighing more, and each mask told again by that: what is within the
+/// tolerance of the strongest echo, no fainter than the background, hangs together with the mask that was detected, and is
+/// no other school's. Puts it into the sight as `part`; sights without enough others near them stay as they are.
+/// schools  of these pings
+/// pings    those that were tracked, rising
+/// cost     about 0.2 ms a sight of 10 x 10 beams and 40 m
+void steady_masks(std::vector<SchoolTrack>& schools, std::span<const DetectedPing> pings, const Sector& sector,
+                  double tolerance_db);
 
 }  // namespace sonar

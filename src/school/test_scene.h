@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "school/detect.h"
-#include "school/evidence/null_model.h"
 #include "school/evidence/block_means.h"
+#include "school/evidence/null_model.h"
 #include "school/seabed.h"
 #include "school/test_water.h"
 

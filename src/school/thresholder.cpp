@@ -161,4 +161,13 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
   return runs;
 }
 
+void Thresholder::background(int row, int first, int step, std::span<double> sv) const {
+  const RowWater water(background_, water_, row, sv_.shape().beams);
+  for (double& value : sv) {
+    const int mean = water.mean(std::min(first, sv_.shape().samples - 1));
+    value = mean > kMinCount ? linear_from_db(db_from_counts(mean)) : 0.0;
+    first += step;
+  }
+}
+
 }  // namespace sonar

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/array.h"
@@ -27,6 +28,9 @@ class Thresholder {
   /// Runs inside a box where the echo without its background reaches level_db, and the whole stands out of the
   /// background by least_db or more, and by more than the water itself does.
   [[nodiscard]] std::vector<Run> above(const IndexBox& box, double level_db, double least_db) const;
+
+  /// Mean background of a row at its samples first, first + step, ..., m^-1; 0 = none known.
+  void background(int row, int first, int step, std::span<double> sv) const;
 
  private:
   /// What counts as background at a sample of one row, counts.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -100,8 +101,9 @@ struct DetectedPing {
 /// One school in one ping: which of the ping's detections it is (several where it is torn).
 struct TrackedDetection {
   std::int64_t ping_index = 0;
-  std::vector<int> detections;  ///< indices into DetectedPing::detections, rising; the main one first
-  PingMask part;                ///< of their voxels those that are the school's; empty = all
+  std::vector<int> detections;              ///< indices into DetectedPing::detections, rising; the main one first
+  PingMask part;                            ///< the school's voxels, where they are not all of theirs; empty = all
+  std::optional<double> threshold_db = {};  ///< of the part; none = the main detection's
 };
 
 struct SchoolTrack {

@@ -40,11 +40,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 3, "ac62c9a7c507cccbd36187563008fb3f"},
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
     {"seabed", 6, "bd52c987c7035c50998bb977009262fe"},
-    {"detect", 13, "7e4e0a8d2ece36a18ba632594f618f8a"},
-    {"track", 10, "d8a5fef2d830c5a17c60742b4c624e8f"},
+    {"detect", 14, "7c086119646cb7a5c43213b37d2637b0"},
+    {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 12, "eb0652bdf7ce785eb86639dbb68bd198"},
-    {"summarise", 5, "7b6e8b992501d8337f38366369c6d65c"},
+    {"measure", 12, "3969c1d6954af1e666af2341d16199c2"},
+    {"summarise", 5, "f06ef3ef9d724f9c53e0ea9753cf9198"},
 }};
 
 class Digest {

@@ -37,10 +37,10 @@ struct Pings {
       means.push_back(block_means(counts.view(), flags.view(), block_samples(sector.range())));
     }
   }
-  [[nodiscard]] std::vector<WaterLevels> levels() const {
+  [[nodiscard]] std::vector<WaterLevels> levels(const Seabed* seabed = nullptr) const {
     std::vector<WaterPing> window;
     for (const Array3<std::int16_t>& mean : means) {
-      window.push_back({&mean, nullptr, {flat.power_db, flat.calibration.view()}});
+      window.push_back({&mean, seabed, {flat.power_db, flat.calibration.view()}});
     }
     return water_levels(window, sector, kLeast);
   }
@@ -105,6 +105,37 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
     if (fan >= 6 && fan < 12 && beam >= 8 && beam < 16) ++inside;
   }
   EXPECT_GE(inside, 6U * 8U * 2U) << "each beam of it, in two blocks at least";
+}
+
+// A slope stretches each fan and beam otherwise; a school lies at the same range in all of them. The second one lies at the
+// record's end, which stretching moves out of where level seabeds are heard.
+TEST(NullModel, ASeabedsSlopeTearsNoSchool) {
+  const auto schools = [](int f, int b, int s, int p) {
+    const bool inside = f >= 9 && f < 12 && b >= 11 && b < 14 && ((s >= 300 && s < 330) || (s >= 840 && s < 870));
+    return water(f, b, s, p) * (inside ? 6.0 : 1.0);
+  };
+  const Pings pings(schools);
+  Seabed seabed;
+  seabed.found = true;
+  seabed.offset_m = 100.0;
+  seabed.slope_x = 0.1;
+  seabed.slope_y = 0.15;
+  const WaterLevels level = pings.levels()[3];
+  const WaterLevels sloping = pings.levels(&seabed)[3];
+  ASSERT_GT(sloping.stretch_of(10 * 25 + 12), 1.1);
+  const auto most = [](const WaterLevels& told, int sample) {
+    float evidence = 0.0F;
+    for (const EchoCell& cell : told.cells) {
+      if (cell.row == 10 * 25 + 12 && std::abs(cell.block - told.block_at(sample)) < 1.5) {
+        evidence = std::max(evidence, cell.evidence);
+      }
+    }
+    return evidence;
+  };
+  for (const int sample : {315, 855}) {
+    EXPECT_GT(most(level, sample), 7.0F) << sample;
+    EXPECT_NEAR(most(sloping, sample) / most(level, sample), 1.0F, 0.2F) << sample;
+  }
 }
 
 // Ringing, a layer, the surface in side lobes: what all beams of a fan hear at one range is the water there.
