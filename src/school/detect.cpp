@@ -13,6 +13,7 @@
 #include "school/edges.h"
 #include "school/evidence/seeds.h"
 #include "school/grow.h"
+#include "school/judge/prominence.h"
 #include "school/judge/size.h"
 #include "school/settle_members.h"
 #include "school/thresholder.h"
@@ -25,7 +26,6 @@ using Runs = std::vector<Run>;
 constexpr double kReferenceShare = 0.9;       ///< of a candidate lies below its reference
 constexpr double kLink_db = 3.0;              ///< parts joined by echo this far below the threshold are one school
 constexpr double kStep_db = 3.0;              ///< in which weaker schools beside a strong one are sought
-constexpr double kLeastProminence_db = 6.0;   ///< of a school above where it meets a stronger one
 constexpr double kSearchAboveWater_db = 1.5;  ///< where members are sought
 
 IndexBox box_of_runs(const Runs& runs, int beams) {
@@ -172,8 +172,11 @@ class PingDetector {
       }
     }
     const double reference_db = reference(part);
-    if (reference_db < level_db + kLeastProminence_db) {
-      refuse(part, {"prominence", reference_db - level_db, kLeastProminence_db, "dB"});
+    Detection found;
+    found.reference_db = reference_db;
+    found.threshold_db = level_db;
+    if (const auto reason = judge_prominence(echo_, found, params_)) {
+      refuse(part, *reason);
       return false;
     }
     // A weak school beside a stronger one stands no deeper below its own top than where the two part.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "school/detect_params.h"
-#include "school/judge/confirmation.h"
 #include "school/runs.h"
 
 namespace sonar {

@@ -9,7 +9,6 @@
 
 #include "base/median.h"
 #include "model/school.h"
-#include "school/judge/confirmation.h"
 #include "school/mask_shape.h"
 
 namespace sonar {

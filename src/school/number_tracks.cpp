@@ -6,10 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "school/judge/confirmation.h"
-#include "school/judge/level.h"
-#include "school/judge/ship.h"
-#include "school/judge/surface.h"
+#include "school/judge/judges.h"
 #include "school/open_track.h"
 #include "school/runs.h"
 
@@ -34,12 +31,11 @@ std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const De
   return key;
 }
 
-std::optional<Reason> refused(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
-                              const TrackParams& params) {
-  if (auto reason = judge_confirmation(tracked, pings, params)) return reason;
-  if (auto reason = judge_ship(tracked, pings, params)) return reason;
-  if (auto reason = judge_level(tracked, pings, params)) return reason;
-  return judge_surface(tracked, pings);
+std::optional<Reason> refused(const TrackEcho& track, const TrackParams& params) {
+  for (const TrackJudge& judge : kTrackJudges) {
+    if (auto reason = judge.judge(track, params)) return reason;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
   Tracks tracks;
   std::vector<std::pair<std::array<std::int64_t, 3>, const OpenTrack*>> order;
   for (const OpenTrack& track : closed) {
-    if (auto reason = refused(track.pings, pings, params)) {
+    if (auto reason = refused({track.pings, pings}, params)) {
       tracks.refused.push_back({*reason, track.pings});
       continue;
     }
@@ -75,6 +71,10 @@ Tracks number_tracks(std::span<const OpenTrack> closed, std::span<const RawEvent
            std::tuple(b.ping_index, static_cast<int>(b.kind), b.school_id, b.other_id);
   });
   return tracks;
+}
+
+std::span<const DetectedPing>::iterator ping_of(std::span<const DetectedPing> pings, std::int64_t ping_index) {
+  return std::ranges::lower_bound(pings, ping_index, {}, &DetectedPing::ping_index);
 }
 
 PingMask mask_of(const TrackedDetection& tracked, const DetectedPing& ping) {

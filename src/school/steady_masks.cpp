@@ -11,7 +11,6 @@
 
 #include "base/units.h"
 #include "school/grow.h"
-#include "school/judge/confirmation.h"
 #include "school/looks.h"
 #include "school/runs.h"
 

@@ -98,6 +98,10 @@ struct DetectedPing {
   std::vector<RefusedDetection> refused = {};  ///< what stood out clearly and is no school; tracks do not see it
 };
 
+/// Where the ping of this index stands in the list.
+[[nodiscard]] std::span<const DetectedPing>::iterator ping_of(std::span<const DetectedPing> pings,
+                                                              std::int64_t ping_index);
+
 /// One school in one ping: which of the ping's detections it is (several where it is torn).
 struct TrackedDetection {
   std::int64_t ping_index = 0;

@@ -7,10 +7,6 @@
 
 namespace sonar {
 
-std::span<const DetectedPing>::iterator ping_of(std::span<const DetectedPing> pings, std::int64_t ping_index) {
-  return std::ranges::lower_bound(pings, ping_index, {}, &DetectedPing::ping_index);
-}
-
 namespace {
 
 double evidence_of(const TrackedDetection& seen, const DetectedPing& ping) {
@@ -51,8 +47,8 @@ std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<con
 
 }  // namespace
 
-std::optional<Reason> judge_confirmation(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
-                                         const TrackParams& params) {
+std::optional<Reason> judge_confirmation(const TrackEcho& track, const TrackParams& params) {
+  const auto& [tracked, pings] = track;
   const std::size_t sights = most_sights(tracked, pings, params.confirm_window);
   if (sights < static_cast<std::size_t>(params.confirm_pings)) {
     return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.confirm_pings), "sights"};

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/school.h"
-#include "school/judge/confirmation.h"
 #include "school/motion.h"
 
 namespace sonar {
@@ -61,17 +60,17 @@ double chance(double ship_mps, double drift_mps) {
 
 }  // namespace
 
-std::optional<Reason> judge_ship(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings,
-                                 const TrackParams& params) {
-  if (params.ship_drift_share <= 0.0 || tracked.size() < 3) return std::nullopt;
+std::optional<Reason> judge_ship(const TrackEcho& track, const TrackParams& params) {
+  if (params.ship_drift_share <= 0.0 || track.sights.size() < 3) return std::nullopt;
   std::vector<Sight> sights;
   bool cut = false;
-  for (const TrackedDetection& there : tracked) {
-    const auto ping = ping_of(pings, there.ping_index);
-    const Detection& detection = ping->detections[static_cast<std::size_t>(there.detections.front())];
+  const DetectedPing& first = track.pings.front();
+  for (const TrackedDetection& sight : track.sights) {
+    const DetectedPing& ping = track.ping(sight);
+    const Detection& detection = track.detection(sight);
     cut = cut || (detection.edge_flags & kCutAside) != 0;
-    const PingFrame frame(ping->placement, pings.front().placement.transducer);
-    const auto since = static_cast<double>(ping->time - pings.front().time) / static_cast<double>(kSecondNs);
+    const PingFrame frame(ping.placement, first.placement.transducer);
+    const auto since = static_cast<double>(ping.time - first.time) / static_cast<double>(kSecondNs);
     sights.push_back({since, detection.centre, frame.to_world({}), frame.to_world(detection.centre)});
   }
   const double took_s = sights.back().time_s - sights.front().time_s;

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
-#include "school/judge/reason.h"
-#include "school/track.h"
+#include "school/judge/track_echo.h"
 
 namespace sonar {
 
@@ -13,10 +11,7 @@ namespace sonar {
 /// more closely than a school would by chance, is what the sonar hears of the seabed, the surface or itself there, through
 /// side lobes as well. Of what the sector's sides cut only a part is seen: its place tells something only after a way
 /// longer than schools are.
-/// tracked  of one track, rising
-/// pings    those that were tracked, rising
-/// out      the figure is its drift beside the ship as a share of the ship's way
-[[nodiscard]] std::optional<Reason> judge_ship(std::span<const TrackedDetection> tracked,
-                                               std::span<const DetectedPing> pings, const TrackParams& params);
+/// out  the figure is its drift beside the ship as a share of the ship's way
+[[nodiscard]] std::optional<Reason> judge_ship(const TrackEcho& track, const TrackParams& params);
 
 }  // namespace sonar

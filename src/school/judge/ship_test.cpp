@@ -41,7 +41,7 @@ bool stays(const Passage& passage, int pings = 5, const TrackParams& params = {}
     place = to_geographic(Point<Enu>{way_m * std::sin(heading), way_m * std::cos(heading), 0.0}, place);
     detected.push_back(std::move(ping));
   }
-  return judge_ship(tracked, detected, params).has_value();
+  return judge_ship({tracked, detected}, params).has_value();
 }
 
 TEST(JudgeShip, TheSeabedInTheLowestFanDoes) {

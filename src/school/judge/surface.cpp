@@ -8,7 +8,6 @@
 
 #include "base/median.h"
 #include "model/school.h"
-#include "school/judge/confirmation.h"
 
 namespace sonar {
 namespace {
@@ -23,19 +22,19 @@ constexpr double kHalfHeight = 2.236;
 
 }  // namespace
 
-std::optional<Reason> judge_surface(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings) {
+std::optional<Reason> judge_surface(const TrackEcho& track, const TrackParams& /*params*/) {
   std::vector<double> reach_m;
   std::size_t attached = 0;
   double level_db = -1000.0;
-  for (const TrackedDetection& seen : tracked) {
-    const DetectedPing& ping = *ping_of(pings, seen.ping_index);
-    const Detection& echo = ping.detections[static_cast<std::size_t>(seen.detections.front())];
+  for (const TrackedDetection& sight : track.sights) {
+    const DetectedPing& ping = track.ping(sight);
+    const Detection& echo = track.detection(sight);
     if ((echo.edge_flags & (kEdgeTopFan | kEdgeSurface)) != 0) ++attached;
     level_db = std::max(level_db, echo.reference_db);
     const double centre_m = ping.placement.transducer_depth_m + levelled(echo.centre, ping.placement).z;
     reach_m.push_back(centre_m + kHalfHeight * std::sqrt(echo.covariance[5]));
   }
-  if (2 * attached < tracked.size() || level_db > kBubbleLevel_db) return std::nullopt;
+  if (2 * attached < track.sights.size() || level_db > kBubbleLevel_db) return std::nullopt;
   const double middle_m = middle_of(std::move(reach_m));
   if (!(middle_m <= kBubbleDepth_m)) return std::nullopt;
   return Reason{"surface", middle_m, kBubbleDepth_m, "m deep at most"};

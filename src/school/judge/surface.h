@@ -2,20 +2,15 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
-#include "school/judge/reason.h"
-#include "school/track.h"
+#include "school/judge/track_echo.h"
 
 namespace sonar {
 
 /// Judge `surface`: bubbles hang from the sea surface and reach no deeper than the wind, a wake or a hull takes them. What
 /// hangs there in most of its sights, without water above it, and reaches no deeper may be either, unless it is too loud for bubbles: plumes in rows on
 /// the sea, clouds that the hull carries, the surface's own reverberation.
-/// tracked  of one track, rising
-/// pings    those that were tracked, rising
-/// out      the figure is the depth to which it reaches, median over its sights
-[[nodiscard]] std::optional<Reason> judge_surface(std::span<const TrackedDetection> tracked,
-                                                  std::span<const DetectedPing> pings);
+/// out  the figure is the depth to which it reaches, median over its sights
+[[nodiscard]] std::optional<Reason> judge_surface(const TrackEcho& track, const TrackParams& params);
 
 }  // namespace sonar
