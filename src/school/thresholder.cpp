@@ -66,9 +66,9 @@ double Thresholder::RowWater::between(const Value* table, int count, double at) 
   at = std::clamp(at, 0.0, static_cast<double>(count - 1));
   const int piece = static_cast<int>(at);
   const int next = std::min(piece + 1, count - 1);
-  const int here = table[piece];
-  const int there = table[next];
-  if (here == kMinCount || there == kMinCount) return std::max(here, there);
+  const double here = table[piece];
+  const double there = table[next];
+  if (here <= kMinCount || there <= kMinCount) return std::max(here, there);
   return here + (there - here) * (at - piece);
 }
 

@@ -16,22 +16,26 @@ namespace {
 
 /// Sending everywhere, a uniform line's two-way integral is 3/2 of its square's: kWidestTransmit_db, both ways.
 constexpr double kMostOfLine = 1.5;
+/// Received with the heaviest shading and sent with none a beam is twice as narrow (Harris 1978: Blackman to rectangle, 1.9).
+constexpr double kNarrowest = 2.0;
+constexpr int kFanShapes = 4;  ///< from a fan as wide as the area says to one that is sent all along
 constexpr int kHalvings = 40;  ///< to the last digit but a few
 
 /// Two-way width over that of a beam that sends as narrowly: integrals of g(z) g(qz) and of (sin x / x)^2 (sin qx / qx)^2
-/// (two triangles convolved), each over that for q = 1.
+/// (two triangles convolved), each over that for q = 1. q > 1 sends more narrowly.
 double widening(double gaussian_share, double transmit_ratio) {
   const double gaussian = std::numbers::sqrt2 / std::sqrt(1.0 + transmit_ratio * transmit_ratio);
-  const double line = kMostOfLine - 0.5 * transmit_ratio;
+  const double narrower = std::max(1.0, transmit_ratio);  // the same integral, of the other beam's angle
+  const double line = (kMostOfLine - 0.5 * std::min(transmit_ratio, 1.0 / transmit_ratio)) / narrower;
   return gaussian_share * gaussian + (1.0 - gaussian_share) * line;
 }
 
-/// Its inverse; wider than any transmit beam makes it is everywhere.
+/// Its inverse; wider than any transmit beam makes it is everywhere, and the narrowest sends kNarrowest.
 double ratio_for(double gaussian_share, double wanted) {
   double low = 0.0;
-  double high = 1.0;
+  double high = kNarrowest;
   if (wanted >= widening(gaussian_share, low)) return low;
-  if (wanted <= 1.0) return high;
+  if (wanted <= widening(gaussian_share, high)) return high;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2.0;
     (widening(gaussian_share, middle) > wanted ? low : high) = middle;
@@ -115,8 +119,16 @@ std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area) {
   std::vector<BeamShape> shapes;
   for (const double share : shares) {
     const double most = widening(share, 0.0);
-    const double level = wider ? std::min(area, most) : 1.0;
-    shapes.push_back(shape_of(share, wider ? std::min(area / level, most) : 1.0, level, 0.0));
+    if (!wider) {
+      shapes.push_back(shape_of(share, 1.0, 1.0, 0.0));
+    } else if (area >= most) {
+      shapes.push_back(shape_of(share, std::min(area / most, most), most, 0.0));
+    } else {
+      for (int i = 0; i < kFanShapes; ++i) {
+        const double upright = std::pow(area / most, static_cast<double>(i) / (kFanShapes - 1));
+        shapes.push_back(shape_of(share, upright, area / upright, 0.0));
+      }
+    }
   }
   if (!wider || !params.find_beam_shape) return shapes;
   for (const double share : shares) {

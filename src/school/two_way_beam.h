@@ -28,7 +28,9 @@ struct BeamShape {
 };
 
 /// The shapes of beam to choose among. A wider transmit beam is taken to be wide along the fan, as of a sonar that sends
-/// for all beams of a fan at once; or both ways alike, where the schools' heights say so clearly: the area is one number.
+/// for all beams of a fan at once. Where the area is smaller than that makes it, it is so wide either as the area says, or
+/// it is that wide and narrower upright, as of an array that is shaded for receiving alone: schools' heights tell. Or
+/// it is wider both ways alike, where they say so clearly: the area is one number.
 /// area  two_way_area()'s
 [[nodiscard]] std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area);
 

@@ -67,7 +67,7 @@ PatternAt line_one_way(double x) {
 PatternAt uniform_line(double z, double q) {
   const double scale = kHalfPowerOfSinc / (2.0 * std::sqrt(std::numbers::ln2));
   const double x = z * scale;
-  if (q < 1.0) {
+  if (q != 1.0) {
     const PatternAt receive = line_one_way(x);
     const PatternAt transmit = line_one_way(q * x);
     return {receive.value * transmit.value,
