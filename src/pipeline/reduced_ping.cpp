@@ -86,6 +86,9 @@ namespace {
 
 bool fits(const WaterLevels& water, const Shape3& shape) {
   if (water.block_samples < 1 || water.blocks < 1 || water.places < 1) return false;
+  // as many blocks as the samples need
+  if (water.block_samples > std::max(shape.samples, 1)) return false;
+  if (water.blocks > shape.samples / water.block_samples + 1) return false;
   if (water.level.size() != static_cast<std::size_t>(water.places) * static_cast<std::size_t>(shape.fans)) return false;
   if (water.reach.size() != water.level.size()) return false;
   if (!water.patch.empty() && water.patch.size() != static_cast<std::size_t>(water.blocks) * shape.rows()) return false;

@@ -12,7 +12,7 @@
 
 namespace sonar {
 
-/// What may be a school in one ping. Light-weight: association over pings reads nothing else.
+/// What may be a school in one ping: association over pings reads nothing else.
 struct Detection {
   PingMask mask;
   IndexBox box;

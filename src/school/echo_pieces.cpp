@@ -18,12 +18,15 @@ std::int16_t in_units(double sv, double unit_sv) {
   return static_cast<std::int16_t>(std::lround(std::clamp(sv / unit_sv, -32000.0, 32000.0)));
 }
 
-/// Mean sv of a piece; NaN where a sample can be no school's or less than half of it is sound.
+bool any_never(const SampleFlags* flags, int first, int end) {
+  return std::any_of(flags + first, flags + end, [](SampleFlags flag) { return any(flag & kNeverMember); });
+}
+
+/// Mean sv of a piece; NaN where less than half of it is sound.
 double mean_of(const std::int16_t* counts, const SampleFlags* flags, int first, int end) {
   double sum = 0.0;
   int sound = 0;
   for (int s = first; s < end; ++s) {
-    if (any(flags[s] & kNeverMember)) return NAN;
     if (counts[s] == kNoData || any(flags[s] & kNotFiltered)) continue;
     sum += linear_from_count(counts[s]);
     ++sound;
@@ -38,6 +41,7 @@ EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, con
   constexpr int kSamples = EchoPieces::kSamples;
   IndexBox box = mask.enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples);
   box.first_sample -= box.first_sample % kSamples;  // the same pieces in every ping
+  box.last_sample += kSamples - 1 - box.last_sample % kSamples;
   box = box.clipped(echo.sv.shape());
   const int pieces = (box.samples() + kSamples - 1) / kSamples;
   const Shape3 shape{box.fans(), box.beams(), pieces};
@@ -53,10 +57,12 @@ EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, con
       const SampleFlags* flags = echo.flags.row(row).data();
       for (int piece = 0; piece < pieces; ++piece) {
         const int first = box.first_sample + piece * kSamples;
-        const double mean = mean_of(counts, flags, first, std::min(first + kSamples, box.last_sample + 1));
+        const int end = std::min(first + kSamples, box.last_sample + 1);
+        const double mean = mean_of(counts, flags, first, end);
         const double water = water_sv[static_cast<std::size_t>(piece)];
         out.water(fan, beam, piece) = in_units(water, out.unit_sv);
-        if (std::isfinite(mean)) out.own(fan, beam, piece) = in_units(mean - water, out.unit_sv);
+        if (any_never(flags, first, end)) continue;
+        out.own(fan, beam, piece) = std::isfinite(mean) ? in_units(mean - water, out.unit_sv) : EchoPieces::kUnheard;
       }
     }
   }

@@ -16,9 +16,12 @@ struct EchoPieces {
   /// Larger schools have so many voxels that fading moves their border little; theirs is not kept.
   static constexpr std::size_t kMost = 40000;
 
-  IndexBox box;                ///< its samples are those of whole pieces, but where the record ends
-  double unit_sv = 0.0;        ///< m^-1
-  Array3<std::int16_t> own;    ///< [fan][beam][piece] mean sv less the background, units; kNoData = not known
+  /// A piece that may be a school's, of which faults let nothing be heard in this ping.
+  static constexpr std::int16_t kUnheard = -32767;
+
+  IndexBox box;              ///< its samples are those of whole pieces, but where the record ends
+  double unit_sv = 0.0;      ///< m^-1
+  Array3<std::int16_t> own;  ///< [fan][beam][piece] mean sv less the background, units; kUnheard; kNoData = no school's
   Array3<std::int16_t> water;  ///< same shape: the background, units
 
   [[nodiscard]] bool empty() const { return box.empty(); }

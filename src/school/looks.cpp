@@ -28,7 +28,9 @@ const EchoPieces* holding(const Look& look, int fan, int beam, int sample) {
 }
 
 struct Heard {
-  float own_sv = std::numeric_limits<float>::quiet_NaN();
+  bool allowed = false;  ///< it may be a school's
+  float looks = 0.0F;    ///< 0 = nothing was heard
+  float own_sv = 0.0F;
   float water_sv = 0.0F;
 };
 
@@ -38,9 +40,11 @@ Heard heard(const Look& look, int fan, int beam, int sample) {
   const int f = fan - pieces->box.first_fan;
   const int b = beam - pieces->box.first_beam;
   const int i = pieces->piece(sample);
-  if (pieces->own(f, b, i) == kNoData) return {};
-  return {static_cast<float>(pieces->own(f, b, i) * pieces->unit_sv),
-          static_cast<float>(pieces->water(f, b, i) * pieces->unit_sv)};
+  const std::int16_t own = pieces->own(f, b, i);
+  if (own == kNoData) return {};
+  const auto water_sv = static_cast<float>(pieces->water(f, b, i) * pieces->unit_sv);
+  if (own == EchoPieces::kUnheard) return {true, 0.0F, 0.0F, water_sv};
+  return {true, 1.0F, static_cast<float>(own * pieces->unit_sv), water_sv};
 }
 
 IndexBox box_of_pieces(const Look& look) {
@@ -61,31 +65,35 @@ Point<Enu> way_between(const Look& here, const Look& other, const Point<Enu>& ve
   return (by_track + (other.centre - here.centre)) * 0.5;
 }
 
-/// Where the pieces of one beam lie in another sight: between its ends nearly straight.
+/// Where the samples of one beam lie in another sight. The way there is straight in space and bends in angles the nearer to
+/// the sonar the more: a stretch of it is taken for straight.
 class Along {
  public:
   Along(const Look& here, const Look& other, const Point<Enu>& way, const Sector& sector, int fan, int beam,
         const IndexBox& box)
-      : first_(box.first_sample), samples_(box.samples()) {
+      : first_(box.first_sample) {
     const Point<Sonar> axis = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
     const auto then = [&](int sample) {
-      const Point<Enu> place = here.frame.to_world(axis * sector.range().range_m(sample));
-      return sector.index_of(other.frame.from_world(place + way));
+      return other.frame.from_world(here.frame.to_world(axis * sector.range().range_m(sample)) + way);
     };
-    from_ = then(first_);
-    to_ = then(first_ + samples_);
+    const Point<Sonar> from = then(box.first_sample);
+    const Point<Sonar> step = (then(box.last_sample) - from) * (1.0 / std::max(1, box.samples() - 1));
+    for (int s = 0; s < box.samples() + kStretch; s += kStretch) nodes_.push_back(sector.index_of(from + step * s));
   }
   [[nodiscard]] SectorIndex at(double sample) const {
-    const double share = (sample - first_) / samples_;
-    return {from_.fan + share * (to_.fan - from_.fan), from_.beam + share * (to_.beam - from_.beam),
-            from_.sample + share * (to_.sample - from_.sample)};
+    const double place = (sample - first_) / kStretch;
+    const auto k = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
+    const double share = place - static_cast<double>(k);
+    const SectorIndex& a = nodes_[k];
+    const SectorIndex& b = nodes_[k + 1];
+    return {a.fan + share * (b.fan - a.fan), a.beam + share * (b.beam - a.beam),
+            a.sample + share * (b.sample - a.sample)};
   }
 
  private:
+  static constexpr int kStretch = 48;
   int first_;
-  int samples_;
-  SectorIndex from_;
-  SectorIndex to_;
+  std::vector<SectorIndex> nodes_;
 };
 
 double middle_of_piece(const IndexBox& box, int piece) {
@@ -154,13 +162,14 @@ MeanEcho mean_echo(const Look& here, std::span<const Neighbour> neighbours, cons
   const IndexBox box = box_of_pieces(here);
   const Shape3 shape{box.fans(), box.beams(), (box.samples() + kPiece - 1) / kPiece};
   MeanEcho mean{box, Array3<float>(shape), Array3<float>(shape)};
-  Array3<float> weight(shape, 1.0F);
+  Array3<float> weight(shape);
   for (int f = 0; f < shape.fans; ++f) {
     for (int b = 0; b < shape.beams; ++b) {
       for (int i = 0; i < shape.samples; ++i) {
         const Heard one = heard(here, box.first_fan + f, box.first_beam + b, box.first_sample + i * kPiece);
-        mean.own_sv(f, b, i) = one.own_sv;
+        mean.own_sv(f, b, i) = one.allowed ? one.own_sv : std::numeric_limits<float>::quiet_NaN();
         mean.water_sv(f, b, i) = one.water_sv;
+        weight(f, b, i) = one.looks;
       }
     }
   }
@@ -172,13 +181,14 @@ MeanEcho mean_echo(const Look& here, std::span<const Neighbour> neighbours, cons
         for (int i = 0; i < shape.samples; ++i) {
           const SectorIndex then = along.at(middle_of_piece(box, i));
           const Heard one = heard(*neighbour.look, nearest(then.fan), nearest(then.beam), nearest(then.sample));
-          if (std::isnan(one.own_sv)) continue;
+          if (one.looks == 0.0F) continue;
           mean.own_sv(f, b, i) += static_cast<float>(neighbour.weight) * one.own_sv;
           weight(f, b, i) += static_cast<float>(neighbour.weight);
         }
       }
     }
   }
+  // what nobody heard is 0 / 0, not known
   for (std::size_t i = 0; i < shape.size(); ++i) mean.own_sv.all()[i] /= weight.all()[i];
   return mean;
 }

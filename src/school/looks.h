@@ -40,7 +40,7 @@ struct Neighbour {
 /// A school's own echo in the pieces of one sight: mean over this and its neighbours, looked at where the school swam to.
 struct MeanEcho {
   IndexBox box;            ///< round all of the sight's EchoPieces
-  Array3<float> own_sv;    ///< [fan][beam][piece] m^-1; NaN = not known in this sight
+  Array3<float> own_sv;    ///< [fan][beam][piece] m^-1; NaN = no school's in this sight, or not known
   Array3<float> water_sv;  ///< same shape: the background
 
   /// NaN outside the box.

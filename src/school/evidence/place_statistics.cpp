@@ -11,7 +11,7 @@ namespace sonar {
 namespace {
 
 constexpr std::size_t kEnough = 60;  ///< values that tell a level and a spread
-constexpr std::size_t kPool = 3;     ///< blocks each side that lend theirs where there are fewer
+constexpr std::size_t kPool = 3;     ///< places each side that lend theirs where there are fewer
 
 PlaceStatistics told_by(std::span<const std::int16_t> values) {
   if (values.size() < kEnough) return {};

@@ -23,6 +23,11 @@ constexpr double kBeyondRecord = 1.25;  ///< a seabed so far beyond the record i
 
 SeabedPlane plane_of(const Seabed& seabed) { return {seabed.offset_m, seabed.slope_x, seabed.slope_y}; }
 
+/// One that may be trusted: files that were reduced tell their own.
+bool has_seabed(const WaterPing& ping) {
+  return ping.seabed != nullptr && ping.seabed->found && ping.seabed->offset_m > 0.0;
+}
+
 /// Range of a fan's beams to a level seabed at the window's depth; infinite where they meet none.
 double usual_range_m(const Sector& sector, int fan, double depth_m) {
   const double down = -std::sin(sector.elevation_rad(fan) - kFlank_rad);
@@ -51,13 +56,12 @@ std::vector<std::vector<float>> seabed_stretch(std::span<const WaterPing> window
   std::vector<std::vector<float>> stretch(window.size());
   std::vector<double> depths_m;
   for (const WaterPing& ping : window) {
-    if (ping.seabed != nullptr && ping.seabed->found) depths_m.push_back(ping.seabed->offset_m);
+    if (has_seabed(ping)) depths_m.push_back(ping.seabed->offset_m);
   }
   if (depths_m.empty()) return stretch;
   const double depth_m = middle_of(std::move(depths_m));
   for (std::size_t p = 0; p < window.size(); ++p) {
-    const Seabed* seabed = window[p].seabed;
-    if (seabed != nullptr && seabed->found) stretch[p] = stretch_of(*seabed, sector, depth_m);
+    if (has_seabed(window[p])) stretch[p] = stretch_of(*window[p].seabed, sector, depth_m);
   }
   return stretch;
 }
@@ -65,7 +69,7 @@ std::vector<std::vector<float>> seabed_stretch(std::span<const WaterPing> window
 double seabed_nearer(std::span<const WaterPing> window) {
   std::vector<double> shares;
   for (const WaterPing& ping : window) {
-    if (ping.seabed == nullptr || !ping.seabed->found) continue;
+    if (!has_seabed(ping)) continue;
     shares.push_back(std::max(1.0 - kHills * ping.seabed->roughness_m / ping.seabed->offset_m, kNearest));
   }
   return shares.empty() ? 1.0 : middle_of(std::move(shares));
