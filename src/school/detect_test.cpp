@@ -46,7 +46,7 @@ TEST(Detect, FindsNothingInNoise) {
 // Gusts: the mean of each patch of water varies, so that the filter leaves more of the noise than of plain fading.
 TEST(Detect, NoiseOfHeavyTailsHoldsNoSchoolAndHidesNone) {
   DetectParams eager;
-  eager.false_alarm = 1000.0;
+  eager.false_alarm = 6.0;
   for (const bool with_school : {false, true}) {
     Scene scene;
     scene.alone = true;
