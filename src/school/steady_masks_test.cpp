@@ -24,6 +24,7 @@ constexpr double kUnit_sv = 1e-7;
 struct Sea {
   std::function<int(int ping, int row, int sample)> also = [](int, int, int) { return 0; };
   std::function<bool(int ping, int row, int sample)> hidden = [](int, int, int) { return false; };
+  std::function<bool(int ping, int row)> faulty = [](int, int) { return false; };
   bool fading = false;
 };
 
@@ -68,6 +69,7 @@ struct Passage {
           if (sea.hidden(p, row, first)) echo *= 0.05;
           if (sea.fading) echo *= random.exponential();
           pieces.own(f, b, i) = static_cast<std::int16_t>(std::lround(std::min(echo, 32000.0)));
+          if (sea.faulty(p, row)) pieces.own(f, b, i) = EchoPieces::kUnheard;
           if (echo < 100.0) continue;
           seen.runs.push_back({row, first, EchoPieces::kSamples});
           seen.confidence.insert(seen.confidence.end(), EchoPieces::kSamples, 255);
@@ -113,6 +115,14 @@ TEST(SteadyMasks, WhatOnePingAloneMissesComesBack) {
   const double before = dice(passage.mask(3), passage.whole[3]);
   ASSERT_LT(before, 0.75);
   EXPECT_GT(dice(passage.steady().mask(3), passage.whole[3]), 0.8);
+}
+
+// Lost packets in a quarter of the beams of one ping: they are members still, and flagged as faulty elsewhere.
+TEST(SteadyMasks, WhatFaultsHideIsToldByTheOthers) {
+  Passage passage({.faulty = [](int p, int row) { return p == 3 && row % 4 == 1; }});
+  const PingMask mask = passage.steady().mask(3);
+  EXPECT_GT(dice(mask, passage.whole[3]), 0.85);
+  EXPECT_TRUE(std::ranges::any_of(mask.runs, [](const sonar::Run& run) { return run.row % 4 == 1; }));
 }
 
 // Rounding to voxels on the way to the other pings moves the border by some of the outermost ones at most.
