@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole run per ping and its stages, on a synthetic survey: bench_stages [FOLDER] [PINGS]
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/units.h"
 #include "pipeline/engine.h"
+#include "pipeline/group_water.h"
 #include "pipeline/observe.h"
 #include "pipeline/score.h"
 #include "school/detect.h"
+#include "school/evidence/block_means.h"
 #include "school/seabed.h"
+#include "school/steady_masks.h"
+#include "school/track.h"
 #include "signal/flags.h"
 #include "signal/median.h"
 #include "synth/beam_table.h"
@@ -34,16 +41,18 @@ double milliseconds_since(Clock::time_point begin) {
 
 class Stopwatch {
  public:
+  /// pings  that the body works for: a ping's share is told
   template <class Body>
-  void time(const std::string& stage, const Body& body) {
+  void time(const std::string& stage, const Body& body, double pings = 1.0) {
     const auto begin = Clock::now();
     body();
-    times_[stage].push_back(milliseconds_since(begin));
+    times_[stage].push_back(milliseconds_since(begin) / pings);
   }
   void print() {
+    fmt::print("one thread, a ping\n");
     for (auto& [stage, times] : times_) {
       std::sort(times.begin(), times.end());
-      fmt::print("{:<34} median {:8.3f} ms   min {:8.3f} ms   n {}\n", stage, times[times.size() / 2], times.front(),
+      fmt::print("{:<36} median {:8.3f} ms   min {:8.3f} ms   n {}\n", stage, times[times.size() / 2], times.front(),
                  times.size());
     }
   }
@@ -93,30 +102,74 @@ void verify(const ObservationProduct& product, const std::filesystem::path& trut
   if (counted == 0 || dice / counted < 0.8 || !result.false_schools.empty()) std::exit(1);
 }
 
-void time_stages(const SurveyFiles& survey, const ObservationFiles& observation, Work& work) {
-  const Recipe recipe;
-  Engine engine(survey, observation, recipe);
-  must(engine.estimate_background(0, engine.pings() - 1, work));
-  CalibrationTables tables(observation, recipe.calibration);
-  Stopwatch watch;
+void time_ping_stages(const SurveyFiles& survey, const ObservationFiles& observation, Engine& engine,
+                      const Recipe& recipe, Stopwatch& watch) {
   PowerVolume power;
   for (std::int64_t i = 0; i < std::min<std::int64_t>(engine.pings(), 40); ++i) {
     watch.time("1 read and lay on the grid",
                [&] { must(load_volume(survey, observation, static_cast<std::size_t>(i), power)); });
     StagedPing staged = must(engine.staged(i));
-    watch.time("2 flags, Sv, median, seabed", [&] { staged = must(engine.staged(i)); });
+    watch.time("2 flags, Sv, median, seabed, means", [&] { staged = must(engine.staged(i)); });
     Array3<std::int16_t> filtered(staged.sv.counts.shape());
-    watch.time("3   of which the median",
+    watch.time("2   of which the median",
                [&] { median_into(staged.sv.counts.view(), staged.sv.flags.view(), recipe.median, filtered.view()); });
     Seabed seabed;
-    watch.time("4   of which the seabed", [&] {
+    watch.time("2   of which the seabed", [&] {
       seabed = find_seabed(filtered.view(), staged.sv.flags.view(), staged.background(), engine.sector(),
                            engine.grid().vertical_width_deg, recipe.seabed);
     });
-    WaterLevels water;
-    watch.time("5 water of the ping alone", [&] { water = engine.own_water(staged); });
-    std::vector<Detection> detections;
-    watch.time("6 detect", [&] { detections = detect(engine.echo(staged, water), recipe.detect); });
+    Array3<std::int16_t> means;
+    watch.time("2   of which the block means", [&] {
+      means = block_means(staged.sv.counts.view(), staged.sv.flags.view(), block_samples(engine.sector().range()));
+    });
+  }
+}
+
+/// The groups of pings that are judged together, as in the whole run; of the time of each a ping's share is told.
+std::vector<DetectedPing> time_groups(const ObservationFiles& observation, Engine& engine, const Recipe& recipe,
+                                      Stopwatch& watch) {
+  std::vector<std::shared_ptr<StagedPing>> pings;
+  for (std::int64_t i = 0; i < std::min<std::int64_t>(engine.pings(), 40); ++i) {
+    pings.push_back(std::make_shared<StagedPing>(must(engine.staged(i))));
+  }
+  std::vector<DetectedPing> detected;
+  constexpr auto kGroup = static_cast<std::size_t>(kGroupPings);
+  for (std::size_t first = 0; first < pings.size(); first += kGroup) {
+    const std::size_t end = std::min(pings.size(), first + kGroup);
+    std::vector<std::optional<WaterLevels>> waters;
+    watch.time(
+        "3 water, told by a ping and 13 more", [&] { waters = waters_of(pings, first, end, engine.sector()); },
+        static_cast<double>(end - first));
+    for (std::size_t i = first; i < end; ++i) {
+      const auto ping_index = static_cast<std::int64_t>(i);
+      DetectedPing ping{ping_index, observation.navigation[i].time, engine.tracking_placement(ping_index), {}};
+      watch.time("4 detect", [&] {
+        ping.detections = detect(engine.echo(*pings[i], *waters[i - first]), recipe.detect, nullptr, &ping.refused);
+      });
+      detected.push_back(std::move(ping));
+    }
+  }
+  return detected;
+}
+
+void time_stages(const SurveyFiles& survey, const ObservationFiles& observation, Work& work) {
+  const Recipe recipe;
+  Engine engine(survey, observation, recipe);
+  must(engine.estimate_background(0, engine.pings() - 1, work));
+  Stopwatch watch;
+  time_ping_stages(survey, observation, engine, recipe, watch);
+  const std::vector<DetectedPing> detected = time_groups(observation, engine, recipe, watch);
+  const auto pings = static_cast<double>(detected.size());
+  TrackParams params = recipe.track;
+  params.evidence = evidence_wanted(recipe.detect);
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    Tracks tracks;
+    watch.time(
+        "5 tracks and their judges", [&] { tracks = track(detected, engine.sector(), engine.grid().channel, params); },
+        pings);
+    watch.time(
+        "6 masks by the mean echo of sights",
+        [&] { steady_masks(tracks.schools, detected, engine.sector(), recipe.detect.tolerance_db); }, pings);
   }
   watch.print();
 }
@@ -136,6 +189,10 @@ void time_run(const SurveyFiles& survey, const ObservationFiles& observation, co
       static_cast<double>(observation.navigation.back().time - observation.navigation.front().time) / 1e9;
   fmt::print("whole run, {} threads: median {:.2f} ms a ping (min {:.2f}), {:.0f} times real time\n", work.threads(),
              per_ping[2], per_ping[0], span_s * 1000.0 / (per_ping[2] * pings));
+  rusage used{};
+  if (getrusage(RUSAGE_SELF, &used) == 0) {
+    fmt::print("most memory: {:.0f} MB, {:.0f} pings\n", static_cast<double>(used.ru_maxrss) / 1000.0, pings);
+  }
 }
 
 }  // namespace

@@ -36,6 +36,28 @@ TEST(Units, CountsAndDecibels) {
   }
 }
 
+TEST(Units, TheNearestCountOfALinearValue) {
+  for (int count = kMinCount; count <= kMaxCount; ++count) {
+    const double linear = linear_from_count(static_cast<std::int16_t>(count));
+    ASSERT_EQ(count_from_linear(linear), count);
+    // 0.4998 and 0.5002 of the way to the next
+    const double below = linear * std::exp2(0.4998 / 256.0);
+    const double above = linear * std::exp2(0.5002 / 256.0);
+    ASSERT_EQ(count_from_linear(below), count);
+    ASSERT_EQ(count_from_linear(above), std::min<int>(kMaxCount, count + 1));
+  }
+  EXPECT_EQ(count_from_linear(1e-300), kMinCount);
+  EXPECT_EQ(count_from_linear(1e300), kMaxCount);
+}
+
+TEST(Units, TheNearestWholeNumber) {
+  for (const double value : {-32768.4, -2.6, -2.4, -0.4, 0.0, 0.4, 0.6, 2.4, 2.6, 40000.7}) {
+    EXPECT_EQ(nearest_int(value), std::lround(value)) << value;
+  }
+  EXPECT_EQ(nearest_int(-2.5), -2);
+  EXPECT_EQ(nearest_int(2.5), 3);
+}
+
 TEST(Units, LinearAndBack) {
   EXPECT_DOUBLE_EQ(linear_from_db(-30.0), 0.001);
   EXPECT_DOUBLE_EQ(db_from_linear(0.01), -20.0);

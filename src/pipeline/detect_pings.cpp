@@ -64,16 +64,11 @@ class Detecting {
 
   /// Groups are counted from the observation's first ping, whatever part of it is looked at.
   void look_at(std::int64_t group) {
-    const std::int64_t first = std::max<std::int64_t>(0, group * kGroupPings - reach_.first);
-    const std::int64_t end = std::min(count_, (group + 1) * kGroupPings - reach_.first);
-    const std::int64_t from = std::max<std::int64_t>(0, first - kGroupSide);
-    const std::int64_t to = std::min(count_, end + kGroupSide);
-    const auto waters =
-        waters_of(std::span(staged_).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from)),
-                  engine_.sector());
-    for (std::int64_t i = first; i < end; ++i) {
-      const auto& water = waters[static_cast<std::size_t>(i - from)];
-      if (water) judge(static_cast<std::size_t>(i), *water);
+    const auto first = static_cast<std::size_t>(std::max<std::int64_t>(0, group * kGroupPings - reach_.first));
+    const auto end = static_cast<std::size_t>(std::min(count_, (group + 1) * kGroupPings - reach_.first));
+    const auto waters = waters_of(staged_, first, end, engine_.sector());
+    for (std::size_t i = first; i < end; ++i) {
+      if (const auto& water = waters[i - first]) judge(i, *water);
     }
   }
 

@@ -20,8 +20,8 @@
 namespace sonar {
 namespace {
 
-/// Power volumes of neighbouring pings that are kept: enough for a few threads and both neighbours of each.
-constexpr std::size_t kPowerBytes = 96U << 20U;
+/// Power volumes of neighbouring pings that are kept: enough for a few threads and the background window of each.
+constexpr std::size_t kPowerBytes = 48U << 20U;
 constexpr std::size_t kLeastPower = 3;
 /// Stages that are kept from detecting to measuring: most of a short observation. With it a run stays below 600 MB.
 constexpr std::size_t kStagedBytes = 240U << 20U;

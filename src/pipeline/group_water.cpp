@@ -10,20 +10,26 @@
 
 namespace sonar {
 
-std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_ptr<StagedPing>> window,
-                                                  const Sector& sector) {
-  std::vector<std::optional<WaterLevels>> waters(window.size());
+std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_ptr<StagedPing>> pings, std::size_t first,
+                                                  std::size_t end, const Sector& sector) {
+  constexpr auto kSide = static_cast<std::size_t>(kGroupSide);
+  std::vector<std::optional<WaterLevels>> waters(end - first);
   std::vector<WaterPing> told;
   std::vector<std::size_t> of_told;
-  for (std::size_t i = 0; i < window.size(); ++i) {
-    if (!window[i]) continue;
-    waters[i] = window[i]->water;
-    if (waters[i]) continue;
-    told.push_back({&window[i]->means, &window[i]->seabed, window[i]->background()});
+  for (std::size_t i = first - std::min(first, kSide); i < std::min(pings.size(), end + kSide); ++i) {
+    if (!pings[i]) continue;
+    const bool asked = i >= first && i < end;
+    if (pings[i]->water) {
+      if (asked) waters[i - first] = pings[i]->water;
+      continue;
+    }
+    told.push_back({&pings[i]->means, &pings[i]->seabed, pings[i]->background(), asked});
     of_told.push_back(i);
   }
   std::vector<WaterLevels> levels = water_levels(told, sector, kLeastEvidence);
-  for (std::size_t i = 0; i < levels.size(); ++i) waters[of_told[i]] = std::move(levels[i]);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (told[i].asked) waters[of_told[i] - first] = std::move(levels[i]);
+  }
   return waters;
 }
 
@@ -38,8 +44,9 @@ Result<WaterLevels> GroupWater::of(std::int64_t ping_index) {
       auto ping = engine_.is_bad(i) ? Result<StagedPing>(fail(ErrorCode::format, "bad")) : engine_.staged(i);
       window.push_back(ping ? std::make_shared<StagedPing>(std::move(*ping)) : nullptr);
     }
-    waters_ = waters_of(window, engine_.sector());
-    waters_.erase(waters_.begin(), waters_.begin() + (first - from));
+    const auto begin = static_cast<std::size_t>(first - from);
+    const auto end = static_cast<std::size_t>(std::min(engine_.pings(), first + kGroupPings) - from);
+    waters_ = waters_of(window, begin, end, engine_.sector());
     group_ = group;
   }
   const auto& water = waters_[static_cast<std::size_t>(ping_index - first)];

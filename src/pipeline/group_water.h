@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,10 +18,11 @@ namespace sonar {
 inline constexpr std::int64_t kGroupPings = 8;
 inline constexpr std::int64_t kGroupSide = 3;
 
-/// What the pings of a window tell of their water.
-/// window  in order; null = bad or unreadable
-/// out     [of the window]; none for those that are not there; reduced ones bring their own
-[[nodiscard]] std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_ptr<StagedPing>> window,
+/// The water of the pings first .. end - 1, told by them and those up to kGroupSide before and behind.
+/// pings   in order; null = bad or unreadable
+/// out     [of those asked for]; none for those that are not there; reduced ones bring their own
+[[nodiscard]] std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_ptr<StagedPing>> pings,
+                                                                std::size_t first, std::size_t end,
                                                                 const Sector& sector);
 
 /// The water by which detection judged a ping of an observation, worked out again for one ping after the other.

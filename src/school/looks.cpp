@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "base/units.h"
 #include "model/school.h"
 #include "school/mask_shape.h"
 
@@ -100,8 +101,6 @@ double middle_of_piece(const IndexBox& box, int piece) {
   return box.first_sample + piece * kPiece + (kPiece - 1) / 2.0;
 }
 
-int nearest(double index) { return static_cast<int>(std::lround(index)); }
-
 }  // namespace
 
 std::vector<Look> looks_of(const SchoolTrack& school, std::span<const DetectedPing> pings, const Sector& sector) {
@@ -180,7 +179,7 @@ MeanEcho mean_echo(const Look& here, std::span<const Neighbour> neighbours, cons
         const Along along(here, *neighbour.look, way, sector, box.first_fan + f, box.first_beam + b, box);
         for (int i = 0; i < shape.samples; ++i) {
           const SectorIndex then = along.at(middle_of_piece(box, i));
-          const Heard one = heard(*neighbour.look, nearest(then.fan), nearest(then.beam), nearest(then.sample));
+          const Heard one = heard(*neighbour.look, nearest_int(then.fan), nearest_int(then.beam), nearest_int(then.sample));
           if (one.looks == 0.0F) continue;
           mean.own_sv(f, b, i) += static_cast<float>(neighbour.weight) * one.own_sv;
           weight(f, b, i) += static_cast<float>(neighbour.weight);

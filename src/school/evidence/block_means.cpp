@@ -14,7 +14,7 @@ namespace {
 constexpr double kBlock_m = 5.5;
 
 std::int16_t within_counts(double counts) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(counts, double{kMinCount}, double{kMaxCount})));
+  return static_cast<std::int16_t>(nearest_int(std::clamp(counts, double{kMinCount}, double{kMaxCount})));
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ Array3<std::int16_t> block_means(View3<const std::int16_t> sv, View3<const Sampl
         ++sound;
       }
       if (2 * sound < samples || !(sum > 0.0)) continue;
-      out[static_cast<std::size_t>(block)] = within_counts(counts_from_db(db_from_linear(sum / sound)));
+      out[static_cast<std::size_t>(block)] = count_from_linear(sum / sound);
     }
   }
   return means;

@@ -83,7 +83,9 @@ class Window {
       for (std::size_t p = 0; p < pings_.size(); ++p) mask(p);
     }
     std::vector<WaterLevels> out;
-    for (std::size_t p = 0; p < pings_.size(); ++p) out.push_back(answer(p, least));
+    for (std::size_t p = 0; p < pings_.size(); ++p) {
+      out.push_back(pings_[p].asked ? answer(p, least) : WaterLevels{});
+    }
     return out;
   }
 
@@ -210,29 +212,36 @@ class Window {
     own_ = statistics_of_places(evidence_, masked_, places_);
   }
 
-  [[nodiscard]] double evidence(std::size_t p, int row, int block) const {
-    const std::int16_t value = evidence_[p].view().row(row)[static_cast<std::size_t>(block)];
-    const PlaceStatistics& own = own_[cell(row / shape_.beams, places_.of(p, row, block))];
-    if (value == kNoData || own.middle == kNoData) return -std::numeric_limits<double>::infinity();
-    return (value - std::max<int>(0, own.middle)) / width(own, 128.0);
+  /// Calls act(row, block, evidence) for the blocks of a ping that have so much at least.
+  template <class Act>
+  void for_each_clear(std::size_t p, double least, const Act& act) const {
+    std::vector<int> needed(cells(), std::numeric_limits<int>::max());  // most blocks are told by this alone
+    for (std::size_t i = 0; i < cells(); ++i) {
+      if (own_[i].middle == kNoData) continue;
+      needed[i] = static_cast<int>(std::max<int>(0, own_[i].middle) + least * width(own_[i], 128.0));
+    }
+    const auto values = evidence_[p].all();
+    for_each_block(p, [&](std::size_t i, std::size_t cell) {
+      if (values[i] < needed[cell] || values[i] == kNoData) return;
+      const PlaceStatistics& own = own_[cell];
+      const double evidence = (values[i] - std::max<int>(0, own.middle)) / width(own, 128.0);
+      const auto blocks = static_cast<std::size_t>(shape_.samples);
+      if (evidence >= least) act(static_cast<int>(i / blocks), static_cast<int>(i % blocks), evidence);
+    });
   }
 
   /// Once masked, always masked: a school that keeps its place would else have a say again as soon as it has none.
   void mask(std::size_t p) {
     Marks& marks = masked_[p];
-    for (int fan = 0; fan < shape_.fans; ++fan) {
-      for (int beam = 0; beam < shape_.beams; ++beam) {
-        for (int block = 0; block < shape_.samples; ++block) {
-          if (evidence(p, fan * shape_.beams + beam, block) < kMasked) continue;
-          for (int f = std::max(0, fan - 1); f <= std::min(shape_.fans - 1, fan + 1); ++f) {
-            for (int b = std::max(0, beam - 1); b <= std::min(shape_.beams - 1, beam + 1); ++b) {
-              for (int s = std::max(0, block - 1); s <= std::min(shape_.samples - 1, block + 1); ++s)
-                marks(f, b, s) = 1;
-            }
-          }
+    for_each_clear(p, kMasked, [&](int row, int block, double /*evidence*/) {
+      const int fan = row / shape_.beams;
+      const int beam = row % shape_.beams;
+      for (int f = std::max(0, fan - 1); f <= std::min(shape_.fans - 1, fan + 1); ++f) {
+        for (int b = std::max(0, beam - 1); b <= std::min(shape_.beams - 1, beam + 1); ++b) {
+          for (int s = std::max(0, block - 1); s <= std::min(shape_.samples - 1, block + 1); ++s) marks(f, b, s) = 1;
         }
       }
-    }
+    });
   }
 
   [[nodiscard]] WaterLevels answer(std::size_t p, double least) const {
@@ -247,12 +256,9 @@ class Window {
       out.reach.push_back(spread_[i].middle == kNoData ? std::int16_t{0}
                                                        : static_cast<std::int16_t>(width(spread_[i], 0.0)));
     }
-    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-      for (int block = 0; block < shape_.samples; ++block) {
-        const double found = evidence(p, row, block);
-        if (found >= least) out.cells.push_back({row, block, static_cast<float>(found)});
-      }
-    }
+    for_each_clear(p, least, [&](int row, int block, double evidence) {
+      out.cells.push_back({row, block, static_cast<float>(evidence)});
+    });
     return out;
   }
 

@@ -18,6 +18,7 @@ struct WaterPing {
   const Array3<std::int16_t>* means = nullptr;  ///< block_means() of block_samples()
   const Seabed* seabed = nullptr;               ///< null = none found
   Background noise;
+  bool asked = true;  ///< false = it tells of the others' water alone
 };
 
 /// The water of neighbouring pings, and what stands out of it in each: the null model of that place and hour.
@@ -28,7 +29,7 @@ struct WaterPing {
 /// downwards, which schools do not move; what stands out is left out of the next looks, which take that upwards.
 /// window  pings in order; all of one shape
 /// least   cells of less evidence are not listed
-/// out     [ping of the window]
+/// out     [ping of the window]; nothing known of those that are not asked for
 /// threads pure
 /// cost    about 1 ms for each ping of 25 x 20 x 1320
 [[nodiscard]] std::vector<WaterLevels> water_levels(std::span<const WaterPing> window, const Sector& sector,

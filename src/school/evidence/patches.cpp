@@ -2,7 +2,6 @@
 #include "school/evidence/patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "base/units.h"
@@ -62,8 +61,8 @@ std::vector<std::int8_t> local_patches(View3<const std::int16_t> excess) {
   std::vector<std::int8_t> patches(sum.size(), 0);
   for (std::size_t i = 0; i < sum.size(); ++i) {
     if (number[i] < kLeastShare * kBox) continue;
-    const float steps = std::round(sum[i] / number[i] / static_cast<float>(kPatchStep));
-    patches[i] = static_cast<std::int8_t>(std::clamp(steps, -127.0F, 127.0F));
+    const float steps = sum[i] / number[i] / static_cast<float>(kPatchStep);
+    patches[i] = static_cast<std::int8_t>(nearest_int(static_cast<double>(std::clamp(steps, -127.0F, 127.0F))));
   }
   return patches;
 }
