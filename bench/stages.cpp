@@ -161,7 +161,7 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
   const std::vector<DetectedPing> detected = time_groups(observation, engine, recipe, watch);
   const auto pings = static_cast<double>(detected.size());
   TrackParams params = recipe.track;
-  params.evidence = evidence_wanted(recipe.detect);
+  params.confirmation.evidence = evidence_wanted(recipe.detect);
   for (int repeat = 0; repeat < 5; ++repeat) {
     Tracks tracks;
     watch.time(

@@ -143,7 +143,7 @@ CommandGround ground_of(Engine& engine, PingReach limits) {
   ground.grid = &engine.grid();
   for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
   ground.limits = limits;
-  ground.least_pings = engine.recipe().track.confirm_pings;
+  ground.least_pings = engine.recipe().track.confirmation.pings;
   return ground;
 }
 

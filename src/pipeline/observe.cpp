@@ -47,10 +47,12 @@ void add_navigation(Hasher& hasher, const PingNavigation& at) {
 }
 
 Tracks tracked(const Engine& engine, std::span<const DetectedPing> pings) {
+  const DetectParams& detect = engine.recipe().detect;
   TrackParams params = engine.recipe().track;
-  params.evidence = evidence_wanted(engine.recipe().detect);
+  params.confirmation.evidence = evidence_wanted(detect);
+  params.left_out = detect.left_out;
   Tracks tracks = track(pings, engine.sector(), engine.grid().channel, params);
-  steady_masks(tracks.schools, pings, engine.sector(), engine.recipe().detect.tolerance_db);
+  steady_masks(tracks.schools, pings, engine.sector(), detect.tolerance_db);
   return tracks;
 }
 
@@ -92,11 +94,11 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
   if (!product.grid) return;
   const int fans = product.grid->grid.fans();
   const int beams = product.grid->grid.beams();
-  if (fans >= params.min_fans && beams >= params.min_beams) return;
+  if (fans >= params.size.min_fans && beams >= params.size.min_beams) return;
   product.diagnostics.push_back(
       {DiagnosticCode::grid_too_small, "", -1, -1,
        fmt::format("fans x beams: {} x {}; schools are looked for where there are {} x {} at least", fans, beams,
-                   params.min_fans, params.min_beams)});
+                   params.size.min_fans, params.size.min_beams)});
 }
 
 void note_pings_left_out(PingReach reach, ObservationProduct& product) {

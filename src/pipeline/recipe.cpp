@@ -122,10 +122,14 @@ Result<Recipe> recipe_from_text(std::string_view text) {
   for (const int length : {recipe.median.kernel_fans, recipe.median.kernel_beams, recipe.median.kernel_samples}) {
     if (length % 2 == 0) return fail(ErrorCode::bad_parameter, fmt::format("median: kernel {} is not odd", length));
   }
-  if (recipe.track.confirm_pings > recipe.track.confirm_window) {
+  if (recipe.track.confirmation.pings > recipe.track.confirmation.window) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("track.confirm_pings = {} is more than track.confirm_window = {}: no school could be seen",
-                            recipe.track.confirm_pings, recipe.track.confirm_window));
+                            recipe.track.confirmation.pings, recipe.track.confirmation.window));
+  }
+  if (const std::string_view none = no_judge_in(recipe.detect.left_out); !none.empty()) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("detect.left_out: no judge {}; there are {}", none, fmt::join(kJudgeNames, ", ")));
   }
   if (auto valid = check_beams(recipe.calibration.beams); !valid) return pass_on(valid);
   return recipe;

@@ -50,7 +50,7 @@ TEST(Recipe, PaperKeepsToThePaper) {
 TEST(Recipe, PartOfARecipeKeepsTheOtherDefaults) {
   const auto recipe = recipe_from_text(R"({"recipe_version":1,"detect":{"min_range_m":8}})");
   ASSERT_TRUE(recipe) << recipe.error().text;
-  EXPECT_EQ(recipe->detect.min_range_m, 8.0);
+  EXPECT_EQ(recipe->detect.size.min_range_m, 8.0);
   EXPECT_EQ(recipe->detect.tolerance_db, Recipe{}.detect.tolerance_db);
 }
 
@@ -79,6 +79,8 @@ TEST(Recipe, RefusesByName) {
            Refusal{R"({"recipe_version":1,"detect":{"min_range_m":"low"}})", ErrorCode::format, "detect.min_range_m"},
            Refusal{R"({"recipe_version":1,"median":{"kernel_fans":65}})", ErrorCode::bad_parameter,
                    "median.kernel_fans"},
+           Refusal{R"({"recipe_version":1,"detect":{"left_out":"ship, shp"}})", ErrorCode::bad_parameter,
+                   "detect.left_out: no judge shp"},
            Refusal{R"({"recipe_version":1,"track":{"confirm_pings":6}})", ErrorCode::bad_parameter,
                    "track.confirm_window = 5"},
            Refusal{R"({"recipe_version":1,"survey":{"sound_speed_mps":148}})", ErrorCode::bad_parameter,

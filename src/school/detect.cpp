@@ -13,8 +13,7 @@
 #include "school/edges.h"
 #include "school/evidence/seeds.h"
 #include "school/grow.h"
-#include "school/judge/prominence.h"
-#include "school/judge/size.h"
+#include "school/judge/judges.h"
 #include "school/settle_members.h"
 #include "school/thresholder.h"
 
@@ -66,7 +65,7 @@ class PingDetector {
   [[nodiscard]] std::optional<Reason> size_of(const Runs& runs) const {
     Detection part;
     part.box = box_of_runs(runs, echo_.sv.shape().beams);
-    return judge_size(echo_, part, params_);
+    return ask(kSizeJudge, params_, echo_, part);
   }
   [[nodiscard]] bool large_enough(const Runs& runs) const { return !runs.empty() && !size_of(runs); }
 
@@ -175,7 +174,7 @@ class PingDetector {
     Detection found;
     found.reference_db = reference_db;
     found.threshold_db = level_db;
-    if (const auto reason = judge_prominence(echo_, found, params_)) {
+    if (const auto reason = ask(kProminenceJudge, params_, echo_, found)) {
       refuse(part, *reason);
       return false;
     }
@@ -219,7 +218,7 @@ class PingDetector {
 
   void take(Detection detection) {
     if (detection.mask.empty() || !(detection.volume_m3 > 0.0)) return;
-    if (const auto reason = judge_size(echo_, detection, params_)) {
+    if (const auto reason = ask(kSizeJudge, params_, echo_, detection)) {
       refuse(detection.mask.runs, *reason);
     } else if (detection.evidence >= kLeastEvidence) {
       held_ = true;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "base/describe.h"
+#include "school/judge/judge_params.h"
 
 namespace sonar {
 
 struct DetectParams {
   double false_alarm = 2.0;
   double tolerance_db = 10.0;
-  double min_range_m = 5.0;
-  int min_beams = 2;
-  int min_fans = 2;
+  SizeParams size = {};
+  std::string left_out = {};
 };
 
 template <class Visitor>
@@ -24,11 +26,9 @@ void describe(Visitor& v, DetectParams& p) {
            "schools that an hour of water without fish may show; fewer cost weak schools; calibrated from 2 to 20"});
   v.field("tolerance_db", p.tolerance_db,
           {.unit = "dB", .min = 0.1, .max = 60, .text = "members lie no deeper below the school's reference"});
-  v.field("min_range_m", p.min_range_m,
-          {.unit = "m", .min = 0, .max = 500, .text = "least extent of a school along range"});
-  v.field("min_beams", p.min_beams,
-          {.unit = "beams", .min = 1, .max = 1000, .text = "least number of beams of a school"});
-  v.field("min_fans", p.min_fans, {.unit = "fans", .min = 1, .max = 1000, .text = "least number of fans of a school"});
+  describe(v, p.size);
+  v.field("left_out", p.left_out,
+          {.text = "judges that are not asked, commas between: size, prominence, confirmation, ship, level, surface"});
 }
 
 /// Evidence asked of a school over its sights, each counted by what it has above kChanceEvidence, for a rate of

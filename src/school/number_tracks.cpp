@@ -33,7 +33,7 @@ std::array<std::int64_t, 3> order_key(const OpenTrack& track, std::span<const De
 
 std::optional<Reason> refused(const TrackEcho& track, const TrackParams& params) {
   for (const TrackJudge& judge : kTrackJudges) {
-    if (auto reason = judge.judge(track, params)) return reason;
+    if (auto reason = ask(judge, params, track)) return reason;
   }
   return std::nullopt;
 }

@@ -13,11 +13,11 @@
 #include "geo/frames.h"
 #include "geo/sector.h"
 #include "school/detect.h"
+#include "school/judge/judge_params.h"
 
 namespace sonar {
 
 struct TrackParams {
-  double evidence = 0.0;  ///< of a school over its sights; not a parameter: it follows from DetectParams::false_alarm
   double acceleration_mps2 = 0.05;
   double initial_speed_mps = 2.0;
   double position_share = 0.08;
@@ -25,11 +25,11 @@ struct TrackParams {
   double gate_sigmas = 4.0;
   int max_lost_pings = 3;
   double max_lost_s = 120.0;
-  int confirm_pings = 3;
-  int confirm_window = 5;
+  ConfirmationParams confirmation = {};
   bool divide_joined = true;
-  double ship_drift_share = 0.3;
-  double min_level_db = -77.0;  ///< a fish of 10 cm (TS -50 dB) in 500 m3, what a beam tells apart at 250 m
+  ShipParams ship = {};
+  LevelParams level = {};
+  std::string left_out = {};  ///< judges that are not asked; not a parameter: DetectParams::left_out
 
   static constexpr double overlap_weight = 4.0;  ///< cost of no overlap with the moved mask
   static constexpr double size_weight = 1.0;     ///< cost of one e-fold of volume
@@ -47,13 +47,7 @@ struct TrackParams {
       0.25;  ///< ... and gets at least this share of its volume when last alone
   static constexpr double divide_both_share =
       0.7;  ///< ... where the detection is this share of both schools' volumes or more
-  static constexpr int divide_both_pings = 2;    ///< pings, ... or so often, which is enough ...
-  static constexpr double ship_least_mps = 0.5;  ///< m s-1, ... of a ship that does not drift with the water
-  static constexpr double ship_least_m = 20.0;   ///< m, ... and went so far
-  static constexpr double ship_cut_m =
-      200.0;                               ///< m, ... or, beside what the sector cuts, farther than schools are long
-  static constexpr double fish_mps = 1.0;  ///< m s-1, standard deviation of a school's velocity, per axis
-  static constexpr double fish_chance = 0.01;  ///< of schools go with the ship by chance, and are refused
+  static constexpr int divide_both_pings = 2;  ///< pings, ... or so often, which is enough ...
 };
 
 template <class Visitor>
@@ -71,22 +65,11 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "pings", .min = 0, .max = 100, .text = "a school unseen for so many pings may be found again"});
   v.field("max_lost_s", p.max_lost_s,
           {.unit = "s", .min = 1, .max = 86400, .text = "... if it was seen no longer ago than this"});
-  v.field("confirm_pings", p.confirm_pings,
-          {.unit = "pings", .min = 1, .max = 100, .text = "a school is seen at least so often ..."});
-  v.field("confirm_window", p.confirm_window,
-          {.unit = "pings", .min = 1, .max = 100, .text = "... in so many neighbouring pings"});
+  describe(v, p.confirmation);
   v.field("divide_joined", p.divide_joined,
           {.text = "schools seen apart before that meet in one detection share it among them"});
-  v.field("ship_drift_share", p.ship_drift_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "no school: moves by less beside the ship than this share of the ship's way; 0 = not looked at"});
-  v.field("min_level_db", p.min_level_db,
-          {.unit = "dB",
-           .min = -200,
-           .max = 0,
-           .text = "no school: the Sv of its members together is lower; lower for krill"});
+  describe(v, p.ship);
+  describe(v, p.level);
 }
 
 /// The detections of one ping, for association.

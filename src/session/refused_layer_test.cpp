@@ -19,7 +19,7 @@ using testing::Not;
 /// No school is 15 fans high: the survey's schools, clean and bright, are all refused, by judge size.
 Recipe tall() {
   Recipe recipe;
-  recipe.detect.min_fans = 15;
+  recipe.detect.size.min_fans = 15;
   return recipe;
 }
 

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class Refused : public WindowAtWork {
  protected:
   void SetUp() override {
-    recipe_.detect.min_fans = 15;  // no school is so high: judge size refuses the survey's
+    recipe_.detect.size.min_fans = 15;  // no school is so high: judge size refuses the survey's
     WindowAtWork::SetUp();
   }
   QTreeView& list() { return *view("refused")->findChild<QTreeView*>("rows"); }

@@ -47,15 +47,15 @@ std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<con
 
 }  // namespace
 
-std::optional<Reason> judge_confirmation(const TrackEcho& track, const TrackParams& params) {
+std::optional<Reason> judge_confirmation(const TrackEcho& track, const ConfirmationParams& params) {
   const auto& [tracked, pings] = track;
-  const std::size_t sights = most_sights(tracked, pings, params.confirm_window);
-  if (sights < static_cast<std::size_t>(params.confirm_pings)) {
-    return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.confirm_pings), "sights"};
+  const std::size_t sights = most_sights(tracked, pings, params.window);
+  if (sights < static_cast<std::size_t>(params.pings)) {
+    return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.pings), "sights"};
   }
   const double evidence = evidence_together(tracked, pings);
   // so many of the clearest are always enough
-  const double wanted = std::min(params.evidence, params.confirm_pings * (kMostEvidence - kChanceEvidence));
+  const double wanted = std::min(params.evidence, params.pings * (kMostEvidence - kChanceEvidence));
   if (evidence >= wanted) return std::nullopt;
   return Reason{"confirmation", evidence, wanted, kAllSights};
 }

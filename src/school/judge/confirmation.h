@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "school/judge/judge_params.h"
 #include "school/judge/track_echo.h"
 
 namespace sonar {
@@ -14,6 +15,6 @@ inline constexpr std::string_view kAllSights = "evidence of all sights";
 /// Judge `confirmation`: a school is seen in pings near each other, and what its sights show together is more than chance
 /// gives. Faint sights count for little and many of them for much; a ping that shows none counts against it.
 /// out  the figure is the most sights in a window, or the evidence of all
-[[nodiscard]] std::optional<Reason> judge_confirmation(const TrackEcho& track, const TrackParams& params);
+[[nodiscard]] std::optional<Reason> judge_confirmation(const TrackEcho& track, const ConfirmationParams& params);
 
 }  // namespace sonar

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "school/judge/judges.h"
 #include "school/test_scene.h"
 #include "school/track.h"
 
@@ -53,7 +54,7 @@ TEST(JudgeSize, ASingleFishIsNoSchool) {
 
 TEST(JudgeSize, WithoutItTheFishIsASchool) {
   Scene scene = single_fish();
-  EXPECT_EQ(scene.look(4, {.min_range_m = 0.0, .min_beams = 1, .min_fans = 1}).size(), 1U);
+  EXPECT_EQ(scene.look(4, {.size = {.min_range_m = 0.0, .min_beams = 1, .min_fans = 1}}).size(), 1U);
 }
 
 constexpr double kInterval_s = 5.0;
@@ -83,7 +84,7 @@ Tracks seen_in(const std::vector<int>& pings, const TrackParams& params, double 
     detected.push_back(std::move(ping));
   }
   TrackParams asked = params;
-  asked.evidence = 15.0;
+  asked.confirmation.evidence = 15.0;
   return track(detected, sector, test::grid().channel, asked);
 }
 
@@ -98,7 +99,7 @@ TEST(JudgeConfirmation, WhatOnePingShowsIsNoSchool) {
 }
 
 TEST(JudgeConfirmation, WithoutItItIsASchool) {
-  EXPECT_EQ(seen_in({4, 5}, {.confirm_pings = 1}, 0.0).schools.size(), 1U);
+  EXPECT_EQ(seen_in({4, 5}, {.confirmation = {.pings = 1}}, 0.0).schools.size(), 1U);
 }
 
 TEST(JudgeConfirmation, SightsMustLieNearEachOther) {
@@ -129,7 +130,7 @@ TEST(JudgeConfirmation, PingsThatNobodyCouldReadDoNot) {
 
 // Another sounder's pulse in two pings is a school to those who ask no more.
 TEST(JudgeConfirmation, AsManyClearSightsAsAreAskedForAreEnough) {
-  EXPECT_EQ(seen_in({4}, {.confirm_pings = 1}, 0.0).schools.size(), 1U);
+  EXPECT_EQ(seen_in({4}, {.confirmation = {.pings = 1}}, 0.0).schools.size(), 1U);
 }
 
 // Bubbles that the hull carries along.
@@ -142,7 +143,7 @@ TEST(JudgeShip, WhatStaysWithTheShipIsNoSchool) {
 }
 
 TEST(JudgeShip, WithoutItItIsASchool) {
-  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.ship_drift_share = 0.0}).schools.size(), 1U);
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.ship = {.drift_share = 0.0}}).schools.size(), 1U);
 }
 
 // A few fish far from each other in quiet water: as clear as can be.
@@ -156,7 +157,7 @@ TEST(JudgeLevel, WhatIsFainterThanFishTogetherIsNoSchool) {
 }
 
 TEST(JudgeLevel, WithoutItItIsASchool) {
-  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.min_level_db = -90.0}, 0.0, 10, -82.0).schools.size(), 1U);
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.level = {.min_level_db = -90.0}}, 0.0, 10, -82.0).schools.size(), 1U);
 }
 
 // Bubbles under the surface, 60 m away, as a ship at rest sees them: in the two top fans, 7 to 14 m deep.
@@ -171,6 +172,24 @@ TEST(JudgeSurface, WhatHangsFromTheSurfaceIsNoSchool) {
 
 TEST(JudgeSurface, WhatIsTooLoudForBubblesIsASchool) {
   EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {}, 0.0, 18, -42.0).schools.size(), 1U) << "a school that swims at the surface";
+}
+
+TEST(JudgeSurface, LeftOutItIsASchool) {
+  EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7}, {.left_out = "ship, surface"}, 0.0, 18).schools.size(), 1U);
+  EXPECT_TRUE(seen_in({2, 3, 4, 5, 6, 7}, {.left_out = "ship, level"}, 0.0, 18).schools.empty());
+}
+
+TEST(Judges, ListsOfThem) {
+  EXPECT_TRUE(names_judge("size,ship", "ship"));
+  EXPECT_TRUE(names_judge(" ship ,size", "ship"));
+  EXPECT_FALSE(names_judge("ships", "ship"));
+  EXPECT_FALSE(names_judge("", "ship"));
+  EXPECT_EQ(no_judge_in(""), "");
+  EXPECT_EQ(no_judge_in("size, prominence,confirmation ,ship,level,surface,"), "");
+  EXPECT_EQ(no_judge_in("size, no one"), "no one");
+  for (const TrackJudge& judge : kTrackJudges) EXPECT_EQ(no_judge_in(judge.name), "");
+  EXPECT_EQ(no_judge_in(kSizeJudge.name), "");
+  EXPECT_EQ(no_judge_in(kProminenceJudge.name), "");
 }
 
 TEST(JudgeSurface, WhatHasWaterAboveItIsASchool) {

@@ -9,7 +9,7 @@
 
 namespace sonar {
 
-std::optional<Reason> judge_level(const TrackEcho& track, const TrackParams& params) {
+std::optional<Reason> judge_level(const TrackEcho& track, const LevelParams& params) {
   std::vector<double> level_db;
   for (const TrackedDetection& sight : track.sights) level_db.push_back(track.detection(sight).reference_db);
   const double middle_db = middle_of(std::move(level_db));

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "school/judge/judge_params.h"
 #include "school/judge/track_echo.h"
 
 namespace sonar {
@@ -11,6 +12,6 @@ namespace sonar {
 /// taken together, are fainter than a single small fish in such a volume, it is plankton, bubbles that linger, or a few
 /// fish far from each other, however clearly it stands out of quiet water.
 /// out  the figure is its reference, median over its sights
-[[nodiscard]] std::optional<Reason> judge_level(const TrackEcho& track, const TrackParams& params);
+[[nodiscard]] std::optional<Reason> judge_level(const TrackEcho& track, const LevelParams& params);
 
 }  // namespace sonar

@@ -3,8 +3,7 @@
 
 namespace sonar {
 
-std::optional<Reason> judge_prominence(const PingEcho& /*echo*/, const Detection& detection,
-                                       const DetectParams& /*params*/) {
+std::optional<Reason> judge_prominence(const PingEcho& /*echo*/, const Detection& detection) {
   const double above_db = detection.reference_db - detection.threshold_db;
   if (above_db >= kLeastProminence_db) return std::nullopt;
   return Reason{"prominence", above_db, kLeastProminence_db, "dB"};

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "school/detect_params.h"
 #include "school/detection.h"
 #include "school/judge/ping_echo.h"
 
@@ -14,7 +13,6 @@ inline constexpr double kLeastProminence_db = 6.0;
 
 /// Judge `prominence`: what stands out of a stronger neighbour's skirt, or of the water beside it, by no more than fading does
 /// is a part of that. The figure is its reference above its threshold, the level at which it was found.
-[[nodiscard]] std::optional<Reason> judge_prominence(const PingEcho& echo, const Detection& detection,
-                                                     const DetectParams& params);
+[[nodiscard]] std::optional<Reason> judge_prominence(const PingEcho& echo, const Detection& detection);
 
 }  // namespace sonar

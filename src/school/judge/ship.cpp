@@ -12,6 +12,11 @@
 namespace sonar {
 namespace {
 
+constexpr double kLeast_mps = 0.5;     ///< of a ship that does not drift with the water
+constexpr double kLeast_m = 20.0;      ///< ... and went so far
+constexpr double kLeastCut_m = 200.0;  ///< ... or, beside what the sector cuts, farther than schools are long
+constexpr double kFish_mps = 1.0;      ///< standard deviation of a school's velocity, per axis
+constexpr double kFishChance = 0.01;   ///< of schools go with the ship by chance, and are refused
 constexpr std::int32_t kCutAside = kEdgeFore | kEdgeAft;
 
 struct Sight {
@@ -54,14 +59,14 @@ double way_m(const std::vector<Sight>& sights, const Place& place) {
 
 /// Share of schools whose velocity lies so near the ship's.
 double chance(double ship_mps, double drift_mps) {
-  const double variance = TrackParams::fish_mps * TrackParams::fish_mps;
+  const double variance = kFish_mps * kFish_mps;
   return drift_mps * drift_mps / (2.0 * variance) * std::exp(-ship_mps * ship_mps / (2.0 * variance));
 }
 
 }  // namespace
 
-std::optional<Reason> judge_ship(const TrackEcho& track, const TrackParams& params) {
-  if (params.ship_drift_share <= 0.0 || track.sights.size() < 3) return std::nullopt;
+std::optional<Reason> judge_ship(const TrackEcho& track, const ShipParams& params) {
+  if (params.drift_share <= 0.0 || track.sights.size() < 3) return std::nullopt;
   std::vector<Sight> sights;
   bool cut = false;
   const DetectedPing& first = track.pings.front();
@@ -75,19 +80,19 @@ std::optional<Reason> judge_ship(const TrackEcho& track, const TrackParams& para
   }
   const double took_s = sights.back().time_s - sights.front().time_s;
   const double ship_m = way_m(sights, [](const Sight& s) { return s.ship; });
-  if (ship_m < (cut ? TrackParams::ship_cut_m : TrackParams::ship_least_m)) return std::nullopt;
-  if (ship_m < TrackParams::ship_least_mps * took_s) return std::nullopt;
+  if (ship_m < (cut ? kLeastCut_m : kLeast_m)) return std::nullopt;
+  if (ship_m < kLeast_mps * took_s) return std::nullopt;
   // a ship that circles a school keeps it abeam
-  if (way_m(sights, [](const Sight& s) { return s.there; }) < (1.0 - params.ship_drift_share) * ship_m) {
+  if (way_m(sights, [](const Sight& s) { return s.there; }) < (1.0 - params.drift_share) * ship_m) {
     return std::nullopt;
   }
   const double drift_mps = std::hypot(rate(sights, [](const Sight& s) { return s.seen.x; }),
                                       rate(sights, [](const Sight& s) { return s.seen.y; }));
   const double share = drift_mps * took_s / ship_m;
-  if (share > params.ship_drift_share || chance(ship_m / took_s, drift_mps) > TrackParams::fish_chance) {
+  if (share > params.drift_share || chance(ship_m / took_s, drift_mps) > kFishChance) {
     return std::nullopt;
   }
-  return Reason{"ship", share, params.ship_drift_share, "share of the ship's way"};
+  return Reason{"ship", share, params.drift_share, "share of the ship's way"};
 }
 
 }  // namespace sonar

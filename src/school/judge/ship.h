@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "school/judge/judge_params.h"
 #include "school/judge/track_echo.h"
 
 namespace sonar {
@@ -12,6 +13,6 @@ namespace sonar {
 /// side lobes as well. Of what the sector's sides cut only a part is seen: its place tells something only after a way
 /// longer than schools are.
 /// out  the figure is its drift beside the ship as a share of the ship's way
-[[nodiscard]] std::optional<Reason> judge_ship(const TrackEcho& track, const TrackParams& params);
+[[nodiscard]] std::optional<Reason> judge_ship(const TrackEcho& track, const ShipParams& params);
 
 }  // namespace sonar

@@ -21,7 +21,7 @@ struct Passage {
   double turn_deg = 0.0;  ///< of the ship, each ping
 };
 
-bool stays(const Passage& passage, int pings = 5, const TrackParams& params = {}) {
+bool stays(const Passage& passage, int pings = 5, const ShipParams& params = {}) {
   std::vector<DetectedPing> detected;
   std::vector<TrackedDetection> tracked;
   Geographic place{60.0, 179.9999};
@@ -84,8 +84,8 @@ TEST(JudgeShip, ASchoolThatTheShipCirclesDoesNot) {
 TEST(JudgeShip, WhatTellsNothingIsLeftAlone) {
   EXPECT_FALSE(stays({.edges = kEdgeBottomFan | kEdgeFore})) << "one longer than the sector is wide seems to stay";
   EXPECT_FALSE(stays({}, 2)) << "two pings give no drift that could be doubted";
-  TrackParams off;
-  off.ship_drift_share = 0.0;
+  ShipParams off;
+  off.drift_share = 0.0;
   EXPECT_FALSE(stays({}, 5, off));
 }
 

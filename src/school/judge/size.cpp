@@ -3,7 +3,7 @@
 
 namespace sonar {
 
-std::optional<Reason> judge_size(const PingEcho& echo, const Detection& detection, const DetectParams& params) {
+std::optional<Reason> judge_size(const PingEcho& echo, const Detection& detection, const SizeParams& params) {
   const IndexBox& box = detection.box;
   if (box.fans() < params.min_fans) return Reason{"size", double(box.fans()), double(params.min_fans), "fans"};
   if (box.beams() < params.min_beams) return Reason{"size", double(box.beams()), double(params.min_beams), "beams"};

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "school/detect_params.h"
 #include "school/detection.h"
+#include "school/judge/judge_params.h"
 #include "school/judge/ping_echo.h"
 #include "school/judge/reason.h"
 
@@ -13,6 +13,6 @@ namespace sonar {
 /// Judge `size`: single fish, impulses and other sounders' pulses fill one beam, or are shorter along range than a
 /// school. The figure is the first extent that is too small.
 [[nodiscard]] std::optional<Reason> judge_size(const PingEcho& echo, const Detection& detection,
-                                               const DetectParams& params);
+                                               const SizeParams& params);
 
 }  // namespace sonar

@@ -22,7 +22,7 @@ constexpr double kHalfHeight = 2.236;
 
 }  // namespace
 
-std::optional<Reason> judge_surface(const TrackEcho& track, const TrackParams& /*params*/) {
+std::optional<Reason> judge_surface(const TrackEcho& track) {
   std::vector<double> reach_m;
   std::size_t attached = 0;
   double level_db = -1000.0;

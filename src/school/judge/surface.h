@@ -11,6 +11,6 @@ namespace sonar {
 /// hangs there in most of its sights, without water above it, and reaches no deeper may be either, unless it is too loud for bubbles: plumes in rows on
 /// the sea, clouds that the hull carries, the surface's own reverberation.
 /// out  the figure is the depth to which it reaches, median over its sights
-[[nodiscard]] std::optional<Reason> judge_surface(const TrackEcho& track, const TrackParams& params);
+[[nodiscard]] std::optional<Reason> judge_surface(const TrackEcho& track);
 
 }  // namespace sonar

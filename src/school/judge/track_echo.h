@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
-#include <string_view>
 
-#include "school/judge/reason.h"
 #include "school/track.h"
 
 namespace sonar {
@@ -23,12 +20,6 @@ struct TrackEcho {
   [[nodiscard]] const Detection& detection(const TrackedDetection& sight) const {
     return ping(sight).detections[static_cast<std::size_t>(sight.detections.front())];
   }
-};
-
-/// A judge of tracks: why one is no school, if it thinks so.
-struct TrackJudge {
-  std::string_view name;
-  std::optional<Reason> (*judge)(const TrackEcho& track, const TrackParams& params);
 };
 
 }  // namespace sonar
