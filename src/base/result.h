@@ -24,6 +24,11 @@ enum class ErrorCode {
   cancelled,      ///< stopped on request
 };
 
+/// Whether the system refused: nothing is said of the bytes, and the next try may read them.
+[[nodiscard]] constexpr bool is_of_system(ErrorCode code) {
+  return code == ErrorCode::io || code == ErrorCode::not_found || code == ErrorCode::no_space;
+}
+
 /// Where it happened; unset members are left out of the message.
 struct Where {
   std::string file;

@@ -82,7 +82,11 @@ Result<Engine::Power> Engine::power(std::int64_t ping_index) {
     if (const auto found = power_.find(ping_index); found != power_.end()) return found->second;
   }
   auto loaded = load_volume(survey_, observation_, static_cast<std::size_t>(ping_index));
-  if (!loaded) return pass_on(loaded);
+  if (!loaded) {
+    const std::scoped_lock lock(mutex_);
+    if (refusal_ && is_of_system(loaded.error().code)) refusal_ = pass_on(loaded);
+    return pass_on(loaded);
+  }
   auto made = std::make_shared<const PowerVolume>(std::move(*loaded));
   const std::scoped_lock lock(mutex_);
   if (power_.emplace(ping_index, made).second) power_order_.push_back(ping_index);
@@ -91,6 +95,11 @@ Result<Engine::Power> Engine::power(std::int64_t ping_index) {
     power_order_.erase(power_order_.begin());
   }
   return made;
+}
+
+Result<void> Engine::refusal() const {
+  const std::scoped_lock lock(mutex_);
+  return refusal_;
 }
 
 namespace {

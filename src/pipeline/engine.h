@@ -91,6 +91,10 @@ class Engine {
   [[nodiscard]] Result<FilteredPing> filtered(std::int64_t ping_index);
   [[nodiscard]] FilteredPing filtered(const StagedPing& ping) const;
 
+  /// What kept the system from reading a ping, the first such error that was met: what is made without that ping is no
+  /// product of the survey. Damage in what could be read is no refusal.
+  [[nodiscard]] Result<void> refusal() const;
+
  private:
   using Power = std::shared_ptr<const PowerVolume>;
   [[nodiscard]] MedianParams filter_box() const;
@@ -111,7 +115,8 @@ class Engine {
   std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
   std::vector<std::vector<float>>
       given_;  ///< [ping] background that a reduced file or a product brings along; else empty
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
+  Result<void> refusal_;
   std::size_t power_limit_;
   std::vector<std::int64_t> power_order_;
   std::unordered_map<std::int64_t, Power> power_;

@@ -153,6 +153,12 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
   return {};
 }
 
+/// Measured, and every ping could be read.
+Result<void> measure_all(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work) {
+  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return done;
+  return engine.refusal();
+}
+
 /// Under a calibration that a human chose: the product says what it was measured with.
 Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& product, Work& work) {
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
@@ -294,6 +300,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   if (automatic) {
     const std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    if (auto refused = engine.refusal(); !refused) return pass_on(refused);
     tracks = tracked(engine, detected);
     product.rejected = refused_echoes(engine, detected, tracks);
     state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
@@ -311,8 +318,8 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     const Recipe measuring = measuring_recipe(recipe, state);
     Engine calibrated(survey, observation, measuring);
     if (auto done = prepare_again(calibrated, reach, product, work); !done) return pass_on(done);
-    if (auto done = measure_schools(calibrated, std::move(schools), product, work); !done) return pass_on(done);
-  } else if (auto done = measure_schools(engine, std::move(schools), product, work); !done) {
+    if (auto done = measure_all(calibrated, std::move(schools), product, work); !done) return pass_on(done);
+  } else if (auto done = measure_all(engine, std::move(schools), product, work); !done) {
     return pass_on(done);
   }
   join_at_reach(product, recipe.merge);
@@ -353,7 +360,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
     }
     schools.push_back(std::move(school));
   }
-  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return pass_on(done);
+  if (auto done = measure_all(engine, std::move(schools), product, work); !done) return pass_on(done);
   note_schools_without_place(product);
   return product;
 }

@@ -49,8 +49,8 @@ struct ObserveOptions {
                                           const Recipe& recipe, const ObserveOptions& options);
 
 /// One observation from raw files to its product: detected or replayed schools, tracked, measured, summarised.
-/// Pings that cannot be read are marked bad and noted. Without a grid: track and notes only.
-/// errors   cancelled
+/// Damaged pings are marked bad and noted. Without a grid: track and notes only.
+/// errors   cancelled; io, not_found: the system did not let a ping be read, and may do so the next time
 /// memory   a few pings per thread, masks and rows; no volume outlives its ping
 [[nodiscard]] Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationFiles& observation,
                                                  const Recipe& recipe, const ObserveOptions& options, Work& work);
@@ -58,7 +58,7 @@ struct ObserveOptions {
 /// The same masks and decisions with every number worked out anew under this recipe's calibration, or that of the
 /// journal's last `calibrate`.
 /// before   the product whose masks are kept; must be of the same pings
-/// errors   mismatch: other pings or another grid; cancelled
+/// errors   mismatch: other pings or another grid; io, not_found as observe(); cancelled
 [[nodiscard]] Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,
                                                    const ObservationProduct& before, const Recipe& recipe,
                                                    const ObserveOptions& options, Work& work);

@@ -244,26 +244,6 @@ TEST_F(Observe, OneFanShowsNoSchoolsAndSaysWhy) {
   EXPECT_EQ(count(*product_, DiagnosticCode::grid_too_small), 0);
 }
 
-TEST_F(Observe, PingThatCannotBeReadAgainIsBadAndNoted) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path raw = folder.path() / "survey.raw";
-  for (const auto& file : std::filesystem::directory_iterator(folder_)) {
-    if (file.path().extension() == ".raw") std::filesystem::copy_file(file.path(), raw);
-  }
-  Work work(2);
-  const std::vector<std::filesystem::path> paths{raw};
-  const auto survey = open_survey(paths, {}, {}, {}, work);
-  ASSERT_TRUE(survey);
-  const ObservationFiles& whole = survey->observations.at(0);
-  ASSERT_EQ(whole.pings.size(), 24U);
-  std::filesystem::resize_file(raw, survey->entry(whole.pings[20]).offset);  // after the index was made
-  const auto product = observe(*survey, whole, {}, {{}, {}, "test"}, work);
-  ASSERT_TRUE(product);
-  for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(product->pings[i].bad, i >= 20) << "ping " << i;
-  EXPECT_EQ(count(*product, DiagnosticCode::ping_unreadable), 4);
-  EXPECT_EQ(count(*product, DiagnosticCode::unreadable), 0);
-}
-
 TEST_F(Observe, CancelledWorkGivesNoProduct) {
   Work work(2);
   work.cancel();

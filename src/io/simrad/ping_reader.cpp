@@ -68,15 +68,15 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
   const Where where{.file = source.name(), .offset = static_cast<std::int64_t>(entry.offset)};
   const auto size = source.size();
   if (!size) return pass_on(size);
-  if (entry.end <= entry.offset || entry.end > *size ||
-      entry.end - entry.offset > simrad::kMaxPingBytes + simrad::kMaxLength + 8) {
-    return fail(ErrorCode::format, "the file is shorter than when it was indexed", where);
+  if (entry.end <= entry.offset || entry.end - entry.offset > simrad::kMaxPingBytes + simrad::kMaxLength + 8) {
+    return fail(ErrorCode::format, "the index tells of no ping here", where);
   }
+  if (entry.end > *size) return fail(ErrorCode::io, "the file is shorter than when it was indexed", where);
   const auto block_size = static_cast<std::size_t>(entry.end - entry.offset);
   const std::shared_ptr<std::byte[]> block = pool.take(block_size);
   const auto got = source.read(entry.offset, {block.get(), block_size});
   if (!got) return pass_on(got);
-  if (*got < block_size) return fail(ErrorCode::format, "the file ends inside this ping", where);
+  if (*got < block_size) return fail(ErrorCode::io, "the file became shorter while it was read", where);
 
   Ping ping;
   ping.time = entry.time;
