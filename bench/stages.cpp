@@ -191,7 +191,8 @@ void time_run(const SurveyFiles& survey, const ObservationFiles& observation, co
              per_ping[2], per_ping[0], span_s * 1000.0 / (per_ping[2] * pings));
   rusage used{};
   if (getrusage(RUSAGE_SELF, &used) == 0) {
-    fmt::print("most memory: {:.0f} MB, {:.0f} pings\n", static_cast<double>(used.ru_maxrss) / 1000.0, pings);
+    fmt::print("most memory of this program, {1:.0f} pings: {0:.0f} MB\n", static_cast<double>(used.ru_maxrss) / 1000.0,
+               pings);
   }
 }
 

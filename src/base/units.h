@@ -39,7 +39,7 @@ inline constexpr double kKnot_mps = kMetresPerNauticalMile / 3600.0;
 
 namespace detail {
 
-/// 2^((k + shift) / 256), k = 0..255, by exp's series: alike on all machines.
+/// 2^((k + shift) / 256), k = 0..255, by exp's series: alike with every compiler.
 constexpr std::array<double, 256> powers_of_two(double shift) {
   std::array<double, 256> powers{};
   for (std::size_t k = 0; k < powers.size(); ++k) {

@@ -20,7 +20,7 @@
 namespace sonar {
 namespace {
 
-/// Power volumes of neighbouring pings that are kept: enough for a few threads and the background window of each.
+/// Power volumes of neighbouring pings that are kept, 25 of an MS70: enough for a few threads and both neighbours of each.
 constexpr std::size_t kPowerBytes = 48U << 20U;
 constexpr std::size_t kLeastPower = 3;
 /// Stages that are kept from detecting to measuring: most of a short observation. With it a run stays below 600 MB.

@@ -143,7 +143,8 @@ CommandGround ground_of(Engine& engine, PingReach limits) {
   ground.grid = &engine.grid();
   for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
   ground.limits = limits;
-  ground.least_pings = engine.recipe().track.confirmation.pings;
+  const Recipe& recipe = engine.recipe();
+  ground.least_pings = names_judge(recipe.detect.left_out, "confirmation") ? 1 : recipe.track.confirmation.pings;
   return ground;
 }
 

@@ -91,7 +91,7 @@ void note_events(const std::vector<TrackEvent>& events, const std::vector<School
 
 /// A grid that is narrower than any school that is looked for shows none.
 void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
-  if (!product.grid) return;
+  if (!product.grid || names_judge(params.left_out, "size")) return;
   const int fans = product.grid->grid.fans();
   const int beams = product.grid->grid.beams();
   if (fans >= params.size.min_fans && beams >= params.size.min_beams) return;

@@ -179,7 +179,8 @@ MeanEcho mean_echo(const Look& here, std::span<const Neighbour> neighbours, cons
         const Along along(here, *neighbour.look, way, sector, box.first_fan + f, box.first_beam + b, box);
         for (int i = 0; i < shape.samples; ++i) {
           const SectorIndex then = along.at(middle_of_piece(box, i));
-          const Heard one = heard(*neighbour.look, nearest_int(then.fan), nearest_int(then.beam), nearest_int(then.sample));
+          const Heard one =
+              heard(*neighbour.look, nearest_int(then.fan), nearest_int(then.beam), nearest_int(then.sample));
           if (one.looks == 0.0F) continue;
           mean.own_sv(f, b, i) += static_cast<float>(neighbour.weight) * one.own_sv;
           weight(f, b, i) += static_cast<float>(neighbour.weight);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
@@ -242,6 +243,24 @@ TEST_F(Observe, OneFanShowsNoSchoolsAndSaysWhy) {
   ASSERT_EQ(count(*product, DiagnosticCode::grid_too_small), 1);
   EXPECT_EQ(count(*product, DiagnosticCode::no_grid), 0);
   EXPECT_EQ(count(*product_, DiagnosticCode::grid_too_small), 0);
+}
+
+TEST_F(Observe, JudgesThatAreLeftOutAreNotAsked) {
+  Recipe strict;
+  strict.detect.size.min_fans = 15;  // no school is so high ...
+  Recipe patient;
+  patient.track.confirmation = {.pings = 100, .window = 100};  // ... or is seen so often
+  for (const auto& [recipe, judge] : {std::pair{strict, "size"}, std::pair{patient, "confirmation"}}) {
+    Work work(2);
+    const auto asked = observe(*survey_, observation(), recipe, {{}, {}, "test"}, work);
+    ASSERT_TRUE(asked);
+    EXPECT_TRUE(asked->schools.empty()) << judge;
+    Recipe without = recipe;
+    without.detect.left_out = judge;
+    const auto left_out = observe(*survey_, observation(), without, {{}, {}, "test"}, work);
+    ASSERT_TRUE(left_out);
+    EXPECT_GE(left_out->schools.size(), product_->schools.size()) << judge;
+  }
 }
 
 TEST_F(Observe, CancelledWorkGivesNoProduct) {

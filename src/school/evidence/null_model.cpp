@@ -212,7 +212,7 @@ class Window {
     own_ = statistics_of_places(evidence_, masked_, places_);
   }
 
-  /// Calls act(row, block, evidence) for the blocks of a ping that have so much at least.
+  /// Calls act(row, block, evidence) for the blocks of a ping that have so much at least. least > 0
   template <class Act>
   void for_each_clear(std::size_t p, double least, const Act& act) const {
     std::vector<int> needed(cells(), std::numeric_limits<int>::max());  // most blocks are told by this alone
@@ -222,7 +222,7 @@ class Window {
     }
     const auto values = evidence_[p].all();
     for_each_block(p, [&](std::size_t i, std::size_t cell) {
-      if (values[i] < needed[cell] || values[i] == kNoData) return;
+      if (values[i] < needed[cell]) return;  // kNoData is
       const PlaceStatistics& own = own_[cell];
       const double evidence = (values[i] - std::max<int>(0, own.middle)) / width(own, 128.0);
       const auto blocks = static_cast<std::size_t>(shape_.samples);

@@ -61,8 +61,8 @@ std::vector<std::int8_t> local_patches(View3<const std::int16_t> excess) {
   std::vector<std::int8_t> patches(sum.size(), 0);
   for (std::size_t i = 0; i < sum.size(); ++i) {
     if (number[i] < kLeastShare * kBox) continue;
-    const float steps = sum[i] / number[i] / static_cast<float>(kPatchStep);
-    patches[i] = static_cast<std::int8_t>(nearest_int(static_cast<double>(std::clamp(steps, -127.0F, 127.0F))));
+    const float steps = std::clamp(sum[i] / number[i] / static_cast<float>(kPatchStep), -127.0F, 127.0F);
+    patches[i] = static_cast<std::int8_t>(steps < 0.0F ? steps - 0.5F : steps + 0.5F);  // halves away from 0
   }
   return patches;
 }

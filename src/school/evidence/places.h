@@ -37,8 +37,6 @@ class Places {
   [[nodiscard]] float stretch(std::size_t ping, int row) const {
     return stretch_[ping].empty() ? 1.0F : stretch_[ping][static_cast<std::size_t>(row)];
   }
-  /// The place of a block's middle.
-  [[nodiscard]] int of(std::size_t ping, int row, int block) const { return at(block, stretch(ping, row)); }
   /// Calls act(block, place) for each of so many blocks of a beam.
   template <class Act>
   void for_each(std::size_t ping, int row, int blocks, const Act& act) const {
@@ -51,6 +49,7 @@ class Places {
   }
 
  private:
+  /// Of a block's middle.
   [[nodiscard]] int at(int block, float stretch) const {
     return std::min(count_ - 1, static_cast<int>((static_cast<float>(block) + 0.5F) * stretch));
   }

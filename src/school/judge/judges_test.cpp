@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string_view>
 #include <vector>
 
 #include "base/units.h"
@@ -55,6 +57,33 @@ TEST(JudgeSize, ASingleFishIsNoSchool) {
 TEST(JudgeSize, WithoutItTheFishIsASchool) {
   Scene scene = single_fish();
   EXPECT_EQ(scene.look(4, {.size = {.min_range_m = 0.0, .min_beams = 1, .min_fans = 1}}).size(), 1U);
+}
+
+TEST(JudgeSize, LeftOutTheFishIsASchool) {
+  Scene scene = single_fish();
+  EXPECT_EQ(scene.look(4, {.left_out = "size"}).size(), 1U);
+}
+
+/// A loud body with a fainter lobe, 14 m farther and 8 degrees aside: beams hear a hump in its skirt.
+Scene with_a_lobe() {
+  Scene scene = noisy();
+  scene.add(150.0, -15.0, 262.0, -40.0, {9, 9, 9});
+  scene.add(164.0, -15.0, 270.0, -56.0, {10, 5, 5});
+  return scene;
+}
+
+TEST(JudgeProminence, AHumpInASchoolsSkirtIsNoSchool) {
+  for (const std::uint64_t seed : {0U, 1U, 2U, 3U}) {
+    Scene scene = with_a_lobe();
+    EXPECT_EQ(scene.look(seed).size(), 1U) << seed;
+  }
+}
+
+TEST(JudgeProminence, WithoutItItIsASchool) {
+  for (const std::uint64_t seed : {0U, 1U, 2U, 3U}) {
+    Scene scene = with_a_lobe();
+    EXPECT_EQ(scene.look(seed, {.left_out = "prominence"}).size(), 2U) << seed;
+  }
 }
 
 constexpr double kInterval_s = 5.0;
@@ -187,9 +216,9 @@ TEST(Judges, ListsOfThem) {
   EXPECT_EQ(no_judge_in(""), "");
   EXPECT_EQ(no_judge_in("size, prominence,confirmation ,ship,level,surface,"), "");
   EXPECT_EQ(no_judge_in("size, no one"), "no one");
-  for (const TrackJudge& judge : kTrackJudges) EXPECT_EQ(no_judge_in(judge.name), "");
-  EXPECT_EQ(no_judge_in(kSizeJudge.name), "");
-  EXPECT_EQ(no_judge_in(kProminenceJudge.name), "");
+  std::set<std::string_view> names{kSizeJudge.name, kProminenceJudge.name};
+  for (const TrackJudge& judge : kTrackJudges) names.insert(judge.name);
+  EXPECT_EQ(names, std::set<std::string_view>(kJudgeNames.begin(), kJudgeNames.end()));
 }
 
 TEST(JudgeSurface, WhatHasWaterAboveItIsASchool) {
