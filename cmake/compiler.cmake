@@ -22,6 +22,20 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # At -O3 it takes "text" + std::string for an overlap (GCC bug 105329), and the end of a vector for its middle.
   target_compile_options(sonar_options INTERFACE $<$<CONFIG:Release>:-Wno-restrict> $<$<CONFIG:Release>:-Wno-stringop-overflow>)
 endif()
+# What an attacker's file could make of a mistake of ours: overruns are caught, and neither the table of functions nor the
+# stack can be written and run. No library is looked for beside where the system keeps them, and no program tells where it
+# was built.
+set(CMAKE_SKIP_RPATH ON)
+target_compile_options(sonar_options INTERFACE -fstack-protector-strong -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+target_link_options(sonar_options INTERFACE LINKER:-z,relro LINKER:-z,now LINKER:-z,noexecstack)
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fcf-protection SONAR_HAS_CET)
+if(SONAR_HAS_CET)
+  target_compile_options(sonar_options INTERFACE -fcf-protection)
+endif()
+if(NOT SONAR_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")  # it needs an optimiser, and hides from sanitizers
+  target_compile_options(sonar_options INTERFACE -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3)
+endif()
 if(SONAR_SANITIZE)
   target_compile_options(sonar_options INTERFACE -fsanitize=${SONAR_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(sonar_options INTERFACE -fsanitize=${SONAR_SANITIZE})

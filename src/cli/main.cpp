@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 
@@ -18,9 +19,12 @@ namespace {
 std::array<std::atomic<Work*>, 8> watched{};
 std::atomic<bool> was_interrupted{false};
 
+/// Ctrl-C, and what batch systems send before they kill.
+constexpr std::array kStops = {SIGINT, SIGTERM};
+
 extern "C" void on_interrupt(int) {
-  // A second Ctrl-C ends the program at once.
-  std::signal(SIGINT, SIG_DFL);
+  // A second one ends the program at once.
+  for (const int signal : kStops) std::signal(signal, SIG_DFL);
   was_interrupted.store(true);
   for (auto& slot : watched) {
     if (Work* work = slot.load()) work->cancel();
@@ -68,7 +72,8 @@ int run_program(int argc, char** argv) {
                  usage_text(app, error, {argv, static_cast<std::size_t>(argc)}).c_str(), verb.c_str());
     return kExitUsage;
   }
-  std::signal(SIGINT, on_interrupt);
+  for (const int signal : kStops) std::signal(signal, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file too large for the user's limit is an error of that write, and told
   int code = run();
   // A full disk or a closed pipe under the results is a failure.
   if (code == kExitDone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
@@ -104,6 +109,8 @@ int report(const Error& error) {
 int main(int argc, char** argv) {
   try {
     return sonar::run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("sonarx: there is not enough memory for this\n", stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sonarx: %s\n", error.what());
   } catch (...) {

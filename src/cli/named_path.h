@@ -12,4 +12,10 @@ inline CLI::Validator named_path() {
           ""};
 }
 
+/// The same of a name: all would be taken for none.
+inline CLI::Validator some_name() {
+  return {[](std::string& name) { return name.empty() ? std::string("an empty name names nothing") : std::string(); },
+          ""};
+}
+
 }  // namespace sonar

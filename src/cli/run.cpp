@@ -276,7 +276,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session, "Journal of human choices to replay");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
-  verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002");
+  verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002")->check(some_name());
   verb->add_option("--pings", arguments->pings,
                    "Ping indices A:B of each observation, both included, from 0; shorter ones give what they have");
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
