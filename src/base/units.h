@@ -34,6 +34,7 @@ inline constexpr double kKnot_mps = kMetresPerNauticalMile / 3600.0;
 /// The nearest whole number, halves upwards, without a call of the mathematical library. |value| < 2^30
 [[nodiscard]] constexpr int nearest_int(double value) {
   constexpr int kOffset = 1 << 30;
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): what is cut off is above 0
   return static_cast<int>(static_cast<std::int64_t>(value + kOffset + 0.5) - kOffset);
 }
 
