@@ -7,7 +7,7 @@
 namespace sonar {
 namespace {
 
-constexpr std::array<std::string_view, 116> kGone = {
+constexpr std::array<std::string_view, 119> kGone = {
     "detect.background_margin_db",
     "detect.background_rest_db",
     "detect.connectivity",
@@ -71,6 +71,9 @@ constexpr std::array<std::string_view, 116> kGone = {
     "detect.water_above_noise_db",
     "detect.water_open_share",
     "detect.water_share",
+    "measure.density_least_share",
+    "measure.density_most_db",
+    "measure.density_tolerance",
     "seabed.before_samples",
     "seabed.before_share",
     "seabed.edge_widths",

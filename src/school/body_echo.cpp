@@ -153,6 +153,7 @@ struct Moments {
   Covariance3 upright{};
   Covariance3 sideways{};
   double range2 = 0.0;  ///< sum of weight x range^2
+  LevelMoments level;
 };
 
 /// One fan's echo, summed with the volume of a steradian's shells.
@@ -171,9 +172,8 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
   const int fan = run.row / sector.beams();
   const int beam = run.row % sector.beams();
   const EchoRow echo(ping, run.row, background_factor);
-  double w0 = 0.0;
-  double w1 = 0.0;
-  double w2 = 0.0;
+  const double solid_angle = sector.solid_angle_sr(fan, beam);
+  std::array<double, 5> of_range{};  ///< sums of weight x range^k
   for (int s = run.first_sample; s < run.end(); ++s) {
     double sv = 0.0;
     double background = 0.0;
@@ -186,30 +186,34 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
     if (echo.heard(s)) sum.heard += shell;
     ++sum.samples;
     const double range = sector.range().range_m(s);
-    const double w = (sv - background) * shell;
-    w0 += w;
-    w1 += w * range;
-    w2 += w * range * range;
+    double weight = (sv - background) * shell * solid_angle;
+    for (double& of_power : of_range) {
+      of_power += weight;
+      weight *= range;
+    }
   }
-  const double solid_angle = sector.solid_angle_sr(fan, beam);
+  const double w0 = of_range[0];
+  const double w1 = of_range[1];
+  const double w2 = of_range[2];
   const double e = sector.elevation_rad(fan);
   const double a = sector.azimuth_rad(beam);
   const Vector3 along{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), -std::sin(e)};
   const Vector3 up{-std::sin(e) * std::cos(a), -std::sin(e) * std::sin(a), -std::cos(e)};
   const Vector3 sideways{-std::sin(a), std::cos(a), 0.0};
-  m.weight += w0 * solid_angle;
-  for (std::size_t k = 0; k < 3; ++k) m.first[k] += w1 * solid_angle * along[k];
-  add_square(m.second, along, w2 * solid_angle);
+  m.weight += w0;
+  m.level.add(a, of_range);
+  for (std::size_t k = 0; k < 3; ++k) m.first[k] += w1 * along[k];
+  add_square(m.second, along, w2);
   const auto r = static_cast<std::size_t>(run.row);
   const double sigma_v = two_way_sigma_rad(ping.grid->vertical_width_deg[r]);
   const double sigma_h = two_way_sigma_rad(ping.grid->horizontal_width_deg[r]);
-  m.range2 += w2 * solid_angle;
+  m.range2 += w2;
   sum.sigma = sigma_v;
-  add_square(m.blur, up, w2 * solid_angle * sigma_v * sigma_v);
-  add_square(m.blur, sideways, w2 * solid_angle * sigma_h * sigma_h);
-  add_square(m.upright, up, w2 * solid_angle * sigma_v * sigma_v);
-  add_square(m.sideways, sideways, w2 * solid_angle * sigma_h * sigma_h);
-  add_square(m.blur, along, w0 * solid_angle * ping.pulse_m * ping.pulse_m / 12.0);
+  add_square(m.blur, up, w2 * sigma_v * sigma_v);
+  add_square(m.blur, sideways, w2 * sigma_h * sigma_h);
+  add_square(m.upright, up, w2 * sigma_v * sigma_v);
+  add_square(m.sideways, sideways, w2 * sigma_h * sigma_h);
+  add_square(m.blur, along, w0 * ping.pulse_m * ping.pulse_m / 12.0);
 }
 
 /// Fans of which enough of the stretch was heard: what stands in for a fan that is missing is its neighbours' echo.
@@ -250,7 +254,9 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
   out.mean_range2_m2 = m.range2 / m.weight;
   out.two_way_area = ping.two_way_area;
   out.known = true;
-  out.along = range_profile(ping, mask, factors, params);
+  out.level = m.level;
+  const double spacing_m = ping.sector->range().spacing_m;
+  out.looks = static_cast<double>(mask.voxels()) * spacing_m / std::max(spacing_m, ping.pulse_m);
   const std::vector<FanEcho> fans = profile(sums, *ping.sector, params.min_fan_share);
   for (const BeamShape& shape : beam_shapes(params, ping.two_way_area)) {
     const BeamModel beam{shape.gaussian_share, params.beam_pedestal, shape.transmit_ratio};

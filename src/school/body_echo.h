@@ -23,7 +23,8 @@ struct BodyEcho {
   double two_way_area = 1.0;  ///< MeasureInput's
   Point<Sonar> centre;        ///< m
   double mean_range2_m2 = 0;  ///< echo-weighted mean of range squared
-  RangeProfile along;
+  LevelMoments level;
+  double looks = 0.0;  ///< independent ones: members, over the samples of a pulse
   /// [shape of the beam] as beam_shapes(params, two_way_area); empty ones = too few fans to tell
   std::vector<HeightLikelihood> heights;
 };

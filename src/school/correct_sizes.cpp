@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/units.h"
 #include "school/body_size.h"
@@ -22,15 +23,12 @@ constexpr std::int32_t kCutsLevel = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
 constexpr std::int32_t kCutsHeight = kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
 
 /// Corrected columns; unknown where an extent is cut or not told apart from the beam, and what needs all three with it.
-/// No body is larger than what is seen of it through the beam: a hollow or forked one has more spread than an ellipsoid
-/// of its extents, from which the sizes are told.
 void measure_body(const BodySize& body, SchoolPingRow& row) {
-  const auto at_most = [](double corrected, double apparent) { return corrected > apparent ? apparent : corrected; };
   if ((row.edge_flags & kCutsLevel) == 0) {
-    row.length_corrected_m = at_most(body.length_m, row.length_m);
-    row.width_corrected_m = at_most(body.width_m, row.width_m);
+    row.length_corrected_m = body.length_m;
+    row.width_corrected_m = body.width_m;
   }
-  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = at_most(body.height_m, row.height_m);
+  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
   row.volume_corrected_m3 =
       std::numbers::pi / 6.0 * row.length_corrected_m * row.width_corrected_m * row.height_corrected_m;
   const double sv = row.backscatter_m2 / row.volume_corrected_m3;
@@ -59,15 +57,40 @@ HeightLikelihood heights_near(const SchoolThroughPings& pings, std::size_t shape
   return sum;
 }
 
-/// What a ping and its neighbours tell of how the density falls off. Those that see the school cut have no say.
-double shape_near(const SchoolThroughPings& pings, std::int64_t centre, const MeasureParams& params) {
-  std::vector<RangeProfile> sights;
-  for (const MeasuredSchool* ping : pings) {
-    if (std::abs(ping->row.ping_index - centre) > params.height_pool_pings) continue;
-    if ((ping->row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) sights.push_back(ping->body.along);
+/// A school's body in each of its pings, and how its density changes along one axis by a ping and its neighbours. Those
+/// that see the school cut have no say.
+class BodyThroughPings {
+ public:
+  BodyThroughPings(const SchoolThroughPings& pings, std::size_t shape, const BeamShape& beam,
+                   const MeasureParams& params)
+      : pings_(pings), params_(params) {
+    for (const MeasuredSchool* ping : pings) {
+      const HeightLikelihood heights = heights_near(pings, shape, ping->row.ping_index, params.height_pool_pings);
+      sights_.push_back(body_sight(ping->body, heights, beam, params));
+    }
   }
-  return shape_variance(sights, params);
-}
+  [[nodiscard]] BodySize size(std::size_t ping) const {
+    if (!sights_[ping]) return {};
+    const BodyShape shape = {density(ping, &BodySight::length), density(ping, &BodySight::width),
+                             density(ping, &BodySight::sight)};
+    return body_size(*sights_[ping], shape, params_);
+  }
+
+ private:
+  [[nodiscard]] double density(std::size_t ping, AxisSight BodySight::*axis) const {
+    std::vector<AxisSight> near;
+    for (std::size_t k = 0; k < pings_.size(); ++k) {
+      const SchoolPingRow& row = pings_[k]->row;
+      if (std::abs(row.ping_index - pings_[ping]->row.ping_index) > params_.height_pool_pings) continue;
+      if (sights_[k] && (row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) near.push_back((*sights_[k]).*axis);
+    }
+    return shape_variance(near, params_);
+  }
+
+  const SchoolThroughPings& pings_;
+  const MeasureParams& params_;
+  std::vector<std::optional<BodySight>> sights_;
+};
 
 constexpr std::int64_t kNoPing = -1;
 constexpr std::int64_t kAllPings = std::numeric_limits<std::int64_t>::max();
@@ -109,11 +132,10 @@ std::vector<SchoolPingRow> correct_sizes(const std::vector<SchoolThroughPings>& 
   const std::size_t shape = likeliest_shape(schools, shapes);
   std::vector<SchoolPingRow> rows;
   for (const SchoolThroughPings& school : schools) {
-    for (const MeasuredSchool* ping : school) {
-      rows.push_back(ping->row);
-      const HeightLikelihood heights = heights_near(school, shape, ping->row.ping_index, params.height_pool_pings);
-      const double variance = shape_near(school, ping->row.ping_index, params);
-      measure_body(body_size(ping->body, heights, shapes[shape], variance, params), rows.back());
+    const BodyThroughPings bodies(school, shape, shapes[shape], params);
+    for (std::size_t ping = 0; ping < school.size(); ++ping) {
+      rows.push_back(school[ping]->row);
+      measure_body(bodies.size(ping), rows.back());
     }
   }
   return rows;

@@ -6,129 +6,70 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/units.h"
-#include "school/echo_row.h"
-
 namespace sonar {
 namespace {
 
 constexpr double kEvenKurtosis = 15.0 / 7.0;
+constexpr double kEvenFourth = kEvenKurtosis - 3.0;  ///< fourth cumulant, in variances squared
 constexpr double kEvenShape = 5.0;
+constexpr double kLeastKurtosis = 1.0;  ///< of anything: that of two lumps
+constexpr double kMostKurtosis = 2.45;  ///< of a heart 10 dB denser than the rim, falling off as exp(-c r^2)
 
-/// Sums of echo x (range - a reference)^k.
-using Moments = std::array<double, 5>;
-
-void add_run(Moments& moments, const MeasureInput& ping, const Run& run, double background_factor, double about_m) {
-  const Sector& sector = *ping.sector;
-  const EchoRow echo(ping, run.row, background_factor);
-  const double solid_angle = sector.solid_angle_sr(run.row / sector.beams(), run.row % sector.beams());
-  for (int s = run.first_sample; s < run.end(); ++s) {
-    double sv = 0.0;
-    double background = 0.0;
-    if (!echo.at(s, sv, background)) continue;
-    const double off = sector.range().range_m(s) - about_m;
-    double weighted = (sv - background) * solid_angle * sector.shell_m3_per_sr(s);
-    for (double& sum : moments) {
-      sum += weighted;
-      weighted *= off;
-    }
-  }
-}
-
-/// Of the body, whose cumulants and those of a rectangular pulse add up to the echo's. Unknown if little is left.
-double kurtosis_of(const Moments& moments, double pulse_m, double least_share) {
-  const double mean = moments[1] / moments[0];
-  const double second = moments[2] / moments[0];
-  const double third = moments[3] / moments[0];
-  const double fourth = moments[4] / moments[0];
-  const double square = mean * mean;
-  const double variance = second - square;
-  const double fourth_central = fourth - 4.0 * mean * third + 6.0 * square * second - 3.0 * square * square;
-  const double pulse2 = pulse_m * pulse_m;
-  const double body = variance - pulse2 / 12.0;
-  if (!(moments[0] > 0.0) || !(body > least_share * variance)) return kUnknown;
-  const double fourth_cumulant = fourth_central - 3.0 * variance * variance + pulse2 * pulse2 / 120.0;
-  return 3.0 + fourth_cumulant / (body * body);
-}
-
-/// Bodies whose density falls off as exp(-c r^2) up to the rim r = 1, from hollow to dense-hearted: both rise with c.
-struct Bodies {
-  static constexpr std::size_t kCount = 129;
-  static constexpr double kMostFallOff = 8.0;  ///< c; beyond it the rim is empty and the kurtosis is a Gaussian's
-  static constexpr int kShells = 200;          ///< until no digit moves that matters
-  std::array<double, kCount> kurtosis{};
-  std::array<double, kCount> shape{};  ///< square of the half axis over the variance along it
-  Bodies() {
-    for (std::size_t k = 0; k < kCount; ++k) {
-      const double fall_off = kMostFallOff * (2.0 * static_cast<double>(k) / (kCount - 1) - 1.0);
-      std::array<double, 3> sums{};
-      for (int i = 0; i < kShells; ++i) {
-        const double r = (i + 0.5) / kShells;
-        double weighted = std::exp(-fall_off * r * r) * r * r;
-        for (double& sum : sums) {
-          sum += weighted;
-          weighted *= r * r;
-        }
-      }
-      // of r^2 a third lies along one axis, of r^4 a fifth
-      const double variance = sums[1] / sums[0] / 3.0;
-      kurtosis[k] = sums[2] / sums[0] / 5.0 / (variance * variance);
-      shape[k] = 1.0 / variance;
-    }
-  }
-  /// Place in the tables, fractional.
-  static double place(double fall_off) { return (fall_off / kMostFallOff + 1.0) / 2.0 * (kCount - 1); }
-  [[nodiscard]] double place_of_kurtosis(double wanted) const {
-    const auto above = std::upper_bound(kurtosis.begin(), kurtosis.end(), wanted);
-    if (above == kurtosis.begin()) return 0.0;
-    if (above == kurtosis.end()) return kCount - 1.0;
-    const double low = *(above - 1);
-    return static_cast<double>(above - kurtosis.begin()) - 1.0 + (wanted - low) / (*above - low);
-  }
-  [[nodiscard]] double shape_at(double place) const {
-    const auto k = std::min(static_cast<std::size_t>(place), kCount - 2);
-    return shape[k] + (place - static_cast<double>(k)) * (shape[k + 1] - shape[k]);
-  }
-};
+constexpr std::array<std::array<double, 5>, 5> kBinomial = {
+    {{1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}}};
 
 }  // namespace
 
-RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask, std::span<const double> background_factors,
-                           const MeasureParams& params) {
-  RangeProfile profile;
-  if (mask.runs.empty()) return profile;
-  const RangeAxis& range = ping.sector->range();
-  const double about_m = range.range_m(mask.runs.front().first_sample);
-  Moments moments{};
-  for (const Run& run : mask.runs) {
-    const auto fan = static_cast<std::size_t>(run.row / ping.sector->beams());
-    add_run(moments, ping, run, background_factors[fan], about_m);
+void LevelMoments::add(double azimuth_rad, std::span<const double, 5> of_range) {
+  double x = 1.0;
+  for (std::size_t i = 0; i < 5; ++i, x *= std::cos(azimuth_rad)) {
+    double xy = x;
+    for (std::size_t j = 0; i + j < 5; ++j, xy *= std::sin(azimuth_rad)) sums_[i][j] += xy * of_range[i + j];
   }
-  profile.kurtosis = kurtosis_of(moments, ping.pulse_m, params.density_least_share);
-  profile.looks = static_cast<double>(mask.voxels()) * range.spacing_m / std::max(range.spacing_m, ping.pulse_m);
-  return profile;
 }
 
-double shape_variance(double kurtosis, double most_db) {
-  static const Bodies bodies;
-  const double most = std::min(std::log(linear_from_db(most_db)), Bodies::kMostFallOff);
-  const double place = std::clamp(bodies.place_of_kurtosis(kurtosis), Bodies::place(-most), Bodies::place(most));
-  return bodies.shape_at(place);
+LevelMoments::Cumulants LevelMoments::along(double axis_rad, const Point<Sonar>& centre) const {
+  const double level = std::hypot(centre.x, centre.y) / norm(centre);
+  const double x = level * std::cos(axis_rad);
+  const double y = level * std::sin(axis_rad);
+  std::array<double, 5> raw{};
+  for (std::size_t k = 0; k < 5; ++k) {
+    for (std::size_t j = 0; j <= k; ++j) {
+      raw[k] += kBinomial[k][j] * std::pow(x, static_cast<double>(k - j)) * std::pow(y, static_cast<double>(j)) *
+                sums_[k - j][j];
+    }
+  }
+  if (!(raw[0] > 0.0)) return {};
+  for (std::size_t k = 1; k < 5; ++k) raw[k] /= raw[0];
+  const double square = raw[1] * raw[1];
+  const double variance = raw[2] - square;
+  const double fourth = raw[4] - 4.0 * raw[1] * raw[3] + 6.0 * square * raw[2] - 3.0 * square * square;
+  return {variance, fourth - 3.0 * variance * variance};
 }
 
-double shape_variance(std::span<const RangeProfile> sights, const MeasureParams& params) {
+double shape_variance(double kurtosis) {
+  const double k = std::clamp(kurtosis, kLeastKurtosis, kMostKurtosis);
+  return k * k * (1.0 + 7.0 / 90.0 * (k - 1.0));
+}
+
+double shape_variance(std::span<const AxisSight> sights, const MeasureParams& params) {
   if (!params.find_density) return params.shape_variance;
-  double looks = params.density_looks;
-  double sum = params.density_looks * kEvenKurtosis;
-  for (const RangeProfile& sight : sights) {
-    if (!std::isfinite(sight.kurtosis)) continue;
+  double looks = 0.0;
+  double fourth = 0.0;
+  double of_bodies = 0.0;
+  double of_echoes = 0.0;
+  for (const AxisSight& sight : sights) {
+    const double body = std::max(sight.variance, 0.0);
     looks += sight.looks;
-    sum += sight.looks * sight.kurtosis;
+    fourth += sight.looks * (sight.fourth_cumulant - kEvenFourth * body * body);
+    of_bodies += sight.looks * body * body;
+    of_echoes += sight.looks * sight.echo_variance * sight.echo_variance;
   }
-  if (!(looks > 0.0)) return params.shape_variance;
-  const double off = sum / looks - kEvenKurtosis;
-  const double told = std::copysign(std::max(std::abs(off) - params.density_tolerance, 0.0), off);
-  return params.shape_variance * shape_variance(kEvenKurtosis + told, params.density_most_db) / kEvenShape;
+  if (!(of_echoes > 0.0)) return params.shape_variance;
+  const double off = fourth / of_echoes * looks / (looks + params.density_looks);
+  const double doubt = 1.0 - std::sqrt(of_bodies / of_echoes);
+  const double told = std::copysign(std::max(std::abs(off) - doubt, 0.0), off);
+  return params.shape_variance * shape_variance(kEvenKurtosis + told) / kEvenShape;
 }
 
 }  // namespace sonar

@@ -1,36 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 
-#include "model/mask.h"
-#include "model/school.h"
-#include "school/measure_input.h"
+#include "geo/frames.h"
 #include "school/measure_params.h"
 
 namespace sonar {
 
-/// A school's echo along range, all beams together. The sonar sees as sharply nowhere else, so this tells how the
-/// density changes from heart to rim; across the beam it is taken to change alike.
-struct RangeProfile {
-  double kurtosis = kUnknown;  ///< fourth moment over the square of the second, pulse taken out
-  double looks = 0.0;          ///< independent ones: members, over the samples of a pulse
+/// Moments of an echo over slant range and azimuth, to the fourth: they tell along any level axis how its density changes
+/// from heart to rim. All fans lie in one plane, so that what the beam blurs upright has no part in them.
+class LevelMoments {
+ public:
+  struct Cumulants {
+    double variance = 0.0;  ///< m^2
+    double fourth = 0.0;    ///< fourth cumulant, m^4
+  };
+
+  /// Echo of one beam. of_range  sums of weight x range^k, k = 0 .. 4
+  void add(double azimuth_rad, std::span<const double, 5> of_range);
+  /// Along a level axis.
+  /// axis_rad  from the bow towards starboard
+  /// centre    of the echo
+  [[nodiscard]] Cumulants along(double axis_rad, const Point<Sonar>& centre) const;
+
+ private:
+  std::array<std::array<double, 5>, 5> sums_{};  ///< weight x x^i y^j, i + j <= 4
 };
 
-/// background_factors  [fan] of the background near the school, as a multiple of the expected
-/// out                 unknown where pulse is all that is seen
-[[nodiscard]] RangeProfile range_profile(const MeasureInput& ping, const PingMask& mask,
-                                         std::span<const double> background_factors, const MeasureParams& params);
+/// What one sight tells of a body along one axis.
+struct AxisSight {
+  double variance = 0.0;         ///< of the body, m^2
+  double echo_variance = 0.0;    ///< beam's and pulse's blur in it, m^2
+  double fourth_cumulant = 0.0;  ///< m^4; cumulants add up, and a Gaussian beam has none
+  double looks = 0.0;            ///< independent ones
+};
 
-/// Square of an ellipsoid's half axis over the variance of its echo along it: 5 with an even density, more with a dense
-/// heart, less if hollow.
-/// kurtosis  of its echo, 15/7 with an even density
-/// most_db   heart and rim differ by no more
-/// source    density falling off as exp(-c r^2) from the heart to the rim r = 1, c by the kurtosis
-[[nodiscard]] double shape_variance(double kurtosis, double most_db);
+/// Square of a half axis over the variance of the body's density along it, by the kurtosis of that density.
+/// source  the curve through two lumps (1, 1) and an even ellipsoid (15/7, 5); within 8.5 % in length of an even box
+///         (9/5, 3), hoops and shells, within 3 % of hearts up to 10 dB denser than the rim. Denser ones count as that.
+[[nodiscard]] double shape_variance(double kurtosis);
 
-/// The same from several sights of one school, times params.shape_variance / 5; unknown ones have no say. What few looks
-/// tell is drawn to an even density, and so is what a ragged rim may have done.
-[[nodiscard]] double shape_variance(std::span<const RangeProfile> sights, const MeasureParams& params);
+/// The same from several sights of one school, times params.shape_variance / 5. What few looks tell is drawn to an even
+/// density, and so is a body that is small beside the blur: the flanks of a beam, which nobody knows, may look like a dense
+/// heart or a hollow, by as much as the blur is of the echo.
+[[nodiscard]] double shape_variance(std::span<const AxisSight> sights, const MeasureParams& params);
 
 }  // namespace sonar

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "school/correct_sizes.h"
 #include "school/measure.h"
 #include "school/test_water.h"
@@ -47,48 +51,73 @@ Marginal marginal_of(double (*density)(double)) {
 }
 
 TEST(DensityProfile, ExtentsComeOutWhateverTheDensity) {
-  EXPECT_NEAR(shape_variance(15.0 / 7.0, 10.0), 5.0, 1e-3);
+  EXPECT_NEAR(shape_variance(15.0 / 7.0), 5.0, 1e-12);
   for (const auto density : {even, six_decibels, exponential, hollow}) {
     const Marginal m = marginal_of(density);
-    const double half_axis = std::sqrt(shape_variance(m.kurtosis, 10.0) * m.variance);
-    EXPECT_NEAR(half_axis, 1.0, 0.05) << m.kurtosis;
+    EXPECT_NEAR(std::sqrt(shape_variance(m.kurtosis) * m.variance), 1.0, 0.05) << m.kurtosis;
   }
   EXPECT_LT(std::sqrt(5.0 * marginal_of(six_decibels).variance), 0.93);
 }
 
-TEST(DensityProfile, HeartAndRimDifferByNoMoreThanIsBelieved) {
-  // without an end a Gaussian's half axis would be infinite; a shell's is sqrt(3) standard deviations
-  EXPECT_EQ(shape_variance(3.0, 10.0), shape_variance(2.9, 10.0));
-  EXPECT_GT(shape_variance(3.0, 20.0), shape_variance(3.0, 10.0));
-  EXPECT_GE(shape_variance(1.8, 30.0), 3.0);
-  EXPECT_NEAR(shape_variance(3.0, 0.0), 5.0, 1e-3);
-  EXPECT_NEAR(shape_variance(1.8, 0.0), 5.0, 1e-3);
-  double before = 0.0;
-  for (double kurtosis = 1.8; kurtosis < 2.4; kurtosis += 0.05) {
-    EXPECT_GT(shape_variance(kurtosis, 30.0), before);
-    before = shape_variance(kurtosis, 30.0);
+// By hand: kurtosis, and square of the half length over the variance, of what is spread evenly along a line, round a hoop
+// and over a shell; of two lumps.
+TEST(DensityProfile, LinesHoopsShellsAndLumpsAreAsLongAsTheyAre) {
+  for (const auto& [kurtosis, shape] : {std::pair{9.0 / 5.0, 3.0}, {3.0 / 2.0, 2.0}, {1.0, 1.0}}) {
+    EXPECT_NEAR(std::sqrt(shape_variance(kurtosis) / shape), 1.0, 0.085) << kurtosis;
   }
 }
 
-TEST(DensityProfile, FewLooksAndRaggedRimsAreDrawnToAnEvenDensity) {
+TEST(DensityProfile, HeartAndRimDifferByNoMoreThanIsBelieved) {
+  EXPECT_EQ(shape_variance(3.0), shape_variance(2.9));  // without an end a Gaussian's half axis would be infinite
+  EXPECT_EQ(shape_variance(0.2), shape_variance(1.0));  // nothing has less
+  double before = 0.0;
+  for (double kurtosis = 1.0; kurtosis < 2.44; kurtosis += 0.05) {
+    EXPECT_GT(shape_variance(kurtosis), before);
+    before = shape_variance(kurtosis);
+  }
+}
+
+/// Of a body whose variance is 4 m^2, with a blur of so many.
+AxisSight sight(double kurtosis, double looks, double blur = 0.0) {
+  return {4.0, 4.0 + blur, (kurtosis - 3.0) * 16.0, looks};
+}
+
+TEST(DensityProfile, FewLooksAndWideBeamsAreDrawnToAnEvenDensity) {
   MeasureParams params;
-  params.density_tolerance = 0.0;
-  const double all = shape_variance(2.4, params.density_most_db);
-  const double few = shape_variance(std::vector<RangeProfile>{{2.4, 40.0}}, params);
-  const double many = shape_variance(std::vector<RangeProfile>{{2.4, 40000.0}, {kUnknown, 1e9}}, params);
-  EXPECT_GT(few, 5.0);
-  EXPECT_LT(few - 5.0, 0.2 * (all - 5.0));
-  EXPECT_NEAR(many, all, 0.05);
-  EXPECT_NEAR(shape_variance(std::vector<RangeProfile>{}, params), 5.0, 1e-3);
-  params.density_tolerance = 0.1;
-  EXPECT_NEAR(shape_variance(std::vector<RangeProfile>{{2.2, 1e9}}, params), 5.0, 1e-3);
-  EXPECT_NEAR(shape_variance(std::vector<RangeProfile>{{2.1, 1e9}}, params), 5.0, 1e-3);
-  EXPECT_GT(shape_variance(std::vector<RangeProfile>{{2.3, 1e9}}, params), 5.1);
-  EXPECT_LT(shape_variance(std::vector<RangeProfile>{{1.9, 1e9}}, params), 4.9);
-  MeasureParams off;
-  off.find_density = false;
-  off.shape_variance = 3.0;
-  EXPECT_EQ(shape_variance(std::vector<RangeProfile>{{2.4, 40000.0}}, off), 3.0);
+  const auto told = [&](std::vector<AxisSight> sights) { return shape_variance(sights, params); };
+  const double all = shape_variance(2.4);
+  EXPECT_GT(told({sight(2.4, 40.0)}), 5.0);
+  EXPECT_LT(told({sight(2.4, 40.0)}) - 5.0, 0.2 * (all - 5.0));
+  EXPECT_NEAR(told({sight(2.4, 40000.0), sight(1.0, 0.0)}), all, 0.05) << "what has no looks has no say";
+  EXPECT_NEAR(told({}), 5.0, 1e-12);
+  EXPECT_NEAR(told({sight(1.5, 1e9, 0.4)}), shape_variance(1.5), 0.5) << "a tenth of blur hides little";
+  EXPECT_NEAR(told({sight(1.5, 1e9, 12.0)}), 5.0, 0.25) << "three times the body's variance nearly all";
+  EXPECT_NEAR(told({sight(2.4, 1e9, 4.0)}), 5.0, 1e-6) << "a dense heart may be the beam's flanks";
+  EXPECT_NEAR(told({sight(15.0 / 7.0, 1e9, 12.0)}), 5.0, 1e-6);
+  params.find_density = false;
+  params.shape_variance = 3.0;
+  EXPECT_EQ(told({sight(2.4, 40000.0)}), 3.0);
+}
+
+// Two lumps 10 m apart, 30 degrees below where they are seen from: along the level line between them all is variance, and a
+// kurtosis of 1 is a fourth cumulant of -2 variances squared.
+TEST(DensityProfile, LevelMomentsTellTheCumulantsAlongAnyAxis) {
+  const double down_rad = rad_from_deg(30.0);
+  const Point<Sonar> centre{300.0, -200.0, std::hypot(300.0, 200.0) * std::tan(down_rad)};
+  LevelMoments moments;
+  for (const double side : {-1.0, 1.0}) {
+    const double x = centre.x + side * 3.0;
+    const double y = centre.y + side * 4.0;
+    const double range = std::hypot(x, y) / std::cos(down_rad);
+    std::array<double, 5> of_range{};
+    for (std::size_t k = 0; k < 5; ++k) of_range[k] = 2.0 * std::pow(range, static_cast<double>(k));
+    moments.add(std::atan2(y, x), of_range);
+  }
+  const auto along = moments.along(std::atan2(4.0, 3.0), centre);
+  EXPECT_NEAR(along.variance, 25.0, 1e-6);
+  EXPECT_NEAR(along.fourth, -2.0 * 25.0 * 25.0, 1e-2);
+  EXPECT_NEAR(moments.along(std::atan2(-3.0, 4.0), centre).variance, 0.0, 1e-6);
+  EXPECT_EQ(LevelMoments{}.along(0.3, centre).variance, 0.0);
 }
 
 /// A body of 40 x 28 x 20 m, 180 m away, measured without fading.
@@ -134,31 +163,6 @@ TEST(DensityProfile, DenseHeartsAreNoSmallerBodiesAndHollowOnesNoLarger) {
   }
   EXPECT_LT(volume_ratio(exponential, 0.0, off), 0.78);
   EXPECT_GT(volume_ratio(hollow, 0.0, off), 1.12);
-}
-
-TEST(DensityProfile, WhatIsNoLongerThanThePulseTellsNothing) {
-  // every sample as loud as the next, over 1.5 m: a pulse of 2 m leaves no body
-  const BeamGrid grid = test::grid();
-  const Sector sector = grid.sector(test::range_axis());
-  const Shape3 shape{20, 25, 900};
-  const Array3<std::int16_t> counts(shape, -6000);
-  const Array3<SampleFlags> flags(shape);
-  MeasureInput in;
-  in.sv = counts.view();
-  in.flags = flags.view();
-  in.sector = &sector;
-  in.grid = &grid;
-  PingMask mask;
-  mask.runs = {{100, 500, 4}};
-  mask.confidence.assign(4, 255);
-  const std::vector<double> factors(20, 1.0);
-  in.pulse_m = 0.1;
-  EXPECT_TRUE(std::isfinite(range_profile(in, mask, factors, MeasureParams{}).kurtosis));
-  EXPECT_NEAR(range_profile(in, mask, factors, MeasureParams{}).looks, 4.0, 1e-9);
-  in.pulse_m = 2.0;
-  EXPECT_TRUE(std::isnan(range_profile(in, mask, factors, MeasureParams{}).kurtosis));
-  EXPECT_LT(range_profile(in, mask, factors, MeasureParams{}).looks, 1.0);
-  EXPECT_TRUE(std::isnan(range_profile(in, PingMask{}, factors, MeasureParams{}).kurtosis));
 }
 
 }  // namespace

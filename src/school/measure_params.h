@@ -9,9 +9,6 @@ struct MeasureParams {
   double shape_variance = 5.0;
   bool find_density = true;
   double density_looks = 400.0;
-  double density_tolerance = 0.06;
-  double density_most_db = 10.0;
-  double density_least_share = 0.25;
   int reach_fans = 2;
   int reach_beams = 1;
   int reach_samples = 6;
@@ -46,24 +43,12 @@ void describe(Visitor& v, MeasureParams& p) {
            .max = 12,
            .text = "extent = 2 sqrt(this x variance): 5 for a uniform ellipsoid, 3 for a box"});
   v.field("find_density", p.find_density,
-          {.text = "the echo along range tells how dense a school's heart is beside its rim; off = evenly"});
+          {.text = "the echo along each axis tells how dense a school's heart is beside its rim; off = evenly"});
   v.field("density_looks", p.density_looks,
           {.unit = "1",
            .min = 0,
            .max = 1000000,
            .text = "... an even density has as much say as so many members, each a pulse long"});
-  v.field("density_tolerance", p.density_tolerance,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... a kurtosis of the echo so near that of an even density is one: ragged rims do as much"});
-  v.field("density_most_db", p.density_most_db,
-          {.unit = "dB", .min = 0, .max = 30, .text = "... and heart and rim differ by no more"});
-  v.field("density_least_share", p.density_least_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .text = "... where the body makes this share of the echo's variance along range; the pulse makes the rest"});
   v.field("reach_fans", p.reach_fans,
           {.unit = "fans", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
   v.field("reach_beams", p.reach_beams,

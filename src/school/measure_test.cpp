@@ -214,21 +214,24 @@ TEST(Measure, PingsTogetherTellALowBodysHeight) {
   }
 }
 
-// A ring has more spread than an ellipsoid of its extents.
-TEST(Measure, NoBodyIsLargerThanWhatIsSeen) {
-  Ping ping;
-  for (int k = 0; k < 12; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / 12.0;
-    test::Ellipsoid e = ellipsoid(150.0, -18.0, 268.0);
-    e.centre = e.centre + Point<Sonar>{35.0 * std::cos(angle), 35.0 * std::sin(angle), 0.0};
-    e.half_x = e.half_y = 6.0;
-    test::add_ellipsoid(ping.expected, ping.sector, e);
+// A ring has more spread than an ellipsoid of its extents, and a fourth moment that tells so.
+TEST(Measure, ARingIsAsLongAndAsWideAsItIs) {
+  constexpr double kAcross_m = 2.0 * (35.0 + 6.0);
+  for (const double range_m : {150.0, 250.0}) {
+    Ping ping;
+    ping.params.density_looks = 0.0;  // as through many pings
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / 12.0;
+      test::Ellipsoid e = ellipsoid(range_m, -18.0, 268.0);
+      e.centre = e.centre + Point<Sonar>{35.0 * std::cos(angle), 35.0 * std::sin(angle), 0.0};
+      e.half_x = e.half_y = 6.0;
+      test::add_ellipsoid(ping.expected, ping.sector, e);
+    }
+    ping.mask = test::truth_of(ping.expected);
+    const SchoolPingRow row = ping.measured(1, false);
+    EXPECT_NEAR(row.length_corrected_m / kAcross_m, 1.0, 0.06) << range_m;
+    EXPECT_NEAR(row.width_corrected_m / kAcross_m, 1.0, 0.06) << range_m;
   }
-  ping.mask = test::truth_of(ping.expected);
-  const SchoolPingRow row = ping.measured(1, false);
-  EXPECT_EQ(row.length_corrected_m, row.length_m);
-  EXPECT_LE(row.width_corrected_m, row.width_m);
-  EXPECT_LE(row.height_corrected_m, row.height_m);
 }
 
 TEST(Measure, PingsOutOfReachHaveNoSayInTheHeight) {

@@ -43,7 +43,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 14, "7c086119646cb7a5c43213b37d2637b0"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 13, "7b16130c9bd8dca31a36ba92f72235ca"},
+    {"measure", 14, "89f6d7f4469bd09f65100bbc5737e101"},
     {"summarise", 5, "84f9597b03a34b37ca48751286ca2711"},
 }};
 
