@@ -54,6 +54,18 @@ PingMask with_flanks(const PingMask& mask, const Shape3& shape) {
   return with_confidence(merged(all));
 }
 
+/// Leaves out what beams hear of the seabed by their flanks, but for members.
+void leave_seabed(const MeasureInput& ping, const PingMask& mask, std::vector<Run>& runs) {
+  PingMask heard;
+  for (const Run& run : runs) {
+    const int first = std::max(run.first_sample, ping.seabed_heard(run.row));
+    if (first < run.end()) heard.runs.push_back({run.row, first, run.end() - first});
+  }
+  if (heard.runs.empty()) return;
+  const PingMask foreign = subtract(with_confidence(std::move(heard.runs)), mask);
+  runs = subtract(with_confidence(std::move(runs)), foreign).runs;
+}
+
 /// The water that holds the school's echo, without what belongs to others and to their flanks: the mask widened in beams
 /// and samples, and that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the
 /// beam is not.
@@ -78,6 +90,7 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
   for (int fan = first_fan; fan <= last_fan; ++fan) {
     for (const Run& run : wide) united.runs.push_back({fan * shape.beams + run.row, run.first_sample, run.count});
   }
+  leave_seabed(ping, mask, united.runs);
   if (ping.others == nullptr || ping.others->empty()) return std::move(united.runs);
   return subtract(with_confidence(std::move(united.runs)), subtract(with_flanks(*ping.others, shape), mask)).runs;
 }

@@ -37,6 +37,12 @@ struct MeasureInput {
   const PingMask* others = nullptr;    ///< voxels of all other schools of the ping; null = none
   const EchoClaims* claims = nullptr;  ///< what each school of the ping reaches for; null = there is no other
   double threshold_db = kUnknown;      ///< the mask's, for the record
+
+  /// From where a beam hears the seabed, by its flank first: what lies beyond is a school's where it is a member, else not.
+  [[nodiscard]] int seabed_heard(int row) const {
+    return seabed == nullptr || seabed->heard_sample.empty() ? sv.shape().samples
+                                                             : seabed->heard_sample[static_cast<std::size_t>(row)];
+  }
 };
 
 }  // namespace sonar

@@ -46,15 +46,12 @@ class SeabedFinder {
     seabed.confidence = seen;
     seabed.roughness_m = roughness_m(*plane);
     bounds(*plane, seabed);
+    const double strength = strength_db(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
       seabed.first_sample[static_cast<std::size_t>(row)] = ground_sample(*plane, row);
+      seabed.heard_sample.push_back(onset(*plane, strength, row));
     }
-    const double strength = strength_db(*plane);
-    if (params_.hills) find_hills(water_, long_, *plane, strength, width_deg_, seabed.first_sample);
-    for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      seabed.heard_sample.push_back(
-          std::min(seabed.first_sample[static_cast<std::size_t>(row)], onset(*plane, strength, row)));
-    }
+    if (params_.hills) add_hills(*plane, strength, seabed);
     return seabed;
   }
 
@@ -127,8 +124,7 @@ class SeabedFinder {
       const std::optional<SeabedPlane> better = least_squares(*best, reach);
       if (!better || better->slope() > steepest || better->offset <= 0.0) break;
       // about a smooth seabed what is lost may be a school; over hills all that supports the plane is seabed
-      const bool smooth = median_off(*better) < SeabedParams::fit_smooth_share;
-      if (support(*better) < (smooth ? SeabedParams::fit_support : 1.0) * most) break;
+      if (support(*better) < (is_smooth(*better) ? SeabedParams::fit_support : 1.0) * most) break;
       best = better;
     }
     return best;
@@ -145,6 +141,10 @@ class SeabedFinder {
     const auto middle = off.begin() + std::ssize(off) / 2;
     std::nth_element(off.begin(), middle, off.end());
     return *middle;
+  }
+
+  [[nodiscard]] bool is_smooth(const SeabedPlane& plane) const {
+    return median_off(plane) < SeabedParams::fit_smooth_share;
   }
 
   /// Weighted fit of the inliers of a plane; Tukey's biweight on the distance in depth, scaled by the median distance: echo
@@ -187,6 +187,18 @@ class SeabedFinder {
     const auto middle = strengths.begin() + std::ssize(strengths) / 2;
     std::nth_element(strengths.begin(), middle, strengths.end());
     return *middle;
+  }
+
+  /// Of echoes in the flank of a smooth seabed it is the schools that are loud; over hills it may be the next hill.
+  void add_hills(const SeabedPlane& plane, double strength_db, Seabed& seabed) const {
+    std::vector<std::int32_t> hills = is_smooth(plane) ? seabed.heard_sample : seabed.first_sample;
+    const std::vector<std::int32_t> of_plane = hills;
+    find_hills(water_, long_, plane, strength_db, width_deg_, hills);
+    for (std::size_t row = 0; row < hills.size(); ++row) {
+      if (hills[row] == of_plane[row]) continue;
+      seabed.first_sample[row] = std::min(seabed.first_sample[row], hills[row]);
+      seabed.heard_sample[row] = std::min(seabed.heard_sample[row], hills[row]);
+    }
   }
 
   /// Whether a beam should see the plane: its peak comes clearly above what is loud at that range.

@@ -246,29 +246,37 @@ TEST(Seabed, ASchoolAboveTheBottomStays) {
   }
 }
 
-// It is no hill: the beams through it see the bottom behind it, those below it farther away.
-TEST(Seabed, ASchoolCloseToTheBottomIsNoHill) {
-  for (const double above_m : {20.0, 35.0}) {
-    BottomScene level;
-    level.add_bottom(150.0);
-    const Seabed without = level.look(10);
-    BottomScene scene;
-    scene.add_bottom(150.0);
-    test::Ellipsoid e;
-    e.half_x = 25.0;
-    e.half_y = 15.0;
-    e.half_z = 6.0;
-    const double depth_m = 150.0 - above_m - e.half_z;
-    e.centre = {0.0, -200.0, depth_m};
-    e.sv = linear_from_db(-25.0);
-    test::add_ellipsoid(scene.expected, scene.sector, e);
-    const Seabed seabed = scene.look(10);
-    ASSERT_TRUE(seabed.found);
-    int nearer = 0;
-    for (std::size_t row = 0; row < 500; ++row) {
-      nearer += seabed.first_sample[row] < without.first_sample[row] - 40 ? 1 : 0;
+/// An ellipsoid of 60 m, so far above a level bottom of 150 m: how many beams end before they do without it.
+int beams_ended(double away_m, double above_m, double sv_db) {
+  BottomScene scene;
+  scene.add_lambert_bottom(150.0, -25.0);
+  const Seabed without = scene.look(10);
+  test::Ellipsoid e;
+  e.half_x = 30.0;
+  e.half_y = 15.0;
+  e.half_z = 6.0;
+  e.centre = Sector::direction(0.0, rad_from_deg(265.0)) * away_m;
+  e.centre.z = 150.0 - above_m - e.half_z;
+  e.sv = linear_from_db(sv_db);
+  test::add_ellipsoid(scene.expected, scene.sector, e);
+  const Seabed seabed = scene.look(10);
+  EXPECT_TRUE(without.found && seabed.found);
+  int nearer = 0;
+  for (std::size_t row = 0; row < 500; ++row) {
+    nearer += seabed.first_sample[row] < without.first_sample[row] - 40 ? 1 : 0;
+  }
+  return nearer;
+}
+
+// They are no hills: the beams through them see the bottom behind, those below it farther away; and where a school's echo
+// goes over into the flank by which its beams hear the bottom, the bottom is smooth.
+TEST(Seabed, SchoolsCloseToTheBottomAreNoHills) {
+  for (const double away_m : {180.0, 220.0}) {
+    for (const double above_m : {8.0, 14.0, 20.0, 35.0}) {
+      for (const double sv_db : {-25.0, -35.0, -45.0}) {
+        EXPECT_EQ(beams_ended(away_m, above_m, sv_db), 0) << away_m << " " << above_m << " " << sv_db;
+      }
     }
-    EXPECT_EQ(nearer, 0) << above_m;
   }
 }
 

@@ -42,6 +42,7 @@ struct MeasuredPing {
     in.two_way_area = two_way_area(grid, beam_angle_db, {});
     in.psi_error_db = psi_error_db;
     in.calibration_se_db = calibration_se_db;
+    in.seabed = seabed;
     return measure(in, mask, params);
   }
 
@@ -54,6 +55,7 @@ struct MeasuredPing {
   std::vector<double> beam_angle_db;  ///< none = the file has none
   std::vector<double> psi_error_db;
   std::vector<double> calibration_se_db;
+  const Seabed* seabed = nullptr;
   BeamGrid grid;
   Sector sector;
   Array3<double> expected;

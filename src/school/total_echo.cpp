@@ -155,6 +155,7 @@ std::map<int, std::array<Sum, 4>> sums_of(const MeasureInput& ping, const Surrou
     }
     const SampleFlags flags = ping.flags.row(row)[i];
     if (any(flags & kNeverMember)) return;
+    if (zone != Surroundings::kMembers && sample >= ping.seabed_heard(row)) return;
     const int claimed = claims == nullptr ? 0 : claims->count.view().row(row)[i];
     if (zone != Surroundings::kMembers && claimed == EchoClaims::kMember) return;
     if (zone == Surroundings::kWater && claimed > 0) return;

@@ -126,5 +126,33 @@ TEST(TotalEcho, StopsAtBoundaries) {
   EXPECT_NEAR(db_from_linear(ping.measured(1, false).backscatter_total_m2 / body_m2(e)), 0.0, 0.25);
 }
 
+// Nor is what beams hear of it by their flanks, before the ground itself.
+TEST(TotalEcho, StopsWhereBeamsHearTheSeabed) {
+  test::MeasuredPing ping;
+  const test::Ellipsoid e = school(150.0, -20.0, 268.0);
+  ping.add(e);
+  fill_with_water(ping);
+  Seabed seabed;
+  seabed.found = true;
+  seabed.offset_m = 400.0;
+  seabed.first_sample.assign(500, 900);
+  seabed.heard_sample.assign(500, 900);
+  const std::vector<sonar::Run> members = ping.mask.runs;
+  for (int row = 0; row < 500; ++row) {
+    int end = 0;
+    for (const sonar::Run& run : members) {
+      if (std::abs(run.row / 25 - row / 25) <= 1 && std::abs(run.row % 25 - row % 25) <= 1)
+        end = std::max(end, static_cast<int>(run.end()));
+    }
+    if (end == 0) continue;
+    seabed.heard_sample[static_cast<std::size_t>(row)] = end;
+    for (int s = end; s < 900; ++s) ping.expected.view().row(row)[static_cast<std::size_t>(s)] = 0.1;
+  }
+  ping.seabed = &seabed;
+  const SchoolPingRow row = ping.measured(1, false);
+  EXPECT_NEAR(db_from_linear(row.backscatter_total_m2 / body_m2(e)), 0.0, 0.3);
+  EXPECT_NEAR(row.height_corrected_m / (2.0 * e.half_z), 1.0, 0.15);
+}
+
 }  // namespace
 }  // namespace sonar

@@ -39,12 +39,12 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"calibrate", 1, "1edf455df7cc0b4fda57ebe6875d49f6"},
     {"background", 3, "ac62c9a7c507cccbd36187563008fb3f"},
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
-    {"seabed", 6, "bd52c987c7035c50998bb977009262fe"},
-    {"detect", 14, "7c086119646cb7a5c43213b37d2637b0"},
+    {"seabed", 7, "bd52c987c7035c50998bb977009262fe"},
+    {"detect", 15, "ecafadc61520dadd37ba3a026f84de51"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 14, "89f6d7f4469bd09f65100bbc5737e101"},
-    {"summarise", 5, "84f9597b03a34b37ca48751286ca2711"},
+    {"measure", 14, "8d4a48062fc18114a3dbbe8e87b28ccc"},
+    {"summarise", 5, "d2c332ec70fb984d5274dd7e66644168"},
 }};
 
 class Digest {

@@ -109,7 +109,7 @@ class Window {
   }
 
   void find_level() {
-    water_ = statistics_of_places(levels_, masked_, places_);
+    water_ = statistics_of_places(levels_, masked_, places_, Trend::steep);
     lift_seabed();
   }
 
@@ -130,23 +130,40 @@ class Window {
     }
   }
 
+  /// Of the place at a block's middle, between those on either side of it.
+  [[nodiscard]] int water_level(std::size_t p, int row, int block) const {
+    const float by = places_.stretch(p, row);
+    const float at =
+        std::clamp((static_cast<float>(block) + 0.5F) * by - 0.5F, 0.0F, static_cast<float>(places_.count() - 1));
+    const int place = static_cast<int>(at);
+    const std::size_t here = cell(row / shape_.beams, place);
+    const auto told = [&](std::size_t i) { return water_[i].middle == kNoData ? kMinCount : int{water_[i].middle}; };
+    const float share = at - static_cast<float>(place);
+    if (share == 0.0F) return told(here);
+    const int from = told(here);
+    const int to = told(here + 1);
+    if (from <= kMinCount || to <= kMinCount) return std::max(from, to);
+    return from + static_cast<int>(share * static_cast<float>(to - from));
+  }
+
   void find_excess() {
     excess_.clear();
     for (std::size_t p = 0; p < pings_.size(); ++p) {
       Levels excess(shape_, kNoData);
       const auto level = levels_[p].all();
       const auto floor = std::as_const(floors_[p]).all();
-      for_each_block(p, [&](std::size_t i, std::size_t cell) {
-        const int below =
-            std::max(int{water_[cell].middle == kNoData ? kMinCount : water_[cell].middle}, int{floor[i]});
-        if (level[i] != kNoData && below > kMinCount) {
+      std::size_t i = 0;
+      for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
+        for (int block = 0; block < shape_.samples; ++block, ++i) {
+          const int below = std::max(water_level(p, row, block), int{floor[i]});
+          if (level[i] == kNoData || below <= kMinCount) continue;
           excess.all()[i] = static_cast<std::int16_t>(std::clamp(level[i] - below, -30000, 30000));
         }
-      });
+      }
       excess_.push_back(std::move(excess));
     }
     level_patches();
-    spread_ = statistics_of_places(excess_, masked_, places_);
+    spread_ = statistics_of_places(excess_, masked_, places_, Trend::none);
   }
 
   /// Takes out of each ping's excess what is wider than schools.
@@ -209,7 +226,7 @@ class Window {
   void find_evidence() {
     evidence_.clear();
     for (std::size_t p = 0; p < pings_.size(); ++p) evidence_.push_back(averaged(p));
-    own_ = statistics_of_places(evidence_, masked_, places_);
+    own_ = statistics_of_places(evidence_, masked_, places_, Trend::none);
   }
 
   /// Calls act(row, block, evidence) for the blocks of a ping that have so much at least. least > 0

@@ -11,6 +11,7 @@
 
 #include "base/units.h"
 #include "school/evidence/block_means.h"
+#include "school/seabed_plane.h"
 #include "school/test_water.h"
 
 namespace sonar {
@@ -105,6 +106,41 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
     if (fan >= 6 && fan < 12 && beam >= 8 && beam < 16) ++inside;
   }
   EXPECT_GE(inside, 6U * 8U * 2U) << "each beam of it, in two blocks at least";
+}
+
+// Towards a loud seabed beams hear its flank rise by 1.5 dB a metre, 8 dB from block to block, and its slope brings it nearer
+// in some of them than in others by less than a block: each beam's water is as loud as it is there.
+TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
+  Seabed seabed;
+  seabed.found = true;
+  seabed.offset_m = 110.0;
+  seabed.slope_x = 0.01;
+  seabed.slope_y = 0.013;
+  const SeabedPlane plane{seabed.offset_m, seabed.slope_x, seabed.slope_y};
+  const Sector sector = test::grid().sector(test::range_axis());
+  const auto level_db = [&](int row, int sample) {
+    const double flank_m =
+        plane.range(Sector::direction(sector.elevation_rad(row / 25) - 0.105, sector.azimuth_rad(row % 25)));
+    return kWater_db + std::clamp(1.5 * (sector.range().range_m(sample) - flank_m) + 40.0, 0.0, 40.0);
+  };
+  const auto sea = [&](int f, int b, int s, int /*ping*/) { return linear_from_db(level_db(f * 25 + b, s)); };
+  const WaterLevels told = Pings(sea).levels(&seabed)[3];
+  const int half = told.block_samples / 2;
+  double worst_db = 0.0;
+  for (int row = 0; row < 250; ++row) {
+    for (int s = 2 * half; s < 900 - 2 * half; ++s) {
+      const double here = level_db(row, s);
+      // where it begins and ends, the mean of a block is not that of its middle
+      if (here - kWater_db < 12.0 || here - kWater_db > 30.0) continue;
+      const double at = told.place_at(row, s);
+      const auto place = static_cast<std::size_t>((row / 25) * told.places + static_cast<int>(at));
+      const double share = at - std::floor(at);
+      const double of_places =
+          (1.0 - share) * db_from_counts(told.level[place]) + share * db_from_counts(told.level[place + 1]);
+      worst_db = std::max(worst_db, std::abs(of_places - here));
+    }
+  }
+  EXPECT_LT(worst_db, 3.0);
 }
 
 // A slope stretches each fan and beam otherwise; a school lies at the same range in all of them. The second one lies at the

@@ -29,6 +29,16 @@ PlaceStatistics told_by(std::span<const std::int16_t> values) {
           static_cast<std::int16_t>(at(0.84, middle, most) - middle)};
 }
 
+/// What lies at a fractional block; kNoData where a block that it needs has no say.
+std::int16_t between(std::span<const std::int16_t> row, std::span<const std::uint8_t> marks, float at) {
+  if (!(at >= 0.0F) || at > static_cast<float>(row.size() - 1)) return kNoData;
+  const auto b = static_cast<std::size_t>(at);
+  const std::size_t next = std::min(b + 1, row.size() - 1);
+  if (row[b] == kNoData || row[next] == kNoData || marks[b] != 0 || marks[next] != 0) return kNoData;
+  const float share = at - static_cast<float>(b);
+  return static_cast<std::int16_t>(static_cast<float>(row[b]) + share * static_cast<float>(row[next] - row[b]));
+}
+
 /// Where nothing is told, as behind a school that fills a fan, the water goes on between what lies nearer and farther.
 void fill(std::span<PlaceStatistics> told) {
   std::ptrdiff_t last = -1;
@@ -50,8 +60,8 @@ void fill(std::span<PlaceStatistics> told) {
 }  // namespace
 
 std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::int16_t>>& of_pings,
-                                                  const std::vector<Array3<std::uint8_t>>& masked,
-                                                  const Places& places) {
+                                                  const std::vector<Array3<std::uint8_t>>& masked, const Places& places,
+                                                  Trend trend) {
   if (of_pings.empty()) return {};
   const Shape3 shape = of_pings.front().shape();
   const auto count = static_cast<std::size_t>(places.count());
@@ -68,11 +78,21 @@ std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::
       for (int beam = 0; beam < shape.beams; ++beam) {
         const auto row = of_pings[p].row(fan, beam);
         const auto marks = masked[p].row(fan, beam);
+        const auto add = [&](std::size_t place, std::int16_t value, bool counts) {
+          values[place * most + known[place]] = value;
+          known[place] += counts ? std::size_t{1} : std::size_t{0};
+        };
+        const float stretch = places.stretch(p, fan * shape.beams + beam);
+        if (trend == Trend::steep && stretch != 1.0F) {
+          for (std::size_t place = 0; place < count; ++place) {
+            const std::int16_t value = between(row, marks, (static_cast<float>(place) + 0.5F) / stretch - 0.5F);
+            add(place, value, value != kNoData);
+          }
+          continue;
+        }
         places.for_each(p, fan * shape.beams + beam, shape.samples, [&](int block, int at) {
           const auto b = static_cast<std::size_t>(block);
-          const auto place = static_cast<std::size_t>(at);
-          values[place * most + known[place]] = row[b];
-          known[place] += row[b] != kNoData && marks[b] == 0 ? std::size_t{1} : std::size_t{0};
+          add(static_cast<std::size_t>(at), row[b], row[b] != kNoData && marks[b] == 0);
         });
       }
     }

@@ -17,6 +17,10 @@ struct PlaceStatistics {
   std::int16_t above = 0;  ///< up to the 84th
 };
 
+/// How values change from block to block. Towards the seabed levels rise by 10 dB and more a block, and are told in the middle of
+/// each place, between the blocks on either side of it; what has no trend goes to the place that its block lies in.
+enum class Trend { none, steep };
+
 /// For each place of a fan what the values of all pings and beams there tell; too few are joined by those of the places
 /// beside, and where even these are too few, what lies nearer and farther is interpolated.
 /// of_pings  [ping][fan][beam][block]
@@ -24,6 +28,6 @@ struct PlaceStatistics {
 /// returns   [fan][place]
 [[nodiscard]] std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::int16_t>>& of_pings,
                                                                 const std::vector<Array3<std::uint8_t>>& masked,
-                                                                const Places& places);
+                                                                const Places& places, Trend trend);
 
 }  // namespace sonar
