@@ -54,7 +54,7 @@ inline test::Bytes file() {
   test::Bytes bytes = test::con0(config);
   for (int ping = 0; ping < kPings; ++ping) {
     const TimeNs time = test::kStart + ping * 2 * kSecondNs;
-    const double minutes = 0.003 * ping;  // 0.003' of latitude in 2 s: 5.4 knots to the north
+    const double minutes = 0.001 * ping;  // 0.001' of latitude in 2 s: 1.8 knots to the north
     bytes.add(test::nme0(
         time, test::with_checksum(fmt::format("GPGGA,000000,60{:07.4f},N,00500.0000,E,1,8,1,0,M,0,M,,", minutes))));
     bytes.add(test::nme0(time, test::with_checksum("INHDT,10.0,T")));

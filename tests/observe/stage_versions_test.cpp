@@ -40,11 +40,11 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 3, "ac62c9a7c507cccbd36187563008fb3f"},
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
     {"seabed", 7, "bd52c987c7035c50998bb977009262fe"},
-    {"detect", 15, "ecafadc61520dadd37ba3a026f84de51"},
+    {"detect", 15, "377014ec67318b80c167d6dd11887fbb"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 14, "8d4a48062fc18114a3dbbe8e87b28ccc"},
-    {"summarise", 5, "d2c332ec70fb984d5274dd7e66644168"},
+    {"measure", 14, "db7addb3a870db697884167bd2211d52"},
+    {"summarise", 5, "76cf4fd3ac0c877036cdd8919c04b4da"},
 }};
 
 class Digest {

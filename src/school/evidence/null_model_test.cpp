@@ -108,6 +108,21 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
   EXPECT_GE(inside, 6U * 8U * 2U) << "each beam of it, in two blocks at least";
 }
 
+// As of a ship at rest that looks at a near school, which keeps its place in all pings.
+TEST(NullModel, WhatFillsTheMajorityStandsOutOfTheRest) {
+  const auto school = [](int f, int b, int s, int p) {
+    const bool inside = f >= 6 && f < 12 && b >= 5 && b < 20 && s >= 300 && s < 360;
+    return water(f, b, s, p) * (inside ? linear_from_db(20.0) : 1.0);
+  };
+  const WaterLevels told = Pings(school).levels()[3];
+  const int block = static_cast<int>(told.place_at(9 * 25 + 12, 330) + 0.5);
+  EXPECT_NEAR(db_from_counts(told.level[static_cast<std::size_t>(9 * told.places + block)]), kWater_db, 0.5);
+  const auto inside = std::ranges::count_if(told.cells, [](const EchoCell& one) {
+    return one.row / 25 >= 6 && one.row / 25 < 12 && one.row % 25 >= 5 && one.row % 25 < 20;
+  });
+  EXPECT_GE(inside, 6 * 15 * 3) << "each beam of it, in three blocks at least";
+}
+
 // Towards a loud seabed beams hear its flank rise by 1.5 dB a metre, 8 dB from block to block, and its slope brings it nearer
 // in some of them than in others by less than a block: each beam's water is as loud as it is there.
 TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <span>
 
 #include "signal/row_kernels.h"
@@ -11,10 +12,12 @@ namespace sonar {
 namespace {
 
 constexpr std::size_t kEnough = 60;  ///< values that tell a level and a spread
-constexpr std::size_t kPool = 3;     ///< places each side that lend theirs where there are fewer
+constexpr int kClear = 850;          ///< 10 dB, or 3.3 spreads
+constexpr int kSkew = 2;
+constexpr std::size_t kPool = 3;  ///< places each side that lend theirs where there are fewer
 
-PlaceStatistics told_by(std::span<const std::int16_t> values) {
-  if (values.size() < kEnough) return {};
+/// Percentiles of values, of which there are some.
+PlaceStatistics percentiles(std::span<const std::int16_t> values) {
   std::int16_t least = values.front();
   std::int16_t most = values.front();
   for (const std::int16_t value : values) {  // a shape that compilers turn into vector instructions
@@ -27,6 +30,17 @@ PlaceStatistics told_by(std::span<const std::int16_t> values) {
   const std::int16_t middle = at(0.5, least, most);
   return {middle, static_cast<std::int16_t>(middle - at(0.16, least, middle)),
           static_cast<std::int16_t>(at(0.84, middle, most) - middle)};
+}
+
+/// Water has its outliers above, and without its trend it is about 0. Where most values of one place stand clear of the others,
+/// as of a school that a ship at rest looks at, the others are the water.
+PlaceStatistics told_by(std::span<const std::int16_t> values, Trend trend) {
+  const PlaceStatistics all = percentiles(values);
+  const bool clear = trend == Trend::steep ? all.below >= kSkew * all.above : all.middle >= kClear;
+  if (!clear || all.below < kClear) return all;
+  std::vector<std::int16_t> low;
+  std::ranges::copy_if(values, std::back_inserter(low), [&](std::int16_t v) { return v < all.middle - all.below / 2; });
+  return percentiles(low);
 }
 
 /// What lies at a fractional block; kNoData where a block that it needs has no say.
@@ -99,7 +113,7 @@ std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::
     for (std::size_t b = 0; b < count; ++b) {
       PlaceStatistics& here = told[first + b];
       if (known[b] >= kEnough) {
-        here = told_by(of_place(b));
+        here = told_by(of_place(b), trend);
         continue;
       }
       pooled.assign(of_place(b).begin(), of_place(b).end());
@@ -107,7 +121,7 @@ std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::
         if (b >= r) pooled.insert(pooled.end(), of_place(b - r).begin(), of_place(b - r).end());
         if (b + r < count) pooled.insert(pooled.end(), of_place(b + r).begin(), of_place(b + r).end());
       }
-      here = told_by(pooled);
+      here = pooled.size() < kEnough ? PlaceStatistics{} : percentiles(pooled);
     }
     fill(std::span(told).subspan(first, count));
   }
