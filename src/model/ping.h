@@ -16,9 +16,9 @@ namespace sonar {
 /// What a reduced raw file says of a beam of which it holds a part only. Stands behind the samples of its RAW0.
 struct ReducedRow {
   float background_db = 0.0F;         ///< noise that was subtracted in the whole ping, dB re 1 W; NaN = none
-  std::int32_t seabed_sample = 0;     ///< first sample that was seabed; the recorded count or more = none
+  std::int32_t seabed_sample = 0;     ///< first sample that hears the seabed; the recorded count or more = none
   std::int32_t recorded_samples = 0;  ///< of the whole beam, offset included
-  std::int32_t open_first = 0;        ///< behind seabed_sample, water all the same: a school stands out of its flank
+  std::int32_t open_first = 0;        ///< from there on, its flank before the ground: schools may stand out of it
   std::int32_t open_end = 0;          ///< ... up to here; no more than open_first = none
   friend bool operator==(const ReducedRow&, const ReducedRow&) = default;
 };

@@ -128,8 +128,12 @@ Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> r
     break;
   }
   seabed.first_sample.assign(row_of_channel.size(), samples);
+  seabed.heard_sample.assign(row_of_channel.size(), samples);
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
-    seabed.first_sample[static_cast<std::size_t>(row)] = std::min(record.seabed_sample, samples);
+    const bool flank = record.open_first == record.seabed_sample && record.open_end > record.open_first;
+    const auto r = static_cast<std::size_t>(row);
+    seabed.first_sample[r] = std::min(flank ? record.open_end : record.seabed_sample, samples);
+    seabed.heard_sample[r] = std::min(record.seabed_sample, samples);
   });
   return seabed;
 }
@@ -140,7 +144,7 @@ void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int
     const auto row_flags = flags.row(row);
     const auto end = std::min(row_flags.size(), static_cast<std::size_t>(record.recorded_samples));
     for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) {
-      // files that were reduced by 0.1.0 hold schools behind there
+      // schools in its flank
       const bool is_open = std::cmp_greater_equal(s, record.open_first) && std::cmp_less(s, record.open_end);
       if (!is_open) row_flags[s] |= SampleFlags::seabed;
     }
