@@ -130,34 +130,44 @@ class Window {
     }
   }
 
-  /// Of the place at a block's middle, between those on either side of it.
-  [[nodiscard]] int water_level(std::size_t p, int row, int block) const {
-    const float by = places_.stretch(p, row);
-    const float at =
-        std::clamp((static_cast<float>(block) + 0.5F) * by - 0.5F, 0.0F, static_cast<float>(places_.count() - 1));
-    const int place = static_cast<int>(at);
-    const std::size_t here = cell(row / shape_.beams, place);
-    const auto told = [&](std::size_t i) { return water_[i].middle == kNoData ? kMinCount : int{water_[i].middle}; };
-    const float share = at - static_cast<float>(place);
-    if (share == 0.0F) return told(here);
-    const int from = told(here);
-    const int to = told(here + 1);
-    if (from <= kMinCount || to <= kMinCount) return std::max(from, to);
-    return from + static_cast<int>(share * static_cast<float>(to - from));
+  /// The water in the middle of each block of a beam, between the places on either side.
+  /// of_fan  [place] kMinCount = not known
+  void water_of_row(std::span<const std::int16_t> of_fan, float by, std::span<int> out) const {
+    if (by == 1.0F) {  // the usual case: blocks are places
+      std::copy_n(of_fan.begin(), out.size(), out.begin());
+      return;
+    }
+    const auto last = static_cast<float>(of_fan.size() - 1);
+    for (std::size_t block = 0; block < out.size(); ++block) {
+      const float at = std::clamp((static_cast<float>(block) + 0.5F) * by - 0.5F, 0.0F, last);
+      const auto place = static_cast<std::size_t>(at);
+      const int from = of_fan[place];
+      const int to = of_fan[std::min(place + 1, of_fan.size() - 1)];
+      const int between = from + static_cast<int>((at - static_cast<float>(place)) * static_cast<float>(to - from));
+      out[block] = std::min(from, to) > kMinCount ? between : std::max(from, to);
+    }
   }
 
   void find_excess() {
     excess_.clear();
+    std::vector<std::int16_t> told(water_.size());
+    std::ranges::transform(water_, told.begin(), [](const PlaceStatistics& water) {
+      return water.middle == kNoData ? std::int16_t{kMinCount} : water.middle;
+    });
+    std::vector<int> below(static_cast<std::size_t>(shape_.samples));
     for (std::size_t p = 0; p < pings_.size(); ++p) {
       Levels excess(shape_, kNoData);
-      const auto level = levels_[p].all();
-      const auto floor = std::as_const(floors_[p]).all();
-      std::size_t i = 0;
       for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-        for (int block = 0; block < shape_.samples; ++block, ++i) {
-          const int below = std::max(water_level(p, row, block), int{floor[i]});
-          if (level[i] == kNoData || below <= kMinCount) continue;
-          excess.all()[i] = static_cast<std::int16_t>(std::clamp(level[i] - below, -30000, 30000));
+        const auto of_fan =
+            std::span(told).subspan(cell(row / shape_.beams, 0), static_cast<std::size_t>(places_.count()));
+        water_of_row(of_fan, places_.stretch(p, row), below);
+        const auto level = std::as_const(levels_[p]).view().row(row);
+        const auto floor = std::as_const(floors_[p]).view().row(row);
+        const auto out = excess.view().row(row);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+          const int water = std::max(below[i], int{floor[i]});
+          if (level[i] == kNoData || water <= kMinCount) continue;
+          out[i] = static_cast<std::int16_t>(std::clamp(level[i] - water, -30000, 30000));
         }
       }
       excess_.push_back(std::move(excess));

@@ -95,7 +95,7 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
   };
   const Pings pings(school);
   const WaterLevels told = pings.levels()[3];
-  const int block = static_cast<int>(told.place_at(9 * 25 + 12, 322) + 0.5);
+  const int block = static_cast<int>(std::lround(told.place_at(9 * 25 + 12, 322)));
   const auto cell = static_cast<std::size_t>(9 * told.places + block);
   EXPECT_NEAR(db_from_counts(told.level[cell]), kWater_db, 0.4);
   std::size_t inside = 0;
@@ -115,7 +115,7 @@ TEST(NullModel, WhatFillsTheMajorityStandsOutOfTheRest) {
     return water(f, b, s, p) * (inside ? linear_from_db(20.0) : 1.0);
   };
   const WaterLevels told = Pings(school).levels()[3];
-  const int block = static_cast<int>(told.place_at(9 * 25 + 12, 330) + 0.5);
+  const int block = static_cast<int>(std::lround(told.place_at(9 * 25 + 12, 330)));
   EXPECT_NEAR(db_from_counts(told.level[static_cast<std::size_t>(9 * told.places + block)]), kWater_db, 0.5);
   const auto inside = std::ranges::count_if(told.cells, [](const EchoCell& one) {
     return one.row / 25 >= 6 && one.row / 25 < 12 && one.row % 25 >= 5 && one.row % 25 < 20;
