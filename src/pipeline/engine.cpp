@@ -265,6 +265,7 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.seabed = reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.filtered->counts.shape().samples);
     flag_reduced_seabed((*loaded)->heads, grid().row_of_channel(), ping.sv.flags.view());
     ping.filtered->flags = ping.sv.flags;
+    flag_seabed(ping.seabed, ping.filtered->flags.view());
   } else if (recipe_.seabed.enabled) {
     ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), ping.background(), sector_,
                               grid().vertical_width_deg, recipe_.seabed);

@@ -180,10 +180,10 @@ void fill_record(const PowerVolume& whole, const std::vector<int>& row_of_channe
     } else {
       record.recorded_samples = told[row] < 0 ? samples : std::min(told[row], samples);
     }
-    const std::int32_t ground = seabed.found ? seabed.first_sample[row] : samples;
-    record.seabed_sample = seabed.heard_sample.empty() ? ground : std::min(ground, seabed.heard_sample[row]);
+    const bool heard = seabed.found && !seabed.heard_sample.empty();
+    record.open_end = seabed.found ? seabed.first_sample[row] : samples;
+    record.seabed_sample = heard ? seabed.heard_sample[row] : record.open_end;
     record.open_first = record.seabed_sample;
-    record.open_end = ground;
   }
 }
 

@@ -130,6 +130,7 @@ Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> r
   seabed.first_sample.assign(row_of_channel.size(), samples);
   seabed.heard_sample.assign(row_of_channel.size(), samples);
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
+    // 0.1.0 wrote stretches that begin later: water round schools in a flank of which nothing else is known
     const bool flank = record.open_first == record.seabed_sample && record.open_end > record.open_first;
     const auto r = static_cast<std::size_t>(row);
     seabed.first_sample[r] = std::min(flank ? record.open_end : record.seabed_sample, samples);

@@ -49,7 +49,7 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                                     int samples);
 
-/// Flags seabed from where it began in the whole ping on, plane or not.
+/// Flags seabed from where it began in the whole ping on, plane or not; what lies in its flank is water.
 void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                          View3<SampleFlags> flags);
 

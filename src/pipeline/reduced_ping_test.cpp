@@ -124,6 +124,14 @@ TEST(ReducedPing, open_stretches_survive_and_files_without_them_are_read) {
   EXPECT_EQ(now.reduced_short, p.reduced_short);
   const std::vector<int> row_of_channel{2, 1, 0};
   const Seabed seabed = reduced_seabed(std::vector{now}, row_of_channel, 1324);
+  // a stretch that begins later is 0.1.0's: nothing is known of the flank
+  EXPECT_EQ(seabed.first_sample, (std::vector<std::int32_t>{700, 1324, 900}));
+  EXPECT_EQ(seabed.heard_sample, seabed.first_sample);
+  ChannelPing flank = p;
+  flank.reduced->open_first = flank.reduced->seabed_sample;
+  const Seabed with_flank = reduced_seabed(std::vector{flank}, row_of_channel, 1324);
+  EXPECT_EQ(with_flank.first_sample[0], 800);
+  EXPECT_EQ(with_flank.heard_sample[0], 700);
   Array3<SampleFlags> flags({1, 3, 1324});
   flag_reduced_seabed(std::vector{now}, row_of_channel, flags.view());
   for (const auto& [sample, is_seabed] :

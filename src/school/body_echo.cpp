@@ -128,7 +128,7 @@ std::vector<double> background_factors(const MeasureInput& ping, const std::vect
     const auto calibration = ping.background.calibration.row(row);
     const double power = ping.background.power_counts(row);
     const auto is_loud = loud.begin() + static_cast<std::ptrdiff_t>(row % shape.beams) * shape.samples;
-    for (int s = std::max(first, 0); s < std::min(end, shape.samples); ++s) {
+    for (int s = std::max(first, 0); s < std::min(end, ping.seabed_heard(row)); ++s) {
       const auto i = static_cast<std::size_t>(s);
       if (is_loud[s] || any(flags[i] & kNotFiltered) || counts[i] == kNoData || calibration[i] == kNoData) continue;
       offsets[static_cast<std::size_t>(row / shape.beams)].push_back(counts[i] - calibration[i] - power);

@@ -31,7 +31,7 @@ struct BodyEcho {
 
 /// Second moments of the echo in and round the mask, and how likely which height of the body is.
 /// The mask ends where the echo falls below its threshold, and moments cut there would be too small; so the echo is
-/// taken from a wider stretch of water, where it dies away by itself.
+/// taken from a wider stretch of water, where it dies away by itself; not from where beams hear the seabed.
 [[nodiscard]] BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params);
 
 }  // namespace sonar

@@ -59,6 +59,7 @@ double shape_variance(std::span<const AxisSight> sights, const MeasureParams& pa
   double of_bodies = 0.0;
   double of_echoes = 0.0;
   for (const AxisSight& sight : sights) {
+    if (!std::isfinite(sight.variance) || !std::isfinite(sight.fourth_cumulant)) continue;
     const double body = std::max(sight.variance, 0.0);
     looks += sight.looks;
     fourth += sight.looks * (sight.fourth_cumulant - kEvenFourth * body * body);
@@ -67,7 +68,7 @@ double shape_variance(std::span<const AxisSight> sights, const MeasureParams& pa
   }
   if (!(of_echoes > 0.0)) return params.shape_variance;
   const double off = fourth / of_echoes * looks / (looks + params.density_looks);
-  const double doubt = 1.0 - std::sqrt(of_bodies / of_echoes);
+  const double doubt = std::max(0.0, 1.0 - std::sqrt(of_bodies / of_echoes));
   const double told = std::copysign(std::max(std::abs(off) - doubt, 0.0), off);
   return params.shape_variance * shape_variance(kEvenKurtosis + told) / kEvenShape;
 }

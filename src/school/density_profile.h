@@ -33,7 +33,7 @@ class LevelMoments {
 struct AxisSight {
   double variance = 0.0;         ///< of the body, m^2
   double echo_variance = 0.0;    ///< beam's and pulse's blur in it, m^2
-  double fourth_cumulant = 0.0;  ///< m^4; cumulants add up, and a Gaussian beam has none
+  double fourth_cumulant = 0.0;  ///< m^4; cumulants add up: a Gaussian beam has none, a pulse next to none
   double looks = 0.0;            ///< independent ones
 };
 

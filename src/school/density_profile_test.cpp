@@ -160,6 +160,7 @@ TEST(DensityProfile, DenseHeartsAreNoSmallerBodiesAndHollowOnesNoLarger) {
   off.find_density = false;
   for (const auto density : {even, six_decibels, exponential, hollow}) {
     EXPECT_NEAR(volume_ratio(density, 0.0, params), 1.0, 0.15) << marginal_of(density).kurtosis;
+    EXPECT_NEAR(volume_ratio(density, 2.0, params), 1.0, 0.17) << "through a pulse of 2 m";
   }
   EXPECT_LT(volume_ratio(exponential, 0.0, off), 0.78);
   EXPECT_GT(volume_ratio(hollow, 0.0, off), 1.12);

@@ -39,6 +39,7 @@ struct MeasureInput {
   double threshold_db = kUnknown;      ///< the mask's, for the record
 
   /// From where a beam hears the seabed, by its flank first: what lies beyond is a school's where it is a member, else not.
+  /// The record's end where none is heard.
   [[nodiscard]] int seabed_heard(int row) const {
     return seabed == nullptr || seabed->heard_sample.empty() ? sv.shape().samples
                                                              : seabed->heard_sample[static_cast<std::size_t>(row)];

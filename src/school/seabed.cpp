@@ -48,8 +48,9 @@ class SeabedFinder {
     bounds(*plane, seabed);
     const double strength = strength_db(*plane);
     for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {
-      seabed.first_sample[static_cast<std::size_t>(row)] = ground_sample(*plane, row);
-      seabed.heard_sample.push_back(onset(*plane, strength, row));
+      const int ground = ground_sample(*plane, row);
+      seabed.first_sample[static_cast<std::size_t>(row)] = ground;
+      seabed.heard_sample.push_back(std::min(ground, onset(*plane, strength, row)));
     }
     if (params_.hills) add_hills(*plane, strength, seabed);
     return seabed;

@@ -58,8 +58,9 @@ struct SeabedParams {
   static constexpr double fit_least_share =
       0.2;                                    ///< ... if they are farther off than this share of what an inlier may be
   static constexpr double fit_support = 0.9;  ///< ... a fit that loses more than the rest of the beams is not taken
-  static constexpr double fit_smooth_share =
-      0.243;  ///< ... but where their median distance is a larger share of what an inlier may be, none may be lost: hills
+  /// ... but where their median distance is a larger share of what an inlier may be, none may be lost: hills. Below it the
+  /// seabed is smooth, and no echo in its flank is a hill.
+  static constexpr double fit_smooth_share = 0.243;
   static constexpr double min_triangle_m2 = 25.0;  ///< m2, three echoes on less tell no slope (twice the area)
 };
 
@@ -81,7 +82,9 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "1", .min = 0, .max = 1, .text = "share of the beams that should see the plane and do"});
   v.field("min_inliers", p.min_inliers, {.unit = "beams", .min = 3, .max = 100000, .text = "least number of beams"});
   v.field("margin_m", p.margin_m, {.unit = "m", .min = 0, .max = 200, .text = "water above the seabed left out"});
-  v.field("hills", p.hills, {.text = "what rises out of the plane is seabed too where beams end at it"});
+  v.field("hills", p.hills,
+          {.text = "what rises out of the plane is seabed too where beams end at it; over smooth ground not what lies "
+                   "in its flank"});
   v.field("hill_step_m", p.hill_step_m,
           {.unit = "m",
            .min = 0,

@@ -17,7 +17,7 @@ namespace sonar {
 /// sees the ground farther away, or the beam through it sees the ground behind.
 /// echoes        of all beams, cut ones too, by row
 /// strength_db   what to add to the plane's lambert_db()
-/// first_sample  [row] first sample beyond the plane's seabed and its margin; only ever becomes less
+/// first_sample  [row] first sample of the plane's seabed, its flank included or not; only ever becomes less
 void find_hills(const SeabedWater& water, const std::vector<SeabedEcho>& echoes, const SeabedPlane& plane,
                 double strength_db, const std::vector<double>& vertical_width_deg,
                 std::vector<std::int32_t>& first_sample);

@@ -199,7 +199,7 @@ class Window {
   }
 
   /// Before what stands out is known the upper half may hold a school; then it is the half that schools must exceed. A
-  /// school that keeps its place in the window fills less than a sixth of it.
+  /// school that keeps its place in the window and fills more than a sixth of it widens the water.
   [[nodiscard]] double width(const PlaceStatistics& told, double least) const {
     return std::max<double>(look_ == 0 ? told.below : told.above, least);
   }

@@ -24,7 +24,7 @@ struct WaterPing {
 /// The water of neighbouring pings, and what stands out of it in each: the null model of that place and hour.
 ///
 /// For each place of a fan the water is what most beams of most pings return there, in ship-fixed coordinates: its
-/// median. The excess over that (or over a beam's own noise, where that is louder) and over the patch it lies in, in
+/// median, or that of the rest where most is a school. The excess over that (or over a beam's own noise, where that is louder) and over the patch it lies in, in
 /// spreads, is averaged over 3 x 3 beams and judged by its own median and spread. At the first look the spread is that
 /// downwards, which schools do not move; what stands out is left out of the next looks, which take that upwards.
 /// window  pings in order; all of one shape

@@ -123,6 +123,18 @@ TEST(NullModel, WhatFillsTheMajorityStandsOutOfTheRest) {
   EXPECT_GE(inside, 6 * 15 * 3) << "each beam of it, in three blocks at least";
 }
 
+// A beam in five that something hides, or a ping in seven full of bubbles: the others are the water all the same.
+TEST(NullModel, AMinorityThatHearsBadlyMakesNoSchoolOfTheRest) {
+  for (const bool beams : {true, false}) {
+    const auto hidden = [&](int f, int b, int s, int p) {
+      return water(f, b, s, p) * linear_from_db((beams ? b % 5 == 2 : p == 4) ? -15.0 : 0.0);
+    };
+    std::size_t cells = 0;
+    for (const WaterLevels& ping : Pings(hidden).levels()) cells += ping.cells.size();
+    EXPECT_LE(cells, 20U) << beams;
+  }
+}
+
 // Towards a loud seabed beams hear its flank rise by 1.5 dB a metre, 8 dB from block to block, and its slope brings it nearer
 // in some of them than in others by less than a block: each beam's water is as loud as it is there.
 TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
@@ -142,6 +154,7 @@ TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
   const WaterLevels told = Pings(sea).levels(&seabed)[3];
   const int half = told.block_samples / 2;
   double worst_db = 0.0;
+  int looked_at = 0;
   for (int row = 0; row < 250; ++row) {
     for (int s = 2 * half; s < 900 - 2 * half; ++s) {
       const double here = level_db(row, s);
@@ -153,8 +166,10 @@ TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
       const double of_places =
           (1.0 - share) * db_from_counts(told.level[place]) + share * db_from_counts(told.level[place + 1]);
       worst_db = std::max(worst_db, std::abs(of_places - here));
+      ++looked_at;
     }
   }
+  EXPECT_GT(looked_at, 1000);
   EXPECT_LT(worst_db, 3.0);
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kEnough = 60;  ///< values that tell a level and a spread
 constexpr int kClear = 850;          ///< 10 dB, or 3.3 spreads
 constexpr int kSkew = 2;
-constexpr std::size_t kPool = 3;  ///< places each side that lend theirs where there are fewer
+constexpr std::size_t kLeastRest = 4;  ///< a quarter: fewer may be beams that hear badly
+constexpr std::size_t kPool = 3;       ///< places each side that lend theirs where there are fewer
 
 /// Percentiles of values, of which there are some.
 PlaceStatistics percentiles(std::span<const std::int16_t> values) {
@@ -33,18 +34,19 @@ PlaceStatistics percentiles(std::span<const std::int16_t> values) {
 }
 
 /// Water has its outliers above, and without its trend it is about 0. Where most values of one place stand clear of the others,
-/// as of a school that a ship at rest looks at, the others are the water.
+/// as of a school that a ship at rest looks at, the others are the water; not where places had to be joined, for their levels
+/// differ.
 PlaceStatistics told_by(std::span<const std::int16_t> values, Trend trend) {
   const PlaceStatistics all = percentiles(values);
   const bool clear = trend == Trend::steep ? all.below >= kSkew * all.above : all.middle >= kClear;
   if (!clear || all.below < kClear) return all;
   std::vector<std::int16_t> low;
   std::ranges::copy_if(values, std::back_inserter(low), [&](std::int16_t v) { return v < all.middle - all.below / 2; });
-  return percentiles(low);
+  return low.size() < values.size() / kLeastRest ? all : percentiles(low);
 }
 
-/// What lies at a fractional block; kNoData where a block that it needs has no say.
-std::int16_t between(std::span<const std::int16_t> row, std::span<const std::uint8_t> marks, float at) {
+/// The level at a fractional block; kNoData where a block that it needs has no say.
+std::int16_t level_at(std::span<const std::int16_t> row, std::span<const std::uint8_t> marks, float at) {
   if (!(at >= 0.0F) || at > static_cast<float>(row.size() - 1)) return kNoData;
   const auto b = static_cast<std::size_t>(at);
   const std::size_t next = std::min(b + 1, row.size() - 1);
@@ -99,7 +101,7 @@ std::vector<PlaceStatistics> statistics_of_places(const std::vector<Array3<std::
         const float stretch = places.stretch(p, fan * shape.beams + beam);
         if (trend == Trend::steep && stretch != 1.0F) {
           for (std::size_t place = 0; place < count; ++place) {
-            const std::int16_t value = between(row, marks, (static_cast<float>(place) + 0.5F) / stretch - 0.5F);
+            const std::int16_t value = level_at(row, marks, (static_cast<float>(place) + 0.5F) / stretch - 0.5F);
             add(place, value, value != kNoData);
           }
           continue;

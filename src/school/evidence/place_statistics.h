@@ -18,7 +18,9 @@ struct PlaceStatistics {
 };
 
 /// How values change from block to block. Towards the seabed levels rise by 10 dB and more a block, and are told in the middle of
-/// each place, between the blocks on either side of it; what has no trend goes to the place that its block lies in.
+/// each place, between the blocks on either side of it; what has no trend goes to the place that its block lies in. Where most of
+/// a place stands 10 dB (of evidence: 3.3 spreads) clear of a quarter or more, that rest tells: of levels by their lopsided
+/// spread, without a trend by a middle that is not about 0.
 enum class Trend { none, steep };
 
 /// For each place of a fan what the values of all pings and beams there tell; too few are joined by those of the places
