@@ -245,7 +245,7 @@ TEST(NullModel, ASchoolStandsOutOfPatchyWater) {
   for (int b = 4; b < 21; ++b) {
     for (int s = 120; s < 780; s += 15) {
       const int row = 4 * 25 + b;
-      const auto block = static_cast<std::size_t>(told[3].block_at(s) + 0.5);
+      const auto block = static_cast<std::size_t>(std::lround(told[3].block_at(s)));
       const auto blocks = static_cast<std::size_t>(told[3].blocks);
       const double level_db =
           db_from_counts(told[3].level[4 * blocks + block]) +  // as many places: no seabed
