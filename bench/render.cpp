@@ -300,7 +300,8 @@ class Bench {
 
   void keep(const Image& picture, const Recorded& scene, const std::string& what) {
     const std::string file = fmt::format("{}/{}_{}_{}.png", folder_, scene.view, scene.table, what);
-    if (auto written = write_png(picture, file); !written) fmt::print(stderr, "{}\n", to_line(written.error()));
+    const auto bytes = png_bytes(picture);
+    if (!bytes || !(std::ofstream(file, std::ios::binary) << *bytes)) fmt::print(stderr, "{}: not written\n", file);
   }
 
   void beside_vtk(const Recorded& scene, const Times& ours, double ours_db, const Image& reference) {

@@ -207,7 +207,8 @@ Result<Clicked> click(const PropagateArguments& arguments, const Recipe& recipe,
 
 Result<void> write_outcome(const Clicked& clicked, const JournalLine& line, const ObservationProduct& product,
                            const Recipe& recipe, const RunOptions& options) {
-  if (auto written = write_product(product, product_path(options.out, product.observation)); !written) return written;
+  const auto file = product_path(options.out, product.observation);
+  if (auto written = write_product(product, file, Beside::own_folder); !written) return written;
   Journal head;
   head.recipe_hash = product.recipe_hash;
   head.recipe = product.recipe_json;

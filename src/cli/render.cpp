@@ -12,6 +12,7 @@
 #include "cli/verb.h"
 #include "pipeline/recipe.h"
 #include "publish/picture.h"
+#include "publish/picture_files.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 
@@ -74,7 +75,7 @@ int compare_frame(const RenderArguments& arguments, const FrameDescription& fram
     const auto reference = read_png(arguments.reference);
     if (!reference) return report(reference.error());
     if (reference->size == picture->size) {
-      const auto written = write_png(difference_picture(*picture, *reference), arguments.difference);
+      const auto written = write_pixels(difference_picture(*picture, *reference), arguments.difference);
       if (!written) return report(written.error());
     }
   }
@@ -89,7 +90,7 @@ int render_verb(const RenderArguments& arguments) {
   clear_progress();
   if (!frame) return report(frame.error());
   if (!arguments.out.empty()) {
-    if (auto written = write_frame(*frame, arguments.out, arguments.scale); !written) return report(written.error());
+    if (auto written = write_picture(*frame, arguments.out, arguments.scale); !written) return report(written.error());
     if (arguments.reference.empty()) fmt::print("{}\n", arguments.out);
   }
   return arguments.reference.empty() ? kExitDone : compare_frame(arguments, *frame);

@@ -88,7 +88,9 @@ Result<Journal> read_session(const std::string& path) {
 /// A recipe that was asked for; else the one that the session's choices were made under; else the default.
 Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
   if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
-    return recipe_from_text(journal.recipe);
+    auto recipe = recipe_from_text(journal.recipe);
+    if (!recipe) return fail(recipe.error().code, "its recipe: " + recipe.error().text, {arguments.session});
+    return recipe;
   }
   return chosen_recipe(arguments.recipe, arguments.measured);
 }

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/recordings.h"
+
 namespace sonar {
 namespace {
 
@@ -36,15 +38,33 @@ std::string host_name() {
 /// Everything before the number that makes the name free; host and process tell whose it is.
 std::string own_prefix() { return fmt::format("{}{}-{}-", kPrefix, host_name(), ::getpid()); }
 
-Result<void> flush(const fs::path& path, int flags) {
-  const int fd = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (fd < 0) return refused(path, "cannot open to flush", errno);
-  const int status = ::fsync(fd);
-  const int error = errno;
-  ::close(fd);
-  // Some network file systems cannot flush a folder; the rename is still whole there.
-  if (status != 0 && error != EINVAL) return refused(path, "cannot flush", error);
-  return {};
+/// Some network file systems cannot flush a folder; the rename is still whole there.
+int flush(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno; }
+
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
+
+Result<int> open_folder(const fs::path& folder, Beside beside) {
+  const int through = beside == Beside::own_folder ? O_NOFOLLOW : 0;
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | through);
+  if (descriptor < 0) return refused(folder, "cannot write to the folder", errno);
+  return descriptor;
+}
+
+Result<void> require_no_recording(const fs::path& target) {
+  if (!is_recording(target)) return {};
+  return fail(ErrorCode::usage, "is a recording, which is never written over", {.file = target.string()});
+}
+
+Result<void> make_folder(const fs::path& folder, Beside beside) {
+  if (beside == Beside::own_folder) {
+    if (auto own = require_own_folder(folder); !own) return own;
+  }
+  std::error_code made;
+  fs::create_directories(folder, made);
+  if (made) return fail(ErrorCode::io, "cannot make the folder: " + made.message(), {.file = folder.string()});
+  if (beside == Beside::recordings || !holds_recordings(folder)) return {};
+  return fail(ErrorCode::usage, "lies in the folder of the raw files, where nothing is ever written",
+              {.file = folder.string()});
 }
 
 /// Process number in a temporary file's name of this machine; 0 = none of ours.
@@ -61,72 +81,104 @@ int owner(std::string_view file_name, std::string_view prefix_of_host) {
 
 tl::unexpected<Error> refused_write(std::string_view what, int error, const std::string& file) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  return fail(full ? ErrorCode::no_space : ErrorCode::io,
-              error == 0 ? std::string(what) : fmt::format("{}: {}", what, std::generic_category().message(error)),
-              {.file = file});
+  std::string why = error == 0 ? std::string{} : ": " + std::generic_category().message(error);
+  if (error == ELOOP) why = ": is a link, through which nothing is written";
+  return fail(full ? ErrorCode::no_space : ErrorCode::io, std::string(what) + why, {.file = file});
 }
 
-AtomicFile::AtomicFile(fs::path target, fs::path temporary)
-    : target_(std::move(target)), temporary_(std::move(temporary)) {}
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      folder_(std::exchange(other.folder_, -1)),
+      file_(std::exchange(other.file_, -1)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
+  std::swap(folder_, other.folder_);
+  std::swap(file_, other.file_);
   return *this;
 }
 
 AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  if (!temporary_.empty()) ::unlinkat(folder_, temporary_.filename().c_str(), 0);
+  if (file_ >= 0) ::close(file_);
+  if (folder_ >= 0) ::close(folder_);
 }
 
-Result<AtomicFile> AtomicFile::create(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  std::error_code made;
-  fs::create_directories(folder, made);
-  if (made) return fail(ErrorCode::io, "cannot make the folder: " + made.message(), {.file = folder.string()});
+Result<AtomicFile> AtomicFile::create(const fs::path& target, Beside beside) {
+  const fs::path folder = folder_of(target);
+  if (auto made = make_folder(folder, beside); !made) return pass_on(made);
+  if (auto free = require_no_recording(target); !free) return pass_on(free);
+  const auto opened = open_folder(folder, beside);
+  if (!opened) return pass_on(opened);
+  AtomicFile file(target, *opened);
+  if (auto made = file.make_temporary(); !made) return pass_on(made);
+  return file;
+}
+
+Result<void> AtomicFile::make_temporary() {
   const std::string prefix = own_prefix();
-  const std::string name = target.filename().string();
   for (int n = 0;; ++n) {
-    fs::path temporary = folder / fmt::format("{}{}-{}", prefix, n, name);
-    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd >= 0) {
-      ::close(fd);
-      return AtomicFile(target, std::move(temporary));
+    const std::string name = fmt::format("{}{}-{}", prefix, n, target_.filename().string());
+    file_ = ::openat(folder_, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
+    if (file_ >= 0) {
+      temporary_ = folder_of(target_) / name;
+      return {};
     }
-    if (errno != EEXIST) return refused(target, "cannot write", errno);
+    if (errno != EEXIST) return refused(target_, "cannot write", errno);
   }
+}
+
+Result<void> AtomicFile::write(std::string_view bytes) {
+  const int error = write_all(file_, bytes);
+  return error == 0 ? Result<void>{} : refused(target_, "cannot write", error);
+}
+
+/// What stands there now: a library may have made the file anew under the same name.
+Result<void> AtomicFile::flush_temporary() const {
+  const int written = ::openat(folder_, temporary_.filename().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (written < 0) return refused(target_, "cannot open to flush", errno);
+  const int error = flush(written);
+  ::close(written);
+  return error == 0 ? Result<void>{} : refused(target_, "cannot flush", error);
 }
 
 Result<void> AtomicFile::commit() {
-  if (auto flushed = flush(temporary_, O_RDWR); !flushed) return flushed;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) return refused(target_, "cannot rename into place", errno);
+  if (auto flushed = flush_temporary(); !flushed) return flushed;
+  if (auto free = require_no_recording(target_); !free) return free;
+  const std::string name = target_.filename().string();
+  if (::renameat(folder_, temporary_.filename().c_str(), folder_, name.c_str()) != 0) {
+    return refused(target_, "cannot rename into place", errno);
+  }
   temporary_.clear();
-  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-  return flush(folder, O_RDONLY | O_DIRECTORY);
+  const int error = flush(folder_);
+  return error == 0 ? Result<void>{} : refused(folder_of(target_), "cannot flush the folder", error);
 }
 
-Result<void> write_file(const fs::path& target, std::string_view bytes) {
-  auto file = AtomicFile::create(target);
+Result<void> write_file(const fs::path& target, std::string_view bytes, Beside beside) {
+  auto file = AtomicFile::create(target, beside);
   if (!file) return pass_on(file);
-  const int fd = ::open(file->temporary().c_str(), O_WRONLY | O_CLOEXEC);
-  if (fd < 0) return refused(target, "cannot write", errno);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      ::close(fd);
-      return refused(target, "cannot write", error);
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::close(fd) != 0) return refused(target, "cannot write", errno);
+  if (auto written = file->write(bytes); !written) return written;
   return file->commit();
+}
+
+Result<void> require_own_folder(const fs::path& folder) {
+  std::error_code absent;
+  if (!fs::is_symlink(fs::symlink_status(folder, absent))) return {};
+  return fail(ErrorCode::io,
+              "is a link; expected a folder of the program's own: nothing is written or removed through it",
+              {.file = folder.string()});
 }
 
 Result<std::string> read_file(const fs::path& path, std::uint64_t limit_bytes) {

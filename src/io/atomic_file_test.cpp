@@ -6,6 +6,9 @@
 
 #include <fstream>
 
+#include "base/test_full_disk.h"
+#include "io/simrad/writer_datagrams.h"
+
 namespace sonar {
 namespace {
 
@@ -68,6 +71,73 @@ TEST_F(Atomic, leftovers_of_dead_processes_go) {
   remove_leftovers(folder_);
   EXPECT_EQ(entries(), 2U);
   EXPECT_TRUE(fs::exists(mine->temporary()));
+}
+
+std::string recording() {
+  RawBytes bytes;
+  append_nme0(bytes, TimeNs{1'258'099'909'000'000'000}, "$GPHDT,1,T");
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(Atomic, recordings_are_never_written_over_nor_written_beside) {
+  std::ofstream(folder_ / "a.raw") << recording();
+  std::ofstream(folder_ / "no_ending") << recording();
+  fs::create_directories(folder_ / "elsewhere");
+  std::ofstream(folder_ / "elsewhere" / "no_ending") << recording();
+  std::ofstream(folder_ / "elsewhere" / "damaged.RAW") << "?";
+  for (const char* name : {"a.raw", "no_ending", "table.csv", "elsewhere/no_ending", "elsewhere/damaged.RAW"}) {
+    const auto written = write_file(folder_ / name, "gone");
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().code, ErrorCode::usage);
+    const auto as_recording = write_file(folder_ / name, "gone", Beside::recordings);
+    EXPECT_EQ(as_recording.has_value(), std::string(name) == "table.csv") << name;
+  }
+  EXPECT_EQ(*read_file(folder_ / "a.raw"), recording());
+  EXPECT_EQ(*read_file(folder_ / "elsewhere" / "no_ending"), recording());
+  EXPECT_TRUE(write_file(folder_ / "elsewhere" / "table.csv", "no recording beside it is sound"));
+  // One that came while the file was written.
+  auto late = AtomicFile::create(folder_ / "elsewhere" / "late");
+  ASSERT_TRUE(late);
+  std::ofstream(folder_ / "elsewhere" / "late") << recording();
+  EXPECT_EQ(late->commit().error().code, ErrorCode::usage);
+  EXPECT_EQ(*read_file(folder_ / "elsewhere" / "late"), recording());
+}
+
+TEST_F(Atomic, nothing_is_written_through_a_link) {
+  std::ofstream(folder_ / "others") << "theirs";
+  fs::create_directories(folder_ / "behind");
+  fs::create_symlink(folder_ / "others", folder_ / "link");
+  ASSERT_TRUE(write_file(folder_ / "link", "ours"));
+  EXPECT_EQ(*read_file(folder_ / "others"), "theirs");
+  EXPECT_EQ(*read_file(folder_ / "link"), "ours");
+  // A folder that a user named may be a link; one that we make inside it may not.
+  fs::create_directory_symlink(folder_ / "behind", folder_ / "products");
+  EXPECT_TRUE(write_file(folder_ / "products" / "a", "named"));
+  const auto refused = write_file(folder_ / "products" / "b", "ours", Beside::own_folder);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where.file, (folder_ / "products").string());
+  EXPECT_FALSE(fs::exists(folder_ / "behind" / "b"));
+  // A link that takes the place of what is being written.
+  auto file = AtomicFile::create(folder_ / "new");
+  ASSERT_TRUE(file);
+  fs::remove(file->temporary());
+  fs::create_symlink(folder_ / "others", file->temporary());
+  EXPECT_FALSE(file->commit());
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+TEST_F(Atomic, a_full_disk_leaves_what_was_there) {
+  const fs::path target = folder_ / "a";
+  ASSERT_TRUE(write_file(target, "before"));
+  const auto written = [&] {
+    const FullDisk disk(1000);
+    return write_file(target, std::string(5000, 'x'));
+  }();
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::no_space);
+  EXPECT_EQ(to_line(written.error()), target.string() + ": cannot write: File too large");
+  EXPECT_EQ(*read_file(target), "before");
+  EXPECT_EQ(entries(), 1U);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <ogr_api.h>
 
-#include <cerrno>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -71,15 +70,10 @@ std::string geometry_text(const OGRGeometry* geometry) {
 
 }  // namespace
 
-GeoJsonFile::GeoJsonFile(std::filesystem::path target, AtomicFile file, Stream stream)
-    : target_(std::move(target)), file_(std::move(file)), stream_(std::move(stream)) {}
-
 Result<GeoJsonFile> GeoJsonFile::create(const std::filesystem::path& target, std::string_view layer) {
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
-  Stream stream(std::fopen(file->temporary().c_str(), "wb"));
-  if (!stream) return refused_write("cannot write", errno, target.string());
-  GeoJsonFile made(target, std::move(*file), std::move(stream));
+  GeoJsonFile made(std::move(*file));
   auto begun =
       made.write(fmt::format("{{\n\"type\": \"FeatureCollection\",\n\"name\": {},\n\"features\": [", json_text(layer)));
   if (!begun) return pass_on(begun);
@@ -87,8 +81,15 @@ Result<GeoJsonFile> GeoJsonFile::create(const std::filesystem::path& target, std
 }
 
 Result<void> GeoJsonFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) == text.size()) return {};
-  return refused_write("cannot write", errno, target_.string());
+  constexpr std::size_t kAtOnce = 1U << 16U;
+  buffer_ += text;
+  return buffer_.size() < kAtOnce ? Result<void>{} : flush();
+}
+
+Result<void> GeoJsonFile::flush() {
+  auto written = file_.write(buffer_);
+  buffer_.clear();
+  return written;
 }
 
 Result<void> GeoJsonFile::add(const OGRGeometry* geometry, const std::vector<TableColumn>& columns, std::size_t row) {
@@ -104,9 +105,7 @@ Result<void> GeoJsonFile::add(const OGRGeometry* geometry, const std::vector<Tab
 
 Result<void> GeoJsonFile::close() {
   if (auto ended = write("\n]\n}\n"); !ended) return ended;
-  // What is still buffered meets the disk here.
-  if (std::fclose(stream_.release()) != 0) return refused_write("cannot write", errno, target_.string());
-  return {};
+  return flush();
 }
 
 }  // namespace sonar

@@ -4,9 +4,7 @@
 #include <ogr_geometry.h>
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +25,7 @@ class GeoJsonFile {
   /// or the geometry is unknown.
   /// errors  io, no_space
   Result<void> add(const OGRGeometry* geometry, const std::vector<TableColumn>& columns, std::size_t row);
-  /// Ends the collection; whatever the disk has no room for shows here, before any file of a map appears.
+  /// Ends the collection; what the disk has no room for shows here at the latest, before any file of a map appears.
   /// errors  io, no_space
   Result<void> close();
   /// After close().
@@ -35,16 +33,12 @@ class GeoJsonFile {
   Result<void> commit() { return file_.commit(); }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }  // NOLINT(cppcoreguidelines-owning-memory)
-  };
-  using Stream = std::unique_ptr<std::FILE, Closer>;
-  GeoJsonFile(std::filesystem::path target, AtomicFile file, Stream stream);
+  explicit GeoJsonFile(AtomicFile file) : file_(std::move(file)) {}
   Result<void> write(std::string_view text);
+  Result<void> flush();
 
-  std::filesystem::path target_;
   AtomicFile file_;
-  Stream stream_;
+  std::string buffer_;
   bool empty_ = true;
 };
 

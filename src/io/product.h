@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "io/atomic_file.h"
 #include "model/product.h"
 
 namespace sonar {
@@ -13,9 +14,10 @@ namespace sonar {
 /// Writes one observation's product as netCDF-4 (INTERFACES section 4), atomically. Equal products give equal bytes.
 /// product  masks sorted by school_id, ping_index with runs inside the grid; a mask without a grid is refused.
 ///          Without a grid the group /grid stands empty; /mask then has zero runs.
-/// errors   io, no_space, bad_parameter (a mask that does not fit the grid)
+/// errors   io, no_space, usage (as AtomicFile), bad_parameter (a mask that does not fit the grid)
 /// threads  any; calls into netCDF take turns
-Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path);
+Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path,
+                           Beside beside = Beside::named_folder);
 
 /// Reads what write_product() writes. Anything else in the file is ignored.
 /// errors   not_found, io, format (damaged, or not a product), newer_version, older_version ("run again")

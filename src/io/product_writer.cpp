@@ -302,12 +302,12 @@ Result<void> check_shapes(const ObservationProduct& product, const Where& where)
 
 }  // namespace
 
-Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path) {
+Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path, Beside beside) {
   const Where where{.file = path.string()};
   if (auto checked = check_shapes(product, where); !checked) return checked;
   const auto runs = channel_runs(product, where);
   if (!runs) return pass_on(runs);
-  auto file = AtomicFile::create(path);
+  auto file = AtomicFile::create(path, beside);
   if (!file) return pass_on(file);
   {
     Writer out(file->temporary(), path.string());

@@ -62,6 +62,7 @@ double time_offset_s(const std::string& recipe_json) {
 
 Result<void> hold(const fs::path& out, const fs::path& product, const ProductKey& key) {
   const fs::path held = folder_of(out) / (to_hex(hash_text(key.input_hash + " " + key.source)) + ".nc");
+  if (auto own = require_own_folder(held.parent_path()); !own) return own;
   std::error_code error;
   if (fs::exists(held, error)) return {};
   fs::create_directories(held.parent_path(), error);
@@ -69,7 +70,7 @@ Result<void> hold(const fs::path& out, const fs::path& product, const ProductKey
   if (!error) return {};
   auto bytes = read_file(product);  // the file system knows no links
   if (!bytes) return pass_on(bytes);
-  return write_file(held, *bytes);
+  return write_file(held, *bytes, Beside::own_folder);
 }
 
 Result<void> set_aside(const fs::path& out, const Plan& plan) {
@@ -152,6 +153,7 @@ bool has_pings(const ObservationProduct& product, const std::string& source, std
 }
 
 void forget_superseded(const fs::path& out, const std::vector<ObservationProduct>& finished) {
+  if (!require_own_folder(folder_of(out))) return;
   std::error_code error;
   std::vector<fs::path> superseded;
   for (fs::directory_iterator it(folder_of(out), error), end; !error && it != end; it.increment(error)) {

@@ -149,13 +149,9 @@ bool holds_survey(const Survey& survey, const fs::path& folder) {
 Result<void> require_outside(const ExportOptions& options) {
   std::vector<fs::path> raw;
   if (!options.survey.empty()) raw.push_back(options.survey);
-  const fs::path file = options.out / "plan.json";
-  std::error_code absent;
-  if (fs::exists(file, absent)) {
-    const auto plan = read_plan(file);
-    if (!plan) return pass_on(plan);
-    raw.insert(raw.end(), plan->survey.begin(), plan->survey.end());
-  }
+  const auto run_on = planned_survey(options.out);
+  if (!run_on) return pass_on(run_on);
+  raw.insert(raw.end(), run_on->begin(), run_on->end());
   if (auto outside = require_outside_raw(raw, options.dest); !outside) return outside;
   return require_not_beneath_raw(options.dest);
 }

@@ -106,33 +106,48 @@ std::string journal_head_text(const Journal& journal) {
   return sealed(std::move(head));
 }
 
-Result<Journal> parse_journal(std::string_view text, const std::string& file) {
-  Journal journal;
-  std::size_t begin = 0;
-  for (int number = 1; begin < text.size(); ++number) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const auto json = parse_json(text.substr(begin, end - begin));
-    if (number == 1) {
-      auto head = json ? head_from_json(*json) : Result<Journal>(pass_on(json));
-      if (!head) return fail(head.error().code, head.error().text, {file, 0});
-      journal = std::move(*head);
-      if (!unsealed(*json)) {
-        journal.diagnostics.push_back(
-            {DiagnosticCode::journal_line, file, 0, -1, "line 1 was changed by another hand"});
-      }
-    } else {
-      const auto whole = json ? unsealed(*json) : std::nullopt;
-      auto line = whole ? line_from_json(*whole) : std::nullopt;
-      if (line) {
-        journal.lines.push_back(std::move(*line));
-      } else {
-        journal.diagnostics.push_back({DiagnosticCode::journal_line, file, static_cast<std::int64_t>(begin), -1,
-                                       fmt::format("line {} is broken and was left out", number)});
-      }
-    }
-    begin = end + 1;
+namespace {
+
+Result<Journal> head_of(std::string_view text, const std::string& file) {
+  const auto json = parse_json(text);
+  auto journal = json ? head_from_json(*json) : Result<Journal>(pass_on(json));
+  if (!journal) return fail(journal.error().code, journal.error().text, {file, 0});
+  if (!unsealed(*json)) {
+    journal->diagnostics.push_back({DiagnosticCode::journal_line, file, 0, -1, "line 1 was changed by another hand"});
   }
+  return journal;
+}
+
+std::optional<JournalLine> line_of_text(std::string_view text) {
+  const auto json = parse_json(text);
+  const auto whole = json ? unsealed(*json) : std::nullopt;
+  return whole ? line_from_json(*whole) : std::nullopt;
+}
+
+}  // namespace
+
+Result<Journal> parse_journal(std::string_view text, const std::string& file) {
   if (text.empty()) return fail(ErrorCode::format, "is empty, expected a journal", {file, 0});
+  std::size_t end = std::min(text.find('\n'), text.size());
+  auto head = head_of(text.substr(0, end), file);
+  // What a newer program wrote may mean something else; behind a broken head the lines have check sums of their own.
+  if (!head && head.error().code == ErrorCode::newer_version) return head;
+  Journal journal = head ? std::move(*head) : Journal{};
+  if (!head) {
+    journal.diagnostics.push_back(
+        {DiagnosticCode::journal_line, file, 0, -1, "line 1, which says the recipe, is broken: " + head.error().text});
+  }
+  for (int number = 2; end + 1 < text.size(); ++number) {
+    const std::size_t begin = end + 1;
+    end = std::min(text.find('\n', begin), text.size());
+    if (auto line = line_of_text(text.substr(begin, end - begin))) {
+      journal.lines.push_back(std::move(*line));
+    } else {
+      journal.diagnostics.push_back({DiagnosticCode::journal_line, file, static_cast<std::int64_t>(begin), -1,
+                                     fmt::format("line {} is broken and was left out", number)});
+    }
+  }
+  if (!head && journal.lines.empty()) return head;
   return journal;
 }
 
@@ -142,23 +157,8 @@ Result<Journal> read_journal(const std::string& path) {
   return parse_journal(*text, path);
 }
 
-namespace {
-
-/// Writes and flushes. 0, or the error.
-int write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return ::fsync(file) == 0 ? 0 : errno;
-}
-
-}  // namespace
-
 Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (file < 0) return refused_write("could not be written", errno, path);
   const off_t size = ::lseek(file, 0, SEEK_END);
   // A line that a crash cut short must not swallow the next one.
@@ -166,7 +166,8 @@ Result<void> append_journal(const std::string& path, const Journal& head, const 
   const bool cut = size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
   const std::string before = size == 0 ? journal_head_text(head) + "\n" : std::string(cut ? "\n" : "");
   const std::string text = before + journal_text(line) + "\n";
-  const int error = write_all(file, text);
+  int error = write_all(file, text);
+  if (error == 0 && ::fsync(file) != 0) error = errno;
   // Who is refused must find the journal as it was: half a line, or a whole one that nobody knows of, must not stay.
   const bool restored = error == 0 || size < 0 || ::ftruncate(file, size) == 0;
   ::close(file);

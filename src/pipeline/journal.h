@@ -37,9 +37,10 @@ struct Journal {
   Diagnostics diagnostics;  ///< broken lines, which were left out
 };
 
-/// Parses a journal. A broken line (no JSON, wrong check sum, missing member) is a diagnostic and the rest is kept.
+/// Parses a journal. A broken line (no JSON, wrong check sum, missing member) is a diagnostic and the rest is kept; so is a
+/// broken first line, without which the recipe is not known, as long as a sound one follows.
 /// file    for messages
-/// errors  format or newer_version where the first line is unusable
+/// errors  newer_version; format: there is no line to keep
 [[nodiscard]] Result<Journal> parse_journal(std::string_view text, const std::string& file);
 /// errors  also not_found, io
 [[nodiscard]] Result<Journal> read_journal(const std::string& path);

@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
+
+#include "io/atomic_file.h"
 
 namespace sonar {
 
@@ -18,9 +19,9 @@ void JournalLock::let_go() {
 }
 
 Result<void> JournalLock::take(const std::filesystem::path& journal) {
-  const int file = ::open(journal.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  const int file = ::open(journal.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (file < 0) {
-    return fail(ErrorCode::io, "could not be written: " + std::generic_category().message(errno), {journal.string()});
+    return refused_write("could not be written", errno, journal.string());
   }
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(file);

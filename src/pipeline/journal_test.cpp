@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/test_full_disk.h"
+#include "pipeline/journal_lock.h"
 
 namespace sonar {
 namespace {
@@ -126,6 +127,32 @@ TEST_F(JournalFile, NewerVersionIsRefusedByName) {
   EXPECT_EQ(journal.error().code, ErrorCode::newer_version);
   overwrite("");
   EXPECT_FALSE(read_journal(path_));
+}
+
+TEST_F(JournalFile, ABrokenHeadLeavesTheChoicesBehindIt) {
+  append(1, "propagate");
+  append(2, "detect");
+  const std::string whole = text();
+  overwrite("{\1" + whole.substr(2));
+  const auto journal = read_journal(path_);
+  ASSERT_TRUE(journal);
+  EXPECT_EQ(journal->lines.size(), 2U);
+  ASSERT_EQ(journal->diagnostics.size(), 1U);
+  EXPECT_THAT(journal->diagnostics[0].text, testing::HasSubstr("recipe"));
+  EXPECT_TRUE(journal->recipe.empty());
+  overwrite("notes of a meeting\nand more\n");
+  EXPECT_EQ(read_journal(path_).error().code, ErrorCode::format);
+}
+
+TEST_F(JournalFile, NothingIsWrittenThroughALink) {
+  const std::string elsewhere = path_ + ".others";
+  std::filesystem::create_symlink(elsewhere, path_);
+  JournalLine line;
+  line.n = 1;
+  EXPECT_FALSE(append_journal(path_, head_, line));
+  JournalLock lock;
+  EXPECT_FALSE(lock.take(path_));
+  EXPECT_FALSE(std::filesystem::exists(elsewhere));
 }
 
 TEST(Journal, ALineSaysOfWhichStepItIsAndOthersSayNothing) {

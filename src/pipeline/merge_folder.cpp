@@ -239,7 +239,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   if (written) written = write_file(out / "survey.json", survey_json(report));
   if (!written) return pass_on(written);
   remove_leftovers(out);
-  remove_leftovers(out / "products");
+  if (require_own_folder(out / "products")) remove_leftovers(out / "products");
   if (report.all_planned) forget_superseded(out, report.survey.observations);
   return report;
 }

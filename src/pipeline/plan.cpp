@@ -165,4 +165,13 @@ Result<Plan> read_plan(const std::filesystem::path& path) {
   return plan;
 }
 
+Result<std::vector<std::filesystem::path>> planned_survey(const std::filesystem::path& out) {
+  const std::filesystem::path file = out / "plan.json";
+  std::error_code absent;
+  if (!std::filesystem::exists(file, absent)) return std::vector<std::filesystem::path>{};
+  const auto plan = read_plan(file);
+  if (!plan) return pass_on(plan);
+  return std::vector<std::filesystem::path>(plan->survey.begin(), plan->survey.end());
+}
+
 }  // namespace sonar

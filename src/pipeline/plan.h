@@ -50,5 +50,8 @@ struct Plan {
 [[nodiscard]] Result<Plan> plan_from_text(std::string_view text);
 /// errors  also not_found, io
 [[nodiscard]] Result<Plan> read_plan(const std::filesystem::path& path);
+/// The survey that a work folder's products were made of; empty where no plan.json is there.
+/// errors  as read_plan()
+[[nodiscard]] Result<std::vector<std::filesystem::path>> planned_survey(const std::filesystem::path& out);
 
 }  // namespace sonar

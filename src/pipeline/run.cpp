@@ -106,7 +106,9 @@ Result<void> work_on(const SurveyFiles& survey, const PlanTask& task, const Plan
     report.skipped.push_back(task.observation);
     return {};
   }
-  if (auto written = write_product(**product, product_path(run.out, task.observation)); !written) return written;
+  if (auto written = write_product(**product, product_path(run.out, task.observation), Beside::own_folder); !written) {
+    return written;
+  }
   report.done.push_back(task.observation);
   return {};
 }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <set>
 #include <system_error>
 #include <tuple>
 
+#include "io/recordings.h"
 #include "io/simrad/indexer.h"
 #include "pipeline/observations.h"
 
@@ -18,16 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_extension(const fs::path& path, std::string_view wanted) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == wanted;
-}
-
 /// Sonar data that this version names but does not read; products and rasters lie in such folders as well.
 bool is_sonar_netcdf4(const fs::path& path) {
-  if (!has_extension(path, ".nc")) return false;
+  if (!has_ending(path, ".nc")) return false;
   const auto source = open_file(path);
   return source && simrad::detect_format(**source).value_or(RawFormat::unknown) == RawFormat::sonar_netcdf4;
 }
@@ -38,7 +31,7 @@ Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
     if (it->is_directory(ignored)) continue;
-    if (has_extension(it->path(), ".raw") || is_sonar_netcdf4(it->path())) found.push_back(it->path());
+    if (is_named_raw(it->path()) || is_sonar_netcdf4(it->path())) found.push_back(it->path());
   }
   if (error) return fail(ErrorCode::io, error.message(), {.file = folder.string()});
   std::sort(found.begin(), found.end());
@@ -177,16 +170,11 @@ Result<void> require_not_beneath_raw(const std::filesystem::path& folder) {
   std::error_code error;
   fs::path above = fs::weakly_canonical(fs::absolute(folder, error), error).parent_path();
   for (;; above = above.parent_path()) {
-    for (fs::directory_iterator it(above, error), end; !error && it != end; it.increment(error)) {
-      if (!has_extension(it->path(), ".raw")) continue;
-      const auto source = open_file(it->path());
-      const auto format = source ? simrad::detect_format(**source) : Result<RawFormat>(RawFormat::unknown);
-      if (!format || *format == RawFormat::unknown) continue;
+    if (holds_recordings(above)) {
       return fail(ErrorCode::usage,
                   fmt::format("lies beneath the raw files of {}, where nothing is ever written", above.string()),
                   {folder.string()});
     }
-    error.clear();
     if (above == above.root_path() || above.empty()) return {};
   }
 }

@@ -27,7 +27,7 @@ Result<std::vector<std::filesystem::path>> write_products(const SurveyFiles& sur
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     if (!made) return pass_on(made);
     files.push_back(product_path(folder, made->observation));
-    if (auto written = write_product(*made, files.back()); !written) return pass_on(written);
+    if (auto written = write_product(*made, files.back(), Beside::own_folder); !written) return pass_on(written);
     work.progress("products", static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(count));
   }
   return files;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/picture_files.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
+#include "io/atomic_file.h"
+#include "io/recordings.h"
 #include "render/draw_frame.h"
 
 namespace sonar {
 
 Result<void> write_picture(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
-  return write_frame(frame, file, scale);
+  const auto bytes = picture_bytes(frame, file, scale);
+  if (!bytes) return fail(bytes.error().code, bytes.error().text, {file.string()});
+  return write_file(file, *bytes);
 }
 
 Result<void> write_pixels(const Image& image, const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".png") return fail(ErrorCode::usage, "expected a name that ends in .png", {file.string()});
-  return write_png(image, file);
+  if (!has_ending(file, ".png")) return fail(ErrorCode::usage, "expected a name that ends in .png", {file.string()});
+  const auto bytes = png_bytes(image);
+  if (!bytes) return fail(bytes.error().code, bytes.error().text, {file.string()});
+  return write_file(file, *bytes);
 }
 
 }  // namespace sonar

@@ -9,10 +9,11 @@
 
 namespace sonar {
 
-/// A picture into a file; the ending names the format: .png, .svg or .pdf. errors: as write_frame()
+/// A picture into a file; the ending names the format: .png, .svg or .pdf. errors: usage (another
+/// ending), bad_parameter; as AtomicFile
 [[nodiscard]] Result<void> write_picture(const FrameDescription& frame, const std::filesystem::path& file,
                                          double scale = 1.0);
-/// Pixels as they are on the screen into a .png. errors: usage (another ending), io, no_space
+/// Pixels as they are on the screen into a .png. errors: usage (another ending); as AtomicFile
 [[nodiscard]] Result<void> write_pixels(const Image& image, const std::filesystem::path& file);
 
 /// Puts PNG pictures of one size together as one animated PNG, which browsers and picture viewers play.

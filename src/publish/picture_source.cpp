@@ -4,25 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "io/product.h"
+#include "io/recordings.h"
 #include "pipeline/join_tracks.h"
 #include "pipeline/merge.h"
 #include "pipeline/observe.h"
+#include "pipeline/plan.h"
 
 namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_ending(const fs::path& path, std::string_view ending) {
-  std::string own = path.extension().string();
-  std::transform(own.begin(), own.end(), own.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return own == ending;
-}
 
 bool is_work_folder(const fs::path& path) {
   std::error_code absent;
@@ -33,6 +27,7 @@ bool is_work_folder(const fs::path& path) {
 struct Inputs {
   std::vector<fs::path> raw;
   std::vector<fs::path> products;
+  std::vector<fs::path> run_on;  ///< the raw files that the products were made of
 };
 
 Result<Inputs> sorted_inputs(std::span<const fs::path> paths) {
@@ -44,6 +39,9 @@ Result<Inputs> sorted_inputs(std::span<const fs::path> paths) {
       const auto files = product_files(path);
       if (!files) return pass_on(files);
       inputs.products.insert(inputs.products.end(), files->begin(), files->end());
+      // A newer program's plan keeps nobody from drawing.
+      const auto run_on = planned_survey(path).value_or(std::vector<fs::path>{});
+      inputs.run_on.insert(inputs.run_on.end(), run_on.begin(), run_on.end());
     } else if (has_ending(path, ".nc")) {
       inputs.products.push_back(path);
     } else {
@@ -153,6 +151,7 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::p
   auto products = read_products(inputs->products, work);
   if (!products) return pass_on(products);
   source->products_ = std::move(*products);
+  source->run_on_ = std::move(inputs->run_on);
   if (recipe) {
     source->recipe_ = *recipe;
   } else if (!source->products_.empty()) {
@@ -214,9 +213,9 @@ std::unique_ptr<PictureSource> PictureSource::of(std::shared_ptr<const SurveyFil
 }
 
 Result<void> PictureSource::require_outside_raw(const fs::path& file) const {
-  if (!survey_) return {};
-  const fs::path folder = file.parent_path();
-  return sonar::require_outside_raw(*survey_, folder.empty() ? fs::path(".") : folder);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (auto outside = sonar::require_outside_raw(run_on_, folder); !outside || !survey_) return outside;
+  return sonar::require_outside_raw(*survey_, folder);
 }
 
 Result<DrawnObservation*> PictureSource::observation(std::string_view name) {

@@ -89,7 +89,7 @@ class PictureSource {
   [[nodiscard]] const std::vector<ObservationProduct>& products() const { return products_; }
   [[nodiscard]] bool has_raw() const { return survey_ != nullptr; }
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
-  /// errors  usage: the file would lie in the folder of a raw file
+  /// errors  usage: the file would lie in the folder of a raw file, be it drawn or what the products were made of
   [[nodiscard]] Result<void> require_outside_raw(const std::filesystem::path& file) const;
   /// Empty name = the only one, or the first. errors: usage, naming those that there are
   [[nodiscard]] Result<DrawnObservation*> observation(std::string_view name);
@@ -100,7 +100,8 @@ class PictureSource {
   [[nodiscard]] std::string why_no_pings() const;
 
   std::shared_ptr<const SurveyFiles> survey_;
-  std::vector<ObservationProduct> products_;  ///< by first ping
+  std::vector<ObservationProduct> products_;   ///< by first ping
+  std::vector<std::filesystem::path> run_on_;  ///< raw files that a plan beside the products names
   Recipe recipe_;
   std::vector<DrawnObservation> observations_;
 };

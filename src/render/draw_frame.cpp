@@ -15,7 +15,6 @@
 
 #include "render/cairo_values.h"
 #include "render/frame_drawing.h"
-#include "render/picture_file.h"
 #include "render/svg_names.h"
 #include "render/svg_text.h"
 
@@ -114,7 +113,7 @@ bool is_picture_file(const std::filesystem::path& file) {
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
-Result<void> write_frame(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
+Result<std::string> picture_bytes(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
   const std::string ending = picture_ending(file);
   if (ending != ".png" && ending != ".svg" && ending != ".pdf") {
     return fail(ErrorCode::usage, fmt::format("'{}' is no kind of picture; expected .png, .svg or .pdf", ending),
@@ -125,11 +124,9 @@ Result<void> write_frame(const FrameDescription& frame, const std::filesystem::p
   if (ending == ".png") {
     const auto image = draw_frame(frame, scale);
     if (!image) return pass_on(image);
-    return write_png(*image, file);
+    return png_bytes(*image);
   }
-  const auto bytes = ending == ".svg" ? svg_of(frame, *size, scale) : pdf_of(frame, *size, scale);
-  if (!bytes) return pass_on(bytes);
-  return write_picture_file(*bytes, file);
+  return ending == ".svg" ? svg_of(frame, *size, scale) : pdf_of(frame, *size, scale);
 }
 
 }  // namespace sonar

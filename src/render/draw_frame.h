@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/result.h"
 #include "view/frame_description.h"
@@ -13,16 +14,17 @@ namespace sonar {
 /// errors  bad_parameter: no size, or over 16384 pixels a side
 [[nodiscard]] Result<Image> draw_frame(const FrameDescription& frame, double scale = 1.0);
 
-/// Whether the ending is one that write_frame() knows, in any case of letters.
+/// Whether the ending is one that picture_bytes() knows, in any case of letters.
 [[nodiscard]] bool is_picture_file(const std::filesystem::path& file);
 
-/// Draws it into a file; the ending names the format: .png, .svg or .pdf. Written under a temporary name and renamed.
-/// errors  usage (another ending), bad_parameter, io
-[[nodiscard]] Result<void> write_frame(const FrameDescription& frame, const std::filesystem::path& file,
-                                       double scale = 1.0);
+/// What a picture's file holds; the ending of its name tells the format: .png, .svg or .pdf.
+/// errors  usage (another ending), bad_parameter
+[[nodiscard]] Result<std::string> picture_bytes(const FrameDescription& frame, const std::filesystem::path& file,
+                                                double scale = 1.0);
 
+/// errors  bad_parameter: no pixels
+[[nodiscard]] Result<std::string> png_bytes(const Image& image);
 /// errors  io, format
-[[nodiscard]] Result<void> write_png(const Image& image, const std::filesystem::path& file);
 [[nodiscard]] Result<Image> read_png(const std::filesystem::path& file);
 
 }  // namespace sonar

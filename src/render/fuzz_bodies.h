@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <string_view>
 
 #include "base/check.h"
 #include "render/compare_pictures.h"
@@ -35,16 +36,18 @@ inline bool same_where_opaque(const Image& a, const Image& b) {
                     [](Rgba8 p, Rgba8 q) { return p.a == q.a && (p.a < 255 || p == q); });
 }
 
+inline void put(const std::filesystem::path& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  SONAR_CHECK(out.good());
+}
+
 /// A picture that is taken has its pixels, is equal to itself, and is the same when it is written and read again.
 /// folder  to write into: the reader takes files
 inline void png(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
   if (slow_png(bytes)) return;
   const std::filesystem::path file = folder / "picture.png";
-  {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    SONAR_CHECK(out.good());
-  }
+  put(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const auto image = read_png(file);
   if (!image) {
     SONAR_CHECK(image.error().code == ErrorCode::format);
@@ -52,7 +55,9 @@ inline void png(std::span<const std::byte> bytes, const std::filesystem::path& f
   }
   SONAR_CHECK(image->size.width > 0 && image->size.height > 0 && image->pixels.size() == image->size.count());
   SONAR_CHECK(compare_pictures(*image, *image, {}).equal);
-  SONAR_CHECK(write_png(*image, file).has_value());
+  const auto written = png_bytes(*image);
+  SONAR_CHECK(written.has_value());
+  put(file, *written);
   const auto again = read_png(file);
   SONAR_CHECK(again.has_value() && again->size == image->size);
   SONAR_CHECK(same_where_opaque(*image, *again));

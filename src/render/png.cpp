@@ -13,7 +13,6 @@
 
 #include "render/cairo_values.h"
 #include "render/draw_frame.h"
-#include "render/picture_file.h"
 
 namespace sonar {
 namespace {
@@ -79,16 +78,16 @@ Result<std::string> file_bytes(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<void> write_png(const Image& image, const std::filesystem::path& file) {
+Result<std::string> png_bytes(const Image& image) {
   if (image.size.width <= 0 || image.size.height <= 0 || image.pixels.size() != image.size.count()) {
-    return fail(ErrorCode::bad_parameter, "a picture without pixels cannot be written", {file.string()});
+    return fail(ErrorCode::bad_parameter, "a picture without pixels cannot be written");
   }
   const CairoSurface surface = surface_of(image);
   std::string bytes;
   if (surface == nullptr || cairo_surface_write_to_png_stream(surface.get(), append, &bytes) != CAIRO_STATUS_SUCCESS) {
-    return fail(ErrorCode::io, "the picture could not be made a PNG", {file.string()});
+    return fail(ErrorCode::io, "the picture could not be made a PNG");
   }
-  return write_picture_file(bytes, file);
+  return bytes;
 }
 
 Result<Image> read_png(const std::filesystem::path& file) {

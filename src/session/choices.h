@@ -15,10 +15,10 @@
 #include "base/task_thread.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/journal_lock.h"
+#include "pipeline/journal_place.h"
 #include "pipeline/school_numbers.h"
 #include "session/change_queue.h"
 #include "session/history.h"
-#include "session/journal_place.h"
 #include "session/open_observation.h"
 
 namespace sonar {

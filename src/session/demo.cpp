@@ -34,7 +34,10 @@ void open_demo(Desk& desk, std::filesystem::path folder) {
   const std::string version = document.options().program_version;
   if (folder.empty()) {
     const auto cache = IndexCache::of_user().folder;
-    folder = (cache.empty() ? std::filesystem::temp_directory_path() : cache) / ("demo-" + version);
+    // Not a name that others can foresee, in a folder that they can write to.
+    if (cache.empty())
+      return document.tell("the demo survey is kept in the user's cache: HOME or XDG_CACHE_HOME must say where");
+    folder = cache / ("demo-" + version);
   }
   desk.preferences.set_chart(folder, folder / "truth" / "depth.tif");
   document.open({folder}, [folder, version](Work& work) { return make_demo(folder, version, work); });

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "pipeline/journal_place.h"
 #include "session/curves.h"
 #include "session/desk_parts.h"
-#include "session/journal_place.h"
 #include "session/test_survey.h"
 
 namespace sonar {

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "base/check.h"
+#include "io/recordings.h"
 #include "synth/nmea.h"
 
 namespace sonar::synth {
@@ -15,13 +15,6 @@ namespace {
 
 constexpr const char* kRawPrefix = "SYNTHETIC-D";
 constexpr double kWaterTemperature_c = 8.0;
-
-bool is_raw_file(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-  return extension == ".raw";
-}
 
 void append_navigation(RawBytes& bytes, const Voyage& voyage, TimeNs after, TimeNs until) {
   for (TimeNs t = (after / kSecondNs + 1) * kSecondNs; t <= until; t += kSecondNs) {
@@ -59,9 +52,10 @@ Result<void> prepare_folder(const std::filesystem::path& out, bool force) {
   std::error_code problem;
   std::filesystem::create_directories(out, problem);
   if (problem) return fail(ErrorCode::io, "cannot make the folder: " + problem.message(), {.file = out.string()});
+  if (auto own = require_own_folder(out / "truth"); !own) return own;
   if (force) return {};
   for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
-    if (is_raw_file(entry.path())) {
+    if (is_named_raw(entry.path())) {
       return fail(ErrorCode::usage, "the folder already holds raw files; choose another, or --force",
                   {.file = out.string()});
     }
@@ -74,7 +68,7 @@ Result<void> remove_earlier(const std::filesystem::path& out) {
   std::error_code problem;
   std::vector<std::filesystem::path> earlier;
   for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
-    if (is_raw_file(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix)) {
+    if (is_named_raw(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix)) {
       earlier.push_back(entry.path());
     }
   }

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "base/test_paths.h"
+#include "publish/picture_files.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 #include "window_at_work.h"
@@ -91,7 +92,7 @@ class Pictures : public WindowAtWork {
     const fs::path kept = test::source_tree() / "tests/data/gui" / (name + ".png");
     if (qEnvironmentVariableIsSet("SONAR_GUI_REMAKE")) {
       fs::create_directories(kept.parent_path());
-      ASSERT_TRUE(write_png(picture, kept));
+      ASSERT_TRUE(write_pixels(picture, kept));
       return;
     }
     const auto reference = read_png(kept);
@@ -103,8 +104,8 @@ class Pictures : public WindowAtWork {
     const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
     if (verdict.equal || folder.isEmpty()) return;
     const fs::path out = folder.toStdString();
-    EXPECT_TRUE(write_png(picture, out / (name + ".png")));
-    EXPECT_TRUE(write_png(difference_picture(picture, *reference), out / (name + ".difference.png")));
+    EXPECT_TRUE(write_pixels(picture, out / (name + ".png")));
+    EXPECT_TRUE(write_pixels(difference_picture(picture, *reference), out / (name + ".difference.png")));
   }
   void compare_view(const std::string& id, const PictureThresholds& thresholds) {
     raise(id);

@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <system_error>
 
 #include "base/hash.h"
+#include "io/atomic_file.h"
 
 namespace sonar {
 namespace {
@@ -56,24 +55,12 @@ std::optional<RawIndex> load(const IndexCache& cache, const FileState& state) {
   return index;
 }
 
-/// Whole or not at all: others may read while this is written. Failure is no error, the next opening only takes longer.
+/// Failure is no error: the next opening only takes longer.
 void store(const IndexCache& cache, const FileState& state, const RawIndex& index) {
-  std::error_code error;
-  fs::create_directories(cache.folder, error);
-  const fs::path path = entry_path(cache, state);
-  const fs::path temporary = fmt::format("{}.{}.tmp", path.string(), ::getpid());
-  const std::string key = state.key();
   const std::vector<std::byte> bytes = encode_index(index);
-  bool written = false;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(key.data(), static_cast<std::streamsize>(key.size()));
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    written = !out.fail();
-  }
-  if (written) fs::rename(temporary, path, error);
-  if (!written || error) fs::remove(temporary, error);
+  auto file = AtomicFile::create(entry_path(cache, state));
+  if (!file || !file->write(state.key())) return;
+  if (file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) (void)file->commit();
 }
 
 }  // namespace

@@ -6,39 +6,30 @@
 #include <span>
 
 #include "base/result.h"
+#include "io/atomic_file.h"
 #include "io/simrad/writer_datagrams.h"
 
 namespace sonar {
 
-/// A .raw file being written: under a temporary name beside the final one until finish(), which flushes file and
-/// folder and renames. A writer that is destroyed without finish() removes its temporary file. Move-only.
+/// A .raw file being written: there when it is whole, after finish(), and never over a recording that stands there. Move-only.
 class RawFileWriter {
  public:
-  /// errors  io: the file cannot be made (the folder must exist)
-  static Result<RawFileWriter> create(std::filesystem::path path);
-  RawFileWriter(const RawFileWriter&) = delete;
-  RawFileWriter& operator=(const RawFileWriter&) = delete;
-  RawFileWriter(RawFileWriter&& other) noexcept;
-  RawFileWriter& operator=(RawFileWriter&& other) noexcept;
-  ~RawFileWriter();
+  /// errors  as AtomicFile
+  static Result<RawFileWriter> create(const std::filesystem::path& path);
 
   /// Appends whole datagrams (made by the append_* functions).
   /// errors  io, no_space: the operating system's reason
   Result<void> write(std::span<const std::byte> datagrams);
   /// Bytes written so far.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Flushes, renames to the final name, closes. Nothing may be written after it.
-  Result<void> finish();
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.target(); }
+  /// Nothing may be written after it.
+  Result<void> finish() { return file_.commit(); }
 
  private:
-  RawFileWriter(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
-  void abandon();
-  tl::unexpected<Error> failed(const char* what) const;
+  explicit RawFileWriter(AtomicFile file) : file_(std::move(file)) {}
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  int descriptor_ = -1;
+  AtomicFile file_;
   std::uint64_t size_ = 0;
 };
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace sonar {
+
+/// Whether a file's name ends so (".raw"), in any case of letters.
+[[nodiscard]] bool has_ending(const std::filesystem::path& file, std::string_view ending);
+
+/// Whether a file is named as recordings are: .raw, in any case of letters.
+[[nodiscard]] bool is_named_raw(const std::filesystem::path& file);
+
+/// Whether a file is, or may be, the recording of an echo sounder: it begins as one, or is named as one and not empty;
+/// false where nothing stands there.
+[[nodiscard]] bool is_recording(const std::filesystem::path& file);
+
+/// Whether a folder holds a file that is named as recordings are and begins as one.
+[[nodiscard]] bool holds_recordings(const std::filesystem::path& folder);
+
+}  // namespace sonar
