@@ -11,11 +11,10 @@
 #include <charconv>
 #include <csignal>
 #include <cstddef>
-#include <cstring>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
+#include "io/byte_source.h"
 #include "io/recordings.h"
 
 namespace sonar {
@@ -182,20 +181,21 @@ Result<void> require_own_folder(const fs::path& folder) {
 }
 
 Result<std::string> read_file(const fs::path& path, std::uint64_t limit_bytes) {
-  const Where where{.file = path.string()};
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (!fs::exists(status)) return fail(ErrorCode::not_found, "no such file", where);
-  if (!fs::is_regular_file(status)) return fail(ErrorCode::io, "is not a file", where);
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) return fail(ErrorCode::io, error.message(), where);
-  if (size > limit_bytes) {
-    return fail(ErrorCode::format, fmt::format("{} bytes; at most {} were expected", size, limit_bytes), where);
+  const auto source = open_file(path);
+  if (!source) {
+    const bool absent = source.error().code == ErrorCode::not_found;
+    return fail(source.error().code, absent ? "no such file" : source.error().text, {.file = path.string()});
   }
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in) return fail(ErrorCode::io, "cannot be read", where);
+  const auto size = (*source)->size();
+  if (!size) return pass_on(size);
+  if (*size > limit_bytes) {
+    return fail(ErrorCode::format, fmt::format("{} bytes; at most {} were expected", *size, limit_bytes),
+                {.file = path.string()});
+  }
+  std::string bytes(static_cast<std::size_t>(*size), '\0');
+  const auto got = (*source)->read(0, std::as_writable_bytes(std::span(bytes)));
+  if (!got) return pass_on(got);
+  bytes.resize(*got);
   return bytes;
 }
 

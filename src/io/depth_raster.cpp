@@ -8,19 +8,22 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <mutex>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/library_gate.h"
 #include "io/atomic_file.h"
+#include "io/child_process.h"
+#include "io/gdal_drivers.h"
 #include "io/netcdf_file.h"
 #include "io/raster_window.h"
-#include "io/try_apart.h"
+#include "io/sandbox.h"
+#include "io/wire.h"
 
 namespace sonar {
 namespace {
@@ -29,17 +32,11 @@ using Dataset = std::unique_ptr<GDALDataset, decltype([](GDALDataset* d) { GDALC
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNoDataWritten = -32767.0F;
-/// No other driver is asked: some of them fetch from networks or run what a file says.
 constexpr std::array<const char*, 4> kDrivers{"GTiff", "netCDF", "AAIGrid", nullptr};
 /// Two-dimensional variables that hold the seabed, best first.
 constexpr std::array<std::string_view, 12> kNames{"elevation", "depth",      "deptho",        "bathymetry",
                                                   "bathy",     "z",          "topo",          "altitude",
                                                   "height",    "depth_mean", "depth_average", "band1"};
-
-void register_drivers() {
-  static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
-}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -258,16 +255,6 @@ Result<DepthGrid> read_opened(GDALDataset& dataset, const GeoExtent& extent, con
   return std::move(grid);
 }
 
-bool is_hdf_or_netcdf(const std::filesystem::path& path) {
-  // The two magic words of netCDF-4 (HDF5) and of the classic formats.
-  const auto head = [&] {
-    std::array<char, 8> bytes{};
-    std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
-    return std::string(bytes.data(), bytes.size());
-  }();
-  return head.starts_with("CDF") || head.substr(1, 3) == "HDF";
-}
-
 Result<DepthGrid> read_any(const std::filesystem::path& path, const GeoExtent& extent,
                            const DepthRasterOptions& options) {
   const SilentGdal silent;
@@ -281,6 +268,48 @@ Result<DepthGrid> read_any(const std::filesystem::path& path, const GeoExtent& e
   return read_opened(**variable, extent, options, path);
 }
 
+constexpr std::uint64_t kMemory_bytes = 8ULL << 30U;
+constexpr std::uint64_t kMostTold_bytes = 1ULL << 30U;
+
+struct Layout {
+  double south_deg = 0.0;
+  double west_deg = 0.0;
+  double step_latitude_deg = 0.0;
+  double step_longitude_deg = 0.0;
+  std::int32_t rows = 0;
+  std::int32_t columns = 0;
+};
+
+/// Layout, depths, and where they are from.
+wire::Bytes encoded(const DepthGrid& grid) {
+  wire::Bytes out = wire::encoded(
+      Layout{grid.south_deg, grid.west_deg, grid.step_latitude_deg, grid.step_longitude_deg, grid.rows, grid.columns});
+  for (const wire::Bytes& part : {wire::encoded(grid.depth_m), wire::encoded(grid.source)}) {
+    out.insert(out.end(), part.begin(), part.end());
+  }
+  return out;
+}
+
+std::optional<DepthGrid> decoded(std::span<const std::byte> bytes, int most_nodes) {
+  const auto layout = bytes.size() < sizeof(Layout) ? std::nullopt : wire::decoded<Layout>(bytes.first(sizeof(Layout)));
+  if (!layout || layout->rows < 2 || layout->columns < 2) return std::nullopt;
+  if (layout->rows > std::max(2, most_nodes) || layout->columns > std::max(2, most_nodes)) return std::nullopt;
+  bytes = bytes.subspan(sizeof(Layout));
+  const std::size_t size =
+      static_cast<std::size_t>(layout->rows) * static_cast<std::size_t>(layout->columns) * sizeof(float);
+  if (bytes.size() < size) return std::nullopt;
+  DepthGrid grid;
+  grid.south_deg = layout->south_deg;
+  grid.west_deg = layout->west_deg;
+  grid.step_latitude_deg = layout->step_latitude_deg;
+  grid.step_longitude_deg = layout->step_longitude_deg;
+  grid.rows = layout->rows;
+  grid.columns = layout->columns;
+  grid.depth_m = *wire::decoded<std::vector<float>>(bytes.first(size));
+  grid.source = *wire::decoded<std::string>(bytes.subspan(size));
+  return grid;
+}
+
 }  // namespace
 
 Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const GeoExtent& extent,
@@ -292,22 +321,28 @@ Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const Geo
   if (!std::filesystem::is_regular_file(path, problem)) {
     return fail(ErrorCode::format, "not a raster but a folder or device", {.file = path.string()});
   }
-  register_drivers();
-  const auto read = [&] {
-    const auto inside = inside_library();
-    return read_any(path, extent, options);
+  begin_gdal();
+  const auto make = [&] {
+    // Held so that no other thread is inside HDF5 when the process is doubled.
+    const auto held = netcdf::lock();
+    return ChildProcess::start(
+        [&](int stream) {
+          enter_sandbox(stream, Reach::files_to_read, kMemory_bytes);
+          const auto grid = read_any(path, extent, options);
+          (void)wire::tell(stream, grid ? Result<void>{} : pass_on(grid), grid ? encoded(*grid) : wire::Bytes{});
+        },
+        path.string());
   };
-  if (!is_hdf_or_netcdf(path)) return read();
-  const auto lock = netcdf::lock();
-  // HDF5 may break on a damaged file.
-  const auto apart = try_apart([&] { (void)read_any(path, extent, options); }, path.string());
-  if (!apart) return pass_on(apart);
-  return read();
+  const auto begun = wire::begin(make, kMostTold_bytes);
+  if (!begun) return fail(begun.error().code, begun.error().text, {.file = path.string()});
+  auto grid = decoded(begun->said, options.most_nodes);
+  if (!grid) return fail(ErrorCode::format, "is damaged: reading it breaks GDAL", {.file = path.string()});
+  return std::move(*grid);
 }
 
 Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid,
                                 const std::string& description) {
-  register_drivers();
+  begin_gdal();
   auto file = AtomicFile::create(target);
   if (!file) return pass_on(file);
   const auto inside = inside_library();

@@ -29,7 +29,8 @@ struct DepthRasterOptions {
 ///         and which sign was taken and why
 /// errors  one line each. not_found: no such raster. format: not a raster of depths. mismatch: it does not cover the
 ///         extent; nothing but unknown values there
-/// threads any; a netCDF file holds the lock of netCDF
+/// The file may be anything: it is read in a process that reaches no network and writes nothing.
+/// threads any that is not inside_library()
 [[nodiscard]] Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const GeoExtent& extent,
                                                   const DepthRasterOptions& options = {});
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The fuzz target of the product reader. HDF5's own bytes are not what it works on: a file whose seal is broken never
-// reaches HDF5, and one without a seal is read in a process apart first. What is left is a file that is sound for
-// netCDF and says nonsense. So the input is a list of edits of a sound product's attributes, dimensions, variables and
+// The fuzz target of the product reader. HDF5's own bytes are not what it works on: those are parsed in a
+// sandbox. What is left is a file that is sound for netCDF and says nonsense. So the input is a list of edits of a sound product's attributes, dimensions, variables and
 // values; what they leave is written by netCDF as a fresh file, sealed, and read.
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/library_gate.h"
+#include "io/gdal_drivers.h"
 #include "io/map_geometry.h"
 
 namespace sonar {
@@ -38,11 +39,6 @@ class QuietGdal {
  private:
   std::shared_lock<std::shared_mutex> inside_ = inside_library();
 };
-
-void register_drivers() {
-  static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
-}
 
 bool is_time(const TableColumn& column) { return column.name.ends_with("_utc"); }
 
@@ -80,7 +76,7 @@ tl::unexpected<Error> MapLayers::refused(std::string_view what) const {
 
 Result<std::unique_ptr<MapLayers>> MapLayers::create(const std::filesystem::path& target, MapFormat format,
                                                      TimeNs last_ping_time) {
-  register_drivers();
+  begin_gdal();
   std::unique_ptr<MapLayers> layers(new MapLayers(target, format, last_ping_time));
   if (format == MapFormat::geopackage) {
     const auto opened = layers->open_geopackage();

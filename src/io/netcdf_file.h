@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -76,7 +77,12 @@ class Writer {
   Result<void> status_;
 };
 
-/// Reads one netCDF-4 file. As the writer, it remembers the first failure and then gives empty values.
+class ReaderProcess;
+
+/// Reads one netCDF-4 file, which may be anything: the library parses it in a process of its own that can reach nothing
+/// else, and is asked for one thing after another. As the writer, it remembers the first failure and then gives empty
+/// values.
+/// threads  those of ChildProcess
 class Reader {
  public:
   Reader(const std::filesystem::path& path, std::string named);
@@ -84,7 +90,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  [[nodiscard]] int root() const { return file_; }
+  [[nodiscard]] int root() const { return root_; }
   /// -1, without failure, where there is none.
   [[nodiscard]] int find_group(int parent, const std::string& name);
   [[nodiscard]] int group(int parent, const std::string& name);
@@ -99,6 +105,10 @@ class Reader {
   /// The whole variable, converted to T; refused where it has not exactly `expected` values.
   template <class T>
   [[nodiscard]] std::vector<T> values(int group, const std::string& name, std::size_t expected);
+  /// Says what will be asked for next, in this order: many answers then come on one way there and back.
+  template <class T>
+  void foresee_values(int group, const std::string& name, std::size_t expected);
+  void foresee_variable(int group, const std::string& name);
   /// Number of values of a variable.
   [[nodiscard]] std::size_t size(int group, const std::string& name);
 
@@ -111,13 +121,13 @@ class Reader {
   [[nodiscard]] const Result<void>& status() const { return status_; }
 
  private:
-  bool check(int status, std::string_view what);
-  int find_variable(int group, const std::string& name);
-  std::unique_lock<std::mutex> lock_;
+  void start(const std::filesystem::path& path);
+  template <class T>
+  T ask(int what, int group, const std::string& name, std::uint64_t number = 0);
+
+  std::unique_ptr<ReaderProcess> process_;  ///< null where none could be made
   std::string named_;
-  std::uint64_t file_size_ = 0;
-  std::uint64_t bytes_left_ = 0;
-  int file_ = -1;
+  int root_ = -1;
   Result<void> status_;
 };
 

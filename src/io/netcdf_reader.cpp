@@ -1,208 +1,250 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-#include <netcdf.h>
-
-#include <array>
-#include <system_error>
+#include <algorithm>
+#include <deque>
 #include <utility>
 
+#include "base/check.h"
+#include "io/byte_source.h"
+#include "io/child_process.h"
 #include "io/netcdf_file.h"
+#include "io/netcdf_library_reader.h"
+#include "io/sandbox.h"
+#include "io/wire.h"
 
 namespace sonar::netcdf {
 namespace {
 
-/// Deflate never shrinks further than about 1030 to 1: an honest file holds no more bytes of values than this a byte,
-/// in all its variables together.
-constexpr std::uint64_t kBytesPerByte = 1100;
-/// A text is a reference of 16 bytes that hardly shrinks, and takes more than that in memory.
-constexpr std::size_t kBytesOfText = 64;
+enum What : int {
+  find_group,
+  find_variable,
+  find_attribute,
+  dimension_length,
+  attribute_text,
+  attribute_texts,
+  attribute_whole,
+  variable_size,
+  room,
+  doubles,
+  floats,
+  wholes,
+  ints,
+  bytes,
+  strings
+};
 
-bool is_text(nc_type type) { return type == NC_STRING || type == NC_CHAR; }
+constexpr std::uint64_t kLongestName = 4096;
+constexpr std::uint64_t kMemory_bytes = 8ULL << 30U;
 
-template <class T>
-int get(int group, int variable, T* values) {
-  if constexpr (std::is_same_v<T, double>) return nc_get_var_double(group, variable, values);
-  if constexpr (std::is_same_v<T, float>) return nc_get_var_float(group, variable, values);
-  if constexpr (std::is_same_v<T, std::int32_t>) return nc_get_var_int(group, variable, values);
-  if constexpr (std::is_same_v<T, std::uint8_t>) return nc_get_var_uchar(group, variable, values);
+using wire::Bytes;
+using wire::bytes_of;
+using wire::encoded;
+
+/// The name follows.
+struct Question {
+  std::int32_t what = 0;
+  std::int32_t group = 0;
+  std::uint64_t number = 0;
+  std::uint64_t name_size = 0;
+};
+
+Bytes encoded(const Question& asked, const std::string& name) {
+  Bytes out = encoded(Question{asked.what, asked.group, asked.number, name.size()});
+  const Bytes tail = encoded(name);
+  out.insert(out.end(), tail.begin(), tail.end());
+  return out;
 }
 
-}  // namespace
+template <class T>
+Bytes values(LibraryReader& in, const Question& asked, const std::string& name) {
+  return encoded(in.values<T>(asked.group, name, asked.number));
+}
 
-Reader::Reader(const std::filesystem::path& path, std::string named) : lock_(lock()), named_(std::move(named)) {
-  std::error_code error;
-  file_size_ = std::filesystem::file_size(path, error);
-  if (error) file_size_ = 0;
-  bytes_left_ = file_size_ * kBytesPerByte;
-  const int status = nc_open(path.c_str(), NC_NOWRITE, &file_);
-  if (status != NC_NOERR) {
-    file_ = -1;
-    refuse(ErrorCode::format, fmt::format("is no sound netCDF file ({})", nc_strerror(status)));
+Bytes answer(LibraryReader& in, const Question& asked, const std::string& name) {
+  switch (asked.what) {
+    case find_group:
+      return encoded(in.find_group(asked.group, name));
+    case find_variable:
+      return encoded(int{in.has_variable(asked.group, name)});
+    case find_attribute:
+      return encoded(int{in.has_attribute(asked.group, name)});
+    case dimension_length:
+      return encoded(in.dimension(asked.group, name));
+    case attribute_text:
+      return encoded(in.text(asked.group, name));
+    case attribute_texts:
+      return encoded(in.texts(asked.group, name));
+    case attribute_whole:
+      return encoded(in.whole(asked.group, name));
+    case variable_size:
+      return encoded(in.size(asked.group, name));
+    case room:
+      return encoded(int{in.can_hold(asked.number, static_cast<std::size_t>(asked.group))});
+    case doubles:
+      return values<double>(in, asked, name);
+    case floats:
+      return values<float>(in, asked, name);
+    case wholes:
+      return values<std::int64_t>(in, asked, name);
+    case ints:
+      return values<std::int32_t>(in, asked, name);
+    case bytes:
+      return values<std::uint8_t>(in, asked, name);
+    case strings:
+      return values<std::string>(in, asked, name);
+    default:
+      return {};
   }
 }
 
-Reader::~Reader() {
-  if (file_ >= 0) nc_close(file_);
+/// The child: the whole file, and then question after question until nobody asks any more.
+void serve(int stream, const ByteSource& source, std::uint64_t size) {
+  Bytes file(size);
+  const auto got = source.read(0, file);
+  file.resize(got ? *got : 0);
+  enter_sandbox(stream, Reach::nothing, kMemory_bytes);
+  LibraryReader in(std::move(file));
+  if (!wire::tell(stream, in.status(), encoded(in.root()))) return;
+  Question asked;
+  while (hear_all(stream, bytes_of(asked)) && asked.name_size <= kLongestName) {
+    std::string name(asked.name_size, ' ');
+    if (!hear_all(stream, std::as_writable_bytes(std::span(name)))) return;
+    const Bytes said = answer(in, asked, name);
+    if (!wire::tell(stream, in.status(), said)) return;
+  }
 }
+
+template <class T>
+constexpr What kValues = doubles;
+template <>
+constexpr What kValues<float> = floats;
+template <>
+constexpr What kValues<std::int64_t> = wholes;
+template <>
+constexpr What kValues<std::int32_t> = ints;
+template <>
+constexpr What kValues<std::uint8_t> = bytes;
+template <>
+constexpr What kValues<std::string> = strings;
+
+}  // namespace
+
+/// The other side of serve().
+class ReaderProcess {
+ public:
+  ReaderProcess(ChildProcess child, std::uint64_t most) : child_(std::move(child)), most_(most) {}
+
+  void foresee(const Question& asked, const std::string& name) {
+    foreseen_.push_back(encoded(asked, name));
+    unsaid_.insert(unsaid_.end(), foreseen_.back().begin(), foreseen_.back().end());
+  }
+
+  Result<Bytes> ask(const Question& asked, const std::string& name) {
+    if (foreseen_.empty()) foresee(asked, name);
+    SONAR_CHECK(foreseen_.front() == encoded(asked, name));
+    foreseen_.pop_front();
+    const Bytes said = std::exchange(unsaid_, {});
+    if (!child_.say(said)) return fail(ErrorCode::format, "is damaged: reading it breaks the library for it");
+    return wire::hear(child_, most_);
+  }
+
+ private:
+  ChildProcess child_;
+  std::uint64_t most_;
+  std::deque<Bytes> foreseen_;  ///< questions whose answers were not heard yet
+  Bytes unsaid_;                ///< the last of them
+};
+
+Reader::Reader(const std::filesystem::path& path, std::string named) : named_(std::move(named)) { start(path); }
+
+void Reader::start(const std::filesystem::path& path) {
+  const auto source = open_file(path);
+  const auto size = source ? (*source)->size() : Result<std::uint64_t>(pass_on(source));
+  if (!size) return refuse(size.error().code, size.error().text);
+  const auto make = [&] {
+    // Held so that no other thread is inside netCDF when the process is doubled; the copy lets it go.
+    auto held = lock();
+    return ChildProcess::start(
+        [&](int stream) {
+          held.unlock();
+          serve(stream, **source, *size);
+        },
+        named_);
+  };
+  const std::uint64_t most = *size * kBytesPerByte + kLongestName;
+  auto begun = wire::begin(make, most);
+  if (!begun) return refuse(begun.error().code, begun.error().text);
+  process_ = std::make_unique<ReaderProcess>(std::move(begun->child), most);
+  root_ = wire::decoded<int>(begun->said).value_or(-1);
+}
+
+Reader::~Reader() = default;
 
 void Reader::refuse(ErrorCode code, std::string text) {
   if (status_) status_ = fail(code, std::move(text), {.file = named_});
 }
 
-bool Reader::check(int status, std::string_view what) {
-  if (!status_) return false;
-  if (status != NC_NOERR) refuse(ErrorCode::format, fmt::format("'{}': {}", what, nc_strerror(status)));
-  return status_.has_value();
+template <class T>
+T Reader::ask(int what, int group, const std::string& name, std::uint64_t number) {
+  if (!status_) return {};
+  const auto said = process_->ask({what, group, number, 0}, name);
+  if (!said) {
+    refuse(said.error().code, said.error().text);
+    return {};
+  }
+  auto value = wire::decoded<T>(*said);
+  if (!value) refuse(ErrorCode::format, "is damaged: reading it breaks the library for it");
+  return value ? std::move(*value) : T{};
 }
 
 int Reader::find_group(int parent, const std::string& name) {
-  int id = -1;
-  if (!status_ || nc_inq_grp_ncid(parent, name.c_str(), &id) != NC_NOERR) return -1;
-  return id;
+  const int id = ask<int>(netcdf::find_group, parent, name);
+  return ok() ? id : -1;
 }
 
 int Reader::group(int parent, const std::string& name) {
   const int id = find_group(parent, name);
-  if (id < 0) refuse(ErrorCode::format, fmt::format("there is no group '/{}'", name));
+  if (id < 0) refuse(ErrorCode::format, "there is no group '/" + name + "'");
   return id;
 }
 
-bool Reader::has_variable(int group, const std::string& name) {
-  int id = -1;
-  return status_ && nc_inq_varid(group, name.c_str(), &id) == NC_NOERR;
-}
-
-bool Reader::has_attribute(int group, const std::string& name) {
-  return status_ && nc_inq_att(group, NC_GLOBAL, name.c_str(), nullptr, nullptr) == NC_NOERR;
-}
-
+bool Reader::has_variable(int group, const std::string& name) { return ask<int>(find_variable, group, name) != 0; }
+bool Reader::has_attribute(int group, const std::string& name) { return ask<int>(find_attribute, group, name) != 0; }
 std::size_t Reader::dimension(int group, const std::string& name) {
-  int id = -1;
-  std::size_t length = 0;
-  if (!status_ || !check(nc_inq_dimid(group, name.c_str(), &id), name)) return 0;
-  if (!check(nc_inq_dimlen(group, id, &length), name)) return 0;
-  if (length > file_size_ * kBytesPerByte) {
-    refuse(ErrorCode::format, fmt::format("dimension '{}' of {} is more than the file can hold", name, length));
-    return 0;
-  }
-  return length;
+  return ask<std::size_t>(dimension_length, group, name);
+}
+std::string Reader::text(int group, const std::string& name) { return ask<std::string>(attribute_text, group, name); }
+std::int64_t Reader::whole(int group, const std::string& name) {
+  return ask<std::int64_t>(attribute_whole, group, name);
+}
+std::size_t Reader::size(int group, const std::string& name) { return ask<std::size_t>(variable_size, group, name); }
+
+std::vector<std::string> Reader::texts(int group, const std::string& name) {
+  return ask<std::vector<std::string>>(attribute_texts, group, name);
 }
 
 bool Reader::can_hold(std::size_t rows, std::size_t bytes_a_row) {
-  if (bytes_a_row == 0 || rows <= bytes_left_ / bytes_a_row) return true;
-  refuse(ErrorCode::format, fmt::format("{} values of {} bytes are more than the file can hold", rows, bytes_a_row));
-  return false;
+  return ask<int>(room, static_cast<int>(bytes_a_row), {}, rows) != 0;
 }
 
-std::string Reader::text(int group, const std::string& name) {
-  nc_type type = NC_NAT;
-  std::size_t length = 0;
-  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return {};
-  if (type == NC_STRING) {
-    const std::vector<std::string> all = texts(group, name);
-    return all.empty() ? std::string{} : all.front();
-  }
-  if (type != NC_CHAR || length > file_size_) {
-    refuse(ErrorCode::format, fmt::format("attribute '{}' is no text", name));
-    return {};
-  }
-  std::string value(length, '\0');
-  if (length > 0) check(nc_get_att_text(group, NC_GLOBAL, name.c_str(), value.data()), name);
-  return value;
+template <class T>
+void Reader::foresee_values(int group, const std::string& name, std::size_t expected) {
+  if (ok()) process_->foresee({kValues<T>, group, expected, 0}, name);
 }
 
-std::int64_t Reader::whole(int group, const std::string& name) {
-  nc_type type = NC_NAT;
-  std::size_t length = 0;
-  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return 0;
-  long long value = 0;
-  if (is_text(type) || length != 1) {
-    refuse(ErrorCode::format, fmt::format("attribute '{}' is no number", name));
-  } else {
-    check(nc_get_att_longlong(group, NC_GLOBAL, name.c_str(), &value), name);
-  }
-  return value;
-}
-
-std::vector<std::string> Reader::texts(int group, const std::string& name) {
-  nc_type type = NC_NAT;
-  std::size_t length = 0;
-  if (!status_ || !check(nc_inq_att(group, NC_GLOBAL, name.c_str(), &type, &length), name)) return {};
-  if (length == 0) return {};
-  if (type == NC_CHAR) return {text(group, name)};
-  if (type != NC_STRING || length > file_size_) {
-    refuse(ErrorCode::format, fmt::format("attribute '{}' is no text", name));
-    return {};
-  }
-  std::vector<char*> pointers(length, nullptr);
-  std::vector<std::string> values;
-  if (!check(nc_get_att_string(group, NC_GLOBAL, name.c_str(), pointers.data()), name)) return {};
-  for (const char* p : pointers) values.emplace_back(p != nullptr ? p : "");
-  nc_free_string(length, pointers.data());
-  return values;
-}
-
-int Reader::find_variable(int group, const std::string& name) {
-  int id = -1;
-  if (status_) check(nc_inq_varid(group, name.c_str(), &id), name);
-  return id;
-}
-
-std::size_t Reader::size(int group, const std::string& name) {
-  const int id = find_variable(group, name);
-  int count = 0;
-  std::array<int, NC_MAX_VAR_DIMS> ids{};
-  if (!status_ || !check(nc_inq_var(group, id, nullptr, nullptr, &count, ids.data(), nullptr), name)) return 0;
-  std::uint64_t product = 1;
-  for (int i = 0; i < count; ++i) {
-    std::size_t length = 0;
-    if (!check(nc_inq_dimlen(group, ids[static_cast<std::size_t>(i)], &length), name)) return 0;
-    if (length != 0 && product > file_size_ * kBytesPerByte / length) {
-      refuse(ErrorCode::format, fmt::format("'{}' has more values than the file can hold", name));
-      return 0;
-    }
-    product *= length;
-  }
-  return product;
+void Reader::foresee_variable(int group, const std::string& name) {
+  if (ok()) process_->foresee({find_variable, group, 0, 0}, name);
 }
 
 template <class T>
 std::vector<T> Reader::values(int group, const std::string& name, std::size_t expected) {
-  const int id = find_variable(group, name);
-  const std::size_t found = size(group, name);
-  nc_type type = NC_NAT;
-  if (!status_ || !check(nc_inq_vartype(group, id, &type), name)) return {};
-  if (found != expected) {
-    refuse(ErrorCode::format, fmt::format("'{}' has {} values where {} were expected", name, found, expected));
-    return {};
-  }
-  constexpr bool kWantsText = std::is_same_v<T, std::string>;
-  if (type > NC_STRING || (type == NC_STRING) != kWantsText || type == NC_CHAR) {
-    refuse(ErrorCode::format, fmt::format("'{}' has another type than expected", name));
-    return {};
-  }
-  if (expected == 0) return {};
-  std::size_t width = 0;
-  if (!check(nc_inq_type(group, type, nullptr, &width), name)) return {};
-  if (kWantsText) width = kBytesOfText;
-  if (!can_hold(expected, width)) return {};
-  bytes_left_ -= expected * width;
-  std::vector<T> out(expected);
-  if constexpr (kWantsText) {
-    std::vector<char*> pointers(expected, nullptr);
-    if (!check(nc_get_var_string(group, id, pointers.data()), name)) return {};
-    for (std::size_t i = 0; i < expected; ++i) out[i] = pointers[i] != nullptr ? pointers[i] : "";
-    nc_free_string(expected, pointers.data());
-  } else if constexpr (std::is_same_v<T, std::int64_t>) {
-    std::vector<long long> wide(expected);
-    if (!check(nc_get_var_longlong(group, id, wide.data()), name)) return {};
-    out.assign(wide.begin(), wide.end());
-  } else {
-    if (!check(get(group, id, out.data()), name)) return {};
-  }
-  return out;
+  auto values = ask<std::vector<T>>(kValues<T>, group, name, expected);
+  if (ok() && values.size() != expected) refuse(ErrorCode::format, "is damaged: reading it breaks the library for it");
+  return ok() ? std::move(values) : std::vector<T>{};
 }
 
+template void Reader::foresee_values<double>(int, const std::string&, std::size_t);
+template void Reader::foresee_values<std::int64_t>(int, const std::string&, std::size_t);
+template void Reader::foresee_values<std::string>(int, const std::string&, std::size_t);
 template std::vector<double> Reader::values(int, const std::string&, std::size_t);
 template std::vector<float> Reader::values(int, const std::string&, std::size_t);
 template std::vector<std::int64_t> Reader::values(int, const std::string&, std::size_t);

@@ -47,6 +47,8 @@ std::unique_lock<std::mutex> lock() {
   [[maybe_unused]] static const auto no_tidying = H5dont_atexit();
   // HDF5 prints its inner errors on standard error, thread by thread, unless told not to.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  // Once here, not in each child that reads.
+  [[maybe_unused]] static const auto begun = nc_initialize();
   return held;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "base/result.h"
 #include "io/atomic_file.h"
@@ -19,9 +20,13 @@ namespace sonar {
 Result<void> write_product(const ObservationProduct& product, const std::filesystem::path& path,
                            Beside beside = Beside::named_folder);
 
+/// Whether a text is an observation's name: obs-0001, with four digits or more. It becomes part of files' names.
+[[nodiscard]] bool is_observation_name(std::string_view name);
+
 /// Reads what write_product() writes. Anything else in the file is ignored.
+/// The file may be anything: it is parsed in a process that can reach nothing else.
 /// errors   not_found, io, format (damaged, or not a product), newer_version, older_version ("run again")
-/// threads  any; calls into netCDF take turns
+/// threads  any that is not inside_library()
 Result<ObservationProduct> read_product(const std::filesystem::path& path);
 
 /// What tells whether a product is still right, read without its arrays.

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <type_traits>
 #include <utility>
 
 #include "io/netcdf_file.h"
 #include "io/product.h"
 #include "io/product_mask_reader.h"
 #include "io/product_seal.h"
-#include "io/try_apart.h"
 
 namespace sonar {
 namespace {
@@ -52,9 +53,18 @@ bool parse_input_file(const std::string& text, InputFile& file) {
   return error == std::errc{} && end == text.data() + second;
 }
 
+/// It becomes part of files' names.
+std::string observation_name(Reader& in) {
+  std::string name = in.text(in.root(), "observation");
+  if (in.ok() && !is_observation_name(name)) {
+    in.refuse(ErrorCode::format, fmt::format("observation '{}' is no name of the kind obs-0001", name.substr(0, 40)));
+  }
+  return name;
+}
+
 void read_attributes(Reader& in, ObservationProduct& product) {
   const int root = in.root();
-  product.observation = in.text(root, "observation");
+  product.observation = observation_name(in);
   product.program_version = in.text(root, "sonar_explorer_version");
   product.title = in.text(root, "title");
   product.source = in.text(root, "source");
@@ -108,6 +118,10 @@ void read_pings(Reader& in, ObservationProduct& product) {
   if (!in.ok() || !in.can_hold(n, kPingColumns * sizeof(double))) return;
   product.pings.resize(n);
   for (std::size_t i = 0; i < n; ++i) product.pings[i].time = time[i];
+  for (const char* name : {"latitude", "longitude", "heading", "speed", "course", "distance", "pitch", "roll", "heave",
+                           "transducer_depth", "gps_minus_clock", "bad"}) {
+    in.foresee_values<double>(group, name, n);
+  }
   const auto fill = [&](const char* name, auto&& put) {
     const auto values = in.values<double>(group, name, n);
     for (std::size_t i = 0; i < values.size(); ++i) put(product.pings[i], values[i]);
@@ -190,6 +204,8 @@ class RowFiller {
 
   /// Visits the columns once per row, but reads each only at the first row.
   void fill() {
+    if (rows_.empty()) return;
+    foresee();
     for (row_ = 0; row_ < rows_.size() && in_.ok(); ++row_) {
       at_ = 0;
       columns(*this, rows_[row_]);
@@ -211,10 +227,37 @@ class RowFiller {
   }
 
  private:
+  /// Programs of before did not write every column.
+  void foresee() {
+    std::vector<std::string> later;
+    Row blank;
+    const auto note_later = [&](std::string_view name, std::string_view, auto&&) {
+      if (is_later_column(name)) later.emplace_back(name);
+    };
+    columns(note_later, blank);
+    for (const std::string& name : later) in_.foresee_variable(group_, name);
+    for (const std::string& name : later) {
+      if (!in_.has_variable(group_, name)) absent_.insert(name);
+    }
+    const auto note_all = [&](std::string_view name, std::string_view, auto&& value) {
+      using Kept = std::decay_t<decltype(value)>;
+      const std::string column(name);
+      if (absent_.contains(column)) return;
+      if constexpr (std::is_same_v<Kept, std::int64_t>) {
+        in_.foresee_values<std::int64_t>(group_, column, rows_.size());
+      } else if constexpr (std::is_same_v<Kept, double> || std::is_same_v<Kept, DegreesColumn>) {
+        in_.foresee_values<double>(group_, column, rows_.size());
+      } else {
+        in_.foresee_values<std::string>(group_, column, rows_.size());
+      }
+    };
+    columns(note_all, blank);
+  }
+
   template <class T>
   void take(std::vector<std::vector<T>>& store, std::string_view name, T& value) {
     if (store.size() <= at_) store.resize(at_ + 1);
-    const bool absent = row_ == 0 && is_later_column(name) && !in_.has_variable(group_, std::string(name));
+    const bool absent = row_ == 0 && absent_.contains(std::string(name));
     if (row_ == 0 && !absent) store[at_] = in_.values<T>(group_, std::string(name), rows_.size());
     if (row_ < store[at_].size()) value = store[at_][row_];
     ++at_;
@@ -222,6 +265,7 @@ class RowFiller {
   Reader& in_;
   int group_;
   std::vector<Row>& rows_;
+  std::set<std::string> absent_;
   std::size_t row_ = 0;
   std::size_t at_ = 0;
   std::vector<std::vector<std::string>> texts_;
@@ -316,8 +360,9 @@ Result<ProductKey> read_key(const std::filesystem::path& path) {
   ProductKey key;
   if (check_version(in)) {
     const int root = in.root();
-    key = {in.text(root, "observation"),    in.text(root, "input_hash"), in.text(root, "recipe_hash"),
-           in.text(root, "stage_versions"), in.text(root, "source"),     in.text(root, "recipe")};
+    key = {observation_name(in),         in.text(root, "input_hash"),
+           in.text(root, "recipe_hash"), in.text(root, "stage_versions"),
+           in.text(root, "source"),      in.text(root, "recipe")};
     const int group = in.group(root, "pings");
     key.pings = in.dimension(group, "ping");
     const auto time = in.values<std::int64_t>(group, "time", key.pings);
@@ -330,27 +375,26 @@ Result<ProductKey> read_key(const std::filesystem::path& path) {
   return key;
 }
 
-/// Reads what our own seal vouches for at once; anything else in a process apart first, for HDF5 may break on it.
-template <class T>
-Result<T> read_safely(const std::filesystem::path& path, Result<T> (*read)(const std::filesystem::path&)) {
-  const auto sealed = check_seal(path, path.string());
-  if (!sealed) return pass_on(sealed);
-  if (!*sealed) {
-    // Held so that no other thread is inside netCDF when the process is doubled; the copy lets it go.
-    auto held = netcdf::lock();
-    const auto body = [&] {
-      held.unlock();
-      static_cast<void>(read(path));
-    };
-    if (auto survived = try_apart(body, path.string()); !survived) return pass_on(survived);
-  }
-  return read(path);
-}
-
 }  // namespace
 
-Result<ObservationProduct> read_product(const std::filesystem::path& path) { return read_safely(path, read_whole); }
+bool is_observation_name(std::string_view name) {
+  constexpr std::string_view kBegin = "obs-";
+  constexpr std::size_t kFewestDigits = 4;
+  constexpr std::size_t kMostDigits = 9;
+  if (!name.starts_with(kBegin)) return false;
+  const std::string_view digits = name.substr(kBegin.size());
+  return digits.size() >= kFewestDigits && digits.size() <= kMostDigits &&
+         digits.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
-Result<ProductKey> read_product_key(const std::filesystem::path& path) { return read_safely(path, read_key); }
+Result<ObservationProduct> read_product(const std::filesystem::path& path) {
+  if (const auto sealed = check_seal(path, path.string()); !sealed) return pass_on(sealed);
+  return read_whole(path);
+}
+
+Result<ProductKey> read_product_key(const std::filesystem::path& path) {
+  if (const auto sealed = check_seal(path, path.string()); !sealed) return pass_on(sealed);
+  return read_key(path);
+}
 
 }  // namespace sonar

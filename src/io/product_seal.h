@@ -9,9 +9,8 @@
 namespace sonar {
 
 // A product ends with a seal: one line of text with the XXH3-128 of all bytes before it. netCDF and HDF5 take no notice
-// of bytes behind the end that they know; our reader refuses a file whose seal is broken before HDF5, which is not
-// written to survive damaged metadata, sees it. A file that another program has changed has no seal; it is read in a
-// process apart first.
+// of bytes behind the end that they know; our reader refuses a file whose seal is broken. A file that another
+// program has changed has none. A seal tells damage, not malice: anybody can make one.
 
 /// named   stands in messages
 /// errors  io, no_space

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -158,9 +159,14 @@ Result<Journal> read_journal(const std::string& path) {
 }
 
 Result<void> append_journal(const std::string& path, const Journal& head, const JournalLine& line) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
   if (file < 0) return refused_write("could not be written", errno, path);
-  const off_t size = ::lseek(file, 0, SEEK_END);
+  struct stat kind {};
+  if (::fstat(file, &kind) != 0 || !S_ISREG(kind.st_mode)) {
+    ::close(file);
+    return fail(ErrorCode::io, "is not a file", {path});
+  }
+  const off_t size = kind.st_size;
   // A line that a crash cut short must not swallow the next one.
   char last = '\n';
   const bool cut = size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
@@ -169,7 +175,7 @@ Result<void> append_journal(const std::string& path, const Journal& head, const 
   int error = write_all(file, text);
   if (error == 0 && ::fsync(file) != 0) error = errno;
   // Who is refused must find the journal as it was: half a line, or a whole one that nobody knows of, must not stay.
-  const bool restored = error == 0 || size < 0 || ::ftruncate(file, size) == 0;
+  const bool restored = error == 0 || ::ftruncate(file, size) == 0;
   ::close(file);
   if (error == 0) return {};
   auto refused = refused_write("could not be written", error, path);

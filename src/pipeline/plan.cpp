@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/product.h"
 #include "pipeline/json_file.h"
 
 namespace sonar {
@@ -40,7 +41,7 @@ Result<PlanTask> task_from_json(const nlohmann::json& json, std::size_t number) 
   if (!json.is_object()) return wrong("an object");
   PlanTask task;
   task.observation = text("observation");
-  if (task.observation.empty()) return wrong("the name of an observation");
+  if (!is_observation_name(task.observation)) return wrong("the name of an observation, such as obs-0001");
   if (!json.contains("files") || !is_text_array(json["files"])) return wrong("an array files");
   task.files = json["files"].get<std::vector<std::string>>();
   const auto pings = json.contains("pings") ? whole_number(json["pings"], 0) : std::nullopt;
