@@ -44,6 +44,24 @@ std::tuple<bool, TimeNs, std::string, std::string> file_order(const SurveyFile& 
   return {empty, empty ? 0 : file.index.pings.front().time, file.path.filename().string(), file.path.string()};
 }
 
+bool leads_nowhere(const fs::path& path) {
+  std::error_code error;
+  (void)fs::status(path, error);
+  return error == std::errc::too_many_symbolic_link_levels || error == std::errc::filename_too_long;
+}
+
+/// What a folder lists and can lead to no file, ever (a loop of links, too long a path), is left out with a note. A link
+/// whose file is not there is an error like a file that cannot be read, and so is whatever a user named.
+Diagnostics take_out_links(std::vector<SurveyFile>& files, std::span<const fs::path> named) {
+  Diagnostics notes;
+  std::erase_if(files, [&](const SurveyFile& file) {
+    if (!file.error || !leads_nowhere(file.path) || std::ranges::find(named, file.path) != named.end()) return false;
+    notes.push_back({DiagnosticCode::unreadable, file.path.string(), -1, -1, "is skipped: " + file.error->text});
+    return true;
+  });
+  return notes;
+}
+
 }  // namespace
 
 const ObservationFiles* SurveyFiles::find(std::string_view observation) const {
@@ -116,7 +134,10 @@ Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyPar
     work.progress("indexing", ++done, static_cast<std::int64_t>(files.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while indexing");
-  return arrange_survey(std::move(files), survey, navigation);
+  const Diagnostics skipped = take_out_links(files, paths);
+  SurveyFiles arranged = arrange_survey(std::move(files), survey, navigation);
+  arranged.diagnostics.insert(arranged.diagnostics.begin(), skipped.begin(), skipped.end());
+  return arranged;
 }
 
 SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& params,
@@ -144,13 +165,26 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
   return survey;
 }
 
-Result<void> require_outside_raw(std::span<const std::filesystem::path> raw, const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
+namespace {
+
+/// Links followed as far as they lead; a loop of links, or a path that is too long, as it is written.
+fs::path resolved(const fs::path& path) {
   std::error_code error;
-  const fs::path there = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, error), error);
+  const fs::path whole = fs::absolute(path, error);
+  if (error) return path;
+  fs::path followed = fs::weakly_canonical(whole, error);
+  return error ? whole.lexically_normal() : followed;
+}
+
+}  // namespace
+
+Result<void> require_outside_raw(std::span<const std::filesystem::path> raw, const std::filesystem::path& folder) {
+  std::error_code error;
+  const fs::path there = resolved(folder.empty() ? "." : folder);
   for (const fs::path& path : raw) {
-    const fs::path named = fs::absolute(path, error);
-    const fs::path where = fs::weakly_canonical(fs::is_regular_file(named, error) ? named.parent_path() : named, error);
+    // A folder that is gone is still taken for one.
+    const bool file = fs::exists(fs::symlink_status(path, error)) && !fs::is_directory(path, error);
+    const fs::path where = resolved(file ? fs::absolute(path, error).parent_path() : path);
     if (std::mismatch(where.begin(), where.end(), there.begin(), there.end()).first == where.end()) {
       return fail(ErrorCode::usage, "lies in the folder of the raw files, where nothing is ever written",
                   {folder.string()});
@@ -166,9 +200,7 @@ Result<void> require_outside_raw(const SurveyFiles& survey, const std::filesyste
 }
 
 Result<void> require_not_beneath_raw(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  fs::path above = fs::weakly_canonical(fs::absolute(folder, error), error).parent_path();
+  fs::path above = resolved(folder).parent_path();
   for (;; above = above.parent_path()) {
     if (holds_recordings(above)) {
       return fail(ErrorCode::usage,

@@ -300,6 +300,29 @@ TEST(Survey, UnreadableFileStopsNothing) {
   EXPECT_EQ(count(survey.diagnostics, DiagnosticCode::unreadable), 1);
 }
 
+TEST(Survey, WhatLeadsToNoFileIsSkippedWithANote) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(2));
+  fs::create_symlink(folder.path() / "loop.raw", folder.path() / "loop.raw");
+  const SurveyFiles survey = opened(folder);
+  EXPECT_EQ(survey.observations.size(), 1U);
+  EXPECT_EQ(survey.files.size(), 1U);
+  ASSERT_EQ(count(survey.diagnostics, DiagnosticCode::unreadable), 1);
+  EXPECT_NE(survey.diagnostics.front().text.find("skipped"), std::string::npos);
+  // It says nothing of where results may go.
+  EXPECT_TRUE(require_outside_raw(survey, folder.path().string() + "-work"));
+  const std::vector<fs::path> loop{folder.path() / "loop.raw", fs::path("/") / std::string(300, 'x')};
+  EXPECT_TRUE(require_outside_raw(loop, folder.path().string() + "-work"));
+  EXPECT_FALSE(require_outside_raw(loop, folder.path() / "work"));
+  // Who names it is told.
+  Work work(1);
+  const std::vector<fs::path> named{folder.path() / "loop.raw"};
+  const auto alone = open_survey(named, {}, {}, IndexCache{}, work);
+  ASSERT_TRUE(alone);
+  ASSERT_EQ(alone->files.size(), 1U);
+  EXPECT_TRUE(alone->files.front().error);
+}
+
 TEST(Survey, NothingIsWrittenBesideTheFiles) {
   const test::TemporaryFolder folder;
   const test::TemporaryFolder elsewhere;
