@@ -7,7 +7,7 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config ca-certificates
-       libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libproj-dev proj-data libhwy-dev
+       libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libsleef-dev libproj-dev proj-data libhwy-dev
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
 test=(libgtest-dev libgmock-dev clang-format-16 git python3 python3-numpy python3-netcdf4 xvfb xauth)

@@ -25,7 +25,7 @@ inline constexpr double kMetresPerNauticalMile = 1852.0;
 inline constexpr double kKnot_mps = kMetresPerNauticalMile / 3600.0;
 
 [[nodiscard]] inline double db_from_linear(double linear) { return 10.0 * std::log10(linear); }
-[[nodiscard]] inline double linear_from_db(double db) { return std::pow(10.0, db / 10.0); }
+[[nodiscard]] inline double linear_from_db(double db) { return std::exp(db * (std::numbers::ln10 / 10.0)); }
 [[nodiscard]] constexpr double db_from_counts(double counts) { return counts * kDbPerCount; }
 [[nodiscard]] constexpr double counts_from_db(double db) { return db / kDbPerCount; }
 [[nodiscard]] constexpr double rad_from_deg(double deg) { return deg * (std::numbers::pi / 180.0); }

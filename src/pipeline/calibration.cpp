@@ -112,12 +112,13 @@ CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> he
   const RangeAxis& range = observation_.range;
   auto table = std::make_shared<Array3<std::int16_t>>(
       Shape3{observation_.grid->fans(), observation_.grid->beams(), range.count}, kNoData);
+  const SampleRanges ranges(range.first_m, range.spacing_m, range.count);
   for (const ChannelPing& head : heads) {
     const auto channel = static_cast<std::size_t>(head.channel);
     if (channel >= row_of_channel_.size() || row_of_channel_[channel] < 0) continue;
     const ChannelCalibration calibration = channel_calibration(observation_.config.beams[channel], head, params_,
                                                                users_.of(head.channel), given_speed_mps_);
-    const auto row = sv_table(calibration, range.first_m, range.spacing_m, range.count);
+    const auto row = sv_table(calibration, ranges);
     std::copy(row.begin(), row.end(), table->view().row(row_of_channel_[channel]).begin());
   }
   return table;

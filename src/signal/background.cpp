@@ -61,9 +61,10 @@ void block_means_db(Row row, std::size_t block, std::span<double> level_db) {
 double median_level_db(std::vector<double>& known) {
   if (known.empty()) return kUnknown;
   std::sort(known.begin(), known.end());
-  const double low = linear_from_db(known[(known.size() - 1) / 2]);
-  const double high = linear_from_db(known[known.size() / 2]);
-  return known.size() % 2 == 1 ? known[known.size() / 2] : db_from_linear(0.5 * (low + high));
+  const double high_db = known[known.size() / 2];
+  if (known.size() % 2 == 1) return high_db;
+  const double low_db = known[known.size() / 2 - 1];
+  return db_from_linear(0.5 * (linear_from_db(low_db) + linear_from_db(high_db)));
 }
 
 double linear_mean_db(std::span<const double> known_db) {

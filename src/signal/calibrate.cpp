@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/check.h"
@@ -12,11 +13,6 @@
 namespace sonar {
 
 namespace {
-
-double tvg_at(double absorption_db_per_m, double first_range_m, double spacing_m, int sample) {
-  const double range_m = std::max(first_range_m + spacing_m * sample, spacing_m);
-  return 20.0 * std::log10(range_m) + 2.0 * absorption_db_per_m * range_m;
-}
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
@@ -35,27 +31,25 @@ double sv_constant_db(const ChannelCalibration& c) {
   return -db_from_linear(constant) - psi_db - 2.0 * c.gain_db - 2.0 * c.sa_correction_db + c.extra_factor_db;
 }
 
-std::vector<double> tvg_db(double absorption_db_per_m, double first_range_m, double spacing_m, int count) {
+SampleRanges::SampleRanges(double first_range_m, double spacing_m, int count) {
   SONAR_CHECK(count >= 0);
-  std::vector<double> tvg(static_cast<std::size_t>(count));
+  const bool sound = positive(spacing_m) && std::isfinite(first_range_m);
+  range_m.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    tvg[static_cast<std::size_t>(i)] = tvg_at(absorption_db_per_m, first_range_m, spacing_m, i);
+    range_m.push_back(sound ? std::max(first_range_m + spacing_m * i, spacing_m)
+                            : std::numeric_limits<double>::quiet_NaN());
   }
-  return tvg;
+  for (const double range : range_m) spreading_db.push_back(20.0 * std::log10(range));
 }
 
-std::vector<std::int16_t> sv_table(const ChannelCalibration& calibration, double first_range_m, double spacing_m,
-                                   int count) {
-  SONAR_CHECK(count >= 0);
-  std::vector<std::int16_t> table(static_cast<std::size_t>(count), kNoData);
-  if (!is_sound(calibration) || !positive(spacing_m) || !std::isfinite(first_range_m)) return table;
+std::vector<std::int16_t> sv_table(const ChannelCalibration& calibration, const SampleRanges& ranges) {
+  std::vector<std::int16_t> table(ranges.range_m.size(), kNoData);
+  if (!is_sound(calibration)) return table;
   const double constant_db = sv_constant_db(calibration);
-  for (int i = 0; i < count; ++i) {
-    const double db = constant_db + tvg_at(calibration.absorption_db_per_m, first_range_m, spacing_m, i);
-    const double counts = std::clamp(counts_from_db(db), -32767.0, 32767.0);
-    if (std::isfinite(counts)) {
-      table[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(std::lround(counts));
-    }
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double tvg_db = ranges.spreading_db[i] + 2.0 * calibration.absorption_db_per_m * ranges.range_m[i];
+    const double counts = std::clamp(counts_from_db(constant_db + tvg_db), -32767.0, 32767.0);
+    if (std::isfinite(counts)) table[i] = static_cast<std::int16_t>(std::lround(counts));
   }
   return table;
 }

@@ -27,17 +27,19 @@ struct ChannelCalibration {
 /// -10 log10(Pt lambda^2 c tau psi / (32 pi^2)) - 2 G - 2 Sa + extra factor.
 [[nodiscard]] double sv_constant_db(const ChannelCalibration& calibration);
 
-/// Range-dependent part of the sonar equation ("time varied gain"), dB: 20 log10 r + 2 alpha r at each sample.
-/// in      first_range_m: range of sample 0, may be negative; ranges below one spacing count as one spacing
-/// out     [sample]
-[[nodiscard]] std::vector<double> tvg_db(double absorption_db_per_m, double first_range_m, double spacing_m, int count);
+/// Where samples lie, which all channels of a grid share. first_range_m: range of sample 0, may be negative; ranges below one
+/// spacing count as one spacing. All unknown where the spacing is not positive.
+struct SampleRanges {
+  SampleRanges(double first_range_m, double spacing_m, int count);
+  std::vector<double> range_m;       ///< [sample]
+  std::vector<double> spreading_db;  ///< 20 log10 r
+};
 
 /// What is added to power counts (10 log10(2)/256 dB re 1 W) to get Sv counts (same step, dB re 1 m^-1).
 /// Sv = P + 20 log10 r + 2 alpha r - 10 log10(Pt lambda^2 c tau psi / (32 pi^2)) - 2 G - 2 Sa + extra factor
-/// out     [sample], saturating; all kNoData where the calibration is not sound or spacing_m is not positive
+/// out     [sample], saturating; kNoData where the calibration is not sound or the range is not known
 /// source  Simrad; ICES SONAR-netCDF4 convention, type 3
-[[nodiscard]] std::vector<std::int16_t> sv_table(const ChannelCalibration& calibration, double first_range_m,
-                                                 double spacing_m, int count);
+[[nodiscard]] std::vector<std::int16_t> sv_table(const ChannelCalibration& calibration, const SampleRanges& ranges);
 
 /// Adds a table to a row of counts in place, saturating to kMinCount..kMaxCount; "no data" on either side stays so.
 /// in      counts, table [sample]; samples beyond the table's end become kNoData

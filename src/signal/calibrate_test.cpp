@@ -28,7 +28,8 @@ ChannelCalibration ms70_fan_12() {
 constexpr double kSpacing_m = 0.37760;
 
 double db_at(const ChannelCalibration& calibration, int sample, double first_m = 0.0) {
-  return db_from_counts(sv_table(calibration, first_m, kSpacing_m, sample + 1)[static_cast<std::size_t>(sample)]);
+  return db_from_counts(
+      sv_table(calibration, SampleRanges(first_m, kSpacing_m, sample + 1))[static_cast<std::size_t>(sample)]);
 }
 
 // By hand: lambda = 0.0165962 m; Pt lambda^2 c tau / (32 pi^2) = 35.67 * 2.754346e-4 * 3.02078 / 315.8273 = 9.3971e-5,
@@ -59,7 +60,7 @@ TEST(calibrate, symmetry_in_gain_and_absorption) {
 }
 
 TEST(calibrate, ranges_below_one_spacing_count_as_one) {
-  const auto table = sv_table(ms70_fan_12(), -2.0 * kSpacing_m, kSpacing_m, 6);
+  const auto table = sv_table(ms70_fan_12(), SampleRanges(-2.0 * kSpacing_m, kSpacing_m, 6));
   EXPECT_EQ(table[0], table[3]);
   EXPECT_EQ(table[2], table[3]);
   EXPECT_GT(table[4], table[3]);
@@ -76,12 +77,12 @@ TEST(calibrate, what_is_not_sound_gives_no_data) {
   bad[5].sound_speed_mps = Limits::quiet_NaN();
   for (const auto& calibration : bad) {
     EXPECT_FALSE(is_sound(calibration));
-    EXPECT_THAT(sv_table(calibration, 0.0, kSpacing_m, 5), testing::Each(kNoData));
+    EXPECT_THAT(sv_table(calibration, SampleRanges(0.0, kSpacing_m, 5)), testing::Each(kNoData));
   }
-  EXPECT_THAT(sv_table(ms70_fan_12(), 0.0, 0.0, 5), testing::Each(kNoData));
+  EXPECT_THAT(sv_table(ms70_fan_12(), SampleRanges(0.0, 0.0, 5)), testing::Each(kNoData));
   auto huge = ms70_fan_12();
   huge.gain_db = 1e300;
-  EXPECT_THAT(sv_table(huge, 0.0, kSpacing_m, 5), testing::Each(-32767));
+  EXPECT_THAT(sv_table(huge, SampleRanges(0.0, kSpacing_m, 5)), testing::Each(-32767));
 }
 
 TEST(calibrate, table_is_added_saturating_and_keeps_no_data) {
