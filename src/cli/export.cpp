@@ -22,6 +22,7 @@ struct ExportArguments {
   std::string dest;
   std::string survey;
   ReduceParams reduce;
+  bool no_formulas = false;
   int jobs = 0;
 };
 
@@ -35,7 +36,9 @@ int run_export(const ExportArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  const ExportOptions options{arguments.out, arguments.format, arguments.dest, arguments.survey, arguments.reduce};
+  const ExportOptions options{arguments.out,    arguments.format,
+                              arguments.dest,   arguments.survey,
+                              arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are};
   const auto files = export_products(options, work);
   clear_progress();
   if (!files) return report(naming_option(files.error(), kOptions));
@@ -62,12 +65,17 @@ void add_export(CLI::App& app, VerbRunner& run) {
                    "raw-reduced: pings that hold none of a school, before and after it");
   verb->add_option("--coarsen", arguments->reduce.coarsen_beams,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
+  verb->add_flag("--no-formulas", arguments->no_formulas,
+                 "csv: texts that a spreadsheet would take for a formula (= + - @) stand behind an apostrophe");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run, verb] {
     for (const OptionOf& of : kOptions) {
       const std::string option(of.option);
       if (arguments->format == "raw-reduced" || verb->get_option(option)->count() == 0) continue;
       throw CLI::ValidationError(option, "belongs to --to raw-reduced");
+    }
+    if (arguments->no_formulas && arguments->format != "csv") {
+      throw CLI::ValidationError("--no-formulas", "belongs to --to csv");
     }
     run = [arguments] { return run_export(*arguments); };
   });

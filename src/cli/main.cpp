@@ -31,6 +31,15 @@ extern "C" void on_interrupt(int) {
   }
 }
 
+/// "--seed = 99999999999999999999: expected INT in [0 - 2147483647]"; the parser's own words say nothing of what was.
+std::string conversion_text(const CLI::App& app, const std::string& told) {
+  const std::string call = told.substr(told.find("--") == std::string::npos ? 0 : told.find("--"));
+  const auto verbs = app.get_subcommands();
+  const CLI::Option* option =
+      verbs.empty() ? nullptr : verbs.front()->get_option_no_throw(call.substr(0, call.find(' ')));
+  return option == nullptr ? told : call + ": expected " + option->get_type_name();
+}
+
 /// What was wrong with a call. The parser misses a verb before it looks at what stands in its place.
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::span<char*> words) {
   const std::string first = words.size() > 1 ? words[1] : "";
@@ -38,6 +47,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::s
       app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; }).empty()) {
     return "there is no verb '" + first + "'";
   }
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return conversion_text(app, error.what());
   return dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()
              ? "a verb is needed"
              : error.what();

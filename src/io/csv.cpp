@@ -5,6 +5,8 @@
 
 namespace sonar {
 
+bool is_formula(std::string_view text) { return text.find_first_of("=+-@\t\r") == 0; }
+
 const std::string* CsvRowReader::field(std::string_view name) {
   if (!status_) return nullptr;
   const auto column = table_.require_column(name);

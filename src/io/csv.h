@@ -37,10 +37,22 @@ class CsvHeader {
   std::string text_;
 };
 
+/// How texts stand in a table.
+enum class CsvTexts : std::uint8_t {
+  as_they_are,
+  no_formulas  ///< behind an apostrophe where a spreadsheet would take them for a formula
+};
+
+/// Whether a spreadsheet takes a text for a formula: it begins with =, +, -, @, a tab or a carriage return.
+[[nodiscard]] bool is_formula(std::string_view text);
+
 /// Visitor that collects one record.
 class CsvLine {
  public:
-  void operator()(std::string_view, std::string_view, const std::string& v) { add(csv_field(v)); }
+  explicit CsvLine(CsvTexts texts = CsvTexts::as_they_are) : texts_(texts) {}
+  void operator()(std::string_view, std::string_view, const std::string& v) {
+    add(csv_field(texts_ == CsvTexts::no_formulas && is_formula(v) ? "'" + v : v));
+  }
   void operator()(std::string_view, std::string_view, const std::int64_t& v) { add(std::to_string(v)); }
   void operator()(std::string_view, std::string_view, const double& v) { add(std::isfinite(v) ? shortest(v) : ""); }
   void operator()(std::string_view, std::string_view, TimeColumn v) { add(v.value == 0 ? "" : iso_time(v.value)); }
@@ -55,6 +67,7 @@ class CsvLine {
     first_ = false;
     text_ += field;
   }
+  CsvTexts texts_;
   std::string text_;
   bool first_ = true;
 };
@@ -81,13 +94,13 @@ class CsvRowReader {
 
 /// The whole file's text, lines ended by LF.
 template <class Row>
-[[nodiscard]] std::string csv_text(const std::vector<Row>& rows) {
+[[nodiscard]] std::string csv_text(const std::vector<Row>& rows, CsvTexts texts = CsvTexts::as_they_are) {
   CsvHeader header;
   Row blank{};
   columns(header, blank);
   std::string text = header.text() + "\n";
   for (Row row : rows) {  // a copy: columns() takes a mutable row
-    CsvLine line;
+    CsvLine line(texts);
     columns(line, row);
     text += line.text() + "\n";
   }
@@ -96,8 +109,9 @@ template <class Row>
 
 /// errors  io, no_space
 template <class Row>
-Result<void> write_csv_rows(const std::filesystem::path& path, const std::vector<Row>& rows) {
-  return write_file(path, csv_text(rows));
+Result<void> write_csv_rows(const std::filesystem::path& path, const std::vector<Row>& rows,
+                            CsvTexts texts = CsvTexts::as_they_are) {
+  return write_file(path, csv_text(rows, texts));
 }
 
 /// errors  format, naming file, line and column: a missing column, a field that is no number

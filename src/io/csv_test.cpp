@@ -88,6 +88,24 @@ TEST(Csv, quotes_line_ends_and_byte_order_mark) {
   EXPECT_TRUE(std::isnan(*table->number(table->records[0], 1)));
 }
 
+TEST(Csv, a_formula_stands_behind_an_apostrophe_where_asked) {
+  SchoolRow row;
+  row.name = "=1+1";
+  row.comment = "+47 555, call";
+  row.species = "a = b";
+  row.vertical_speed_mps = -0.5;  // a number is none
+  const auto back_of = [&](CsvTexts texts) {
+    const auto table = parse_csv(csv_text(std::vector<SchoolRow>{row}, texts), "t.csv");
+    return csv_rows<SchoolRow>(*table)->front();
+  };
+  EXPECT_EQ(back_of(CsvTexts::as_they_are).name, "=1+1");
+  const SchoolRow guarded = back_of(CsvTexts::no_formulas);
+  EXPECT_EQ(guarded.name, "'=1+1");
+  EXPECT_EQ(guarded.comment, "'+47 555, call");
+  EXPECT_EQ(guarded.species, "a = b");
+  EXPECT_EQ(guarded.vertical_speed_mps, -0.5);
+}
+
 TEST(Csv, what_is_not_finite_is_unknown) {
   for (const char* text : {"inf", "-inf", "nan", "infinity", "1e999"}) {
     const auto table = parse_csv(std::string("a\n") + text + "\n", "t.csv");

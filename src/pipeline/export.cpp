@@ -72,10 +72,10 @@ Result<ObservationProduct> with_masks(const Source& source, std::size_t i) {
   return product;
 }
 
-Result<Files> export_csv(const Source& source, const fs::path& dest) {
+Result<Files> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
   Files files = {dest / "schools.csv", dest / "school_pings.csv"};
-  auto written = write_csv_rows(files[0], source.survey.schools);
-  if (written) written = write_csv_rows(files[1], source.survey.school_pings);
+  auto written = write_csv_rows(files[0], source.survey.schools, texts);
+  if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
   if (!written) return pass_on(written);
   return files;
 }
@@ -174,7 +174,7 @@ Result<Files> export_products(const ExportOptions& options, Work& work) {
     return fail(ErrorCode::usage, "holds the raw files, beside which nothing is ever written",
                 {.file = options.dest.string()});
   }
-  if (format->name == "csv") return export_csv(*source, options.dest);
+  if (format->name == "csv") return export_csv(*source, options.dest, options.texts);
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);

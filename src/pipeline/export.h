@@ -11,6 +11,7 @@
 #include "base/describe.h"
 #include "base/result.h"
 #include "base/work.h"
+#include "io/csv.h"
 #include "pipeline/reduce.h"
 
 namespace sonar {
@@ -24,11 +25,12 @@ struct ExportFormat {
 [[nodiscard]] std::span<const ExportFormat> export_formats();
 
 struct ExportOptions {
-  std::filesystem::path out;     ///< work folder of a run
-  std::string format;            ///< name in export_formats()
-  std::filesystem::path dest;    ///< folder that the files go to
-  std::filesystem::path survey;  ///< folder of the raw files; only where the format needs them
-  ReduceParams reduce;           ///< for raw-reduced
+  std::filesystem::path out;               ///< work folder of a run
+  std::string format;                      ///< name in export_formats()
+  std::filesystem::path dest;              ///< folder that the files go to
+  std::filesystem::path survey;            ///< folder of the raw files; only where the format needs them
+  ReduceParams reduce;                     ///< for raw-reduced
+  CsvTexts texts = CsvTexts::as_they_are;  ///< for csv
 };
 
 /// Writes the products of a work folder in another format.

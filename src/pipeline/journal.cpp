@@ -46,7 +46,9 @@ std::optional<JournalLine> line_from_json(const nlohmann::json& json) {
   const auto has = [&](const char* member, bool (nlohmann::json::*test)() const noexcept) {
     return json.contains(member) && (json[member].*test)();
   };
-  const auto n = json.contains("n") ? whole_number(json["n"]) : std::nullopt;
+  constexpr std::int64_t kMost = std::int64_t{1}
+                                 << 53;  // beyond it other programs lose the last digit, and we the next
+  const auto n = json.contains("n") ? whole_number(json["n"], 1, kMost) : std::nullopt;
   const auto ping_time = json.contains("ping_time") ? whole_number(json["ping_time"]) : std::nullopt;
   if (!n || !ping_time || !has("cmd", &nlohmann::json::is_string) || !has("args", &nlohmann::json::is_object)) {
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "base/test_full_disk.h"
@@ -153,6 +154,18 @@ TEST_F(JournalFile, NothingIsWrittenThroughALink) {
   JournalLock lock;
   EXPECT_FALSE(lock.take(path_));
   EXPECT_FALSE(std::filesystem::exists(elsewhere));
+}
+
+TEST(Journal, ANumberAfterWhichNoneCouldComeIsBroken) {
+  JournalLine line;
+  line.command = "undo";
+  for (const std::int64_t n : {std::numeric_limits<std::int64_t>::max(), std::int64_t{0}, std::int64_t{-1}}) {
+    line.n = n;
+    const auto read = parse_journal(journal_head_text({}) + "\n" + journal_text(line) + "\n", "j");
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(read->lines.empty()) << n;
+    EXPECT_EQ(read->diagnostics.size(), 1U);
+  }
 }
 
 TEST(Journal, ALineSaysOfWhichStepItIsAndOthersSayNothing) {

@@ -254,12 +254,15 @@ TEST_F(DrawFrame, SvgWordsCanBeFound) {
   FrameDescription frame{{200, 120}, {255, 255, 255, 255}, "t", {}};
   TextItem word;
   word.at = {100.0, 50.0};
-  word.text = "Sv < -50 & \xFF dB";
+  word.text = "Sv < -50 & \xFF\x01 dB";
   word.size_px = 10.0;
   word.anchor = TextAnchor::right;
   word.turned_deg = -90.0;
   frame.items.emplace_back(word);
   frame.items.emplace_back(ClipItem{{0.0, 0.0, 20.0, 20.0}});
+  word.at = {100.0, 70.0};
+  word.text = "no \xEF\xBF\xBE character";  // U+FFFE is none that XML may hold
+  frame.items.insert(frame.items.begin(), word);
   word.text = "cut away";
   frame.items.emplace_back(word);
   frame.items.emplace_back(ClipItem{});
@@ -270,6 +273,7 @@ TEST_F(DrawFrame, SvgWordsCanBeFound) {
   // Its base line is half of a capital, 0.3645 of its size, below the anchor; it turns about the anchor.
   EXPECT_NE(svg.find("x=\"100\" y=\"53.645\" font-size=\"10\" text-anchor=\"end\" transform=\"rotate(-90 100 50)\""),
             std::string::npos);
+  EXPECT_NE(svg.find(">no \uFFFD character</text>"), std::string::npos);
   EXPECT_EQ(svg.find("cut away"), std::string::npos);
 }
 

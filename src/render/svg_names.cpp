@@ -2,7 +2,9 @@
 #include "render/svg_names.h"
 
 #include <fmt/format.h>
+#include <pango/pango.h>
 
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <map>
@@ -30,11 +32,25 @@ std::map<std::string, std::string, std::less<>> new_names(const std::string& svg
   return names;
 }
 
+std::string valid_utf8(const std::string& text) {
+  char* valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
+  std::string out(valid);
+  g_free(valid);
+  return out;
+}
+
 }  // namespace
 
 std::string escaped_xml(const std::string& text) {
+  constexpr std::array<std::string_view, 2> kNoCharacter{"\xEF\xBF\xBE", "\xEF\xBF\xBF"};  // U+FFFE, U+FFFF
+  std::string valid = valid_utf8(text);
+  for (const std::string_view none : kNoCharacter) {
+    for (auto at = valid.find(none); at != std::string::npos; at = valid.find(none, at)) {
+      valid.replace(at, none.size(), "\xEF\xBF\xBD");
+    }
+  }
   std::string out;
-  for (const char c : text) {
+  for (const char c : valid) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {

@@ -16,13 +16,6 @@ namespace {
 /// Half of a capital's height in em, as letters are drawn: SVG places text by its base line.
 constexpr double kHalfCapital = 0.3645;
 
-std::string valid_utf8(const std::string& text) {
-  char* valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
-  std::string out(valid);
-  g_free(valid);
-  return out;
-}
-
 bool drawable(const TextItem& t) {
   return std::isfinite(t.at.x) && std::isfinite(t.at.y) && std::isfinite(t.turned_deg) && t.size_px > 0.0 &&
          t.size_px < 4096.0 && !t.text.empty();
@@ -34,7 +27,7 @@ std::string element(const TextItem& t) {
       t.turned_deg != 0.0 ? fmt::format(" transform=\"rotate({:.6g} {:.6g} {:.6g})\"", t.turned_deg, t.at.x, t.at.y)
                           : "";
   return fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"{:.6g}\" text-anchor=\"{}\"{}>{}</text>\n", t.at.x,
-                     t.at.y + kHalfCapital * t.size_px, t.size_px, anchor, turned, escaped_xml(valid_utf8(t.text)));
+                     t.at.y + kHalfCapital * t.size_px, t.size_px, anchor, turned, escaped_xml(t.text));
 }
 
 }  // namespace
