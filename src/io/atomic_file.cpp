@@ -61,7 +61,7 @@ Result<void> make_folder(const fs::path& folder, Beside beside) {
   std::error_code made;
   fs::create_directories(folder, made);
   if (made) return fail(ErrorCode::io, "cannot make the folder: " + made.message(), {.file = folder.string()});
-  if (beside == Beside::recordings || !holds_recordings(folder)) return {};
+  if (beside != Beside::named_folder || !holds_recordings(folder)) return {};
   return fail(ErrorCode::usage, "lies in the folder of the raw files, where nothing is ever written",
               {.file = folder.string()});
 }
@@ -98,12 +98,14 @@ int write_all(int descriptor, std::string_view bytes) {
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)),
       temporary_(std::exchange(other.temporary_, {})),
+      beside_(other.beside_),
       folder_(std::exchange(other.folder_, -1)),
       file_(std::exchange(other.file_, -1)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
+  std::swap(beside_, other.beside_);
   std::swap(folder_, other.folder_);
   std::swap(file_, other.file_);
   return *this;
@@ -121,7 +123,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target, Beside beside) {
   if (auto free = require_no_recording(target); !free) return pass_on(free);
   const auto opened = open_folder(folder, beside);
   if (!opened) return pass_on(opened);
-  AtomicFile file(target, *opened);
+  AtomicFile file(target, beside, *opened);
   if (auto made = file.make_temporary(); !made) return pass_on(made);
   return file;
 }
@@ -154,14 +156,15 @@ Result<void> AtomicFile::flush_temporary() const {
 }
 
 Result<void> AtomicFile::commit() {
-  if (auto flushed = flush_temporary(); !flushed) return flushed;
+  const bool flushes = beside_ != Beside::users_cache;
+  if (auto flushed = flushes ? flush_temporary() : Result<void>{}; !flushed) return flushed;
   if (auto free = require_no_recording(target_); !free) return free;
   const std::string name = target_.filename().string();
   if (::renameat(folder_, temporary_.filename().c_str(), folder_, name.c_str()) != 0) {
     return refused(target_, "cannot rename into place", errno);
   }
   temporary_.clear();
-  const int error = flush(folder_);
+  const int error = flushes ? flush(folder_) : 0;
   return error == 0 ? Result<void>{} : refused(folder_of(target_), "cannot flush the folder", error);
 }
 

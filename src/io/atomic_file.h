@@ -23,6 +23,7 @@ namespace sonar {
 enum class Beside : std::uint8_t {
   named_folder,  ///< a user named the folder, perhaps by a link; no recordings lie in it
   own_folder,    ///< the program makes the folder inside one that a user named; a link in its place is refused
+  users_cache,   ///< the program's folder in the user's cache; what a power cut loses of it is made again
   recordings     ///< a recording among others
 };
 
@@ -52,12 +53,14 @@ class AtomicFile {
   Result<void> commit();
 
  private:
-  AtomicFile(std::filesystem::path target, int folder) : target_(std::move(target)), folder_(folder) {}
+  AtomicFile(std::filesystem::path target, Beside beside, int folder)
+      : target_(std::move(target)), beside_(beside), folder_(folder) {}
   [[nodiscard]] Result<void> make_temporary();
   [[nodiscard]] Result<void> flush_temporary() const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty once committed
+  Beside beside_ = Beside::named_folder;
   int folder_ = -1;
   int file_ = -1;
 };

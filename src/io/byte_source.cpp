@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace sonar {
 namespace {
@@ -49,7 +50,27 @@ class FileSource final : public ByteSource {
   int descriptor_;
 };
 
+class StoppableSource final : public ByteSource {
+ public:
+  StoppableSource(std::shared_ptr<const ByteSource> source, const Work& work)
+      : source_(std::move(source)), work_(work) {}
+  [[nodiscard]] const std::string& name() const override { return source_->name(); }
+  [[nodiscard]] Result<std::uint64_t> size() const override { return source_->size(); }
+  [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const override {
+    if (work_.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    return source_->read(offset, out);
+  }
+
+ private:
+  std::shared_ptr<const ByteSource> source_;
+  const Work& work_;
+};
+
 }  // namespace
+
+std::shared_ptr<const ByteSource> stoppable(std::shared_ptr<const ByteSource> source, const Work& work) {
+  return std::make_shared<const StoppableSource>(std::move(source), work);
+}
 
 Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe is refused, not waited for

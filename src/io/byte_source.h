@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/work.h"
 
 namespace sonar {
 
@@ -35,6 +36,10 @@ class ByteSource {
 /// A file, read with pread and never mapped: a mapping counts as our memory, and a file cut short under it kills us.
 /// errors  not_found, io
 [[nodiscard]] Result<std::shared_ptr<const ByteSource>> open_file(const std::filesystem::path& path);
+
+/// The same bytes, until the work is cancelled: then reading fails, so that whoever reads on and on stops soon.
+/// errors  of its members: also cancelled
+[[nodiscard]] std::shared_ptr<const ByteSource> stoppable(std::shared_ptr<const ByteSource> source, const Work& work);
 
 /// Bytes in memory that may be appended to while others read.
 class MemorySource final : public ByteSource {

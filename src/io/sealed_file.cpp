@@ -110,7 +110,7 @@ void SealedFile::store(const std::filesystem::path& path, std::string_view key,
   }
   put(out, hash_bytes(std::as_bytes(std::span(out))));
   for (const auto& block : blocks) out.append(reinterpret_cast<const char*>(block.data()), block.size());
-  (void)write_file(path, out);
+  (void)write_file(path, out, Beside::users_cache);
 }
 
 }  // namespace sonar

@@ -46,9 +46,7 @@ std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path&
 
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product) {
   if (file.empty()) return;
-  std::error_code failed;
-  std::filesystem::create_directories(file.parent_path(), failed);
-  (void)write_product(product, file);
+  (void)write_product(product, file, Beside::users_cache);
 }
 
 }  // namespace sonar

@@ -60,7 +60,7 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   std::vector<PingMotion> motions;
   for (const PingEntry& ping : index.pings) motions.push_back(ping_attitude(ping));
   const Navigation placed =
-      navigate(series, motions, index.configs.empty() ? SounderConfig{} : index.configs.front(), navigation);
+      navigate(series, motions, index.configs.empty() ? SounderConfig{} : *index.configs.front(), navigation);
   info.talkers = placed.talkers;
   info.gps_minus_clock_s = placed.gps_minus_clock_s;
   if (const auto fix = first_fix(series, navigation)) info.first_position = Geographic{fix->first, fix->second};
@@ -72,12 +72,13 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   return info;
 }
 
-Result<std::int64_t> power_count_sum(const SurveyFile& file, BlockPool& blocks) {
-  const auto source = open_file(file.path);
-  if (!source) return pass_on(source);
+Result<std::int64_t> power_count_sum(const SurveyFile& file, BlockPool& blocks, const Work& work) {
+  const auto opened = open_file(file.path);
+  if (!opened) return pass_on(opened);
+  const auto source = stoppable(*opened, work);
   std::int64_t sum = 0;
   for (const PingEntry& entry : file.index.pings) {
-    const auto ping = read_ping(**source, entry, blocks);
+    const auto ping = read_ping(*source, entry, blocks);
     if (!ping) return pass_on(ping);
     for (const ChannelPing& channel : ping->channels) {
       for (const std::int16_t count : channel.power_count) sum += count;
@@ -116,7 +117,8 @@ Result<SurveyInfo> survey_info(const SurveyFiles& survey, const NavigationParams
   std::vector<Result<std::int64_t>> sums(survey.files.size(), std::int64_t{0});
   work.for_each(static_cast<std::int64_t>(survey.files.size()), [&](std::int64_t i) {
     const auto f = static_cast<std::size_t>(i);
-    if (survey.files[f].index.format == RawFormat::simrad) sums[f] = power_count_sum(survey.files[f], *survey.blocks);
+    if (survey.files[f].index.format == RawFormat::simrad)
+      sums[f] = power_count_sum(survey.files[f], *survey.blocks, work);
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while summing");
   for (std::size_t f = 0; f < sums.size(); ++f) {

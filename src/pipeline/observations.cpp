@@ -305,7 +305,7 @@ void complete_observation(const SurveyFiles& survey, ObservationFiles& observati
                           const NavigationParams& navigation) {
   const SurveyPing& first = observation.pings.front();
   const RawIndex& first_index = survey.files[first.file].index;
-  observation.config = first_index.configs[survey.entry(first).config];
+  observation.config = *first_index.configs[survey.entry(first).config];
   observation.transmit = transmit_of(survey, first);
   auto grid = derive_beam_grid(with_sense(observation.config, navigation.beam_azimuth_sense),
                                navigation.mounting_azimuth_deg, params.grid_tolerance_deg);

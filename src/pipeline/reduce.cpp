@@ -257,7 +257,7 @@ Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const Ob
     simrad::Scanner scanner;
     simrad::Notes notes;
     auto scanned = scanner.finish(
-        **source, [&](const simrad::Datagram& d) { copy.visit(d); }, notes);
+        *stoppable(*source, work), [&](const simrad::Datagram& d) { copy.visit(d); }, notes);
     if (scanned) scanned = copy.finish();
     if (!scanned) return pass_on(scanned);
     report.files.push_back(out->path());

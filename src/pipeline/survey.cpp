@@ -121,12 +121,14 @@ Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyPar
   if (!listed) return pass_on(listed);
   std::vector<SurveyFile> files(listed->size());
   std::atomic<std::int64_t> done{0};
+  SharedSettings settings;
   work.for_each(static_cast<std::int64_t>(files.size()), [&](std::int64_t i) {
     SurveyFile& file = files[static_cast<std::size_t>(i)];
     file.path = (*listed)[static_cast<std::size_t>(i)];
     file.index.name = file.path.string();
-    auto index = open_index(file.path, cache);
+    auto index = open_index(file.path, cache, work);
     if (index) {
+      settings.share(*index);
       file.index = std::move(*index);
     } else {
       file.error = index.error();

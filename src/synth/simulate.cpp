@@ -72,9 +72,8 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   if (!scenes) return pass_on(scenes);
   std::uint64_t bytes = 0;
   for (const Scene& scene : *scenes) bytes += bytes_of(scene, scene.beams);
-  if (auto ready = prepare_folder(out, force); !ready) return pass_on(ready);
-  if (auto room = require_free_space(out, bytes); !room) return pass_on(room);
-  if (auto removed = force ? remove_earlier(out) : Result<void>(); !removed) return pass_on(removed);
+  auto folder = SurveyFolder::prepare(out, force, bytes);
+  if (!folder) return pass_on(folder);
 
   SimulateResult result;
   std::int64_t pings_in_all = 0;
@@ -99,6 +98,7 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   result.files = files.files();
   result.bytes = files.bytes();
   result.schools = truth.schools();
+  folder->keep();
   return result;
 }
 

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "base/check.h"
+#include "io/atomic_file.h"
 #include "io/recordings.h"
 #include "synth/nmea.h"
 
@@ -15,6 +18,9 @@ namespace {
 
 constexpr const char* kRawPrefix = "SYNTHETIC-D";
 constexpr double kWaterTemperature_c = 8.0;
+/// Beside the products; of both physics.
+constexpr std::array<std::string_view, 8> kTruthFiles{"schools.csv", "school_pings.csv", "bodies.csv", "fish.csv",
+                                                      "company.csv", "water.csv",        "beams.csv",  "depth.tif"};
 
 void append_navigation(RawBytes& bytes, const Voyage& voyage, TimeNs after, TimeNs until) {
   for (TimeNs t = (after / kSecondNs + 1) * kSecondNs; t <= until; t += kSecondNs) {
@@ -48,12 +54,12 @@ void append_channels(RawBytes& bytes, const PingNavigation& navigation, const st
 
 }  // namespace
 
-Result<void> prepare_folder(const std::filesystem::path& out, bool force) {
-  std::error_code problem;
-  std::filesystem::create_directories(out, problem);
-  if (problem) return fail(ErrorCode::io, "cannot make the folder: " + problem.message(), {.file = out.string()});
+namespace {
+
+Result<void> require_free(const std::filesystem::path& out, bool force) {
   if (auto own = require_own_folder(out / "truth"); !own) return own;
   if (force) return {};
+  std::error_code problem;
   for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
     if (is_named_raw(entry.path())) {
       return fail(ErrorCode::usage, "the folder already holds raw files; choose another, or --force",
@@ -64,24 +70,53 @@ Result<void> prepare_folder(const std::filesystem::path& out, bool force) {
   return {};
 }
 
-Result<void> remove_earlier(const std::filesystem::path& out) {
-  std::error_code problem;
-  std::vector<std::filesystem::path> earlier;
-  for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
-    if (is_named_raw(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix)) {
-      earlier.push_back(entry.path());
-    }
+/// Files of a simulated survey; whatever else lies there is somebody's own.
+std::vector<std::filesystem::path> simulated_files(const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> files;
+  std::error_code absent;
+  for (const auto& entry : std::filesystem::directory_iterator(out, absent)) {
+    const bool ours = is_named_raw(entry.path()) && entry.path().filename().string().starts_with(kRawPrefix);
+    if (ours) files.push_back(entry.path());
   }
-  const std::filesystem::path truth = out / "truth";
-  for (const auto& entry : std::filesystem::directory_iterator(truth, problem)) {
+  for (const auto& entry : std::filesystem::directory_iterator(out / "truth", absent)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("obs-") && name.ends_with(".nc")) earlier.push_back(entry.path());
+    const bool product = name.starts_with("obs-") && name.ends_with(".nc");
+    if (product || std::ranges::find(kTruthFiles, name) != kTruthFiles.end()) files.push_back(entry.path());
   }
-  for (const std::filesystem::path& file : earlier) {
+  return files;
+}
+
+Result<void> remove_simulated(const std::filesystem::path& out) {
+  for (const std::filesystem::path& file : simulated_files(out)) {
+    std::error_code problem;
     std::filesystem::remove(file, problem);
     if (problem) return fail(ErrorCode::io, "cannot remove: " + problem.message(), {.file = file.string()});
   }
   return {};
+}
+
+}  // namespace
+
+Result<SurveyFolder> SurveyFolder::prepare(const std::filesystem::path& out, bool force, std::uint64_t bytes) {
+  std::error_code problem;
+  const bool made = std::filesystem::create_directories(out, problem);
+  if (problem) return fail(ErrorCode::io, "cannot make the folder: " + problem.message(), {.file = out.string()});
+  auto ready = require_free(out, force);
+  if (ready) ready = require_free_space(out, bytes);
+  if (ready) ready = remove_simulated(out);
+  if (!ready) {
+    if (made) std::filesystem::remove(out, problem);
+    return pass_on(ready);
+  }
+  return SurveyFolder(out, made);
+}
+
+SurveyFolder::~SurveyFolder() {
+  if (out_.empty()) return;
+  (void)remove_simulated(out_);
+  std::error_code not_empty;
+  std::filesystem::remove(out_ / "truth", not_empty);
+  if (made_) std::filesystem::remove(out_, not_empty);
 }
 
 std::uint64_t bytes_of(const Voyage& voyage, const std::vector<Beam>& beams) {

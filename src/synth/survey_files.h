@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -16,13 +17,28 @@ namespace sonar::synth {
 
 inline constexpr const char* kSurveyName = "SYNTHETIC survey, made by Sonar Explorer";
 
-/// Makes the folder of a survey.
-/// force     it may hold raw files
-/// errors    io; usage: it holds raw files
-[[nodiscard]] Result<void> prepare_folder(const std::filesystem::path& out, bool force);
-/// Takes an earlier survey out of the folder, so that no file of it stands among those of the next.
-/// errors    io
-[[nodiscard]] Result<void> remove_earlier(const std::filesystem::path& out);
+/// The folder of a survey while it is made: what is not kept in the end is taken out again, for half a survey looks like
+/// a whole one. Move-only.
+class SurveyFolder {
+ public:
+  /// Makes the folder, and takes an earlier simulated survey out of it.
+  /// force     it may hold raw files
+  /// bytes     that the survey takes at most
+  /// errors    io; no_space; usage: it holds raw files
+  static Result<SurveyFolder> prepare(const std::filesystem::path& out, bool force, std::uint64_t bytes);
+  SurveyFolder(SurveyFolder&& other) noexcept
+      : out_(std::exchange(other.out_, {})), made_(std::exchange(other.made_, false)) {}
+  SurveyFolder(const SurveyFolder&) = delete;
+  SurveyFolder& operator=(const SurveyFolder&) = delete;
+  SurveyFolder& operator=(SurveyFolder&&) = delete;
+  ~SurveyFolder();
+  void keep() { out_.clear(); }
+
+ private:
+  explicit SurveyFolder(std::filesystem::path out, bool made) : out_(std::move(out)), made_(made) {}
+  std::filesystem::path out_;  ///< empty once kept
+  bool made_;                  ///< it was not there before
+};
 /// What an observation takes on disk at most, its truth included.
 [[nodiscard]] std::uint64_t bytes_of(const Voyage& voyage, const std::vector<Beam>& beams);
 

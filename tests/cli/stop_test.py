@@ -56,5 +56,73 @@ class Stop(Case):
         shutil.rmtree(folder)
 
 
+    def test_half_a_simulation_leaves_nothing(self):
+        for sent in (signal.SIGINT, signal.SIGTERM):
+            for physics in ("standard", "array"):
+                folder = self.fresh("stop-simulate")
+                out = folder / "made"
+                process = subprocess.Popen([PROGRAM, "simulate", out, "--physics", physics, "--pings", "400",
+                                            "--observations", "3", "--file-mb", "1"], stdin=subprocess.DEVNULL,
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                while not list(out.glob("*.raw")) and process.poll() is None:
+                    time.sleep(0.01)
+                self.assertIsNone(process.poll(), "it came to its end too soon")
+                process.send_signal(sent)
+                self.assertEqual(process.wait(60), 130, process.stderr.read())
+                process.stderr.close()
+                self.assertEqual(list(folder.iterdir()), [], (sent, physics))
+                shutil.rmtree(folder)
+
+    def test_a_simulation_that_fails_leaves_nothing_of_its_own(self):
+        folder = self.fresh("stop-simulate-limit")
+        (folder / "notes.txt").write_text("somebody's own")
+        done = subprocess.run([PROGRAM, "simulate", folder, "--pings", "6"], capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (LIMIT_BYTES, LIMIT_BYTES)))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual([p.name for p in folder.rglob("*")], ["notes.txt"])
+        shutil.rmtree(folder)
+
+    def test_too_little_memory_is_told_in_a_sentence(self):
+        folder = self.fresh("stop-memory")
+        told = 0
+        for megabytes in (220, 260, 300, 340, 380, 420):
+            limit = megabytes << 20
+            done = subprocess.run([PROGRAM, "run", SURVEY, "--out", folder / "out", "--jobs", "1"], capture_output=True,
+                                  text=True, stdin=subprocess.DEVNULL, env=environment(),
+                                  preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            self.assertGreaterEqual(done.returncode, 0, f"killed by a signal at {megabytes} MB: {done.stderr}")
+            if done.returncode != 0:
+                self.assertIn("memory", done.stderr)
+                told += 1
+        self.assertGreater(told, 0)
+        shutil.rmtree(folder)
+
+    def test_small_stacks_are_enough(self):
+        folder = self.fresh("stop-stack")
+        out = folder / "out"
+        done = subprocess.run([PROGRAM, "run", SURVEY, "--out", out], capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, env=environment(),
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (256 << 10, 256 << 10)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((out / "schools.csv").read_bytes(), (OUT / "schools.csv").read_bytes())
+        shutil.rmtree(folder)
+
+
+class EqualBits(Case):
+    """The C library has variants of its functions for each kind of processor, and can be told not to use some."""
+
+    def test_products_do_not_depend_on_the_processor(self):
+        folder = self.fresh("equal-bits")
+        without = "glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4"
+        out = folder / "out"
+        done = subprocess.run([PROGRAM, "run", SURVEY, "--out", out], capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, env={**environment(), "GLIBC_TUNABLES": without})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("products/obs-0001.nc", "products/obs-0002.nc", "schools.csv", "school_pings.csv", "survey.gpkg"):
+            self.assertEqual((out / name).read_bytes(), (OUT / name).read_bytes(), name)
+        shutil.rmtree(folder)
+
+
 if __name__ == "__main__":
     sonarx.main()

@@ -49,7 +49,10 @@ std::vector<double> list_of(const pugi::xml_node& arrays, const char* name) {
 
 Con1 parse_con1(std::string_view xml) {
   Con1 con1;
+  // A tree takes twenty times what its text does; a sounder's has some hundred kilobytes.
+  constexpr std::size_t kMostXml = 4U << 20U;
   xml = xml.substr(0, xml.find('\0'));
+  if (xml.size() > kMostXml) return con1;
   pugi::xml_document document;
   // The outcome is not asked: what stands before a fault is in the tree, and every list is checked by its length.
   static_cast<void>(document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_auto));

@@ -45,4 +45,31 @@ Frame inspect_head(std::span<const std::byte> bytes) {
   return time_from_filetime(number_at<std::uint64_t>(bytes, 8)) ? Frame::sound : Frame::bad_length;
 }
 
+std::size_t bytes_without_head(std::span<const std::byte> bytes) {
+  constexpr std::size_t kDigit = 7;    // where it stands in a head
+  constexpr std::size_t kLetters = 3;  // before it
+  constexpr std::uint64_t kLow = 0x0101010101010101ULL;
+  const auto value = [&](std::size_t i) { return std::to_integer<unsigned>(bytes[i]); };
+  std::size_t i = kDigit;
+  while (i < bytes.size()) {
+    // Eight bytes at once: is one of them '0' to '7'?
+    if (i + sizeof(std::uint64_t) <= bytes.size()) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + i, sizeof(word));
+      const std::uint64_t other = (word & (0xF8 * kLow)) ^ ('0' * kLow);
+      if (((other - kLow) & ~other & (0x80 * kLow)) == 0) {
+        i += sizeof(word);
+        continue;
+      }
+    }
+    for (const std::size_t end = std::min(i + sizeof(std::uint64_t), bytes.size()); i < end; ++i) {
+      if ((value(i) & 0xF8U) != '0' || value(i - kLetters) - 'A' > 'Z' - 'A') continue;
+      const bool head = is_known_type(bytes.subspan(i - kLetters).first<4>()) &&
+                        inspect_length(bytes.subspan(i - kDigit)) == Frame::sound;
+      if (head) return i - kDigit;
+    }
+  }
+  return bytes.size() < kDigit ? 0 : bytes.size() - kDigit;
+}
+
 }  // namespace sonar::simrad

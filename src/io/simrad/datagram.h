@@ -46,5 +46,8 @@ enum class Frame {
 /// Whether a datagram may begin here, by its first 16 bytes: plausible length, known type, plausible date.
 /// Decides as early as the bytes allow, so that the answer does not depend on how many there are.
 [[nodiscard]] Frame inspect_head(std::span<const std::byte> bytes);
+/// How many bytes can be passed over because no head with a possible length and a known type begins in them. Leaves 7
+/// bytes at the end, whose heads are not whole.
+[[nodiscard]] std::size_t bytes_without_head(std::span<const std::byte> bytes);
 
 }  // namespace sonar::simrad

@@ -11,6 +11,7 @@
 
 #include "base/diagnostics.h"
 #include "base/result.h"
+#include "base/shared_value.h"
 #include "base/time.h"
 #include "io/byte_source.h"
 #include "io/nav_series.h"
@@ -85,8 +86,9 @@ struct RawIndex {
   std::map<std::string, std::int64_t> datagrams;  ///< sound datagrams by type, skipped ones included
   TimeNs first_datagram_time = 0;                 ///< 0 = no datagram
   TimeNs last_datagram_time = 0;
-  std::vector<SounderConfig> configs;  ///< usually one; an empty one where samples came before any CON0
-  std::vector<TransmitSet> transmits;
+  /// Usually one; an empty one where samples came before any CON0. Files of one survey share theirs.
+  std::vector<SharedValue<SounderConfig>> configs;
+  std::vector<SharedValue<TransmitSet>> transmits;
   std::vector<PingEntry> pings;       ///< in file order
   std::vector<NavSeries> navigation;  ///< by quantity, talker and sentence, in order of appearance
   Diagnostics diagnostics;

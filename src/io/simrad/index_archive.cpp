@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cstdint>
 #include <cstring>
+#include <map>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "base/hash.h"
 #include "io/simrad/index_cache.h"
@@ -34,6 +38,10 @@ class Writer {
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const T& value : values) (*this)(value);
   }
+  template <class T>
+  void operator()(const SharedValue<T>& value) {
+    (*this)(*value);
+  }
   void operator()(const std::map<std::string, std::int64_t>& values) {
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const auto& [key, value] : values) {
@@ -50,8 +58,10 @@ class Writer {
 
  private:
   void put(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), bytes, bytes + size);
+    const std::size_t at = bytes_.size();
+    if (bytes_.capacity() < at + size) bytes_.reserve(2 * (at + size));
+    bytes_.resize(at + size);
+    std::memcpy(bytes_.data() + at, data, size);
   }
   std::vector<std::byte> bytes_;
 };
@@ -80,6 +90,10 @@ class Reader {
       values.emplace_back();
       (*this)(values.back());
     }
+  }
+  template <class T>
+  void operator()(SharedValue<T>& value) {
+    (*this)(value.edit());
   }
   void operator()(std::map<std::string, std::int64_t>& values) {
     const std::size_t n = count();
@@ -233,7 +247,31 @@ bool makes_sense(const RawIndex& index) {
   return true;
 }
 
+template <class T>
+std::vector<Hash128> hashes_of(const std::vector<SharedValue<T>>& values) {
+  std::vector<Hash128> hashes;
+  for (const SharedValue<T>& value : values) {
+    Writer bytes;
+    bytes(*value);
+    hashes.push_back(hash_bytes(bytes.take()));
+  }
+  return hashes;
+}
+
 }  // namespace
+
+void SharedSettings::share(RawIndex& index) {
+  const auto configs = hashes_of(index.configs);
+  const auto transmits = hashes_of(index.transmits);
+  const auto each = [](auto& known, auto& values, const std::vector<Hash128>& hashes) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = known.try_emplace({hashes[i].high, hashes[i].low}, values[i]).first->second;
+    }
+  };
+  const std::scoped_lock lock(mutex_);
+  each(configs_, index.configs, configs);
+  each(transmits_, index.transmits, transmits);
+}
 
 std::vector<std::byte> encode_index(const RawIndex& index) {
   Writer content;

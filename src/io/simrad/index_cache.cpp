@@ -58,7 +58,7 @@ std::optional<RawIndex> load(const IndexCache& cache, const FileState& state) {
 /// Failure is no error: the next opening only takes longer.
 void store(const IndexCache& cache, const FileState& state, const RawIndex& index) {
   const std::vector<std::byte> bytes = encode_index(index);
-  auto file = AtomicFile::create(entry_path(cache, state));
+  auto file = AtomicFile::create(entry_path(cache, state), Beside::users_cache);
   if (!file || !file->write(state.key())) return;
   if (file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) (void)file->commit();
 }
@@ -77,7 +77,7 @@ IndexCache IndexCache::of_user() {
   return {};
 }
 
-Result<RawIndex> open_index(const fs::path& path, const IndexCache& cache) {
+Result<RawIndex> open_index(const fs::path& path, const IndexCache& cache, const Work& work) {
   const auto state = cache.folder.empty() ? std::nullopt : state_of(path);
   if (state) {
     if (auto index = load(cache, *state)) {
@@ -88,7 +88,7 @@ Result<RawIndex> open_index(const fs::path& path, const IndexCache& cache) {
   }
   const auto source = open_file(path);
   if (!source) return pass_on(source);
-  auto index = index_raw(**source);
+  auto index = index_raw(*stoppable(*source, work));
   if (index && state) {
     const auto after = state_of(path);
     if (after && after->key() == state->key()) store(cache, *state, *index);

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
+#include "base/work.h"
 #include "io/simrad/index.h"
 
 namespace sonar {
@@ -22,8 +27,21 @@ struct IndexCache {
 };
 
 /// The file's index, from the cache where it holds a right one, else by reading the file.
-/// errors  not_found, io
-[[nodiscard]] Result<RawIndex> open_index(const std::filesystem::path& path, const IndexCache& cache);
+/// errors  not_found, io, cancelled
+[[nodiscard]] Result<RawIndex> open_index(const std::filesystem::path& path, const IndexCache& cache, const Work& work);
+
+/// Lets the indexes of a survey's files hold equal settings once: 500 beams are 150 kB a file.
+/// threads  any
+class SharedSettings {
+ public:
+  void share(RawIndex& index);
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint64_t>;
+  std::mutex mutex_;
+  std::map<Key, SharedValue<SounderConfig>> configs_;
+  std::map<Key, SharedValue<TransmitSet>> transmits_;
+};
 
 /// The cache's byte form: magic, version, checksum, content.
 [[nodiscard]] std::vector<std::byte> encode_index(const RawIndex& index);

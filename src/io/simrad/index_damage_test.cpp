@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <string_view>
 
+#include "io/simrad/datagram.h"
 #include "io/simrad/index_cache.h"
 #include "io/simrad/indexer.h"
 #include "io/simrad/ping_reader.h"
@@ -53,6 +56,35 @@ RawIndex with_damage(void (*damage)(Bytes&, std::size_t), std::size_t* place = n
   damage(bytes, at);
   if (place != nullptr) *place = at;
   return index_of(bytes);
+}
+
+// Byte by byte with the whole test of a head, against the quick way past what holds none.
+TEST(RawDamage, NoHeadIsPassedOver) {
+  std::uint64_t state = 20261125;
+  const auto random = [&] { return (state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 33U; };
+  constexpr std::string_view kLetters = "RAWCONME013245";
+  for (int trial = 0; trial < 400; ++trial) {
+    std::vector<std::byte> bytes(random() % 90);
+    for (std::byte& byte : bytes) {
+      const auto number = random();
+      const char letter = kLetters[(number >> 8U) % kLetters.size()];
+      byte = number % 3 == 0 ? static_cast<std::byte>(number >> 8U) : static_cast<std::byte>(letter);
+    }
+    if (bytes.size() > 20 && trial % 2 == 0) {
+      const std::size_t at = random() % (bytes.size() - 8);
+      std::memcpy(bytes.data() + at + 4, "RAW0", 4);
+      if (trial % 4 == 0) std::memcpy(bytes.data() + at, "\x20\0\0\0", 4);
+    }
+    std::size_t expected = bytes.size() < 7 ? 0 : bytes.size() - 7;
+    for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
+      const auto head = std::span<const std::byte>(bytes).subspan(i);
+      if (!simrad::is_known_type(head.subspan<4, 4>())) continue;
+      if (simrad::inspect_length(head) != simrad::Frame::sound) continue;
+      expected = i;
+      break;
+    }
+    ASSERT_EQ(simrad::bytes_without_head(bytes), expected) << trial;
+  }
 }
 
 TEST(RawDamage, ResynchronisesAfterABadLength) {
@@ -135,7 +167,7 @@ TEST(RawDamage, ImpossibleNumbersOfABeamAreUnknown) {
     bytes.patch(kBeam + hit.at, hit.value);
     const RawIndex index = index_of(bytes);
     EXPECT_EQ(codes(index), Codes{DiagnosticCode::bad_value}) << hit.at << " " << hit.value;
-    const BeamConfig& beam = index.configs.at(0).beams.at(0);
+    const BeamConfig& beam = index.configs.at(0)->beams.at(0);
     const bool unknown = std::isnan(beam.frequency_hz) || std::isnan(beam.gain_db) ||
                          std::isnan(beam.equivalent_beam_angle_db) || std::isnan(beam.width_alongship_deg) ||
                          std::isnan(beam.gain_table_db[0]) || std::isnan(beam.sa_correction_table_db[0]);

@@ -45,9 +45,9 @@ TEST(RawIndex, CountsWhatASoundFileHolds) {
   EXPECT_EQ(index.pings[1].max_samples, 4);
   EXPECT_EQ(index.pings[2].end, bytes.size());
   ASSERT_EQ(index.transmits.size(), 1U);
-  ASSERT_EQ(index.transmits[0].size(), 6U);
-  EXPECT_EQ(index.transmits[0][5].transmit_power_w, 30.0);
-  EXPECT_EQ(index.transmits[0][5].max_samples, 4);
+  ASSERT_EQ(index.transmits[0]->size(), 6U);
+  EXPECT_EQ((*index.transmits[0])[5].transmit_power_w, 30.0);
+  EXPECT_EQ((*index.transmits[0])[5].max_samples, 4);
   ASSERT_EQ(index.navigation.size(), 3U);  // GGA: position and clock; HDT
   EXPECT_EQ(index.navigation[0].samples.size(), 3U);
 }
@@ -157,7 +157,7 @@ TEST(RawIndex, AnglesOfCon1) {
   const RawIndex same = with_con1(R"(<C><BeamArrays SteeringRxX="-10;-10;-10;0;0;0" )"
                                   R"(SteeringRxY="-2.5;0;2.5;-2.5;0;2.55"/></C>)");
   EXPECT_EQ(codes(same), Codes{});
-  EXPECT_EQ(same.configs[0].beams[5].direction_deg[1], 2.55);
+  EXPECT_EQ(same.configs[0]->beams[5].direction_deg[1], 2.55);
   EXPECT_EQ(codes(with_con1(R"(<C><BeamArrays SteeringRxX="-10;-10;-10;0;0;0" )"
                             R"(SteeringRxY="-2.5;0;2.5;-2.5;0;2.7"/></C>)")),
             Codes{DiagnosticCode::con1_differs});

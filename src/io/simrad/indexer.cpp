@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t kMaxTypes = 64;
 constexpr std::size_t kMaxConfigs = 1000;
+constexpr std::size_t kMostXmlKept = 4U << 20U;
 constexpr int kMaxUndescribedChannels = 4096;
 constexpr std::size_t kLeastToWait = 8;  ///< channels
 constexpr double kNearlyAllBeams = 0.95;
@@ -151,7 +152,7 @@ void Indexer::take_con0(const Datagram& datagram) {
   close_pings();
   if (config_used_) notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON0 differs from the one before");
   last_con0_.assign(datagram.body.begin(), datagram.body.end());
-  index_.configs.push_back(std::move(con0.config));
+  index_.configs.emplace_back(std::move(con0.config));
   config_used_ = false;
 }
 
@@ -161,15 +162,15 @@ void Indexer::take_con1(const Datagram& datagram) {
     notes_.add(DiagnosticCode::con1_unusable, datagram.offset, "CON1 before any CON0");
     return;
   }
-  if (index_.configs.back().con1_xml == xml || index_.configs.size() >= kMaxConfigs) return;
+  if (index_.configs.back()->con1_xml == xml.substr(0, kMostXmlKept) || index_.configs.size() >= kMaxConfigs) return;
   if (config_used_) {
     close_pings();
     notes_.add(DiagnosticCode::config_changed, datagram.offset, "CON1 differs from the one before");
     index_.configs.push_back(index_.configs.back());
     config_used_ = false;
   }
-  SounderConfig& config = index_.configs.back();
-  config.con1_xml = xml;
+  SounderConfig& config = index_.configs.back().edit();
+  config.con1_xml = xml.substr(0, kMostXmlKept);
   const Con1Outcome outcome = apply_con1(parse_con1(xml), config);
   if (!outcome.problem.empty()) notes_.add(DiagnosticCode::con1_unusable, datagram.offset, outcome.problem);
   if (outcome.largest_change > 0.1) {
@@ -192,7 +193,7 @@ bool Indexer::channel_exists(const Datagram& datagram, int channel) {
     notes_.add(DiagnosticCode::no_config, datagram.offset, "RAW0 before any CON0; its beams are not described");
     index_.configs.emplace_back();
   }
-  const auto& beams = index_.configs.back().beams;
+  const auto& beams = index_.configs.back()->beams;
   const int limit =
       beams.empty() ? kMaxUndescribedChannels : static_cast<int>(std::min<std::size_t>(beams.size(), 32767));
   if (channel >= 0 && channel < limit) return true;
@@ -270,7 +271,7 @@ void Indexer::arrive(Arrival arrival) {
     }
     waiting_.reset();
   }
-  const bool many = index_.configs.back().beams.size() >= kLeastToWait;
+  const bool many = index_.configs.back()->beams.size() >= kLeastToWait;
   if (many && ping_open_ && arrival.time != ping_.time) {
     waiting_ = std::move(arrival);
   } else {
@@ -313,7 +314,7 @@ void Indexer::close_ping() {
 
 /// A channel that is sent otherwise than all others in every ping is no damage: from the second ping on it counts.
 void Indexer::leave_out_odd_channels() {
-  const auto beams = static_cast<double>(index_.configs.at(ping_.config).beams.size());
+  const auto beams = static_cast<double>(index_.configs.at(ping_.config)->beams.size());
   ping_.all_beams = static_cast<double>(open_.size()) >= kNearlyAllBeams * beams;
   std::vector<SentChannel> sent;
   for (const OpenChannel& channel : open_) sent.push_back(channel.sent);
@@ -364,7 +365,7 @@ std::uint16_t Indexer::transmit_of_open_ping() {
       sets.emplace_back();
     }
   }
-  TransmitSet& set = sets[chosen];
+  TransmitSet& set = sets[chosen].edit();
   for (const OpenChannel& open : open_) {
     const ChannelTransmit& transmit = open.transmit;
     const auto c = static_cast<std::size_t>(open.channel);

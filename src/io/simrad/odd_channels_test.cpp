@@ -80,7 +80,7 @@ TEST(OddChannels, OneOfManyThatIsSentOtherwiseIsLeftOutAndTheRestStaysTogether) 
     ASSERT_EQ(index.pings.size(), 4U) << i;
     EXPECT_EQ(index.pings[1].channels, kChannels);
     EXPECT_EQ(index.pings[2].channels, kChannels - 1);
-    EXPECT_EQ(index.transmits[0][6].max_samples, 4) << i;
+    EXPECT_EQ((*index.transmits[0])[6].max_samples, 4) << i;
     // The samples' reader leaves it out as well.
     const auto ping = read_ping(MemorySource("damaged.raw", bytes), index.pings[2]);
     ASSERT_TRUE(ping);

@@ -79,6 +79,10 @@ Result<bool> Scanner::resynchronise(const ByteSource& source, bool final) {
   while (next_ < size_) {
     const auto bytes = peek(source, next_, kHeadBytes);
     if (!bytes) return pass_on(bytes);
+    const std::size_t nothing = bytes_without_head(
+        std::span<const std::byte>(window_).subspan(static_cast<std::size_t>(next_ - window_offset_)));
+    next_ += nothing;
+    if (nothing > 0) continue;
     Found found = Found::no;
     const Frame frame = inspect_head(*bytes);
     if (frame == Frame::need_more) found = Found::need_more;

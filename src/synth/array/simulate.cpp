@@ -194,10 +194,8 @@ Result<SimulateResult> simulate_array_survey(const std::filesystem::path& out, c
   const std::vector<Beam> table = ms70_beams();
   std::uint64_t bytes = 0;
   for (const Voyage& voyage : all) bytes += bytes_of(voyage, table);
-  if (auto ready = prepare_folder(out, force); !ready) return pass_on(ready);
-  if (auto room = require_free_space(out, bytes); !room) return pass_on(room);
-  if (auto removed = force ? remove_earlier(out) : Result<void>(); !removed) return pass_on(removed);
-
+  auto folder = SurveyFolder::prepare(out, force, bytes);
+  if (!folder) return pass_on(folder);
   const Pattern pattern(params.elements, table, static_cast<std::uint64_t>(params.seed), work);
   const Pulse pulse(kPulseLength_s, kSampleInterval_s, params.elements.pulse_taper);
   const Receiver receiver(pattern, pulse, stated_beams(table, pattern, params.elements, pulse.effective_s()));
@@ -207,7 +205,9 @@ Result<SimulateResult> simulate_array_survey(const std::filesystem::path& out, c
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (auto added = survey.add(all[i], static_cast<int>(i)); !added) return pass_on(added);
   }
-  return survey.finish();
+  auto made = survey.finish();
+  if (made) folder->keep();
+  return made;
 }
 
 }  // namespace sonar::synth::array
