@@ -19,15 +19,22 @@ struct CompareOptions {
 };
 
 int run_compare(const CompareOptions& options) {
-  const auto difference =
-      compare_paths(options.a, options.b, options.ignore_provenance ? Compared::content : Compared::everything);
-  if (!difference) return report(difference.error());
-  if (difference->empty()) {
-    fmt::print("equal\n");
-    return kExitDone;
+  Work work(1);
+  const CancelOnInterrupt watch(work);
+  const Compared what = options.ignore_provenance ? Compared::content : Compared::everything;
+  const auto told = compare_paths(options.a, options.b, what, work);
+  if (!told) return report(told.error());
+  if (!told->difference.empty()) {
+    fmt::print("different: {}\n", told->difference);
+    return kExitFailed;
   }
-  fmt::print("different: {}\n", *difference);
-  return kExitFailed;
+  if (told->tolerated == 0) {
+    fmt::print("equal\n");
+  } else {
+    fmt::print("equal within {:g} of each number, not to the last digit: {} differ, the first {}\n", kEqualRelative,
+               told->tolerated, told->first_tolerated);
+  }
+  return kExitDone;
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void write_coordinates(Writer& out, const ObservationProduct& product, const Dim
   out.variable(out.root(), "heading", "degrees", {ping}, heading);
 }
 
-void write_arrays(Writer& out, const ObservationProduct& product, const Dimension& ping) {
+void write_arrays(Writer& out, const ObservationProduct& product, const Dimension& ping, const Work& work) {
   const GridRecord& record = *product.grid;
   const auto samples = static_cast<std::size_t>(record.range.count);
   const std::vector<Dimension> shape = {ping, out.dimension(out.root(), "fan", record.grid.elevation_deg.size()),
@@ -72,6 +72,7 @@ void write_arrays(Writer& out, const ObservationProduct& product, const Dimensio
   std::vector<std::int32_t> ids(shape[1].length * shape[2].length * samples);
   std::vector<std::uint8_t> values(ids.size());
   for (const auto& [index, masks] : masks_by_ping(product)) {
+    if (work.cancelled()) return;
     std::fill(ids.begin(), ids.end(), 0);
     std::fill(values.begin(), values.end(), std::uint8_t{0});
     for (const SchoolMask* m : masks) {
@@ -91,7 +92,7 @@ void write_arrays(Writer& out, const ObservationProduct& product, const Dimensio
 
 }  // namespace
 
-Result<void> write_mask_volume(const ObservationProduct& product, const std::filesystem::path& path) {
+Result<void> write_mask_volume(const ObservationProduct& product, const std::filesystem::path& path, const Work& work) {
   for (const SchoolMask& m : product.masks) {
     const bool in_pings = m.ping_index >= 0 && m.ping_index < static_cast<std::int64_t>(product.pings.size());
     if (!product.grid || !in_pings || !fits(m, *product.grid)) {
@@ -109,9 +110,10 @@ Result<void> write_mask_volume(const ObservationProduct& product, const std::fil
     out.attribute(out.root(), Writer::kGlobal, "recipe_hash", std::string_view(product.recipe_hash));
     const Dimension ping = out.dimension(out.root(), "ping", product.pings.size());
     write_coordinates(out, product, ping);
-    if (product.grid && ping.length > 0 && product.grid->range.count > 0) write_arrays(out, product, ping);
+    if (product.grid && ping.length > 0 && product.grid->range.count > 0) write_arrays(out, product, ping, work);
     if (auto closed = out.close(); !closed) return closed;
   }
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   return file->commit();
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/number_text.h"
@@ -21,14 +23,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool equal(double a, double b) {
-  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
-  return a == b || std::abs(a - b) <= kEqualRelative * std::max(std::abs(a), std::abs(b));
+enum class Equal : std::uint8_t { no, nearly, exactly };
+
+Equal equal(double a, double b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return Equal::exactly;
+  if (!std::isfinite(a) || !std::isfinite(b)) return Equal::no;
+  return std::abs(a - b) <= kEqualRelative * std::max(std::abs(a), std::abs(b)) ? Equal::nearly : Equal::no;
 }
-bool equal(float a, float b) { return equal(static_cast<double>(a), static_cast<double>(b)); }
+Equal equal(float a, float b) { return equal(static_cast<double>(a), static_cast<double>(b)); }
 template <class T>
-bool equal(const T& a, const T& b) {
-  return a == b;
+Equal equal(const T& a, const T& b) {
+  return a == b ? Equal::exactly : Equal::no;
 }
 
 std::string text_of(double v) { return std::isnan(v) ? "unknown" : shortest(v); }
@@ -40,27 +45,34 @@ std::string text_of(const std::string& v) {
 std::string text_of(bool v) { return v ? "true" : "false"; }
 std::string text_of(std::integral auto v) { return std::to_string(v); }
 
-/// Remembers the first difference.
+/// Remembers the first difference, and what was taken for equal though it is not to the last digit.
 class Differ {
  public:
   template <class T>
   void value(const std::string& place, const T& a, const T& b) {
-    if (text_.empty() && !equal(a, b)) text_ = fmt::format("{}: {}, {}", place, text_of(a), text_of(b));
+    const Equal so = equal(a, b);
+    if (found() || so == Equal::exactly) return;
+    std::string said = fmt::format("{}: {}, {}", place, text_of(a), text_of(b));
+    so == Equal::nearly ? tolerate(std::move(said)) : refuse(std::move(said));
   }
+  void tolerate(std::string said) {
+    if (all_.tolerated++ == 0) all_.first_tolerated = std::move(said);
+  }
+  void refuse(std::string said) { all_.difference = std::move(said); }
   template <class T>
   void values(const std::string& place, const std::vector<T>& a, const std::vector<T>& b) {
     value(place + " (length)", a.size(), b.size());
-    for (std::size_t i = 0; i < a.size() && text_.empty(); ++i) {
-      if (!equal(a[i], b[i])) value(fmt::format("{}[{}]", place, i), a[i], b[i]);
+    for (std::size_t i = 0; i < a.size() && !found(); ++i) {
+      if (equal(a[i], b[i]) != Equal::exactly) value(fmt::format("{}[{}]", place, i), a[i], b[i]);
     }
   }
   template <class Row>
   void rows(const std::string& group, const std::vector<Row>& a, const std::vector<Row>& b) {
-    if (!text_.empty()) return;
+    if (found()) return;
     value(group + " (rows)", a.size(), b.size());
     const auto in_a = columns_of(a);
     const auto in_b = columns_of(b);
-    for (std::size_t c = 0; c < in_a.size() && text_.empty(); ++c) {
+    for (std::size_t c = 0; c < in_a.size() && !found(); ++c) {
       std::visit(
           [&](const auto& values_a) {
             values(group + "/" + in_a[c].name, values_a, std::get<std::decay_t<decltype(values_a)>>(in_b[c].values));
@@ -68,12 +80,19 @@ class Differ {
           in_a[c].values);
     }
   }
-  [[nodiscard]] bool found() const { return !text_.empty(); }
-  [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] bool found() const { return !all_.difference.empty(); }
+  [[nodiscard]] Comparison take() { return std::move(all_); }
 
  private:
-  std::string text_;
+  Comparison all_;
 };
+
+/// What is told of one file after what was told of others.
+void add(Comparison& all, const Comparison& one, const std::string& file) {
+  if (!one.difference.empty()) all.difference = file + ": " + one.difference;
+  if (all.tolerated == 0 && one.tolerated > 0) all.first_tolerated = file + ": " + one.first_tolerated;
+  all.tolerated += one.tolerated;
+}
 
 void compare_names(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
   differ.value("/observation", a.observation, b.observation);
@@ -182,88 +201,7 @@ void compare_notes(Differ& differ, const Diagnostics& a, const Diagnostics& b) {
   }
 }
 
-Result<std::string> compare_products(const fs::path& a, const fs::path& b, Compared what) {
-  const auto in_a = read_product(a);
-  if (!in_a) return pass_on(in_a);
-  const auto in_b = read_product(b);
-  if (!in_b) return pass_on(in_b);
-  std::string difference = first_difference(*in_a, *in_b, what);
-  return difference.empty() ? difference : a.filename().string() + ": " + difference;
-}
-
-/// Two fields: as numbers where both are, else as text.
-bool equal_fields(const CsvTable& a, const CsvRecord& in_a, const CsvTable& b, const CsvRecord& in_b, std::size_t c) {
-  if (in_a.fields[c] == in_b.fields[c]) return true;
-  const auto number_a = a.number(in_a, c);
-  const auto number_b = b.number(in_b, c);
-  return number_a && number_b && equal(*number_a, *number_b);
-}
-
-Result<std::string> compare_tables(const fs::path& a, const fs::path& b) {
-  const auto in_a = read_csv(a);
-  if (!in_a) return pass_on(in_a);
-  const auto in_b = read_csv(b);
-  if (!in_b) return pass_on(in_b);
-  Differ differ;
-  const std::string file = a.filename().string();
-  differ.values(file + ": header", in_a->header, in_b->header);
-  differ.value(file + ": rows", in_a->records.size(), in_b->records.size());
-  for (std::size_t r = 0; r < in_a->records.size() && !differ.found(); ++r) {
-    for (std::size_t c = 0; c < in_a->header.size(); ++c) {
-      const CsvRecord& x = in_a->records[r];
-      const CsvRecord& y = in_b->records[r];
-      if (equal_fields(*in_a, x, *in_b, y, c)) continue;
-      differ.value(fmt::format("{}: {}[{}]", file, in_a->header[c], r), x.fields[c], y.fields[c]);
-    }
-  }
-  return differ.take();
-}
-
-Result<std::string> compare_folders(const fs::path& a, const fs::path& b, Compared what) {
-  const auto in_a = product_files(a);
-  if (!in_a) return pass_on(in_a);
-  const auto in_b = product_files(b);
-  if (!in_b) return pass_on(in_b);
-  const auto names = [](const std::vector<fs::path>& files) {
-    std::vector<std::string> out;
-    for (const fs::path& f : files) out.push_back(f.filename().string());
-    return out;
-  };
-  Differ differ;
-  differ.values("products", names(*in_a), names(*in_b));
-  if (differ.found()) return differ.take();
-  const auto all_products = [&](Compared part) -> Result<std::string> {
-    for (std::size_t i = 0; i < in_a->size(); ++i) {
-      auto difference = compare_products((*in_a)[i], (*in_b)[i], part);
-      if (!difference || !difference->empty()) return difference;
-    }
-    return std::string{};
-  };
-  // What any product says comes before how the first was made.
-  auto content = all_products(Compared::content);
-  if (!content || !content->empty()) return content;
-  bool any_table = false;
-  for (const char* table : {"schools.csv", "school_pings.csv"}) {
-    std::error_code error;
-    const bool has_a = fs::exists(a / table, error);
-    const bool has_b = fs::exists(b / table, error);
-    differ.value(table, has_a, has_b);
-    if (differ.found()) return differ.take();
-    if (!has_a) continue;
-    any_table = true;
-    auto difference = compare_tables(a / table, b / table);
-    if (!difference || !difference->empty()) return difference;
-  }
-  if (in_a->empty() && !any_table) {
-    return fail(ErrorCode::not_found, "neither products nor tables in this folder", {.file = a.string()});
-  }
-  return what == Compared::content ? std::string{} : all_products(what);
-}
-
-}  // namespace
-
-std::string first_difference(const ObservationProduct& a, const ObservationProduct& b, Compared what) {
-  Differ differ;
+void compare_contents(Differ& differ, const ObservationProduct& a, const ObservationProduct& b) {
   compare_masks(differ, a, b);
   differ.rows("/school_pings", a.school_pings, b.school_pings);
   differ.rows("/schools", a.schools, b.schools);
@@ -272,20 +210,139 @@ std::string first_difference(const ObservationProduct& a, const ObservationProdu
   if (!differ.found()) compare_pings(differ, a, b);
   if (!differ.found()) compare_names(differ, a, b);
   if (!differ.found()) compare_notes(differ, a.diagnostics, b.diagnostics);
+}
+
+Result<Comparison> compare_products(const fs::path& a, const fs::path& b, Compared what) {
+  const auto in_a = read_product(a);
+  if (!in_a) return pass_on(in_a);
+  const auto in_b = read_product(b);
+  if (!in_b) return pass_on(in_b);
+  return compare_products(*in_a, *in_b, what);
+}
+
+/// Two fields: as numbers where both are, else as text.
+void compare_fields(Differ& differ, const std::string& place, const CsvTable& a, const CsvRecord& in_a,
+                    const CsvTable& b, const CsvRecord& in_b, std::size_t c) {
+  if (in_a.fields[c] == in_b.fields[c]) return;
+  const auto number_a = a.number(in_a, c);
+  const auto number_b = b.number(in_b, c);
+  const Equal so = number_a && number_b ? equal(*number_a, *number_b) : Equal::no;
+  std::string said = fmt::format("{}: {}, {}", place, text_of(in_a.fields[c]), text_of(in_b.fields[c]));
+  so == Equal::no ? differ.refuse(std::move(said)) : differ.tolerate(std::move(said));
+}
+
+Result<Comparison> compare_tables(const fs::path& a, const fs::path& b) {
+  const auto in_a = read_csv(a);
+  if (!in_a) return pass_on(in_a);
+  const auto in_b = read_csv(b);
+  if (!in_b) return pass_on(in_b);
+  Differ differ;
+  differ.values("header", in_a->header, in_b->header);
+  differ.value("rows", in_a->records.size(), in_b->records.size());
+  for (std::size_t r = 0; r < in_a->records.size(); ++r) {
+    for (std::size_t c = 0; c < in_a->header.size() && !differ.found(); ++c) {
+      const std::string place = fmt::format("{}[{}]", in_a->header[c], r);
+      compare_fields(differ, place, *in_a, in_a->records[r], *in_b, in_b->records[r], c);
+    }
+  }
+  return differ.take();
+}
+
+class Folders {
+ public:
+  Folders(const fs::path& a, const fs::path& b, Work& work) : a_(a), b_(b), work_(work) {}
+
+  Result<Comparison> compare(Compared what) {
+    auto listed = list();
+    if (!listed || !all_.difference.empty()) return listed ? Result<Comparison>(all_) : pass_on(listed);
+    // What any product says comes before how the first was made.
+    if (auto done = products(Compared::content); !done) return pass_on(done);
+    if (auto done = tables(); !done) return pass_on(done);
+    if (what == Compared::content || !all_.difference.empty()) return all_;
+    const Comparison contents = all_;
+    if (auto done = products(what); !done) return pass_on(done);
+    return Comparison{all_.difference, contents.tolerated, contents.first_tolerated};
+  }
+
+ private:
+  Result<void> list() {
+    auto in_a = product_files(a_);
+    if (!in_a) return pass_on(in_a);
+    auto in_b = product_files(b_);
+    if (!in_b) return pass_on(in_b);
+    const auto names = [](const std::vector<fs::path>& files) {
+      std::vector<std::string> out;
+      for (const fs::path& f : files) out.push_back(f.filename().string());
+      return out;
+    };
+    Differ differ;
+    differ.values("products", names(*in_a), names(*in_b));
+    all_ = differ.take();
+    in_a_ = std::move(*in_a);
+    in_b_ = std::move(*in_b);
+    return {};
+  }
+
+  Result<void> products(Compared part) {
+    for (std::size_t i = 0; i < in_a_.size() && all_.difference.empty(); ++i) {
+      if (work_.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+      auto one = compare_products(in_a_[i], in_b_[i], part);
+      if (!one) return pass_on(one);
+      add(all_, *one, in_a_[i].filename().string());
+    }
+    return {};
+  }
+
+  Result<void> tables() {
+    bool any = false;
+    for (const char* table : {"schools.csv", "school_pings.csv"}) {
+      if (!all_.difference.empty()) return {};
+      std::error_code error;
+      const bool has_a = fs::exists(a_ / table, error);
+      Differ differ;
+      differ.value(table, has_a, fs::exists(b_ / table, error));
+      all_.difference = differ.take().difference;
+      if (!has_a || !all_.difference.empty()) continue;
+      any = true;
+      auto one = compare_tables(a_ / table, b_ / table);
+      if (!one) return pass_on(one);
+      add(all_, *one, table);
+    }
+    if (!in_a_.empty() || any || !all_.difference.empty()) return {};
+    return fail(ErrorCode::not_found, "neither products nor tables in this folder", {.file = a_.string()});
+  }
+
+  fs::path a_;
+  fs::path b_;
+  Work& work_;
+  std::vector<fs::path> in_a_;
+  std::vector<fs::path> in_b_;
+  Comparison all_;
+};
+
+}  // namespace
+
+Comparison compare_products(const ObservationProduct& a, const ObservationProduct& b, Compared what) {
+  Differ differ;
+  compare_contents(differ, a, b);
   if (!differ.found() && what == Compared::everything) compare_provenance(differ, a, b);
   return differ.take();
 }
 
-Result<std::string> compare_paths(const fs::path& a, const fs::path& b, Compared what) {
+Result<Comparison> compare_paths(const fs::path& a, const fs::path& b, Compared what, Work& work) {
   std::error_code error;
   for (const fs::path& path : {a, b}) {
     if (!fs::exists(path, error)) return fail(ErrorCode::not_found, "no such file or folder", {.file = path.string()});
   }
   const bool folders = fs::is_directory(a, error);
   if (folders != fs::is_directory(b, error)) return fail(ErrorCode::usage, "a file and a folder cannot be compared");
-  if (folders) return compare_folders(a, b, what);
-  if (a.extension() == ".csv" && b.extension() == ".csv") return compare_tables(a, b);
-  return compare_products(a, b, what);
+  if (folders) return Folders(a, b, work).compare(what);
+  const bool tables = a.extension() == ".csv" && b.extension() == ".csv";
+  auto one = tables ? compare_tables(a, b) : compare_products(a, b, what);
+  if (!one) return one;
+  Comparison named;
+  add(named, *one, a.filename().string());
+  return named;
 }
 
 }  // namespace sonar

@@ -24,6 +24,20 @@ ObservationProduct sample() {
   return p;
 }
 
+std::string first_difference(const ObservationProduct& a, const ObservationProduct& b,
+                             Compared what = Compared::everything) {
+  return compare_products(a, b, what).difference;
+}
+
+Result<Comparison> compared_at(const fs::path& a, const fs::path& b, Compared what = Compared::everything) {
+  Work work(1);
+  return compare_paths(a, b, what, work);
+}
+
+std::string compared(const fs::path& a, const fs::path& b, Compared what = Compared::everything) {
+  return compared_at(a, b, what).value().difference;
+}
+
 TEST(Compare, names_the_first_difference) {
   const ObservationProduct a = sample();
   EXPECT_EQ(first_difference(a, sample()), "");
@@ -78,35 +92,44 @@ TEST(Compare, content_of_any_product_comes_first) {
   other.input_hash = "another";
   ASSERT_TRUE(write_product(other, folder / "b" / "obs-0001.nc"));
   ASSERT_TRUE(write_product(second, folder / "b" / "obs-0002.nc"));
-  EXPECT_THAT(*compare_paths(folder / "a", folder / "b"), StartsWith("obs-0001.nc: /input_hash"));
-  EXPECT_EQ(*compare_paths(folder / "a", folder / "b", Compared::content), "");
+  EXPECT_THAT(compared(folder / "a", folder / "b"), StartsWith("obs-0001.nc: /input_hash"));
+  EXPECT_EQ(compared(folder / "a", folder / "b", Compared::content), "");
   second.school_pings[2].depth_m = 21.0;
   ASSERT_TRUE(write_product(second, folder / "b" / "obs-0002.nc"));
-  EXPECT_EQ(*compare_paths(folder / "a", folder / "b"), "obs-0002.nc: /school_pings/depth_m[2]: 20, 21");
+  EXPECT_EQ(compared(folder / "a", folder / "b"), "obs-0002.nc: /school_pings/depth_m[2]: 20, 21");
   fs::remove_all(folder);
 }
 
 TEST(Compare, doubles_count_as_equal_to_one_part_in_a_billion) {
   ObservationProduct b = sample();
+  EXPECT_EQ(compare_products(sample(), b).tolerated, 0);
   b.schools[0].volume_m3 *= 1.0 + 0.9e-9;
-  EXPECT_EQ(first_difference(sample(), b), "");
+  b.schools[0].latitude *= 1.0 + 0.9e-9;
+  const Comparison told = compare_products(sample(), b);
+  EXPECT_EQ(told.difference, "");
+  EXPECT_EQ(told.tolerated, 2);
+  b.schools[0].volume_m3 = std::numeric_limits<double>::infinity();
+  EXPECT_NE(compare_products(sample(), b).difference, "");
+  EXPECT_THAT(told.first_tolerated, StartsWith("/schools/latitude[0]: "));
 }
 
 TEST(Compare, files_and_folders) {
   const fs::path folder = fs::temp_directory_path() / ("sonar_compare_" + std::to_string(::getpid()));
   ASSERT_TRUE(write_product(sample(), folder / "a" / "products" / "obs-0001.nc"));
   ASSERT_TRUE(write_product(sample(), folder / "b" / "products" / "obs-0001.nc"));
-  EXPECT_EQ(*compare_paths(folder / "a", folder / "b"), "");
+  EXPECT_EQ(compared(folder / "a", folder / "b"), "");
   ASSERT_TRUE(write_file(folder / "a" / "schools.csv", "school_id,depth_m\n1,20\n"));
-  EXPECT_THAT(*compare_paths(folder / "a", folder / "b"), HasSubstr("schools.csv"));
+  EXPECT_THAT(compared(folder / "a", folder / "b"), HasSubstr("schools.csv"));
   ASSERT_TRUE(write_file(folder / "b" / "schools.csv", "school_id,depth_m\n1,20.000000001\n"));
-  EXPECT_EQ(*compare_paths(folder / "a", folder / "b"), "");
+  EXPECT_EQ(compared(folder / "a", folder / "b"), "");
+  EXPECT_EQ(compared_at(folder / "a", folder / "b")->tolerated, 1);
+  EXPECT_EQ(compared_at(folder / "a", folder / "b")->first_tolerated, "schools.csv: depth_m[0]: '20', '20.000000001'");
   ASSERT_TRUE(write_file(folder / "b" / "schools.csv", "school_id,depth_m\n1,21\n"));
-  EXPECT_EQ(*compare_paths(folder / "a", folder / "b"), "schools.csv: depth_m[0]: '20', '21'");
+  EXPECT_EQ(compared(folder / "a", folder / "b"), "schools.csv: depth_m[0]: '20', '21'");
   ASSERT_TRUE(write_product(example::empty("obs-0002", 1), folder / "b" / "products" / "obs-0002.nc"));
-  EXPECT_THAT(*compare_paths(folder / "a", folder / "b"), StartsWith("products (length): 1, 2"));
-  EXPECT_EQ(compare_paths(folder / "a", folder / "none").error().code, ErrorCode::not_found);
-  EXPECT_EQ(compare_paths(folder / "a", folder / "b" / "schools.csv").error().code, ErrorCode::usage);
+  EXPECT_THAT(compared(folder / "a", folder / "b"), StartsWith("products (length): 1, 2"));
+  EXPECT_EQ(compared_at(folder / "a", folder / "none").error().code, ErrorCode::not_found);
+  EXPECT_EQ(compared_at(folder / "a", folder / "b" / "schools.csv").error().code, ErrorCode::usage);
   fs::remove_all(folder);
 }
 

@@ -87,7 +87,7 @@ Result<Files> export_masks(const Source& source, const fs::path& dest, Work& wor
     const auto product = with_masks(source, i);
     if (!product) return pass_on(product);
     files.push_back(dest / (product->observation + "-mask.nc"));
-    if (auto written = write_mask_volume(*product, files.back()); !written) return pass_on(written);
+    if (auto written = write_mask_volume(*product, files.back(), work); !written) return pass_on(written);
     work.progress("masks", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
   return files;

@@ -41,7 +41,7 @@ TEST_F(Observe, AnyNumberOfThreadsGivesTheSameProduct) {
     Work work(threads);
     const auto again = observe(*survey_, observation(), {}, {{}, {}, "test"}, work);
     ASSERT_TRUE(again);
-    EXPECT_EQ(first_difference(*product_, *again), "");
+    EXPECT_EQ(compare_products(*product_, *again).difference, "");
   }
 }
 
@@ -104,7 +104,7 @@ TEST_F(Observe, ClickIsReplayedFromItsJournalLine) {
     ASSERT_EQ(once.schools.size(), 1U);
     EXPECT_EQ(once.schools[0].origin, "manual");
     EXPECT_EQ(once.schools[0].operator_name, "someone");
-    EXPECT_EQ(first_difference(once, twice), "");
+    EXPECT_EQ(compare_products(once, twice).difference, "");
     EXPECT_EQ(count(once, DiagnosticCode::decision_lost), 0);
     EXPECT_GE(count(once, DiagnosticCode::propagation_ended), 1);
   }

@@ -36,19 +36,22 @@ struct Plume {
 struct LoneFish {
   Point<Enu> at_m;
   Point<Enu> velocity_mps;
-  double broadside_m2, length_cm;
+  double broadside_m2 = 0.0;
+  double length_cm = 0.0;
 };
 struct Layer {
-  double depth_m, thickness_m;  ///< standard deviation of a Gaussian
-  double sv;
+  double depth_m = 0.0;
+  double thickness_m = 0.0;  ///< standard deviation of a Gaussian
+  double sv = 0.0;
   Ripples patches;
 };
 struct OtherPing {
-  int ping;
-  int fan;
+  int ping = 0;
+  int fan = 0;
   Direction from;
-  int first_sample, samples;
-  double power_w;  ///< in a beam that looks straight at it
+  int first_sample = 0;
+  int samples = 0;
+  double power_w = 0.0;  ///< in a beam that looks straight at it
 };
 
 /// The water of one observation, drawn once.

@@ -32,7 +32,7 @@ class WaveField {
  private:
   struct Wave {
     Point<Own> number;
-    double phase;
+    double phase = 0.0;
   };
   std::vector<Wave> waves_;
 };

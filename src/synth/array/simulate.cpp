@@ -87,9 +87,11 @@ struct EncodedPing {
   ArrayPing made;
 };
 
-EncodedPing encode(const ArraySonar& sonar, const Receiver& receiver, const GridRecord& grid, int ping) {
+EncodedPing encode(const ArraySonar& sonar, const Receiver& receiver, const GridRecord& grid, int ping,
+                   const Work& work) {
   EncodedPing e;
-  e.made = sonar.ping(ping);
+  e.made = sonar.ping(ping, work);
+  if (work.cancelled()) return e;
   std::vector<ChannelCounts> channels;
   for (std::size_t row = 0; row < grid.grid.channel.size(); ++row) {
     const int channel = grid.grid.channel[row];
@@ -158,7 +160,7 @@ class Survey {
     for (int first = 0; first < voyage.pings; first += batch) {
       std::vector<EncodedPing> made(static_cast<std::size_t>(std::min(batch, voyage.pings - first)));
       work_.for_each(static_cast<std::int64_t>(made.size()), [&](std::int64_t i) {
-        made[static_cast<std::size_t>(i)] = encode(sonar, receiver_, grid_, first + static_cast<int>(i));
+        made[static_cast<std::size_t>(i)] = encode(sonar, receiver_, grid_, first + static_cast<int>(i), work_);
       });
       if (work_.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
       for (EncodedPing& e : made) {

@@ -76,7 +76,8 @@ View ArraySonar::view(int ping) const {
   return view_of(scene_.voyage, ping, scene_.sea.company.unsteady, scene_.sea.gradient_per_s);
 }
 
-void ArraySonar::hear_school(const School& school, const View& view, int ping, Heard& heard) const {
+void ArraySonar::hear_school(const School& school, const View& view, int ping, const Work& work, Heard& heard) const {
+  if (work.cancelled()) return;
   RandomStream random(scene_.seed, Purpose::milling, scene_.observation, static_cast<std::uint32_t>(ping),
                       static_cast<std::uint32_t>(school.id));
   const Point<Enu> centre = view.from_transducer(school.centre_at(view.seconds));
@@ -124,7 +125,10 @@ void ArraySonar::hear_school(const School& school, const View& view, int ping, H
   if (last <= box.first_sample) return;
   const Shape3 shape = receiver_.shape();
   box.power_w = Array3<float>({shape.fans, shape.beams, last - box.first_sample});
-  for (const Echo& e : echoes) receiver_.add(e, heard.field.view(), &box);
+  for (const Echo& e : echoes) {
+    if (work.cancelled()) return;
+    receiver_.add(e, heard.field.view(), &box);
+  }
   for (int f = 0; f < shape.fans; ++f) {
     for (int b = 0; b < shape.beams; ++b) {
       const auto power = box.power_w.row(f, b);
@@ -136,7 +140,7 @@ void ArraySonar::hear_school(const School& school, const View& view, int ping, H
   heard.schools.push_back({school.id, 0, 0, box.first_sample, std::move(box.power_w)});
 }
 
-void ArraySonar::hear_company(const View& view, int ping, Heard& heard) const {
+void ArraySonar::hear_company(const View& view, int ping, const Work& work, Heard& heard) const {
   const Shape3 shape = receiver_.shape();
   const RangeAxis& range = receiver_.range();
   const auto use = [&](const CompanyEchoes& thing) {
@@ -147,6 +151,7 @@ void ArraySonar::hear_company(const View& view, int ping, Heard& heard) const {
     SectorIndex least{1e9, 1e9, 1e9};
     SectorIndex most{-1e9, -1e9, -1e9};
     for (std::size_t i = 0; i < thing.echoes.size(); ++i) {
+      if (work.cancelled()) return;
       const Echo& e = thing.echoes[i];
       receiver_.add(e, heard.field.view(), &heard.background);
       row.backscatter_m2 += e.expected_m2;
@@ -252,7 +257,7 @@ void ArraySonar::tell_schools(const View& view, int ping, Heard& heard, ArrayPin
   }
 }
 
-ArrayPing ArraySonar::ping(int ping) const {
+ArrayPing ArraySonar::ping(int ping, const Work& work) const {
   const View v = view(ping);
   const Shape3 shape = receiver_.shape();
   Heard heard;
@@ -269,8 +274,9 @@ ArrayPing ArraySonar::ping(int ping) const {
     row.last_sample = stretch.last_sample;
     heard.company.push_back(row);
   }
-  hear_company(v, ping, heard);
-  for (const School& school : scene_.schools) hear_school(school, v, ping, heard);
+  hear_company(v, ping, work, heard);
+  for (const School& school : scene_.schools) hear_school(school, v, ping, work, heard);
+  if (work.cancelled()) return {};
 
   ArrayPing out;
   out.counts = Array3<std::int16_t>(shape, kNoData);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/work.h"
 #include "synth/array/array_truth.h"
 #include "synth/array/diffuse.h"
 #include "synth/array/receiver.h"
@@ -40,14 +41,15 @@ class ArraySonar {
  public:
   ArraySonar(const Receiver& receiver, const GridRecord& grid, const Scene& scene);
 
-  [[nodiscard]] ArrayPing ping(int ping) const;
+  /// What is made after the work was cancelled is of no use.
+  [[nodiscard]] ArrayPing ping(int ping, const Work& work) const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
 
  private:
   struct Heard;
   [[nodiscard]] View view(int ping) const;
-  void hear_school(const School& school, const View& view, int ping, Heard& heard) const;
-  void hear_company(const View& view, int ping, Heard& heard) const;
+  void hear_school(const School& school, const View& view, int ping, const Work& work, Heard& heard) const;
+  void hear_company(const View& view, int ping, const Work& work, Heard& heard) const;
   [[nodiscard]] std::vector<RowLimits> limits(const View& view) const;
   void tell_schools(const View& view, int ping, Heard& heard, ArrayPing& out) const;
 
