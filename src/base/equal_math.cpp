@@ -34,18 +34,23 @@ double log1p(double x) noexcept { return Sleef_cinz_log1pd1_u10purec(x); }
 double pow(double x, double y) noexcept { return Sleef_cinz_powd1_u10purec(x, y); }
 double cbrt(double x) noexcept { return Sleef_cinz_cbrtd1_u10purec(x); }
 
-float sinf(float x) noexcept { return static_cast<float>(sin(x)); }
-float cosf(float x) noexcept { return static_cast<float>(cos(x)); }
+float sinf(float x) noexcept { return static_cast<float>(sin(static_cast<double>(x))); }
+float cosf(float x) noexcept { return static_cast<float>(cos(static_cast<double>(x))); }
 void sincosf(float x, float* sine, float* cosine) noexcept {
-  *sine = sinf(x);
-  *cosine = cosf(x);
+  const Sleef_double_2 both = Sleef_cinz_sincosd1_u10purec(static_cast<double>(x));
+  *sine = static_cast<float>(both.x);
+  *cosine = static_cast<float>(both.y);
 }
-float tanf(float x) noexcept { return static_cast<float>(tan(x)); }
-float atan2f(float y, float x) noexcept { return static_cast<float>(atan2(y, x)); }
-float expf(float x) noexcept { return static_cast<float>(exp(x)); }
-float exp2f(float x) noexcept { return static_cast<float>(exp2(x)); }
-float logf(float x) noexcept { return static_cast<float>(log(x)); }
-float log2f(float x) noexcept { return static_cast<float>(log2(x)); }
-float log10f(float x) noexcept { return static_cast<float>(log10(x)); }
-float powf(float x, float y) noexcept { return static_cast<float>(pow(x, y)); }
+float tanf(float x) noexcept { return static_cast<float>(tan(static_cast<double>(x))); }
+float atan2f(float y, float x) noexcept {
+  return static_cast<float>(atan2(static_cast<double>(y), static_cast<double>(x)));
+}
+float expf(float x) noexcept { return static_cast<float>(exp(static_cast<double>(x))); }
+float exp2f(float x) noexcept { return static_cast<float>(exp2(static_cast<double>(x))); }
+float logf(float x) noexcept { return static_cast<float>(log(static_cast<double>(x))); }
+float log2f(float x) noexcept { return static_cast<float>(log2(static_cast<double>(x))); }
+float log10f(float x) noexcept { return static_cast<float>(log10(static_cast<double>(x))); }
+float powf(float x, float y) noexcept {
+  return static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y)));
+}
 }

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstddef>
+#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -34,8 +36,12 @@ std::string host_name() {
   return name.data();
 }
 
-/// Everything before the number that makes the name free; host and process tell whose it is.
-std::string own_prefix() { return fmt::format("{}{}-{}-", kPrefix, host_name(), ::getpid()); }
+/// A name that nobody foresees, for libraries open it once more by its path; host and process tell whose it is.
+std::string temporary_name(const std::string& target) {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof(number), 0) != sizeof(number)) number = static_cast<std::uint64_t>(::clock());
+  return fmt::format("{}{}-{}-{:016x}-{}", kPrefix, host_name(), ::getpid(), number, target);
+}
 
 /// Some network file systems cannot flush a folder; the rename is still whole there.
 int flush(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno; }
@@ -61,7 +67,9 @@ Result<void> make_folder(const fs::path& folder, Beside beside) {
   std::error_code made;
   fs::create_directories(folder, made);
   if (made) return fail(ErrorCode::io, "cannot make the folder: " + made.message(), {.file = folder.string()});
-  if (beside != Beside::named_folder || !holds_recordings(folder)) return {};
+  const bool asks = beside == Beside::named_folder || beside == Beside::own_folder;
+  const bool among = asks && holds_recordings(beside == Beside::own_folder ? folder_of(folder) : folder);
+  if (!among) return {};
   return fail(ErrorCode::usage, "lies in the folder of the raw files, where nothing is ever written",
               {.file = folder.string()});
 }
@@ -129,9 +137,8 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target, Beside beside) {
 }
 
 Result<void> AtomicFile::make_temporary() {
-  const std::string prefix = own_prefix();
-  for (int n = 0;; ++n) {
-    const std::string name = fmt::format("{}{}-{}", prefix, n, target_.filename().string());
+  for (;;) {
+    const std::string name = temporary_name(target_.filename().string());
     file_ = ::openat(folder_, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
     if (file_ >= 0) {
       temporary_ = folder_of(target_) / name;

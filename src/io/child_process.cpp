@@ -20,13 +20,17 @@ namespace sonar {
 namespace {
 
 [[noreturn]] void child(const std::function<void(int)>& body, int stream) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGPIPE})
-    ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPIPE}) ::signal(signal, SIG_DFL);
+  // Whoever stops the program means the parent, which ends this child: one that ends first looks like a damaged file.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   // An abort's last words are for nobody.
   if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
-  body(stream);
+  try {
+    body(stream);
+  } catch (...) {  // nothing of the parent's may be unwound here; it hears the end
+  }
   // At once: whatever is registered to run at the end belongs to the parent. A sandbox allows the second alone.
   ::kill(::getpid(), SIGKILL);
   for (;;) ::syscall(SYS_exit_group, 0);
@@ -66,6 +70,12 @@ Result<ChildProcess> ChildProcess::start(const std::function<void(int)>& body, c
   const auto refused = [&] { return fail(ErrorCode::io, std::generic_category().message(errno), {.file = named}); };
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return refused();
+  // Above the standard streams, which the child leads nowhere.
+  for (int& end : ends) {
+    if (end > STDERR_FILENO) continue;
+    const int above = ::fcntl(end, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    ::close(std::exchange(end, above));
+  }
   auto at_rest = libraries_at_rest();
   const pid_t pid = ::fork();
   if (pid == 0) {

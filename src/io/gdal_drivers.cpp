@@ -14,6 +14,8 @@ void begin_gdal() {
   std::call_once(once, [] {
     CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
     CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
+    CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_EXTENSIONS", ".none");
+    CPLSetConfigOption("GDAL_NUM_THREADS", "1");
     GDALRegister_GTiff();
     GDALRegister_netCDF();
     GDALRegister_AAIGrid();

@@ -4,7 +4,8 @@
 namespace sonar {
 
 /// Registers the drivers that we use, and no other: some fetch from networks, run what a file says, or are loaded from a
-/// folder that the environment names. What lies beside a file (.aux.xml, .ovr, .msk) is neither read nor written.
+/// folder that the environment names. What lies beside a file (.aux.xml, .ovr, .msk; not the .prj of an ASCII grid) is neither read nor
+/// written.
 /// threads  any
 void begin_gdal();
 

@@ -92,7 +92,8 @@ Result<void> MapLayers::open_geopackage() {
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (driver == nullptr) return fail(ErrorCode::unsupported, "GDAL was built without GPKG");
   // GDAL wants to make the file itself.
-  std::filesystem::remove(file->temporary());
+  std::error_code absent;
+  std::filesystem::remove(file->temporary(), absent);
   geopackage_ = std::move(*file);
   dataset_.reset(driver->Create(geopackage_->temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset_) return refused("cannot create the map");

@@ -98,6 +98,7 @@ Bytes answer(LibraryReader& in, const Question& asked, const std::string& name) 
 
 /// The child: the whole file, and then question after question until nobody asks any more.
 void serve(int stream, const ByteSource& source, std::uint64_t size) {
+  if (!wire::greet(stream)) return;
   Bytes file(size);
   const auto got = source.read(0, file);
   file.resize(got ? *got : 0);

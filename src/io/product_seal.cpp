@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/product_seal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
@@ -63,6 +65,9 @@ Result<bool> check_seal(const fs::path& path, const std::string& named) {
   std::string head(kSignature.size(), '\0');
   if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != kSignature) {
     return fail(ErrorCode::format, "is no netCDF-4 file", {.file = named, .offset = 0});
+  }
+  if (size > kMostProductBytes) {
+    return fail(ErrorCode::format, fmt::format("{} bytes; at most {} were expected", size, kMostProductBytes), where);
   }
   if (size < kSealSize) return fail(ErrorCode::format, "ends too early", where);
   const std::uint64_t body = size - kSealSize;

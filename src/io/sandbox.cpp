@@ -11,20 +11,10 @@
 #include <cerrno>
 #include <fstream>
 
+#include "base/sanitized.h"
+
 namespace sonar {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // their shadows reserve terabytes
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-#else
-constexpr bool kSanitized = false;
-#endif
 
 void lead_nowhere() {
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -58,33 +48,26 @@ constexpr std::array kAlways{SCMP_SYS(read),           SCMP_SYS(pread64),       
                              SCMP_SYS(gettid),         SCMP_SYS(getrandom),     SCMP_SYS(sched_yield),
                              SCMP_SYS(gettimeofday),   SCMP_SYS(clock_gettime), SCMP_SYS(restart_syscall),
                              SCMP_SYS(exit),           SCMP_SYS(exit_group)};
-constexpr std::array kToRead{SCMP_SYS(newfstatat),
-                             SCMP_SYS(stat),
-                             SCMP_SYS(lstat),
-                             SCMP_SYS(statx),
-                             SCMP_SYS(access),
-                             SCMP_SYS(faccessat),
-                             SCMP_SYS(faccessat2),
-                             SCMP_SYS(readlink),
-                             SCMP_SYS(readlinkat),
-                             SCMP_SYS(getcwd),
-                             SCMP_SYS(getdents64),
-                             SCMP_SYS(fcntl),
-                             SCMP_SYS(statfs),
-                             SCMP_SYS(fstatfs),
-                             SCMP_SYS(flock),
-                             SCMP_SYS(uname),
-                             SCMP_SYS(getuid),
-                             SCMP_SYS(geteuid),
-                             SCMP_SYS(getgid),
-                             SCMP_SYS(getegid),
-                             SCMP_SYS(fadvise64),
-                             SCMP_SYS(sysinfo),
-                             SCMP_SYS(sched_getaffinity),
-                             SCMP_SYS(prlimit64)};
+constexpr std::array kToRead{SCMP_SYS(newfstatat), SCMP_SYS(stat),
+                             SCMP_SYS(lstat),      SCMP_SYS(statx),
+                             SCMP_SYS(access),     SCMP_SYS(faccessat),
+                             SCMP_SYS(faccessat2), SCMP_SYS(readlink),
+                             SCMP_SYS(readlinkat), SCMP_SYS(getcwd),
+                             SCMP_SYS(getdents64), SCMP_SYS(statfs),
+                             SCMP_SYS(fstatfs),    SCMP_SYS(flock),
+                             SCMP_SYS(uname),      SCMP_SYS(getuid),
+                             SCMP_SYS(geteuid),    SCMP_SYS(getgid),
+                             SCMP_SYS(getegid),    SCMP_SYS(fadvise64),
+                             SCMP_SYS(sysinfo),    SCMP_SYS(sched_getaffinity)};
+/// Of fcntl; making another descriptor of an open one is none of them.
+constexpr std::array kOfDescriptors{F_GETFD, F_SETFD, F_GETFL, F_GETLK, F_SETLK, F_SETLKW};
 
 void allow_reading(scmp_filter_ctx filter) {
   for (const int call : kToRead) seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
+  for (const int what : kOfDescriptors) {
+    const auto asked = static_cast<scmp_datum_t>(what);
+    seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(fcntl), 1, SCMP_A1(SCMP_CMP_EQ, asked, 0));
+  }
   constexpr auto kChanging = static_cast<scmp_datum_t>(O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND);
   seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(openat), 1, SCMP_A2(SCMP_CMP_MASKED_EQ, kChanging, 0));
   seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(open), 1, SCMP_A1(SCMP_CMP_MASKED_EQ, kChanging, 0));
@@ -95,10 +78,16 @@ void allow_little(int stream, Reach reach) {
   if (filter == nullptr) return;
   for (const int call : kAlways) seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
   const auto to = static_cast<scmp_datum_t>(stream);
-  seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(write), 1, SCMP_A0(SCMP_CMP_EQ, to));
+  seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(write), 1, SCMP_A0(SCMP_CMP_EQ, to, 0));
   // A file that is open to be written could be changed through a shared mapping.
   seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(mmap), 1, SCMP_A3(SCMP_CMP_MASKED_EQ, MAP_SHARED, 0));
   if (reach == Reach::files_to_read) allow_reading(filter);
+  if (kSanitized) {
+    // Through a pipe it finds out what memory can be read.
+    for (const int call : {SCMP_SYS(pipe), SCMP_SYS(pipe2), SCMP_SYS(write)}) {
+      seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
+    }
+  }
   (void)seccomp_load(filter);
   seccomp_release(filter);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/wire.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -15,6 +17,8 @@ struct Head {
 };
 
 constexpr std::uint64_t kLongestText = 4096;
+
+constexpr std::size_t kRoomAtOnce = std::size_t{64} << 20U;
 
 tl::unexpected<Error> broken() { return fail(ErrorCode::format, "is damaged: reading it breaks the library for it"); }
 
@@ -34,8 +38,13 @@ Result<Bytes> heard(const ChildProcess& child, std::uint64_t most, unsigned seco
   };
   Head head;
   if (!all(bytes_of(head)) || head.size > (head.failed == 0 ? most : kLongestText)) return broken();
-  Bytes said(head.size);
-  if (!all(said)) return broken();
+  // Room is made as it is needed, not as it is promised.
+  Bytes said;
+  while (said.size() < head.size) {
+    const std::size_t before = said.size();
+    said.resize(before + static_cast<std::size_t>(std::min<std::uint64_t>(kRoomAtOnce, head.size - before)));
+    if (!all(std::span(said).subspan(before))) return broken();
+  }
   if (head.failed == 0) return said;
   return fail(code_of(head.code), *decoded<std::string>(said));
 }
@@ -84,9 +93,13 @@ bool tell(int stream, const Result<void>& status, const Bytes& said) {
   return say_all(stream, all) && say_all(stream, status ? said : body);
 }
 
+bool greet(int stream) { return tell(stream, {}, {}); }
+
 Result<Bytes> hear(const ChildProcess& child, std::uint64_t most, unsigned seconds) {
   bool silence = false;
-  return heard(child, most, seconds, silence);
+  auto said = heard(child, most, seconds, silence);
+  if (silence) return fail(ErrorCode::io, fmt::format("reading it took more than {} s and was given up", seconds));
+  return said;
 }
 
 Result<Begun> begin(const std::function<Result<ChildProcess>()>& make, std::uint64_t most, unsigned seconds) {
@@ -95,11 +108,14 @@ Result<Begun> begin(const std::function<Result<ChildProcess>()>& make, std::uint
     auto child = make();
     if (!child) return pass_on(child);
     bool silence = false;
-    auto said = heard(*child, most, wait, silence);
-    if (said) return Begun{std::move(*child), std::move(*said)};
-    if (!silence) return pass_on(said);
+    const auto greeted = heard(*child, 0, wait, silence);
+    if (silence) continue;
+    if (!greeted) return pass_on(greeted);
+    auto said = hear(*child, most, seconds);
+    if (!said) return pass_on(said);
+    return Begun{std::move(*child), std::move(*said)};
   }
-  return broken();
+  return fail(ErrorCode::io, "no process could be made that reads it");
 }
 
 }  // namespace sonar::wire

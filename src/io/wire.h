@@ -71,12 +71,14 @@ template <class T>
   return decoded(bytes, static_cast<const T*>(nullptr));
 }
 
+/// The child's first words: that it is alive and holds no lock in vain. False where nobody listens.
+[[nodiscard]] bool greet(int stream);
 /// The child's side: something, or why there is nothing. False where nobody listens.
 [[nodiscard]] bool tell(int stream, const Result<void>& status, const Bytes& said);
 
 /// Our side. Waits for what is told next.
 /// most    bytes; more is not taken
-/// errors  what the child tells, as format, mismatch, newer_version or older_version; format: it broke, or kept silent for
+/// errors  what the child tells, as format, mismatch, newer_version or older_version; format: it broke; io: it kept silent for
 ///         so long
 [[nodiscard]] Result<Bytes> hear(const ChildProcess& child, std::uint64_t most, unsigned seconds = 60);
 
@@ -85,9 +87,9 @@ struct Begun {
   Bytes said;
 };
 
-/// Makes a child and hears the first thing that it tells. One that waits for a lock which some thread held when it was made
-/// (a thread's end, the C library's own: no gate knows of them) is given up after a twelfth of the time and made again, at
-/// another moment, twice at most.
+/// Makes a child, which greets, and hears the first thing that it tells. One that waits for a lock which some thread held when
+/// it was made (a thread's end, the C library's own: no gate knows of them) never greets: it is given up after a twelfth of
+/// the time and made again, at another moment, twice at most.
 /// make    called for each
 /// errors  as hear(); io: no child process could be made
 [[nodiscard]] Result<Begun> begin(const std::function<Result<ChildProcess>()>& make, std::uint64_t most,

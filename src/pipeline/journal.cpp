@@ -133,8 +133,10 @@ Result<Journal> parse_journal(std::string_view text, const std::string& file) {
   if (text.empty()) return fail(ErrorCode::format, "is empty, expected a journal", {file, 0});
   std::size_t end = std::min(text.find('\n'), text.size());
   auto head = head_of(text.substr(0, end), file);
-  // What a newer program wrote may mean something else; behind a broken head the lines have check sums of their own.
-  if (!head && head.error().code == ErrorCode::newer_version) return head;
+  // What a newer program wrote may mean something else; behind a broken head, as its own check sum tells, the lines have
+  // check sums of their own.
+  const auto json = parse_json(text.substr(0, end));
+  if (!head && head.error().code == ErrorCode::newer_version && json && unsealed(*json)) return head;
   Journal journal = head ? std::move(*head) : Journal{};
   if (!head) {
     journal.diagnostics.push_back(

@@ -58,8 +58,7 @@ TEST_F(Place, NothingIsWrittenThroughLinks) {
   fs::create_symlink(folder_ / "not_there", folder_ / "work" / "session.jsonl");
   const JournalPlace place = placed();
   EXPECT_EQ(place.path, folder_ / "work" / "session-3.jsonl");
-  ASSERT_FALSE(place.notices.empty());
-  EXPECT_THAT(place.notices.front(), HasSubstr("is a link"));
+  EXPECT_THAT(place.notices, testing::Contains(HasSubstr("is a link")));
   act(place, 1);
   EXPECT_FALSE(fs::exists(folder_ / "not_there"));
   std::string others;
@@ -78,8 +77,26 @@ TEST_F(Place, LaterStartsFindWhatFollowedAJournalThatCannotBeRead) {
       EXPECT_THAT(place.notices, testing::Contains(HasSubstr("session.jsonl")));
       act(place, n);
     }
+    // Also when the first is gone, or can be read again: then it is named.
+    fs::remove(folder_ / "work" / "session.jsonl");
+    EXPECT_EQ(placed().journal.lines.size(), 3U);
+    JournalLine line;
+    line.n = 1;
+    line.command = "propagate";
+    ASSERT_TRUE(append_journal((folder_ / "work" / "session.jsonl").string(), {}, line));
+    EXPECT_EQ(placed().journal.lines.size(), 3U);
+    EXPECT_THAT(placed().notices, testing::Contains(HasSubstr("1 choices that are not shown")));
+    fs::remove(folder_ / "work" / "session.jsonl");
     fs::remove(folder_ / "work" / "session-2.jsonl");
   }
+}
+
+TEST_F(Place, AFolderThatIsALinkIsNotOurs) {
+  fs::create_directory_symlink(folder_ / "work", folder_ / "link");
+  const std::array folders{folder_ / "link", folder_ / "own"};
+  const auto place = place_journal(folders, {});
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->path.parent_path(), folder_ / "own");
 }
 
 TEST_F(Place, ABrokenHeadIsGoneOnWith) {

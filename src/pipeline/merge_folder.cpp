@@ -225,6 +225,7 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
     products.push_back(std::move(*product));
     work.progress("merge", static_cast<std::int64_t>(products.size()), static_cast<std::int64_t>(files->size()));
   }
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   auto survey = merge(std::move(products));
   if (!survey) return fail(survey.error().code, survey.error().text, {.file = out.string()});
   report.survey = std::move(*survey);

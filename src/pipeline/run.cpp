@@ -142,7 +142,7 @@ Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::spa
   const auto tasks = possible_tasks(plan, options);
   if (!tasks) return pass_on(tasks);
   if (auto space = require_free_space(options.out, space_needed(*tasks)); !space) return pass_on(space);
-  remove_leftovers(options.out / "products");
+  if (require_own_folder(options.out / "products")) remove_leftovers(options.out / "products");
   ObserveOptions observe_options{options.pings, journal, options.program_version};
   const EarlierProducts earlier(options.out);
   RunReport report;

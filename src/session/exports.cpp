@@ -111,6 +111,9 @@ Result<std::string> exported(const Snapshot& snapshot, const std::string& format
     return fail(ErrorCode::usage,
                 "reduced raw files can be written of one folder; open the folder instead of its files");
   }
+  // Reduced recordings may lie beside others; nothing else may.
+  const fs::path asked = format == "raw-reduced" ? folder : folder / "inside";
+  if (auto outside = require_not_beneath_raw(asked); !outside) return pass_on(outside);
   const PassingFolder passing(folder);
   if (passing.path().empty()) return fail(ErrorCode::io, "cannot be written to", {folder.string()});
   const auto products = write_products(*snapshot.survey, passing.path(), source_of_products(snapshot, work), work);

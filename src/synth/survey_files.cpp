@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -86,8 +87,10 @@ std::vector<std::filesystem::path> simulated_files(const std::filesystem::path& 
   return files;
 }
 
-Result<void> remove_simulated(const std::filesystem::path& out) {
+Result<void> remove_simulated(const std::filesystem::path& out, std::span<const std::filesystem::path> but) {
+  if (auto own = require_own_folder(out / "truth"); !own) return own;
   for (const std::filesystem::path& file : simulated_files(out)) {
+    if (std::ranges::find(but, file) != but.end()) continue;
     std::error_code problem;
     std::filesystem::remove(file, problem);
     if (problem) return fail(ErrorCode::io, "cannot remove: " + problem.message(), {.file = file.string()});
@@ -103,17 +106,17 @@ Result<SurveyFolder> SurveyFolder::prepare(const std::filesystem::path& out, boo
   if (problem) return fail(ErrorCode::io, "cannot make the folder: " + problem.message(), {.file = out.string()});
   auto ready = require_free(out, force);
   if (ready) ready = require_free_space(out, bytes);
-  if (ready) ready = remove_simulated(out);
+  if (ready && force) ready = remove_simulated(out, {});
   if (!ready) {
     if (made) std::filesystem::remove(out, problem);
     return pass_on(ready);
   }
-  return SurveyFolder(out, made);
+  return SurveyFolder(out, simulated_files(out), made);
 }
 
 SurveyFolder::~SurveyFolder() {
   if (out_.empty()) return;
-  (void)remove_simulated(out_);
+  (void)remove_simulated(out_, before_);
   std::error_code not_empty;
   std::filesystem::remove(out_ / "truth", not_empty);
   if (made_) std::filesystem::remove(out_, not_empty);

@@ -21,13 +21,13 @@ inline constexpr const char* kSurveyName = "SYNTHETIC survey, made by Sonar Expl
 /// a whole one. Move-only.
 class SurveyFolder {
  public:
-  /// Makes the folder, and takes an earlier simulated survey out of it.
-  /// force     it may hold raw files
+  /// Makes the folder.
+  /// force     it may hold raw files, and an earlier simulated survey is taken out of it
   /// bytes     that the survey takes at most
   /// errors    io; no_space; usage: it holds raw files
   static Result<SurveyFolder> prepare(const std::filesystem::path& out, bool force, std::uint64_t bytes);
   SurveyFolder(SurveyFolder&& other) noexcept
-      : out_(std::exchange(other.out_, {})), made_(std::exchange(other.made_, false)) {}
+      : out_(std::exchange(other.out_, {})), before_(std::move(other.before_)), made_(other.made_) {}
   SurveyFolder(const SurveyFolder&) = delete;
   SurveyFolder& operator=(const SurveyFolder&) = delete;
   SurveyFolder& operator=(SurveyFolder&&) = delete;
@@ -35,9 +35,11 @@ class SurveyFolder {
   void keep() { out_.clear(); }
 
  private:
-  explicit SurveyFolder(std::filesystem::path out, bool made) : out_(std::move(out)), made_(made) {}
-  std::filesystem::path out_;  ///< empty once kept
-  bool made_;                  ///< it was not there before
+  SurveyFolder(std::filesystem::path out, std::vector<std::filesystem::path> before, bool made)
+      : out_(std::move(out)), before_(std::move(before)), made_(made) {}
+  std::filesystem::path out_;                  ///< empty once kept
+  std::vector<std::filesystem::path> before_;  ///< files of the kind that were there
+  bool made_;                                  ///< it was not there before
 };
 /// What an observation takes on disk at most, its truth included.
 [[nodiscard]] std::uint64_t bytes_of(const Voyage& voyage, const std::vector<Beam>& beams);

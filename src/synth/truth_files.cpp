@@ -58,7 +58,7 @@ Result<void> SurveyTruth::add(ObservationTruth observation, const std::optional<
   sort_rows(observation.bodies_);
   product.schools = school_rows(product.school_pings, observation.bodies_);
   const std::filesystem::path file = folder_ / (product.observation + ".nc");
-  if (auto written = write_product(product, file, Beside::own_folder); !written) return written;
+  if (auto written = write_product(product, file); !written) return written;
   append(schools_, std::move(product.schools));
   append(school_pings_, std::move(product.school_pings));
   append(bodies_, std::move(observation.bodies_));
