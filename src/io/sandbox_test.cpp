@@ -19,6 +19,10 @@
 namespace sonar {
 namespace {
 
+[[noreturn]] void wait_for_ever() {
+  for (;;) ::pause();
+}
+
 /// What a child in the sandbox could still do, a byte for each.
 std::array<std::byte, 6> tried(Reach reach) {
   const int before = ::open("/dev/null", O_WRONLY);
@@ -94,7 +98,7 @@ TEST(Wire, tells_who_survives) {
   EXPECT_FALSE(wire::begin(make([](int stream) { (void)wire::tell(stream, {}, wire::Bytes(101)); }), 100));
   EXPECT_EQ(wire::begin(make([](int) { ::raise(SIGSEGV); }), 100).error().code, ErrorCode::format);
   EXPECT_EQ(wire::begin(make([](int) { throw std::bad_alloc(); }), 100).error().code, ErrorCode::format);
-  EXPECT_EQ(wire::begin(make([](int) { ::sleep(600); }), 100, 1).error().code, ErrorCode::io);
+  EXPECT_EQ(wire::begin(make([](int) { wait_for_ever(); }), 100, 1).error().code, ErrorCode::io);
 }
 
 // What a child waits for in vain may be free when the next is made.
@@ -104,7 +108,7 @@ TEST(Wire, a_child_that_hangs_is_made_again) {
       [&] {
         return ChildProcess::start(
             [first = made++ == 0](int stream) {
-              if (first) ::sleep(600);
+              if (first) wait_for_ever();
               (void)wire::greet(stream);
               (void)wire::tell(stream, {}, {});
             },

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <ranges>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "io/atomic_file.h"
 
@@ -68,8 +70,8 @@ void take_journal(const fs::path& folder, JournalPlace& place) {
   const std::vector<int> numbers = journals_in(folder);
   place.path = journal_name(folder, numbers.empty() ? 1 : numbers.back() + 1);
   bool taken = false;
-  for (auto number = numbers.rbegin(); number != numbers.rend(); ++number) {
-    const fs::path path = journal_name(folder, *number);
+  for (const int number : std::views::reverse(numbers)) {
+    const fs::path path = journal_name(folder, number);
     auto journal = journal_at(path, head);
     if (!journal) {
       place.notices.push_back(to_line(journal.error()));
