@@ -13,6 +13,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "model/school.h"
+#include "school/beam_axes.h"
 #include "school/seabed_echoes.h"
 #include "school/seabed_hills.h"
 #include "school/seabed_plane.h"
@@ -28,6 +29,7 @@ class SeabedFinder {
       : water_(water),
         sv_(water.sv),
         sector_(water.sector),
+        axes_(water.sector),
         width_deg_(vertical_width_deg),
         params_(water.params),
         long_(long_echoes(water)),
@@ -57,9 +59,7 @@ class SeabedFinder {
   }
 
  private:
-  [[nodiscard]] Point<Sonar> axis(int row, double lower_by_rad = 0.0) const {
-    return beam_axis(sector_, row, lower_by_rad);
-  }
+  [[nodiscard]] Point<Sonar> axis(int row, double lower_by_rad = 0.0) const { return axes_.of(row, lower_by_rad); }
   [[nodiscard]] double inlier_m(double range_m) const {
     return std::max(params_.inlier_m, params_.inlier_share * range_m);
   }
@@ -337,6 +337,7 @@ class SeabedFinder {
   const SeabedWater& water_;
   View3<const std::int16_t> sv_;
   const Sector& sector_;
+  BeamAxes axes_;
   const std::vector<double>& width_deg_;
   const SeabedParams& params_;
   std::vector<SeabedEcho> long_;    ///< of all beams

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/units.h"
+#include "school/beam_axes.h"
+#include "school/seabed_echoes.h"
 #include "school/test_scene.h"
 #include "school/test_water.h"
 
@@ -276,6 +278,20 @@ TEST(Seabed, SchoolsCloseToTheBottomAreNoHills) {
       for (const double sv_db : {-25.0, -35.0, -45.0}) {
         EXPECT_EQ(beams_ended(away_m, above_m, sv_db), 0) << away_m << " " << above_m << " " << sv_db;
       }
+    }
+  }
+}
+
+TEST(BeamAxes, AreThoseOfTheBeamsToTheLastBit) {
+  const Sector sector({-0.9, -0.5, -0.1, 0.2}, {1.1, 1.3, 1.6, 2.0, 2.2}, {0.5, 0.5, 100});
+  const BeamAxes axes(sector);
+  for (const double lower_rad : {0.0, 0.03, -0.03, 1.2, 0.0}) {
+    for (int row = 0; row < sector.fans() * sector.beams(); ++row) {
+      const Point<Sonar> a = axes.of(row, lower_rad);
+      const Point<Sonar> b = beam_axis(sector, row, lower_rad);
+      EXPECT_EQ(a.x, b.x) << row;
+      EXPECT_EQ(a.y, b.y) << row;
+      EXPECT_EQ(a.z, b.z) << row;
     }
   }
 }
