@@ -328,7 +328,7 @@ Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const Geo
     return ChildProcess::start(
         [&](int stream) {
           if (!wire::greet(stream)) return;
-          enter_sandbox(stream, Reach::files_to_read, kMemory_bytes);
+          (void)enter_sandbox(stream, Reach::files_to_read, kMemory_bytes);
           const auto grid = read_any(path, extent, options);
           (void)wire::tell(stream, grid ? Result<void>{} : pass_on(grid), grid ? encoded(*grid) : wire::Bytes{});
         },

@@ -102,7 +102,7 @@ void serve(int stream, const ByteSource& source, std::uint64_t size) {
   Bytes file(size);
   const auto got = source.read(0, file);
   file.resize(got ? *got : 0);
-  enter_sandbox(stream, Reach::nothing, kMemory_bytes);
+  (void)enter_sandbox(stream, Reach::nothing, kMemory_bytes);
   LibraryReader in(std::move(file));
   if (!wire::tell(stream, in.status(), encoded(in.root()))) return;
   Question asked;

@@ -73,9 +73,9 @@ void allow_reading(scmp_filter_ctx filter) {
   seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(open), 1, SCMP_A1(SCMP_CMP_MASKED_EQ, kChanging, 0));
 }
 
-void allow_little(int stream, Reach reach) {
+bool allow_little(int stream, Reach reach) {
   scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
-  if (filter == nullptr) return;
+  if (filter == nullptr) return false;
   for (const int call : kAlways) seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
   const auto to = static_cast<scmp_datum_t>(stream);
   seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(write), 1, SCMP_A0(SCMP_CMP_EQ, to, 0));
@@ -88,13 +88,14 @@ void allow_little(int stream, Reach reach) {
       seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
     }
   }
-  (void)seccomp_load(filter);
+  const bool watched = seccomp_load(filter) == 0;
   seccomp_release(filter);
+  return watched;
 }
 
 }  // namespace
 
-void enter_sandbox(int stream, Reach reach, std::uint64_t memory_bytes) {
+bool enter_sandbox(int stream, Reach reach, std::uint64_t memory_bytes) {
   const std::uint64_t taken = address_space_bytes();
   lead_nowhere();
   if (reach == Reach::nothing) {
@@ -105,7 +106,7 @@ void enter_sandbox(int stream, Reach reach, std::uint64_t memory_bytes) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NPROC, 0);
-  allow_little(stream, reach);
+  return allow_little(stream, reach);
 }
 
 }  // namespace sonar

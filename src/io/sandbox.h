@@ -16,6 +16,7 @@ enum class Reach : std::uint8_t {
 /// the limits alone hold.
 /// stream        that may be written to; the standard ones lead nowhere
 /// memory_bytes  that may be taken from now on
-void enter_sandbox(int stream, Reach reach, std::uint64_t memory_bytes);
+/// out           whether the kernel watches the calls
+bool enter_sandbox(int stream, Reach reach, std::uint64_t memory_bytes);
 
 }  // namespace sonar

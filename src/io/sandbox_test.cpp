@@ -23,20 +23,21 @@ namespace {
   for (;;) ::pause();
 }
 
-/// What a child in the sandbox could still do, a byte for each.
-std::array<std::byte, 6> tried(Reach reach) {
+/// What a child in the sandbox could still do, a byte for each, and whether it was watched.
+std::array<std::byte, 7> tried(Reach reach) {
   const int before = ::open("/dev/null", O_WRONLY);
-  std::array<std::byte, 6> done{};
+  std::array<std::byte, 7> done{};
   const auto child = ChildProcess::start(
       [before, reach](int stream) {
-        enter_sandbox(stream, reach, 1U << 30U);
+        const bool watched = enter_sandbox(stream, reach, 1U << 30U);
         const std::array<bool, 6> could{::open("/etc/passwd", O_RDONLY) >= 0,
                                         ::open("/tmp/x", O_CREAT | O_WRONLY, 0600) >= 0,
                                         ::socket(AF_INET, SOCK_STREAM, 0) >= 0,
                                         ::fork() >= 0,
                                         ::kill(::getppid(), 0) == 0,
                                         !kSanitized && ::write(before, "x", 1) == 1};
-        std::array<std::byte, 6> told{};
+        std::array<std::byte, 7> told{};
+        told.back() = std::byte{watched};
         for (std::size_t i = 0; i < could.size(); ++i) told[i] = std::byte{could[i]};
         (void)say_all(stream, told);
       },
@@ -47,17 +48,23 @@ std::array<std::byte, 6> tried(Reach reach) {
   return done;
 }
 
-TEST(Sandbox, NothingOutsideCanBeReached) { EXPECT_EQ(tried(Reach::nothing), (std::array<std::byte, 6>{})); }
+TEST(Sandbox, NothingOutsideCanBeReached) {
+  const auto done = tried(Reach::nothing);
+  if (done.back() == std::byte{0}) GTEST_SKIP() << "this kernel lets no calls be watched";
+  EXPECT_EQ(done, (std::array<std::byte, 7>{{{}, {}, {}, {}, {}, {}, std::byte{1}}}));
+}
 
 TEST(Sandbox, FilesCanBeReadWhereAllowedAndNothingElse) {
-  EXPECT_EQ(tried(Reach::files_to_read), (std::array<std::byte, 6>{std::byte{1}}));
+  const auto done = tried(Reach::files_to_read);
+  if (done.back() == std::byte{0}) GTEST_SKIP() << "this kernel lets no calls be watched";
+  EXPECT_EQ(done, (std::array<std::byte, 7>{{std::byte{1}, {}, {}, {}, {}, {}, std::byte{1}}}));
 }
 
 TEST(Sandbox, MemoryIsThereAndEnds) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   const auto child = ChildProcess::start(
       [](int stream) {
-        enter_sandbox(stream, Reach::nothing, 256U << 20U);
+        (void)enter_sandbox(stream, Reach::nothing, 256U << 20U);
         std::array<std::byte, 2> told{};
         for (std::size_t i = 0; i < told.size(); ++i) {
           try {
