@@ -31,13 +31,15 @@ extern "C" void on_interrupt(int) {
   }
 }
 
-/// "--seed = 99999999999999999999: expected INT in [0 - 2147483647]"; the parser's own words say nothing of what was.
+/// "--seed = 99999999999999999999: out of range, or no whole number"; the parser's own words say nothing of what was wrong.
 std::string conversion_text(const CLI::App& app, const std::string& told) {
   const std::string call = told.substr(told.find("--") == std::string::npos ? 0 : told.find("--"));
   const auto verbs = app.get_subcommands();
   const CLI::Option* option =
       verbs.empty() ? nullptr : verbs.front()->get_option_no_throw(call.substr(0, call.find(' ')));
-  return option == nullptr ? told : call + ": expected " + option->get_type_name();
+  if (option == nullptr) return told;
+  return call + (option->get_type_name().starts_with("FLOAT") ? ": out of range, or no number"
+                                                              : ": out of range, or no whole number");
 }
 
 /// What was wrong with a call. The parser misses a verb before it looks at what stands in its place.

@@ -111,8 +111,7 @@ std::string journal_head_text(const Journal& journal) {
 
 namespace {
 
-Result<Journal> head_of(std::string_view text, const std::string& file) {
-  const auto json = parse_json(text);
+Result<Journal> head_of(const Result<nlohmann::json>& json, const std::string& file) {
   auto journal = json ? head_from_json(*json) : Result<Journal>(pass_on(json));
   if (!journal) return fail(journal.error().code, journal.error().text, {file, 0});
   if (!unsealed(*json)) {
@@ -132,10 +131,10 @@ std::optional<JournalLine> line_of_text(std::string_view text) {
 Result<Journal> parse_journal(std::string_view text, const std::string& file) {
   if (text.empty()) return fail(ErrorCode::format, "is empty, expected a journal", {file, 0});
   std::size_t end = std::min(text.find('\n'), text.size());
-  auto head = head_of(text.substr(0, end), file);
+  const auto json = parse_json(text.substr(0, end));
+  auto head = head_of(json, file);
   // What a newer program wrote may mean something else; behind a broken head, as its own check sum tells, the lines have
   // check sums of their own.
-  const auto json = parse_json(text.substr(0, end));
   if (!head && head.error().code == ErrorCode::newer_version && json && unsealed(*json)) return head;
   Journal journal = head ? std::move(*head) : Journal{};
   if (!head) {

@@ -51,11 +51,11 @@ bool leads_nowhere(const fs::path& path) {
 }
 
 /// What a folder lists and can lead to no file, ever (a loop of links, too long a path), is left out with a note. A link
-/// whose file is not there is an error like a file that cannot be read, and so is whatever a user named.
-Diagnostics take_out_links(std::vector<SurveyFile>& files, std::span<const fs::path> named) {
+/// whose file is not there is an error like a file that cannot be read.
+Diagnostics take_out_links(std::vector<SurveyFile>& files) {
   Diagnostics notes;
   std::erase_if(files, [&](const SurveyFile& file) {
-    if (!file.error || !leads_nowhere(file.path) || std::ranges::find(named, file.path) != named.end()) return false;
+    if (!file.error || !leads_nowhere(file.path)) return false;
     notes.push_back({DiagnosticCode::unreadable, file.path.string(), -1, -1, "is skipped: " + file.error->text});
     return true;
   });
@@ -95,6 +95,7 @@ Result<std::vector<fs::path>> list_survey(std::span<const fs::path> paths) {
     if (status.type() == fs::file_type::not_found) {
       return fail(ErrorCode::not_found, "no such file or folder", {.file = path.string()});
     }
+    if (leads_nowhere(path)) return fail(ErrorCode::not_found, error.message(), {.file = path.string()});
     if (fs::is_directory(status)) {
       if (auto listed = list_folder(path, files); !listed) return pass_on(listed);
     } else {
@@ -136,7 +137,7 @@ Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyPar
     work.progress("indexing", ++done, static_cast<std::int64_t>(files.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while indexing");
-  const Diagnostics skipped = take_out_links(files, paths);
+  const Diagnostics skipped = take_out_links(files);
   SurveyFiles arranged = arrange_survey(std::move(files), survey, navigation);
   arranged.diagnostics.insert(arranged.diagnostics.begin(), skipped.begin(), skipped.end());
   return arranged;

@@ -314,13 +314,13 @@ TEST(Survey, WhatLeadsToNoFileIsSkippedWithANote) {
   const std::vector<fs::path> loop{folder.path() / "loop.raw", fs::path("/") / std::string(300, 'x')};
   EXPECT_TRUE(require_outside_raw(loop, folder.path().string() + "-work"));
   EXPECT_FALSE(require_outside_raw(loop, folder.path() / "work"));
-  // Who names it is told.
+  // Who names it is told, and nothing is begun.
   Work work(1);
-  const std::vector<fs::path> named{folder.path() / "loop.raw"};
-  const auto alone = open_survey(named, {}, {}, IndexCache{}, work);
-  ASSERT_TRUE(alone);
-  ASSERT_EQ(alone->files.size(), 1U);
-  EXPECT_TRUE(alone->files.front().error);
+  for (const fs::path& named : loop) {
+    const auto alone = open_survey({&named, 1}, {}, {}, IndexCache{}, work);
+    ASSERT_FALSE(alone);
+    EXPECT_EQ(alone.error().where.file, named.string());
+  }
 }
 
 TEST(Survey, NothingIsWrittenBesideTheFiles) {

@@ -7,6 +7,16 @@ import sonarx
 from sonarx import OUT, SURVEY, TRUTH, Case, contents, snapshot
 
 
+class Journals(Case):
+    def test_a_recipe_in_a_journal_that_is_wrong_names_the_journal(self):
+        folder = self.fresh("trust-journal")
+        journal = folder / "choices.jsonl"
+        journal.write_text('{"journal_version":1,"recipe":{"recipe_version":1,"detect":{"false_alarm":-5}},"files":[]}\n')
+        self.one_line_error("run", SURVEY, "--out", folder / "out", "--session", journal, code=2, names=f"{journal}: ")
+        self.assertFalse((folder / "out").exists())
+        shutil.rmtree(folder)
+
+
 class Links(Case):
     """A folder of ours that is a link to somebody else's."""
 

@@ -36,7 +36,7 @@ class Usage(Case):
     def test_wrong_usage_names_what_was_wrong(self):
         for arguments, said in [(("foo",), "there is no verb 'foo'; see sonarx --help"),
                                 (("run", "x", "--out", "y", "--only", ""), "--only: an empty name names nothing"),
-                                (("simulate", "x", "--seed", "9" * 30), "9: expected"),
+                                (("simulate", "x", "--seed", "9" * 30), "9: out of range, or no whole number"),
                                 ((), "a verb is needed; see sonarx --help"),
                                 (("simulate", "x", "--pings", "-3"), "--pings: -3 is outside 1 .. 100000"),
                                 (("simulate", "x", "--speed-knots", "-1"), "--speed-knots: -1 is outside "),
