@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/simrad/index.h"
-#include "io/simrad/writer_datagrams.h"
+#include "io/ping_source.h"
+#include "io/raw_datagrams.h"
 
 namespace sonar {
 namespace {

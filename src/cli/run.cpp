@@ -145,7 +145,7 @@ Result<void> write_plan(Opened& opened, const RunArguments& arguments, const Run
 
 /// Why a file gave nothing; empty where it did.
 std::string why_nothing_came_of(const RawIndex& index) {
-  if (index.format == RawFormat::simrad) {
+  if (index.gives_samples()) {
     const bool unusable = index.pings.empty() && index.datagrams.count("RAW0") > 0;
     return unusable ? "none of its samples could be used; sonarx info tells why" : "";
   }

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "base/test_full_disk.h"
-#include "io/simrad/writer_datagrams.h"
+#include "io/raw_datagrams.h"
 
 namespace sonar {
 namespace {

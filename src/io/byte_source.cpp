@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -66,7 +67,37 @@ class StoppableSource final : public ByteSource {
   const Work& work_;
 };
 
+class GrowingFile final : public ByteSource {
+ public:
+  explicit GrowingFile(const std::filesystem::path& path) : path_(path), name_(path.string()) {}
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  [[nodiscard]] Result<std::uint64_t> size() const override {
+    const auto file = open_file(path_);
+    if (!file) return pass_on(file);
+    const auto size = (*file)->size();
+    if (!size) return size;
+    if (*size < seen_) return fail(ErrorCode::mismatch, "is shorter than it was: another file", {.file = name_});
+    seen_ = *size;
+    return size;
+  }
+
+  [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const override {
+    const auto file = open_file(path_);
+    return file ? (*file)->read(offset, out) : Result<std::size_t>(pass_on(file));
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string name_;
+  mutable std::atomic<std::uint64_t> seen_{0};
+};
+
 }  // namespace
+
+std::shared_ptr<const ByteSource> growing_file(const std::filesystem::path& path) {
+  return std::make_shared<const GrowingFile>(path);
+}
 
 std::shared_ptr<const ByteSource> stoppable(std::shared_ptr<const ByteSource> source, const Work& work) {
   return std::make_shared<const StoppableSource>(std::move(source), work);

@@ -6,21 +6,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/check.h"
+#include "io/child_process.h"
 #include "io/csv.h"
 #include "io/csv_table.h"
+#include "io/index_cache.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
+#include "io/ping_source.h"
+#include "io/raw_index.h"
 #include "io/simrad/con1.h"
-#include "io/simrad/index.h"
-#include "io/simrad/index_cache.h"
-#include "io/simrad/indexer.h"
-#include "io/simrad/ping_reader.h"
+#include "io/wire.h"
 #include "model/school.h"
 
 namespace sonar::fuzz {
@@ -34,12 +36,12 @@ inline void simrad_raw(std::span<const std::byte> bytes) {
   const std::vector<std::byte> encoded = encode_index(*index);
   const auto decoded = decode_index(encoded);
   SONAR_CHECK(decoded.has_value() && encode_index(*decoded) == encoded);
-  MemorySource growing("fuzz", bytes.first(bytes.size() / 2));
-  simrad::Indexer indexer;
-  SONAR_CHECK(indexer.refresh(growing).has_value());
-  growing.append(bytes.subspan(bytes.size() / 2));
-  SONAR_CHECK(indexer.finish(growing).has_value());
-  SONAR_CHECK(encode_index(indexer.index()) == encoded);
+  const auto growing = std::make_shared<MemorySource>("fuzz", bytes.first(bytes.size() / 2));
+  const auto pings = ping_source(growing);
+  SONAR_CHECK(pings->refresh().has_value());
+  growing->append(bytes.subspan(bytes.size() / 2));
+  SONAR_CHECK(pings->finish().has_value() && pings->final());
+  SONAR_CHECK(encode_index(pings->index()) == encoded);
   for (const PingEntry& entry : index->pings) {
     const auto ping = read_ping(whole, entry);
     SONAR_CHECK(ping.has_value() && !ping->channels.empty());
@@ -128,6 +130,19 @@ inline void school_tables(std::string_view text) {
 inline void index_cache(std::span<const std::byte> bytes) {
   const auto index = decode_index(bytes);
   if (index) SONAR_CHECK(decode_index(encode_index(*index)).has_value());
+}
+
+/// Whatever a reading child answers is something, within what was asked for, or nothing.
+inline void wire(std::span<const std::byte> bytes) {
+  const auto texts = wire::decoded<std::vector<std::string>>(bytes);
+  if (texts) SONAR_CHECK(std::ranges::equal(wire::encoded(*texts), bytes));
+  const auto numbers = wire::decoded<std::vector<double>>(bytes);
+  SONAR_CHECK(numbers.has_value() == (bytes.size() % sizeof(double) == 0));
+  constexpr std::uint64_t kMost = 1000;
+  const auto child = ChildProcess::start([&](int stream) { (void)say_all(stream, bytes); }, "fuzz");
+  if (!child) return;
+  const auto said = wire::hear(*child, kMost);
+  if (said) SONAR_CHECK(said->size() <= kMost);
 }
 
 }  // namespace sonar::fuzz

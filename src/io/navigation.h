@@ -11,7 +11,7 @@
 
 #include "base/describe.h"
 #include "base/diagnostics.h"
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 #include "model/navigation.h"
 #include "model/sounder.h"
 

@@ -14,9 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool begins_as_recording(const fs::path& file) {
+RawFormat format_of(const fs::path& file) {
   const auto source = open_file(file);
-  const auto format = source ? simrad::detect_format(**source).value_or(RawFormat::unknown) : RawFormat::unknown;
+  return source ? simrad::detect_format(**source).value_or(RawFormat::unknown) : RawFormat::unknown;
+}
+
+bool begins_as_recording(const fs::path& file) {
+  const RawFormat format = format_of(file);
   return format != RawFormat::unknown && format != RawFormat::other_netcdf;
 }
 
@@ -29,6 +33,10 @@ bool has_ending(const fs::path& file, std::string_view ending) {
 }
 
 bool is_named_raw(const fs::path& file) { return has_ending(file, ".raw"); }
+
+bool is_named_recording(const fs::path& file) {
+  return is_named_raw(file) || (has_ending(file, ".nc") && format_of(file) == RawFormat::sonar_netcdf4);
+}
 
 bool is_recording(const fs::path& file) {
   std::error_code absent;

@@ -5,25 +5,17 @@
 #include <cmath>
 #include <cstddef>
 
-#include "io/simrad/ek80_channels.h"
-#include "io/simrad/ping_reader.h"
+#include "io/ping_source.h"
 
 namespace sonar {
 namespace {
 
 std::string sounder_of(const RawIndex& index) {
-  if (index.format == RawFormat::ek80) return "EK80";
   std::string name;
   for (const SounderConfig& config : index.configs) {
     if (name.empty()) name = config.sounder_name;
   }
   return name;
-}
-
-/// 0 where the file cannot be read again.
-std::int64_t ek80_channel_count(const SurveyFile& file) {
-  const auto source = open_file(file.path);
-  return source ? simrad::ek80_channels(**source).value_or(0) : 0;
 }
 
 void add_pings(const RawIndex& index, FileInfo& info) {
@@ -42,6 +34,15 @@ void add_pings(const RawIndex& index, FileInfo& info) {
   }
 }
 
+/// Of a file that cannot be read again nothing.
+void add_unread(const SurveyFile& file, FileInfo& info) {
+  const auto source = open_file(file.path);
+  if (!source) return;
+  const UnreadFormat unread = unread_format(**source, file.index.format);
+  if (!unread.sounder.empty()) info.sounder = unread.sounder;
+  info.channels = std::max(info.channels, unread.channels);
+}
+
 FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const NavigationParams& navigation) {
   const RawIndex& index = file.index;
   FileInfo info;
@@ -53,7 +54,7 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   for (const SounderConfig& config : index.configs) {
     info.channels = std::max(info.channels, static_cast<std::int64_t>(config.beams.size()));
   }
-  if (index.format == RawFormat::ek80) info.channels = ek80_channel_count(file);
+  if (!index.gives_samples()) add_unread(file, info);
   add_pings(index, info);
   std::vector<const NavSeries*> series;
   for (const NavSeries& s : index.navigation) series.push_back(&s);
@@ -117,13 +118,12 @@ Result<SurveyInfo> survey_info(const SurveyFiles& survey, const NavigationParams
   std::vector<Result<std::int64_t>> sums(survey.files.size(), std::int64_t{0});
   work.for_each(static_cast<std::int64_t>(survey.files.size()), [&](std::int64_t i) {
     const auto f = static_cast<std::size_t>(i);
-    if (survey.files[f].index.format == RawFormat::simrad)
-      sums[f] = power_count_sum(survey.files[f], *survey.blocks, work);
+    if (survey.files[f].index.gives_samples()) sums[f] = power_count_sum(survey.files[f], *survey.blocks, work);
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while summing");
   for (std::size_t f = 0; f < sums.size(); ++f) {
     if (!sums[f]) return pass_on(sums[f]);
-    if (survey.files[f].index.format == RawFormat::simrad) info.files[f].power_count_sum = *sums[f];
+    if (survey.files[f].index.gives_samples()) info.files[f].power_count_sum = *sums[f];
   }
   return info;
 }

@@ -10,7 +10,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
-#include "io/simrad/ping_reader.h"
+#include "io/ping_source.h"
 
 namespace sonar {
 namespace {

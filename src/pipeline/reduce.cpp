@@ -13,9 +13,7 @@
 
 #include "base/units.h"
 #include "io/atomic_file.h"
-#include "io/simrad/raw0.h"
-#include "io/simrad/scanner.h"
-#include "io/simrad/writer.h"
+#include "io/recording_copy.h"
 #include "pipeline/engine.h"
 #include "pipeline/reduce_ping.h"
 
@@ -25,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int16_t kMissing = -20000;
-constexpr std::size_t kFlushBytes = 4U << 20U;
 
 /// A ping that stays.
 struct KeptPing {
@@ -93,92 +90,70 @@ void choose_pings(const ObservationProduct& product, std::size_t observation, co
   }
 }
 
-/// The channel with what is left of its row; nothing where nothing is.
-Result<void> append_channel(RawBytes& bytes, TimeNs time, ChannelPing head, std::span<const std::int16_t> row,
-                            const ReducedRow& record, bool even_if_empty) {
+/// What is left of a channel's row, without the ends that hold nothing; empty where nothing is.
+std::optional<ChannelPing> channel_left(ChannelPing head, std::span<const std::int16_t> row, const ReducedRow& record,
+                                        bool even_if_empty, std::vector<std::int16_t>& counts) {
   std::size_t first = 0;
   std::size_t end = row.size();
   while (end > 0 && row[end - 1] == kNoData) --end;
   while (first < end && row[first] == kNoData) ++first;
-  if (first == end && !even_if_empty) return {};
-  std::vector<std::int16_t> counts(row.begin() + static_cast<std::ptrdiff_t>(first),
-                                   row.begin() + static_cast<std::ptrdiff_t>(end));
+  if (first == end && !even_if_empty) return std::nullopt;
+  counts.assign(row.begin() + static_cast<std::ptrdiff_t>(first), row.begin() + static_cast<std::ptrdiff_t>(end));
   std::replace(counts.begin(), counts.end(), kNoData, kMissing);
   if (counts.empty()) counts.push_back(kMissing);
   head.offset = static_cast<int>(first);
   head.power_count = counts;
   head.reduced = record;
-  return append_raw0(bytes, time, head);
+  return head;
 }
 
-/// Copies one file, datagram by datagram.
+/// What stays of one file's channels.
 class FileReducer {
  public:
-  FileReducer(std::vector<Reduced>& observations, const ReduceParams& params, const KeptOfFile& kept,
-              RawFileWriter& out)
-      : observations_(observations), params_(params), kept_(kept), out_(out) {}
+  FileReducer(std::vector<Reduced>& observations, const ReduceParams& params, const KeptOfFile& kept)
+      : observations_(observations), params_(params), kept_(kept) {}
 
-  void visit(const simrad::Datagram& datagram) {
-    if (!status_) return;
-    if (datagram.type != "RAW0") {
-      status_ = append_datagram(bytes_, datagram.time, datagram.type, datagram.body);
-    } else {
-      status_ = channel(datagram);
-    }
-    if (status_ && bytes_.size() >= kFlushBytes) flush();
-  }
-
-  Result<void> finish() {
-    if (status_) flush();
-    if (!status_) return status_;
-    return out_.finish();
-  }
-
- private:
-  void flush() {
-    status_ = out_.write(bytes_);
-    bytes_.clear();
-  }
-
-  Result<void> channel(const simrad::Datagram& datagram) {
-    const auto kept = kept_.find(datagram.time);
-    if (kept == kept_.end()) return {};
-    const simrad::Raw0 raw = simrad::parse_raw0(datagram.body);
-    if (raw.problem != nullptr) return {};
-    Reduced& observation = observations_[kept->second->observation];
+  Result<std::optional<ChannelPing>> in_place(TimeNs time, const ChannelPing& recorded) {
+    const auto kept = kept_.find(time);
+    if (kept == kept_.end()) return std::nullopt;
     const bool is_first = ping_ != kept->second;
     if (is_first) {
-      const KeptPing& ping = *kept->second;
-      const auto index = static_cast<std::int64_t>(ping.ping_index);
-      auto reduced = reduce_ping(*observation.engine, *observation.waters, index, ping.masks,
-                                 {ping.keeps_ends, ping.tracked}, params_);
-      if (!reduced) return pass_on(reduced);
-      ping_rows_ = std::move(*reduced);
-      row_of_channel_ = observation.files->grid->row_of_channel();
-      ping_ = kept->second;
+      if (auto begun = begin(*kept->second); !begun) return pass_on(begun);
     }
-    if (raw.head.channel < 0 || static_cast<std::size_t>(raw.head.channel) >= row_of_channel_.size()) return {};
-    const int row = row_of_channel_[static_cast<std::size_t>(raw.head.channel)];
-    if (row < 0) return {};
+    if (recorded.channel < 0 || static_cast<std::size_t>(recorded.channel) >= row_of_channel_.size()) {
+      return std::nullopt;
+    }
+    const int row = row_of_channel_[static_cast<std::size_t>(recorded.channel)];
+    if (row < 0) return std::nullopt;
     // A ping's first channel tells of roll, heave, heading, seabed, water and beams that are missing: it stays in any
     // case.
-    ChannelPing head = raw.head;
+    ChannelPing head = recorded;
     head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
     head.reduced_water = is_first ? ping_rows_.water : std::nullopt;
     head.reduced_short = is_first ? ping_rows_.short_beams : std::vector<ReducedChannel>{};
-    return append_channel(bytes_, datagram.time, head, std::as_const(ping_rows_.counts).view().row(row),
-                          ping_rows_.record[static_cast<std::size_t>(row)], is_first);
+    return channel_left(std::move(head), std::as_const(ping_rows_.counts).view().row(row),
+                        ping_rows_.record[static_cast<std::size_t>(row)], is_first, counts_);
+  }
+
+ private:
+  Result<void> begin(const KeptPing& ping) {
+    Reduced& observation = observations_[ping.observation];
+    auto reduced = reduce_ping(*observation.engine, *observation.waters, static_cast<std::int64_t>(ping.ping_index),
+                               ping.masks, {ping.keeps_ends, ping.tracked}, params_);
+    if (!reduced) return pass_on(reduced);
+    ping_rows_ = std::move(*reduced);
+    row_of_channel_ = observation.files->grid->row_of_channel();
+    ping_ = &ping;
+    return {};
   }
 
   std::vector<Reduced>& observations_;
   const ReduceParams& params_;
   const KeptOfFile& kept_;
-  RawFileWriter& out_;
-  RawBytes bytes_;
   ReducedPing ping_rows_;
   std::vector<int> row_of_channel_;
+  std::vector<std::int16_t> counts_;
   const KeptPing* ping_ = nullptr;
-  Result<void> status_;
 };
 
 Result<std::vector<Reduced>> choose(const SurveyFiles& survey, std::span<const ObservationProduct> products,
@@ -245,7 +220,7 @@ Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const Ob
   ReduceReport report;
   for (std::uint32_t f = 0; f < survey.files.size(); ++f) {
     const SurveyFile& file = survey.files[f];
-    if (file.error || file.index.format != RawFormat::simrad) continue;
+    if (file.error || !file.index.gives_samples()) continue;
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     const auto source = open_file(file.path);
     if (!source) return pass_on(source);
@@ -253,13 +228,9 @@ Result<ReduceReport> reduce_survey(const SurveyFiles& survey, std::span<const Ob
     if (!out) return pass_on(out);
     const auto of_file = kept.find(f);
     const KeptOfFile none;
-    FileReducer copy(*observations, params, of_file == kept.end() ? none : of_file->second, *out);
-    simrad::Scanner scanner;
-    simrad::Notes notes;
-    auto scanned = scanner.finish(
-        *stoppable(*source, work), [&](const simrad::Datagram& d) { copy.visit(d); }, notes);
-    if (scanned) scanned = copy.finish();
-    if (!scanned) return pass_on(scanned);
+    FileReducer reducer(*observations, params, of_file == kept.end() ? none : of_file->second);
+    const auto in_place = [&](TimeNs time, const ChannelPing& recorded) { return reducer.in_place(time, recorded); };
+    if (auto copied = copy_recording(*stoppable(*source, work), in_place, *out); !copied) return pass_on(copied);
     report.files.push_back(out->path());
     report.pings_before += std::ssize(file.index.pings);
     report.pings_kept += of_file == kept.end() ? 0 : std::ssize(of_file->second);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/units.h"
+#include "io/raw_datagrams.h"
 #include "io/simrad/raw0.h"
-#include "io/simrad/writer_datagrams.h"
 
 namespace sonar {
 namespace {

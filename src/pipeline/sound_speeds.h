@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 namespace sonar {
 

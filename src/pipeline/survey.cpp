@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "io/recordings.h"
-#include "io/simrad/indexer.h"
 #include "pipeline/observations.h"
 
 namespace sonar {
@@ -18,20 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sonar data that this version names but does not read; products and rasters lie in such folders as well.
-bool is_sonar_netcdf4(const fs::path& path) {
-  if (!has_ending(path, ".nc")) return false;
-  const auto source = open_file(path);
-  return source && simrad::detect_format(**source).value_or(RawFormat::unknown) == RawFormat::sonar_netcdf4;
-}
-
 Result<void> list_folder(const fs::path& folder, std::vector<fs::path>& files) {
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
     if (it->is_directory(ignored)) continue;
-    if (is_named_raw(it->path()) || is_sonar_netcdf4(it->path())) found.push_back(it->path());
+    if (is_named_recording(it->path())) found.push_back(it->path());
   }
   if (error) return fail(ErrorCode::io, error.message(), {.file = folder.string()});
   std::sort(found.begin(), found.end());

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/simrad/index_cache.h"
+#include "io/index_cache.h"
 #include "pipeline/survey.h"
 #include "view/echogram_pyramid.h"
 

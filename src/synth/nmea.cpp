@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/units.h"
-#include "io/simrad/writer_datagrams.h"
+#include "io/raw_datagrams.h"
 
 namespace sonar::synth {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "io/simrad/writer.h"
+#include "io/raw_file_writer.h"
 #include "synth/beam_table.h"
 #include "synth/voyage.h"
 

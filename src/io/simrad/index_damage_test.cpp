@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,9 @@
 #include <limits>
 #include <string_view>
 
+#include "io/index_cache.h"
+#include "io/ping_source.h"
 #include "io/simrad/datagram.h"
-#include "io/simrad/index_cache.h"
-#include "io/simrad/indexer.h"
-#include "io/simrad/ping_reader.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {
@@ -247,17 +246,18 @@ TEST(RawDamage, AnyChoppingOfTheBytesGivesTheSameIndex) {
   const Bytes bytes = eventful_file();
   const std::vector<std::byte> whole = encode_index(index_of(bytes));
   for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, std::size_t{4096}}) {
-    MemorySource source("memory");
-    simrad::Indexer indexer;
-    std::size_t pings = 0;
+    const auto memory = std::make_shared<MemorySource>("memory");
+    const auto source = ping_source(memory);
     for (std::size_t at = 0; at < bytes.size(); at += piece) {
-      source.append(std::span(bytes.data).subspan(at, std::min(piece, bytes.size() - at)));
-      ASSERT_TRUE(indexer.refresh(source));
-      ASSERT_GE(indexer.index().pings.size(), pings);
-      pings = indexer.index().pings.size();
+      memory->append(std::span(bytes.data).subspan(at, std::min(piece, bytes.size() - at)));
+      const std::size_t before = source->count();
+      const auto fresh = source->refresh();
+      ASSERT_TRUE(fresh);
+      ASSERT_EQ(source->count(), before + *fresh);
     }
-    ASSERT_TRUE(indexer.finish(source));
-    EXPECT_EQ(encode_index(indexer.index()), whole) << piece;
+    ASSERT_TRUE(source->finish());
+    EXPECT_TRUE(source->final());
+    EXPECT_EQ(encode_index(source->index()), whole) << piece;
   }
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "io/simrad/index_cache.h"
-#include "io/simrad/indexer.h"
-#include "io/simrad/ping_reader.h"
+#include "io/index_cache.h"
+#include "io/ping_source.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {

@@ -16,8 +16,7 @@
 #include "io/simrad/con1.h"
 #include "io/simrad/fields.h"
 
-namespace sonar {
-namespace simrad {
+namespace sonar::simrad {
 namespace {
 
 constexpr std::size_t kMaxTypes = 64;
@@ -237,6 +236,7 @@ void Indexer::open_ping(const Arrival& arrival) {
   ping_.config = static_cast<std::uint16_t>(index_.configs.size() - 1);
   open_.clear();
   ping_open_ = true;
+  ping_published_ = false;
   config_used_ = true;
   ++ping_number_;
 }
@@ -289,6 +289,7 @@ void Indexer::take(const Arrival& arrival) {
   ping_.end = arrival.end;
   open_.push_back({arrival.head.channel, transmit_of(arrival.head, arrival.count),
                    sent_channel(arrival.head, arrival.count), arrival.count, is_silent(arrival.head), arrival.offset});
+  if (open_.size() == index_.configs.at(ping_.config)->beams.size()) publish_ping();
 }
 
 void Indexer::close_pings() {
@@ -298,8 +299,12 @@ void Indexer::close_pings() {
 }
 
 void Indexer::close_ping() {
-  if (!ping_open_) return;
+  if (ping_open_ && !ping_published_) publish_ping();
   ping_open_ = false;
+}
+
+void Indexer::publish_ping() {
+  ping_published_ = true;
   leave_out_odd_channels();
   ping_.min_samples = kMaxSamples;
   for (const OpenChannel& channel : open_) {
@@ -380,12 +385,4 @@ std::uint16_t Indexer::transmit_of_open_ping() {
   return static_cast<std::uint16_t>(chosen);
 }
 
-}  // namespace simrad
-
-Result<RawIndex> index_raw(const ByteSource& source) {
-  simrad::Indexer indexer;
-  if (auto done = indexer.finish(source); !done) return pass_on(done);
-  return indexer.take();
-}
-
-}  // namespace sonar
+}  // namespace sonar::simrad

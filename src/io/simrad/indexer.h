@@ -10,7 +10,7 @@
 
 #include "base/result.h"
 #include "io/byte_source.h"
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 #include "io/simrad/odd_channels.h"
 #include "io/simrad/raw0.h"
 #include "io/simrad/raw_format.h"
@@ -21,8 +21,8 @@ namespace sonar::simrad {
 /// Channels of one ping never lie farther apart than this in the file.
 inline constexpr std::uint64_t kMaxPingBytes = std::uint64_t{256} << 20;
 
-/// Builds the index of a file that may still grow. A ping is published when a later one starts or at finish();
-/// published, it never changes. The result does not depend on how the bytes arrived.
+/// Builds the index of a file that may still grow. A ping is published when all beams of its configuration are there, when
+/// a later one starts, or at finish(); published, it never changes. The result does not depend on how the bytes arrived.
 class Indexer {
  public:
   /// Takes in what is whole; index().pings only grows.
@@ -58,6 +58,7 @@ class Indexer {
   /// Ends the open ping, and the one that a waiting channel begins.
   void close_pings();
   void close_ping();
+  void publish_ping();
   void leave_out_odd_channels();
   [[nodiscard]] std::uint16_t transmit_of_open_ping();
   void name_format();
@@ -70,6 +71,7 @@ class Indexer {
   std::vector<std::byte> last_con0_;
 
   bool ping_open_ = false;
+  bool ping_published_ = false;  ///< the open one, as it has all beams; what repeats them is noted as such
   PingEntry ping_;
   std::uint64_t ping_number_ = 0;
   ClockRuns clock_runs_;

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "io/byte_source.h"
-#include "io/simrad/indexer.h"
-#include "io/simrad/ping_reader.h"
+#include "io/ping_source.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {

@@ -12,21 +12,18 @@
 #include "io/simrad/odd_channels.h"
 #include "io/simrad/raw0.h"
 
-namespace sonar {
+namespace sonar::simrad {
 namespace {
-
-using simrad::Frame;
 
 /// Calls `visit(body)` for each sound RAW0 of this time; the same rules as the scanner's, on bytes at hand.
 template <class Visit>
 void each_raw0(std::span<const std::byte> bytes, TimeNs time, const Visit& visit) {
   bool lost = false;
-  for (std::size_t at = 0; at + simrad::kFrameBytes <= bytes.size();) {
+  for (std::size_t at = 0; at + kFrameBytes <= bytes.size();) {
     const auto rest = bytes.subspan(at);
-    const Frame frame = lost ? simrad::inspect_head(rest) : simrad::inspect_length(rest);
-    const std::size_t length = frame == Frame::sound ? simrad::number_at<std::uint32_t>(rest, 0) : 0;
-    if (frame != Frame::sound || length + 8 > rest.size() ||
-        simrad::number_at<std::uint32_t>(rest, length + 4) != length) {
+    const Frame frame = lost ? inspect_head(rest) : inspect_length(rest);
+    const std::size_t length = frame == Frame::sound ? number_at<std::uint32_t>(rest, 0) : 0;
+    if (frame != Frame::sound || length + 8 > rest.size() || number_at<std::uint32_t>(rest, length + 4) != length) {
       lost = true;
       ++at;
       continue;
@@ -34,8 +31,8 @@ void each_raw0(std::span<const std::byte> bytes, TimeNs time, const Visit& visit
     lost = false;
     at += length + 8;
     if (std::memcmp(rest.data() + 4, "RAW0", 4) != 0) continue;
-    if (time_from_filetime(simrad::number_at<std::uint64_t>(rest, 8)) != time) continue;
-    visit(rest.subspan(simrad::kHeadBytes, length - simrad::kMinLength));
+    if (time_from_filetime(number_at<std::uint64_t>(rest, 8)) != time) continue;
+    visit(rest.subspan(kHeadBytes, length - kMinLength));
   }
 }
 
@@ -53,11 +50,11 @@ std::span<const std::int16_t> counts_of(std::span<const std::byte> power, Ping& 
 }
 
 void leave_out_odd_channels(Ping& ping, bool all_beams) {
-  std::vector<simrad::SentChannel> sent;
+  std::vector<SentChannel> sent;
   for (const ChannelPing& head : ping.channels) {
-    sent.push_back(simrad::sent_channel(head, static_cast<int>(head.power_count.size())));
+    sent.push_back(sent_channel(head, static_cast<int>(head.power_count.size())));
   }
-  const std::vector<const char*> odd = simrad::odd_channels(sent, all_beams);
+  const std::vector<const char*> odd = odd_channels(sent, all_beams);
   std::size_t i = 0;
   std::erase_if(ping.channels, [&](const ChannelPing&) { return odd[i++] != nullptr; });
 }
@@ -68,7 +65,7 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
   const Where where{.file = source.name(), .offset = static_cast<std::int64_t>(entry.offset)};
   const auto size = source.size();
   if (!size) return pass_on(size);
-  if (entry.end <= entry.offset || entry.end - entry.offset > simrad::kMaxPingBytes + simrad::kMaxLength + 8) {
+  if (entry.end <= entry.offset || entry.end - entry.offset > kMaxPingBytes + kMaxLength + 8) {
     return fail(ErrorCode::format, "the index tells of no ping here", where);
   }
   if (entry.end > *size) return fail(ErrorCode::io, "the file is shorter than when it was indexed", where);
@@ -84,7 +81,7 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
   ping.blocks.push_back(block);
   const auto before = [](const ChannelPing& a, int channel) { return a.channel < channel; };
   each_raw0({block.get(), block_size}, entry.time, [&](std::span<const std::byte> body) {
-    simrad::Raw0 raw = simrad::parse_raw0(body);
+    Raw0 raw = parse_raw0(body);
     if (raw.problem != nullptr || raw.head.channel < 0) return;
     const auto place = std::lower_bound(ping.channels.begin(), ping.channels.end(), raw.head.channel, before);
     if (place != ping.channels.end() && place->channel == raw.head.channel) return;
@@ -98,9 +95,4 @@ Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry, BlockPo
   return ping;
 }
 
-Result<Ping> read_ping(const ByteSource& source, const PingEntry& entry) {
-  BlockPool pool(0);
-  return read_ping(source, entry, pool);
-}
-
-}  // namespace sonar
+}  // namespace sonar::simrad

@@ -5,7 +5,7 @@
 
 #include "base/result.h"
 #include "io/byte_source.h"
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 namespace sonar::simrad {
 

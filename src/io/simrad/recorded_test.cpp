@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "io/simrad/index.h"
-#include "io/simrad/ping_reader.h"
+#include "io/ping_source.h"
+#include "io/raw_index.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {

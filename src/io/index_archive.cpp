@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "io/simrad/index_cache.h"
+#include "io/index_cache.h"
 
 namespace sonar {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/writer_datagrams.h"
+#include "io/raw_datagrams.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "io/simrad/writer_datagrams.h"
+#include "io/raw_datagrams.h"
 
 namespace sonar {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/index_cache.h"
+#include "io/index_cache.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,6 +11,7 @@
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
+#include "io/ping_source.h"
 
 namespace sonar {
 namespace {

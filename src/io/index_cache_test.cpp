@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/index_cache.h"
+#include "io/index_cache.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "io/ping_source.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 namespace sonar {
 

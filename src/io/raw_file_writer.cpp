@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/writer.h"
+#include "io/raw_file_writer.h"
 
 #include <string_view>
 #include <utility>

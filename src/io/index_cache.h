@@ -13,7 +13,7 @@
 
 #include "base/result.h"
 #include "base/work.h"
-#include "io/simrad/index.h"
+#include "io/raw_index.h"
 
 namespace sonar {
 

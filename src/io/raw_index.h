@@ -95,15 +95,12 @@ struct RawIndex {
 
   /// Whether anything of the file could be read.
   [[nodiscard]] bool readable() const { return format == RawFormat::simrad || format == RawFormat::ek80; }
+  /// Whether its format's samples are read by this version.
+  [[nodiscard]] bool gives_samples() const { return format == RawFormat::simrad; }
 };
 
 /// RawIndex::hash of a file.
 /// errors  io
 [[nodiscard]] Result<std::string> content_hash(const ByteSource& source);
-
-/// Reads the whole file once, in blocks, and indexes it; damage is in the diagnostics.
-/// errors  io
-/// cost    two passes over the file, the second from memory where it fits; 4 MB beside the index
-[[nodiscard]] Result<RawIndex> index_raw(const ByteSource& source);
 
 }  // namespace sonar
