@@ -45,7 +45,7 @@ void flag_uncalibrated(const Array3<std::int16_t>& table, Volume& volume) {
 
 }  // namespace
 
-Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe)
+Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe, KnownPings* known)
     : survey_(survey),
       observation_(observation),
       recipe_(recipe),
@@ -54,6 +54,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       sector_(grid_.sector(observation.range)),
       tables_(observation, recipe.calibration),
       reckoned_(dead_reckoning(observation.navigation)),
+      known_(known),
       estimates_(observation.pings.size()),
       given_(observation.pings.size()) {
   for (std::size_t i = 0; i < reckoned_.pings.size(); ++i) {
@@ -61,6 +62,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
     reckoned_.pings[i].roll_rad = recorded.roll_rad;
     reckoned_.pings[i].pitch_rad = recorded.pitch_rad;
   }
+  if (known_ != nullptr) keys_.emplace(survey, observation, recipe);
   const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
                       static_cast<std::size_t>(std::max(1, observation.range.count));
   power_limit_ = std::clamp(kPowerBytes / (voxels * 3), kLeastPower, std::size_t{64});
@@ -138,6 +140,24 @@ std::vector<double> Engine::estimate(const PowerVolume& power) const {
   return background_power_db(power.volume.counts.view(), flags.view(), recipe_.background);
 }
 
+KnownPings::Background Engine::background_of(std::int64_t ping_index) {
+  if (known_ != nullptr) {
+    if (const auto before = known_->backgrounds.find(keys().background(ping_index))) return *before;
+  }
+  const auto loaded = power(ping_index);
+  if (!loaded) return {};
+  KnownPings::Background background;
+  if (is_reduced((*loaded)->heads)) {
+    background.given = reduced_background_db((*loaded)->heads, grid().row_of_channel());
+  } else {
+    background.estimated = estimate(**loaded);
+  }
+  if (known_ != nullptr) {
+    known_->backgrounds.put(keys().background(ping_index), std::make_shared<KnownPings::Background>(background));
+  }
+  return background;
+}
+
 Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, Work& work) {
   if (!recipe_.background_window.enabled) return {};
   const std::int64_t from = std::max<std::int64_t>(0, first - recipe_.background_window.pings_each_side);
@@ -147,12 +167,9 @@ Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, 
     auto& estimated = estimates_[static_cast<std::size_t>(from + i)];
     auto& given = given_[static_cast<std::size_t>(from + i)];
     if (estimated.empty() && given.empty() && !is_bad(from + i)) {
-      const auto loaded = power(from + i);
-      if (loaded && is_reduced((*loaded)->heads)) {
-        given = reduced_background_db((*loaded)->heads, grid().row_of_channel());
-      } else if (loaded) {
-        estimated = estimate(**loaded);
-      }
+      KnownPings::Background background = background_of(from + i);
+      estimated = std::move(background.estimated);
+      given = std::move(background.given);
     }
     work.progress("background", ++done, to - from + 1);
   });

@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "pipeline/calibration.h"
+#include "pipeline/known_pings.h"
 #include "pipeline/load_volume.h"
 #include "pipeline/recipe.h"
 #include "pipeline/survey.h"
@@ -44,7 +45,9 @@ struct StagedPing {
 class Engine {
  public:
   /// The observation has a grid; survey and observation outlive the engine.
-  Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe);
+  /// known  of an earlier engine of the same observation, when it had fewer pings; null = everything is worked out
+  Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+         KnownPings* known = nullptr);
 
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(observation_.pings.size()); }
   [[nodiscard]] const Sector& sector() const { return sector_; }
@@ -65,6 +68,9 @@ class Engine {
   [[nodiscard]] bool is_bad(std::int64_t ping_index) const {
     return observation_.navigation[static_cast<std::size_t>(ping_index)].bad;
   }
+  /// Null, and no keys, where nothing is kept.
+  [[nodiscard]] KnownPings* known() const { return known_; }
+  [[nodiscard]] const PingKeys& keys() const { return *keys_; }
   [[nodiscard]] Diagnostics calibration_notes() const { return tables_.diagnostics(); }
 
   /// Estimates the background of pings first .. last (inclusive) and their neighbours; other calls need it.
@@ -100,6 +106,7 @@ class Engine {
   [[nodiscard]] MedianParams filter_box() const;
   [[nodiscard]] Result<Power> power(std::int64_t ping_index);
   [[nodiscard]] std::vector<double> estimate(const PowerVolume& power) const;
+  [[nodiscard]] KnownPings::Background background_of(std::int64_t ping_index);
   [[nodiscard]] PingGeometry ping_geometry(std::int64_t ping_index) const;
   [[nodiscard]] Volume calibrated(std::int64_t ping_index, const PowerVolume& power, const Array3<std::int16_t>& table);
   void flag(std::int64_t ping_index, const PowerVolume& power, Volume& volume);
@@ -112,6 +119,8 @@ class Engine {
   Sector sector_;
   CalibrationTables tables_;
   DeadReckoning reckoned_;
+  KnownPings* known_;
+  std::optional<PingKeys> keys_;
   std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
   std::vector<std::vector<float>>
       given_;  ///< [ping] background that a reduced file or a product brings along; else empty

@@ -90,9 +90,10 @@ Measured measure_one(const Engine& engine, const StagedPing& ping, const std::ve
   return {std::move(school), faulty_members(input, all[index].in_ping->mask)};
 }
 
-/// Everything that a ping's rows depend on beside the engine.
-Hash128 key_of(const std::vector<InPingRef>& schools) {
+/// Everything that a ping's rows depend on; without the ping itself where the engine keeps no keys, being the same then.
+Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<InPingRef>& schools) {
   Hasher hasher;
+  if (engine.known() != nullptr) hasher.add(std::as_bytes(std::span(&engine.keys().placed(ping_index), 1)));
   for (const InPingRef& one : schools) {
     const PingMask& mask = one.in_ping->mask;
     hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
@@ -202,19 +203,20 @@ MeasuredPings::~MeasuredPings() = default;
 
 namespace {
 
-const std::vector<Measured>* kept_rows(MeasuredPings* before, std::int64_t ping_index,
+const std::vector<Measured>* kept_rows(MeasuredPings* before, const Engine& engine, std::int64_t ping_index,
                                        const std::vector<InPingRef>& schools) {
   if (before == nullptr) return nullptr;
   const auto found = before->kept().pings.find(ping_index);
-  if (found == before->kept().pings.end() || found->second.first != key_of(schools)) return nullptr;
+  if (found == before->kept().pings.end() || found->second.first != key_of(engine, ping_index, schools)) return nullptr;
   return &found->second.second;
 }
 
-void keep_rows(MeasuredPings& before, const std::vector<MeasuredPing>& pings,
+void keep_rows(MeasuredPings& before, const Engine& engine, const std::vector<MeasuredPing>& pings,
                const std::vector<std::vector<Measured>>& rows, const std::vector<std::string>& problems) {
   before.kept().pings.clear();
   for (std::size_t i = 0; i < pings.size(); ++i) {
-    if (problems[i].empty()) before.kept().pings[pings[i].first] = {key_of(pings[i].second), rows[i]};
+    if (problems[i].empty())
+      before.kept().pings[pings[i].first] = {key_of(engine, pings[i].first, pings[i].second), rows[i]};
   }
 }
 
@@ -243,7 +245,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   const double area = two_way_area(engine.grid(), engine.beam_figures().psi_used_db, engine.recipe().measure);
   work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
     const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
-    if (const auto* kept = kept_rows(before, ping_index, refs)) {
+    if (const auto* kept = kept_rows(before, engine, ping_index, refs)) {
       rows[static_cast<std::size_t>(i)] = *kept;
     } else if (const auto ping = engine.kept_or_staged(ping_index)) {
       rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs, area);
@@ -253,7 +255,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-  if (before != nullptr) keep_rows(*before, pings, rows, problems);
+  if (before != nullptr) keep_rows(*before, engine, pings, rows, problems);
   Faults faults;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);

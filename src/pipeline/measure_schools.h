@@ -59,7 +59,7 @@ class MeasuredPings {
 };
 
 /// Measures every ping of numbered schools and summarises. Rows and masks are put into the product, sorted.
-/// before  of the same engine; null = everything is measured
+/// before  of the same engine, or of one that keeps keys of its pings; null = everything is measured
 /// errors  cancelled. A ping that cannot be read any more loses its masks; it is noted and marked bad.
 [[nodiscard]] Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools,
                                            ObservationProduct& product, Work& work, MeasuredPings* before = nullptr);

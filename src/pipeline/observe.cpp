@@ -21,6 +21,7 @@
 #include "pipeline/join_tracks.h"
 #include "pipeline/manual.h"
 #include "pipeline/measure_schools.h"
+#include "pipeline/observe_memory.h"
 #include "pipeline/refused_echoes.h"
 #include "school/detect_params.h"
 #include "school/steady_masks.h"
@@ -154,8 +155,9 @@ Result<void> prepare(Engine& engine, PingReach reach, ObservationProduct& produc
 }
 
 /// Measured, and every ping could be read.
-Result<void> measure_all(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work) {
-  if (auto done = measure_schools(engine, std::move(schools), product, work); !done) return done;
+Result<void> measure_all(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work,
+                         MeasuredPings* before = nullptr) {
+  if (auto done = measure_schools(engine, std::move(schools), product, work, before); !done) return done;
   return engine.refusal();
 }
 
@@ -292,7 +294,8 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   const bool automatic = recipe.automatic || asks_for_detection(options.journal, datagram_times(survey, observation));
   if (automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;
-  Engine engine(survey, observation, recipe);
+  ObserveMemory* memory = options.memory;
+  Engine engine(survey, observation, recipe, memory != nullptr ? &memory->pings : nullptr);
   note_dead_reckoning(engine.reckoned(), product);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   JournalState state;
@@ -319,9 +322,11 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     Engine calibrated(survey, observation, measuring);
     if (auto done = prepare_again(calibrated, reach, product, work); !done) return pass_on(done);
     if (auto done = measure_all(calibrated, std::move(schools), product, work); !done) return pass_on(done);
-  } else if (auto done = measure_all(engine, std::move(schools), product, work); !done) {
+  } else if (auto done = measure_all(engine, std::move(schools), product, work, memory ? &memory->rows : nullptr);
+             !done) {
     return pass_on(done);
   }
+  if (memory != nullptr) memory->pings.forget_others();
   join_at_reach(product, recipe.merge);
   note_schools_without_place(product);
   return product;

@@ -30,12 +30,15 @@ struct PingSelection {
   std::int64_t last = 0;
 };
 
+struct ObserveMemory;
+
 /// What an observation is processed with, beside its files.
 struct ObserveOptions {
   std::optional<PingSelection> pings;    ///< empty = all
   std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
   std::string program_version;
   const EarlierSchools* earlier = nullptr;  ///< what was known of schools of these pings; null = number from 1
+  ObserveMemory* memory = nullptr;          ///< of the same observation with fewer pings; null = nothing is kept
 };
 
 /// Sounder and version as they stand in products.
