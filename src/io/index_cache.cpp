@@ -78,6 +78,11 @@ IndexCache IndexCache::of_user() {
   return {};
 }
 
+void keep_index(const fs::path& path, const IndexCache& cache, const RawIndex& index) {
+  const auto state = cache.folder.empty() ? std::nullopt : state_of(path);
+  if (state && state->size == index.size) store(cache, *state, index);
+}
+
 Result<RawIndex> open_index(const fs::path& path, const IndexCache& cache, const Work& work) {
   const auto state = cache.folder.empty() ? std::nullopt : state_of(path);
   if (state) {

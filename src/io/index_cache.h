@@ -30,6 +30,9 @@ struct IndexCache {
 /// errors  not_found, io, cancelled
 [[nodiscard]] Result<RawIndex> open_index(const std::filesystem::path& path, const IndexCache& cache, const Work& work);
 
+/// Keeps the index of a whole file that was read otherwise, if it is still that large.
+void keep_index(const std::filesystem::path& path, const IndexCache& cache, const RawIndex& index);
+
 /// Lets the indexes of a survey's files hold equal settings once: 500 beams are 150 kB a file.
 /// threads  any
 class SharedSettings {

@@ -294,6 +294,7 @@ std::vector<ObservationFiles> cut_sequence(const SurveyFiles& survey, const Soun
     ObservationFiles fresh;
     const bool first = observations.empty();
     if (first || cutter.cut(observations.back().pings.front(), observations.back().pings.back(), ping, fresh)) {
+      fresh.cut_notes = fresh.diagnostics.size();
       observations.push_back(std::move(fresh));
     }
     observations.back().pings.push_back(ping);

@@ -135,8 +135,21 @@ Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyPar
   return arranged;
 }
 
+namespace {
+
+/// Leaves out the pings before the first of those that are looked at; none where that is not there.
+void begin_at(const SurveyFiles& survey, const SequenceStart& start, SounderSequence& sequence) {
+  if (start.observations == 0) return;
+  const auto first = std::find_if(sequence.pings.begin(), sequence.pings.end(), [&](const SurveyPing& ping) {
+    return ping.entry == start.entry && survey.files[ping.file].path == start.file;
+  });
+  if (first != sequence.pings.end()) sequence.pings.erase(sequence.pings.begin(), first);
+}
+
+}  // namespace
+
 SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& params,
-                           const NavigationParams& navigation) {
+                           const NavigationParams& navigation, const SequenceStarts& starts) {
   SurveyFiles survey;
   survey.files = std::move(files);
   std::sort(survey.files.begin(), survey.files.end(),
@@ -146,13 +159,24 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
     survey.diagnostics.push_back(
         {DiagnosticCode::unreadable, file.index.name, file.error->where.offset, -1, file.error->text});
   }
-  for (const SounderSequence& sequence : sequences_of(survey)) {
+  std::size_t number = 0;
+  for (SounderSequence& sequence : sequences_of(survey)) {
+    const auto start = starts.find({sequence.kind, sequence.sounder});
+    const SequenceStart first = start == starts.end() ? SequenceStart{} : start->second;
+    begin_at(survey, first, sequence);
+    number += first.observations;
     auto cut = cut_sequence(survey, sequence, params);
+    if (!cut.empty() && first.observations > 0) {
+      cut.front().continues_cut = first.continues_cut;
+      cut.front().cut_after = first.cut_after;
+      cut.front().diagnostics = first.notes;
+      cut.front().cut_notes = first.notes.size();
+    }
     std::stable_sort(cut.begin(), cut.end(), [&](const ObservationFiles& a, const ObservationFiles& b) {
       return survey.ping_time(a, 0) < survey.ping_time(b, 0);
     });
     for (ObservationFiles& observation : cut) {
-      observation.name = fmt::format("obs-{:04}", survey.observations.size() + 1);
+      observation.name = fmt::format("obs-{:04}", ++number);
       complete_observation(survey, observation, params, navigation);
       survey.observations.push_back(std::move(observation));
     }

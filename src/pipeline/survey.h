@@ -100,6 +100,7 @@ struct ObservationFiles {
   bool continues_cut = false;  ///< begun only because the one before reached observation_max_s or sound speed drifted
   TimeNs cut_after = 0;        ///< datagram time of the ping before such a cut; 0 = no cut
   Diagnostics diagnostics;     ///< of the observation; those of its files are in their indexes
+  std::size_t cut_notes = 0;   ///< how many of them, the first, tell why it was begun
 
   [[nodiscard]] Sector sector() const { return grid->sector(range); }  ///< only with a grid
 };
@@ -135,6 +136,19 @@ struct SurveyFiles {
 /// What a product remembers of the files that an observation came from.
 [[nodiscard]] std::vector<InputFile> input_files(const SurveyFiles& survey, const ObservationFiles& observation);
 
+/// Where a sounder's pings are cut into observations from, when those before are over and not looked at any more.
+struct SequenceStart {
+  std::filesystem::path file;    ///< that the first ping lies in
+  std::uint32_t entry = 0;       ///< in that file's index.pings
+  std::size_t observations = 0;  ///< before it
+  // What is known of the cut that begins it, as in ObservationFiles.
+  bool continues_cut = false;
+  TimeNs cut_after = 0;
+  Diagnostics notes;
+};
+/// By sounder.
+using SequenceStarts = std::map<std::pair<SounderKind, std::string>, SequenceStart>;
+
 /// Files that a list of paths stands for: of a folder every *.raw in it (any case, not deeper) and every *.nc of
 /// SONAR-netCDF4, which is named though not read, sorted by name; a file as it is.
 /// errors  not_found, io
@@ -165,7 +179,8 @@ struct SurveyFiles {
 [[nodiscard]] Result<void> require_not_beneath_raw(const std::filesystem::path& folder);
 
 /// The second half of open_survey: from indexed files to observations. Pure.
+/// starts  of sounders whose first observations are left out; their number stays in the names of the others
 [[nodiscard]] SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& survey,
-                                         const NavigationParams& navigation);
+                                         const NavigationParams& navigation, const SequenceStarts& starts = {});
 
 }  // namespace sonar

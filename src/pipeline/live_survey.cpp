@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/live_survey.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::duration_cast;
+
+/// A recorder writes on within this time, or has begun another file.
+constexpr std::chrono::seconds kStillWriting{2};
+
+LiveClock::duration gap_of(const SurveyParams& params) {
+  return duration_cast<LiveClock::duration>(std::chrono::duration<double>(params.observation_gap_s));
+}
+
+bool same_sounder(const RawIndex& a, const RawIndex& b) {
+  const auto has = [&](const SounderConfig& config) {
+    return std::any_of(b.configs.begin(), b.configs.end(), [&](const SounderConfig& other) {
+      return other.kind == config.kind && other.sounder_name == config.sounder_name;
+    });
+  };
+  return std::any_of(a.configs.begin(), a.configs.end(), has);
+}
+
+std::pair<SounderKind, std::string> sounder_of(const ObservationFiles& observation) {
+  return {observation.config.kind, observation.config.sounder_name};
+}
+
+}  // namespace
+
+LiveSurvey::LiveSurvey(std::vector<fs::path> paths, const SurveyParams& params, const NavigationParams& navigation,
+                       IndexCache cache)
+    : paths_(std::move(paths)), params_(params), navigation_(navigation), cache_(std::move(cache)) {}
+
+Result<LiveSurvey::News> LiveSurvey::look(LiveClock::time_point now, Work& work) {
+  News news;
+  if (grew_at_ == LiveClock::time_point{}) grew_at_ = now;
+  list(now, news);
+  for (auto& [path, file] : files_) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    read(file, now, news);
+  }
+  if (news.bytes > 0) grew_at_ = now;
+  finish_files(now, news);
+  if (news.pings > 0 || news.changed) {
+    news.changed = true;
+    arrange();
+  }
+  return news;
+}
+
+void LiveSurvey::list(LiveClock::time_point now, News& news) {
+  const auto listed = list_survey(paths_);
+  if (!listed) {
+    news.cannot = listed.error();
+    return;
+  }
+  for (const fs::path& path : *listed) {
+    if (files_.contains(path) || let_go_.contains(path)) continue;
+    File& file = files_[path];
+    file.path = path;
+    file.bytes = growing_file(path);
+    file.pings = ping_source(file.bytes);
+    file.grew_at = now;
+    news.changed = true;
+  }
+}
+
+void LiveSurvey::read(File& file, LiveClock::time_point now, News& news) {
+  const auto size = file.bytes->size();
+  if (!size && size.error().code == ErrorCode::mismatch) {
+    // Another file of that name: nothing that was known of the one before holds.
+    file.bytes = growing_file(file.path);
+    file.pings = ping_source(file.bytes);
+    file.size = 0;
+    news.changed = news.replaced = true;
+    return read(file, now, news);
+  }
+  const bool was_there = !file.error;
+  file.error.reset();
+  if (!size) {
+    file.error = size.error();
+  } else if (*size != file.size) {
+    if (file.pings->final()) file.pings = ping_source(file.bytes);  // it went on after all
+    const auto fresh = file.pings->refresh();
+    if (!fresh) {
+      file.error = fresh.error();
+    } else {
+      news.pings += *fresh;
+      news.bytes += *size - file.size;
+      file.size = *size;
+      file.grew_at = now;
+    }
+  }
+  if (file.error) {
+    file.grew_at = now;  // whether it grows meanwhile nobody knows
+    news.cannot = file.error;
+  }
+  news.changed = news.changed || was_there == file.error.has_value();
+}
+
+bool LiveSurvey::is_succeeded(const File& file) const {
+  const RawIndex& own = file.pings->index();
+  return std::any_of(files_.begin(), files_.end(), [&](const auto& entry) {
+    const RawIndex& other = entry.second.pings->index();
+    return &entry.second != &file && same_sounder(own, other) && other.first_datagram_time > own.last_datagram_time;
+  });
+}
+
+void LiveSurvey::finish_files(LiveClock::time_point now, News& news) {
+  for (auto& [path, file] : files_) {
+    if (file.error || file.pings->final()) continue;
+    const auto quiet = now - file.grew_at;
+    const bool over = ended_ || quiet > std::max<LiveClock::duration>(gap_of(params_), kStillWriting) ||
+                      (quiet >= kStillWriting && is_succeeded(file));
+    if (!over) continue;
+    const std::size_t before = file.pings->count();
+    if (auto done = file.pings->finish(); !done) {
+      file.error = done.error();
+      news.cannot = file.error;
+      file.pings = ping_source(file.bytes);
+      file.size = 0;  // from its first byte, when it can be read again
+    } else {
+      keep_index(path, cache_, file.pings->index());
+    }
+    news.pings += file.pings->count() - std::min(before, file.pings->count());
+    news.changed = true;
+  }
+}
+
+void LiveSurvey::arrange() {
+  std::vector<SurveyFile> files;
+  for (const auto& [path, file] : files_) {
+    SurveyFile known{file.path, file.pings->index(), {}};
+    known.index.name = file.path.string();
+    if (known.index.pings.empty()) known.error = file.error;
+    files.push_back(std::move(known));
+  }
+  survey_ = std::make_shared<const SurveyFiles>(arrange_survey(std::move(files), params_, navigation_, starts_));
+}
+
+bool LiveSurvey::over(const ObservationFiles& observation) const {
+  const bool all_final = std::all_of(observation.files.begin(), observation.files.end(),
+                                     [&](std::uint32_t f) { return files_.at(survey_->files[f].path).pings->final(); });
+  if (!all_final) return false;
+  const auto any_later = [&](const ObservationFiles& other) {
+    return sounder_of(other) == sounder_of(observation) && &other > &observation;
+  };
+  const bool others_final =
+      std::all_of(files_.begin(), files_.end(), [](const auto& file) { return file.second.pings->final(); });
+  return others_final || std::any_of(survey_->observations.begin(), survey_->observations.end(), any_later);
+}
+
+void LiveSurvey::let_go_before(const std::string& observation) {
+  const ObservationFiles* kept = survey_->find(observation);
+  if (kept == nullptr || !survey_->further_parts.empty()) return;
+  SequenceStart start;
+  start.file = survey_->files[kept->pings.front().file].path;
+  start.entry = kept->pings.front().entry;
+  start.continues_cut = kept->continues_cut;
+  start.cut_after = kept->cut_after;
+  start.notes.assign(kept->diagnostics.begin(),
+                     kept->diagnostics.begin() + static_cast<std::ptrdiff_t>(kept->cut_notes));
+  std::set<fs::path> in_use;
+  start.observations = starts_[sounder_of(*kept)].observations;
+  for (const ObservationFiles& other : survey_->observations) {
+    const bool before = sounder_of(other) == sounder_of(*kept) && &other < kept;
+    if (before) ++start.observations;
+    if (before) continue;
+    for (const std::uint32_t f : other.files) in_use.insert(survey_->files[f].path);
+  }
+  starts_[sounder_of(*kept)] = std::move(start);
+  std::erase_if(files_, [&](const auto& entry) {
+    const bool done = entry.second.pings->final() && entry.second.pings->count() > 0 && !in_use.contains(entry.first);
+    if (done) let_go_.insert(entry.first);
+    return done;
+  });
+  arrange();
+}
+
+}  // namespace sonar
