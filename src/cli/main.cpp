@@ -64,6 +64,7 @@ int run_program(int argc, char** argv) {
   add_simulate(app, run);
   add_run(app, run);
   add_plan(app, run);
+  add_follow(app, run);
   add_merge(app, run);
   add_propagate(app, run);
   add_export(app, run);

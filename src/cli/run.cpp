@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/run.h"
+#include "cli/run_survey.h"
 
 #include <fmt/format.h>
 
@@ -25,28 +25,13 @@
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
 #include "pipeline/refused_echoes.h"
+#include "pipeline/run.h"
 
 namespace sonar {
 namespace {
 
 /// Far beyond a plan's size; a larger number is a slip.
 constexpr int kMostTasks = 10'000'000;
-
-struct RunArguments {
-  std::vector<std::string> survey;
-  std::string out;
-  std::string recipe;
-  Measured measured;
-  std::string session;
-  std::string plan;
-  std::string only;
-  std::string pings;
-  std::int64_t task = 0;
-  bool has_task = false;
-  bool remeasure = false;
-  bool why = false;
-  int jobs = 0;
-};
 
 /// "A:B", both inclusive from 0.
 Result<std::optional<PingSelection>> parse_pings(const std::string& text) {
@@ -83,16 +68,6 @@ void note_lost_choices(Opened& opened) {
 Result<Journal> read_session(const std::string& path) {
   if (path.empty()) return Journal{};
   return read_journal(path);
-}
-
-/// A recipe that was asked for; else the one that the session's choices were made under; else the default.
-Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
-  if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
-    auto recipe = recipe_from_text(journal.recipe);
-    if (!recipe) return fail(recipe.error().code, "its recipe: " + recipe.error().text, {arguments.session});
-    return recipe;
-  }
-  return chosen_recipe(arguments.recipe, arguments.measured);
 }
 
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
@@ -231,7 +206,18 @@ int finish(const Opened& opened, const RunOptions& options, RunReport report, Wo
   return report.done.empty() && report.skipped.empty() ? kExitFailed : kExitPartly;
 }
 
-int run_verb(const RunArguments& arguments) {
+}  // namespace
+
+Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
+  if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
+    auto recipe = recipe_from_text(journal.recipe);
+    if (!recipe) return fail(recipe.error().code, "its recipe: " + recipe.error().text, {arguments.session});
+    return recipe;
+  }
+  return chosen_recipe(arguments.recipe, arguments.measured);
+}
+
+int run_survey(const RunArguments& arguments) {
   if (arguments.plan.empty() == arguments.survey.empty()) {
     return report({ErrorCode::usage, "run needs a SURVEY, or --plan with --task", {}});
   }
@@ -267,8 +253,6 @@ int run_verb(const RunArguments& arguments) {
   return finish(*opened, options, *done, work);
 }
 
-}  // namespace
-
 void add_run(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
   CLI::App* verb = app.add_subcommand("run", "Process a survey: schools, masks, tables and the map");
@@ -295,7 +279,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->callback([arguments, task, &run, out, plan] {
     if (out->count() == 0 && plan->count() == 0) throw CLI::RequiredError("--out");
     arguments->has_task = task->count() > 0;
-    run = [arguments] { return run_verb(*arguments); };
+    run = [arguments] { return run_survey(*arguments); };
   });
 }
 

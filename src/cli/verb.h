@@ -17,6 +17,7 @@ void add_info(CLI::App& app, VerbRunner& run);
 void add_simulate(CLI::App& app, VerbRunner& run);
 void add_run(CLI::App& app, VerbRunner& run);
 void add_plan(CLI::App& app, VerbRunner& run);
+void add_follow(CLI::App& app, VerbRunner& run);
 void add_merge(CLI::App& app, VerbRunner& run);
 void add_propagate(CLI::App& app, VerbRunner& run);
 void add_export(CLI::App& app, VerbRunner& run);

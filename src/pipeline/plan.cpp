@@ -114,6 +114,19 @@ bool has_pings(const PlanTask& task, const std::optional<PingSelection>& pings) 
   return !pings || pings->first < task.pings;
 }
 
+PlanTask task_of(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                 const ObserveOptions& options) {
+  PlanTask task;
+  task.observation = observation.name;
+  for (const InputFile& file : input_files(survey, observation)) task.files.push_back(file.name);
+  task.pings = static_cast<std::int64_t>(observation.pings.size());
+  task.first_time = observation.navigation.front().time;
+  task.last_time = observation.navigation.back().time;
+  task.continues_cut = observation.continues_cut;
+  task.key = observation_key(survey, observation, recipe, options);
+  return task;
+}
+
 Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
   Plan plan;
@@ -126,15 +139,7 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
   plan.notes = survey.diagnostics;
   for (Diagnostic& note : plan.notes) note.file = std::filesystem::path(note.file).filename().string();
   for (const ObservationFiles& observation : survey.observations) {
-    PlanTask task;
-    task.observation = observation.name;
-    for (const InputFile& file : input_files(survey, observation)) task.files.push_back(file.name);
-    task.pings = static_cast<std::int64_t>(observation.pings.size());
-    task.first_time = observation.navigation.front().time;
-    task.last_time = observation.navigation.back().time;
-    task.continues_cut = observation.continues_cut;
-    task.key = observation_key(survey, observation, recipe, options);
-    plan.tasks.push_back(std::move(task));
+    plan.tasks.push_back(task_of(survey, observation, recipe, options));
   }
   return plan;
 }

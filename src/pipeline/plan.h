@@ -42,6 +42,9 @@ struct Plan {
 /// Whether an observation is long enough to have some of these pings; empty = all.
 [[nodiscard]] bool has_pings(const PlanTask& task, const std::optional<PingSelection>& pings);
 
+/// What is to be done for one observation.
+[[nodiscard]] PlanTask task_of(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                               const ObserveOptions& options);
 /// From headers only.
 [[nodiscard]] Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                              const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "model/product.h"
+#include "pipeline/journal.h"
+#include "pipeline/live_survey.h"
+#include "pipeline/merge.h"
+#include "pipeline/observe_memory.h"
+#include "pipeline/plan.h"
+#include "pipeline/recipe.h"
+#include "pipeline/run.h"
+
+namespace sonar {
+
+struct FollowOptions {
+  std::vector<std::filesystem::path> survey;
+  std::filesystem::path out;
+  std::filesystem::path session;  ///< journal of human choices, read again when it grows; empty = none
+  std::string program_version;
+  IndexCache cache;  ///< for indexes of files that are final
+};
+
+/// A school as it stands while its observation goes on.
+struct LiveSchool {
+  SchoolRow school;      ///< over its pings so far
+  SchoolPingRow newest;  ///< where it was seen last
+  PingNavigation ship;   ///< at that ping
+  bool is_new = false;   ///< was not there at the look before
+};
+
+/// A survey worked on while it is recorded: the same stages as run(), on what is there. An observation's product is written
+/// when it is over, and is the one that run() makes of the finished files; until then what is known of it is provisional, as
+/// are its schools' numbers.
+/// threads  one
+class Follow {
+ public:
+  Follow(FollowOptions options, Recipe recipe);
+
+  struct Look {
+    LiveSurvey::News news;
+    std::vector<std::string> finished;  ///< observations that were over, their products written
+    std::vector<RunFailure> failures;   ///< tried again at a later look
+    std::vector<LiveSchool> schools;    ///< of the observations that go on: in their newest ping, or new
+  };
+  /// Takes in what came, works it out, writes the products of observations that are over.
+  /// errors  cancelled; no_space, io: a product could not be written, what is known stays; bad_parameter
+  [[nodiscard]] Result<Look> look(LiveClock::time_point now, Work& work);
+  /// Writes what is known of observations that go on, the plan, the tables and the map.
+  /// errors  no_space, io, mismatch
+  [[nodiscard]] Result<MergeReport> write(Work& work);
+  /// Nothing more will come: the next look ends every observation.
+  void end() { live_.end(); }
+
+  [[nodiscard]] std::shared_ptr<const SurveyFiles> survey() const { return live_.survey(); }
+  [[nodiscard]] LiveClock::duration quiet(LiveClock::time_point now) const { return live_.quiet(now); }
+  /// Whether something came since write().
+  [[nodiscard]] bool unwritten() const { return unwritten_; }
+
+ private:
+  struct AtWork {
+    std::unique_ptr<ObserveMemory> memory = std::make_unique<ObserveMemory>();
+    std::optional<ObservationProduct> product;  ///< the newest; empty once it is over
+    std::string key;                            ///< of the product that is written
+  };
+  void read_session();
+  Result<void> work_on(const ObservationFiles& observation, Look& look, Work& work);
+  Result<void> end_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work);
+  [[nodiscard]] Result<ObservationProduct> observed(const ObservationFiles& observation, AtWork& at_work, bool over,
+                                                    Work& work);
+  void tell_schools(const AtWork& at_work, const std::optional<ObservationProduct>& before, Look& look) const;
+  void let_go();
+
+  FollowOptions options_;
+  Recipe recipe_;
+  LiveSurvey live_;
+  std::vector<JournalLine> journal_;
+  std::uintmax_t journal_size_ = 0;
+  std::map<std::string, AtWork> at_work_;  ///< by observation
+  std::map<std::string, PlanTask> tasks_;  ///< of all observations, those that were let go too
+  bool unwritten_ = false;
+};
+
+}  // namespace sonar
