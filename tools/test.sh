@@ -92,25 +92,6 @@ headless() {
   ! grep -n 'Qt[56]' build/headless/build.ninja && ! ldd build/headless/src/cli/sonarx | grep -i 'libqt\|not found'
 }
 
-fuzz_a_little() {
-  # The corpora, replayed in the tests already, and what a few seconds find beside them. A finding stays in build/fuzzed.
-  local seconds=$1 target name
-  # netCDF and HDF5 keep what they allocate until the program ends.
-  export ASAN_OPTIONS=quarantine_size_mb=8:malloc_context_size=4:detect_leaks=0
-  mkdir -p build/fuzzed
-  for target in build/asan/fuzz/fuzz_*; do
-    name=${target##*/fuzz_}
-    mkdir -p "build/fuzzed/$name"
-    if ! "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -seed=1 -verbosity=0 \
-      -artifact_prefix="build/fuzzed/$name-" "build/fuzzed/$name" "tests/data/fuzz/$name" >"build/fuzzed/$name.log" 2>&1; then
-      tail -n 40 "build/fuzzed/$name.log"
-      echo "fuzz_$name: the input stands in build/fuzzed/$name-*" >&2
-      return 1
-    fi
-    rm -rf "build/fuzzed/$name"
-  done
-}
-
 benchmarks() {
   if ! compgen -G '/usr/lib/cmake/ITK-*' >/dev/null; then
     echo "ITK is not installed (tools/setup.sh bench): left out"
@@ -134,7 +115,7 @@ if $full; then
   part "build with clang 16, address and undefined-behaviour sanitizers" build asan
   part "clang-tidy" tidy
   part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE 'slow|gui'
-  part "fuzzing" fuzz_a_little 5
+  part "fuzzing" tools/fuzz --seconds 5 --seed 1 --no-ledger
   part "threaded tests with the thread sanitizer" threaded_tests
   part "headless build" headless
   part "build of the benchmarks" benchmarks

@@ -63,6 +63,17 @@ TEST(FuzzCorpus, Product) {
   fs::remove_all(folder);
 }
 
+TEST(FuzzCorpus, ProductBytes) {
+  const fs::path folder = fs::temp_directory_path() / ("sonar_fuzz_product_bytes_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  replay("product_bytes", [&](const std::string& bytes) { fuzz::product_bytes(bytes, folder); });
+  fs::remove_all(folder);
+}
+
+TEST(FuzzCorpus, Wire) {
+  replay("wire", [](const std::string& bytes) { fuzz::wire(std::as_bytes(std::span(bytes))); });
+}
+
 TEST(FuzzCorpus, DepthRaster) {
   const fs::path folder = fs::temp_directory_path() / ("sonar_fuzz_rasters_" + std::to_string(::getpid()));
   fs::create_directories(folder);

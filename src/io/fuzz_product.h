@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/check.h"
@@ -128,5 +130,18 @@ class ProductFuzz {
   std::filesystem::path folder_;
   NetcdfModel sound_;
 };
+
+/// Any bytes under a right seal are refused or read: what HDF5 makes of them happens in the reading child.
+inline void product_bytes(std::string_view bytes, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "obs-0001.nc";
+  {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    SONAR_CHECK(out.good());
+  }
+  SONAR_CHECK(append_seal(file, file.string()).has_value());
+  const auto read = read_product(file);
+  SONAR_CHECK(read.has_value() || !read.error().text.empty());
+}
 
 }  // namespace sonar::fuzz

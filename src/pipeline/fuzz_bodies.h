@@ -14,6 +14,7 @@
 #include "pipeline/manual.h"
 #include "pipeline/plan.h"
 #include "pipeline/recipe.h"
+#include "pipeline/sound_profile.h"
 #include "pipeline/transfer_function_json.h"
 
 namespace sonar::fuzz {
@@ -78,6 +79,19 @@ inline void calibration_csv(std::string_view text) {
   const std::string written = recipe_text(with);
   const auto again = recipe_from_text(written);
   SONAR_CHECK(again.has_value() && recipe_text(*again) == written);
+}
+
+/// A profile that is taken has a speed of this planet's water between any depths, and is one that a recipe may hold.
+inline void sound_profile(std::string_view text) {
+  const auto table = parse_csv(text, "fuzz");
+  const auto profile = table ? profile_from_table(*table) : Result<SoundProfile>(pass_on(table));
+  if (!profile) return;
+  for (const double depth_m : {0.0, 3.5, 200.0}) {
+    const double speed_mps = harmonic_mean_mps(*profile, depth_m, 400.0);
+    SONAR_CHECK(speed_mps >= 999.0 && speed_mps <= 2001.0);
+  }
+  const auto again = profile_from_json(to_json(*profile));
+  SONAR_CHECK(again.has_value() && *again == *profile);
 }
 
 }  // namespace sonar::fuzz

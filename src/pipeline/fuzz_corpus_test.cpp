@@ -43,5 +43,9 @@ TEST(FuzzCorpus, CalibrationCsv) {
   replay("calibration_csv", [](const std::string& text) { fuzz::calibration_csv(text); });
 }
 
+TEST(FuzzCorpus, SoundProfile) {
+  replay("sound_profile", [](const std::string& text) { fuzz::sound_profile(text); });
+}
+
 }  // namespace
 }  // namespace sonar

@@ -24,7 +24,7 @@ double envelope(double x, double taper) {
 }  // namespace
 
 Pulse::Pulse(double length_s, double sample_interval_s, double taper)
-    : length_s_(length_s), step_s_(length_s / kSteps), amplitude_(kSteps + 1) {
+    : step_s_(length_s / kSteps), amplitude_(kSteps + 1) {
   std::vector<double> sent(kSteps);
   for (int i = 0; i < kSteps; ++i) sent[static_cast<std::size_t>(i)] = envelope((i + 0.5) / kSteps, taper);
   for (std::size_t lag = 0; lag <= kSteps; ++lag) {

@@ -27,7 +27,6 @@ class Pulse {
   [[nodiscard]] const Taps& noise_taps() const { return noise_; }
 
  private:
-  double length_s_;
   double step_s_;
   double effective_s_ = 0.0;
   std::vector<double> amplitude_;  ///< at multiples of step_s_ from the peak
