@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/follow_lines.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
-
-#include "pipeline/live_targets.h"
 
 namespace sonar {
 namespace {
@@ -32,26 +29,7 @@ struct Members {
   }
 };
 
-std::string place(const SchoolPingRow& row) {
-  return std::isfinite(row.latitude) ? fmt::format("{:.5f} {:.5f}", row.latitude, row.longitude) : "place unknown";
-}
-
-std::string motion(const SchoolRow& school) {
-  if (!std::isfinite(school.speed_mps)) return "motion unknown";
-  if (!std::isfinite(school.course_deg)) return fmt::format("{:.1f} m/s", school.speed_mps);
-  return fmt::format("course {:.0f} deg, {:.1f} m/s", school.course_deg, school.speed_mps);
-}
-
 }  // namespace
-
-std::string school_line(const LiveSchool& school) {
-  const SchoolPingRow& row = school.newest;
-  const std::string bearing =
-      std::isfinite(row.bearing_deg) ? fmt::format(" at {:.0f} deg", row.bearing_deg) : std::string{};
-  return fmt::format("{} {}: {:.0f} m off{}, {:.0f} m deep; {}; {}; {:.0f} x {:.0f} x {:.0f} m, {:.1f} dB",
-                     iso_time(row.time_utc), name_of(school), row.range_m, bearing, row.depth_m, place(row),
-                     motion(school.school), row.length_m, row.width_m, row.height_m, row.sv_mean_db);
-}
 
 json school_json(const LiveSchool& school) {
   Members members;

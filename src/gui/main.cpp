@@ -13,6 +13,7 @@
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
 #include "session/demo.h"
+#include "session/live_watch.h"
 
 namespace sonar {
 namespace {
@@ -37,6 +38,7 @@ struct CommandLine {
   QCommandLineParser parser;
   QCommandLineOption demo{"demo", "Open a simulated survey; it is made first where it is not there yet"};
   QCommandLineOption dark{"dark", "Begin in dark colours"};
+  QCommandLineOption live{"live", "The survey is still being recorded: follow it"};
 
   CommandLine() {
     QCoreApplication::setApplicationName("sonar-explorer");
@@ -45,7 +47,7 @@ struct CommandLine {
     parser.addHelpOption();
     parser.addVersionOption();
     parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
-    parser.addOptions({demo, dark});
+    parser.addOptions({demo, dark, live});
   }
 };
 
@@ -86,6 +88,7 @@ int run_program(int argc, char** argv) {
   if (parser.isSet(demo)) {
     open_demo(desk);
   } else if (!paths.empty()) {
+    if (parser.isSet(line.live)) desk.live->follow_next();
     desk.workspace.document.open(std::move(paths));
   }
   return QApplication::exec();

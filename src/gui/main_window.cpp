@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/main_window.h"
+#include "gui/live_strip.h"
 
 #include <QAction>
 #include <QApplication>
@@ -92,6 +93,7 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   add_tool_bar(*this, desk);
   add_panels_menu(*this);
   add_status_line(*this, desk);
+  add_live_strip(*this, desk);
   answer();
   const auto theme = [this, &desk] {
     take_theme(desk.workspace.dark());

@@ -37,7 +37,29 @@ class SimradPings final : public PingSource {
   bool final_ = false;
 };
 
+class IndexedPings final : public PingSource {
+ public:
+  IndexedPings(std::shared_ptr<const ByteSource> bytes, RawIndex index)
+      : bytes_(std::move(bytes)), index_(std::move(index)) {}
+
+  [[nodiscard]] const RawIndex& index() const override { return index_; }
+  [[nodiscard]] Result<Ping> read(std::size_t i, BlockPool& pool) const override {
+    return read_ping(*bytes_, header(i), pool);
+  }
+  Result<std::size_t> refresh() override { return std::size_t{0}; }
+  Result<void> finish() override { return {}; }
+  [[nodiscard]] bool final() const override { return true; }
+
+ private:
+  std::shared_ptr<const ByteSource> bytes_;
+  RawIndex index_;
+};
+
 }  // namespace
+
+std::unique_ptr<PingSource> ping_source(std::shared_ptr<const ByteSource> bytes, RawIndex index) {
+  return std::make_unique<IndexedPings>(std::move(bytes), std::move(index));
+}
 
 std::unique_ptr<PingSource> ping_source(std::shared_ptr<const ByteSource> bytes) {
   return std::make_unique<SimradPings>(std::move(bytes));

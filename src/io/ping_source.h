@@ -45,6 +45,8 @@ class PingSource {
 };
 
 [[nodiscard]] std::unique_ptr<PingSource> ping_source(std::shared_ptr<const ByteSource> bytes);
+/// Of a whole file whose index is known: final from the beginning.
+[[nodiscard]] std::unique_ptr<PingSource> ping_source(std::shared_ptr<const ByteSource> bytes, RawIndex index);
 
 /// Reads the whole file once, in blocks, and indexes it; damage is in the diagnostics.
 /// errors  io

@@ -152,6 +152,14 @@ bool has_pings(const ObservationProduct& product, const std::string& source, std
                     [&](const PingNavigation& ping, TimeNs time) { return minus(ping.time, offset) == time; });
 }
 
+EarlierSchools numbers_of(const ObservationProduct& before) {
+  EarlierSchools schools;
+  ObservationProduct copy = before;
+  copy.background_db = {};
+  schools.add(std::move(copy), time_offset_s(before.recipe_json));
+  return schools;
+}
+
 void forget_superseded(const fs::path& out, const std::vector<ObservationProduct>& finished) {
   if (!require_own_folder(folder_of(out))) return;
   std::error_code error;

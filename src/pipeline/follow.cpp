@@ -15,15 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Its numbers are those of `before`, as far as they are the same schools: who was told of one finds it again.
-EarlierSchools numbers_of(const ObservationProduct& before) {
-  EarlierSchools schools;
-  ObservationProduct copy = before;
-  copy.background_db = {};
-  schools.add(std::move(copy), time_offset_s(before.recipe_json));
-  return schools;
-}
-
 /// What a product says that pings to come may change: nothing names it right.
 void mark_provisional(ObservationProduct& product) {
   for (SchoolPingRow& row : product.school_pings) row.provisional = 1;
@@ -101,7 +92,9 @@ Result<void> Follow::work_on(const ObservationFiles& observation, Look& look, Wo
   if (!product) return pass_on(product);
   mark_provisional(*product);
   const auto before = std::exchange(at_work.product, std::move(*product));
-  tell_schools(at_work, before, look);
+  for (LiveSchool& school : live_schools(*at_work.product, before ? &*before : nullptr)) {
+    look.schools.push_back(std::move(school));
+  }
   return {};
 }
 
@@ -118,21 +111,6 @@ Result<void> Follow::end_one(const ObservationFiles& observation, AtWork& at_wor
   at_work.memory = std::make_unique<ObserveMemory>();
   look.finished.push_back(observation.name);
   return {};
-}
-
-void Follow::tell_schools(const AtWork& at_work, const std::optional<ObservationProduct>& before, Look& look) const {
-  const ObservationProduct& product = *at_work.product;
-  const std::int64_t newest_ping = std::ssize(product.pings) - 1;
-  for (const SchoolRow& school : product.schools) {
-    if (school.status == "rejected") continue;
-    const auto last = std::find_if(product.school_pings.rbegin(), product.school_pings.rend(),
-                                   [&](const SchoolPingRow& row) { return row.school_id == school.school_id; });
-    if (last == product.school_pings.rend()) continue;
-    const bool known = before && std::any_of(before->schools.begin(), before->schools.end(),
-                                             [&](const SchoolRow& row) { return row.school_id == school.school_id; });
-    if (known && last->ping_index < newest_ping) continue;
-    look.schools.push_back({school, *last, product.pings[static_cast<std::size_t>(last->ping_index)], !known});
-  }
 }
 
 void Follow::let_go() {

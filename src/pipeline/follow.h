@@ -12,6 +12,7 @@
 #include "base/work.h"
 #include "model/product.h"
 #include "pipeline/journal.h"
+#include "pipeline/live_schools.h"
 #include "pipeline/live_survey.h"
 #include "pipeline/merge.h"
 #include "pipeline/observe_memory.h"
@@ -27,14 +28,6 @@ struct FollowOptions {
   std::filesystem::path session;  ///< journal of human choices, read again when it grows; empty = none
   std::string program_version;
   IndexCache cache;  ///< for indexes of files that are final
-};
-
-/// A school as it stands while its observation goes on.
-struct LiveSchool {
-  SchoolRow school;      ///< over its pings so far
-  SchoolPingRow newest;  ///< where it was seen last
-  PingNavigation ship;   ///< at that ping
-  bool is_new = false;   ///< was not there at the look before
 };
 
 /// A survey worked on while it is recorded: the same stages as run(), on what is there. An observation's product is written
@@ -76,7 +69,6 @@ class Follow {
   Result<void> end_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work);
   [[nodiscard]] Result<ObservationProduct> observed(const ObservationFiles& observation, AtWork& at_work, bool over,
                                                     Work& work);
-  void tell_schools(const AtWork& at_work, const std::optional<ObservationProduct>& before, Look& look) const;
   void let_go();
 
   FollowOptions options_;

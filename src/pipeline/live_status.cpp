@@ -16,14 +16,6 @@ constexpr TimeNs kMinute = 60 * kSecondNs;
 
 double seconds(TimeNs time) { return static_cast<double>(time) / static_cast<double>(kSecondNs); }
 
-/// The observation whose last ping is the newest.
-const ObservationFiles& newest_observation(const SurveyFiles& survey) {
-  return *std::max_element(survey.observations.begin(), survey.observations.end(),
-                           [&](const ObservationFiles& a, const ObservationFiles& b) {
-                             return survey.entry(a.pings.back()).time < survey.entry(b.pings.back()).time;
-                           });
-}
-
 double rate(const SurveyFiles& survey, const ObservationFiles& observation) {
   const TimeNs last = survey.entry(observation.pings.back()).time;
   std::size_t first = observation.pings.size() - 1;
@@ -53,8 +45,16 @@ std::string told(double value, const char* unit, int decimals = 1) {
 
 }  // namespace
 
+std::size_t newest_observation(const SurveyFiles& survey) {
+  const auto newest = std::max_element(survey.observations.begin(), survey.observations.end(),
+                                       [&](const ObservationFiles& a, const ObservationFiles& b) {
+                                         return survey.entry(a.pings.back()).time < survey.entry(b.pings.back()).time;
+                                       });
+  return static_cast<std::size_t>(newest - survey.observations.begin());
+}
+
 LiveStatus live_status(const SurveyFiles& survey, double behind_s, const std::filesystem::path& out) {
-  const ObservationFiles& observation = newest_observation(survey);
+  const ObservationFiles& observation = survey.observations[newest_observation(survey)];
   LiveStatus status;
   status.observation = observation.name;
   status.pings = std::ssize(observation.pings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -23,6 +24,10 @@ struct LiveStatus {
   std::int64_t lost_channels = 0;  ///< that the newest ping lacks
   double disk_left_gb = 0.0;       ///< where products are written, 10^9 bytes
 };
+
+/// The observation whose last ping is the newest.
+/// survey  with at least one ping
+[[nodiscard]] std::size_t newest_observation(const SurveyFiles& survey);
 
 /// survey  with at least one ping
 /// out     folder of the products

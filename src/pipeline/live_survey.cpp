@@ -41,7 +41,7 @@ LiveSurvey::LiveSurvey(std::vector<fs::path> paths, const SurveyParams& params, 
 Result<LiveSurvey::News> LiveSurvey::look(LiveClock::time_point now, Work& work) {
   News news;
   if (grew_at_ == LiveClock::time_point{}) grew_at_ = now;
-  list(now, news);
+  list(now, news, work);
   for (auto& [path, file] : files_) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     read(file, now, news);
@@ -55,7 +55,20 @@ Result<LiveSurvey::News> LiveSurvey::look(LiveClock::time_point now, Work& work)
   return news;
 }
 
-void LiveSurvey::list(LiveClock::time_point now, News& news) {
+/// A file that has not been written to for longer than a gap is whole: its index may be known.
+void LiveSurvey::take_whole(File& file, News& news, Work& work) {
+  std::error_code unknown;
+  const auto changed = fs::last_write_time(file.path, unknown);
+  if (unknown || fs::file_time_type::clock::now() - changed <= gap_of(params_)) return;
+  auto index = open_index(file.path, cache_, work);
+  if (!index) return;
+  file.size = index->size;
+  news.bytes += index->size;
+  news.pings += index->pings.size();
+  file.pings = ping_source(file.bytes, std::move(*index));
+}
+
+void LiveSurvey::list(LiveClock::time_point now, News& news, Work& work) {
   const auto listed = list_survey(paths_);
   if (!listed) {
     news.cannot = listed.error();
@@ -66,9 +79,11 @@ void LiveSurvey::list(LiveClock::time_point now, News& news) {
     File& file = files_[path];
     file.path = path;
     file.bytes = growing_file(path);
-    file.pings = ping_source(file.bytes);
     file.grew_at = now;
+    file.pings = ping_source(file.bytes);
+    take_whole(file, news, work);
     news.changed = true;
+    if (work.cancelled()) return;
   }
 }
 

@@ -67,7 +67,8 @@ class LiveSurvey {
     LiveClock::time_point grew_at;
     std::optional<Error> error;
   };
-  void list(LiveClock::time_point now, News& news);
+  void list(LiveClock::time_point now, News& news, Work& work);
+  void take_whole(File& file, News& news, Work& work);
   void read(File& file, LiveClock::time_point now, News& news);
   void finish_files(LiveClock::time_point now, News& news);
   [[nodiscard]] bool is_succeeded(const File& file) const;

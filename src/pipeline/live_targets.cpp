@@ -30,10 +30,6 @@ NmeaTarget target_of(const LiveSchool& school) {
 
 }  // namespace
 
-std::string name_of(const LiveSchool& school) {
-  return fmt::format("{}/{}", school.newest.observation, school.newest.school_id);
-}
-
 std::vector<std::string> LiveTargets::sentences(std::span<const LiveSchool> seen) {
   std::vector<std::string> sentences;
   const auto tell = [&](const NmeaTarget& target) {

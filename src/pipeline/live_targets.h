@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/nmea_targets.h"
-#include "pipeline/follow.h"
+#include "pipeline/live_schools.h"
 
 namespace sonar {
 
@@ -21,8 +21,5 @@ class LiveTargets {
  private:
   std::map<std::string, NmeaTarget> told_;  ///< by school
 };
-
-/// "obs-0001/3"
-[[nodiscard]] std::string name_of(const LiveSchool& school);
 
 }  // namespace sonar

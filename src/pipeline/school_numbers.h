@@ -29,6 +29,9 @@ struct EarlierSchools {
   void add(ObservationProduct product, double time_offset_s);
 };
 
+/// The numbers that an observation's schools had at the look before, while it goes on.
+[[nodiscard]] EarlierSchools numbers_of(const ObservationProduct& before);
+
 /// The mask's runs on another grid's rows; beams that it has not are left out. Confidences are all 1.
 [[nodiscard]] PingMask on_rows(const PingMask& mask, const std::vector<int>& channel_of_row,
                                const std::vector<int>& row_of_channel);

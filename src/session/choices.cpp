@@ -79,6 +79,13 @@ void Choices::open(OpenObservationPtr observation, std::optional<std::vector<Sch
   });
 }
 
+void Choices::grow(OpenObservationPtr observation) {
+  thread_.post([this, observation = std::move(observation)](const Wanted&) {
+    const auto of = open_.find(observation->index());
+    if (of != open_.end()) of->second.observation = observation;
+  });
+}
+
 void Choices::act(std::size_t observation, std::int64_t ping_index, Command command,
                   std::shared_ptr<JournalStep> step) {
   stopping_ = false;

@@ -73,6 +73,8 @@ class Choices {
   /// earlier   what other versions found there; null = nothing
   void open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected = {},
             std::shared_ptr<const EarlierSchools> earlier = {});
+  /// An observation that takes part has more pings: what was chosen stays as it is.
+  void grow(OpenObservationPtr observation);
   /// On a ping of an open observation.
   /// step  that the act is part of; null = it stands alone
   void act(std::size_t observation, std::int64_t ping_index, Command command,

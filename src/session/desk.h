@@ -17,6 +17,7 @@
 namespace sonar {
 
 class BrushTool;
+class LiveWatch;
 class Playback;
 class SeedTool;
 
@@ -58,6 +59,7 @@ class Desk {
   std::shared_ptr<SeedTool> seed_tool;
   std::shared_ptr<BrushTool> brush_tool;
   std::shared_ptr<Playback> playback;
+  std::shared_ptr<LiveWatch> live;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
   std::unique_ptr<TransferEditor> transfer;  ///< on top of the control panel

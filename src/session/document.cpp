@@ -161,7 +161,7 @@ void Document::replay_journal() {
   if (!undetected_.empty()) detect(std::exchange(undetected_, {}));
 }
 
-Result<void> Document::show(std::size_t observation) {
+Result<void> Document::show(std::size_t observation, std::int64_t ping) {
   if (!survey_ || observation >= survey_->observations.size()) return fail(ErrorCode::usage, "no such observation");
   const ObservationFiles& files = survey_->observations[observation];
   if (!files.grid) return fail(ErrorCode::usage, why_no_grid(files));
@@ -171,9 +171,9 @@ Result<void> Document::show(std::size_t observation) {
   unreadable_.clear();
   shown_ = opened(observation);
   propagating_.clear();
-  ping_ = 0;
+  ping_ = std::clamp<std::int64_t>(ping, 0, shown_->pings() - 1);
   changes_.tell(DocumentChange::observation);
-  look_at(0);
+  look_at(ping_);
   return {};
 }
 
@@ -316,10 +316,14 @@ void Document::detect(std::vector<std::size_t> observations) {
   });
 }
 
-bool Document::lacks_detected(std::size_t observation) const {
-  return choices_.lines && !choices_.searched.contains(observation) && observation < survey_->observations.size() &&
+bool Document::asks_for_schools(std::size_t observation) const {
+  return choices_.lines && observation < survey_->observations.size() &&
          asks_for_detection(effective_lines(*choices_.lines),
                             datagram_times(*survey_, survey_->observations[observation]));
+}
+
+bool Document::lacks_detected(std::size_t observation) const {
+  return !choices_.searched.contains(observation) && asks_for_schools(observation);
 }
 
 void Document::tell_lacking(const std::vector<std::size_t>& observations) {

@@ -81,6 +81,9 @@ class Document {
   /// Reads the survey in the background and then looks at its first observation; what was open is let go.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {});
+  /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
+  /// it is not the same survey with more pings and observations behind.
+  bool grow(std::shared_ptr<const SurveyFiles> survey);
   /// Ends what runs in the background; what was there before stays.
   void cancel();
   [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
@@ -111,8 +114,9 @@ class Document {
   void post(const Wanted& wanted, std::function<void()> change);
 
   // --- what is looked at
+  /// ping    that is looked at first; out of range = the nearest end
   /// errors  usage: no such observation, or one without a grid
-  Result<void> show(std::size_t observation);
+  Result<void> show(std::size_t observation, std::int64_t ping = 0);
   /// The observation on show; null before there is one.
   [[nodiscard]] const OpenObservationPtr& shown() const { return shown_; }
   /// Null where it is not open.
@@ -150,7 +154,11 @@ class Document {
   /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found. However
   /// many they are, it is one step to undo.
   void detect(std::vector<std::size_t> observations);
+  /// Schools that were looked for elsewhere, as detect() takes them.
+  void take_schools(std::size_t observation, const ObservationProduct& found);
   [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
+  /// Whether the journal asks for schools of this observation.
+  [[nodiscard]] bool asks_for_schools(std::size_t observation) const;
   /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
   [[nodiscard]] bool lacks_detected(std::size_t observation) const;
   /// What stood out where schools were looked for and is no school now: rows of /rejected. Never null.
@@ -188,6 +196,7 @@ class Document {
                       const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
                       const Wanted& wanted, Work& work);
   void take_measured();
+  void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
   void replay_journal();
   [[nodiscard]] OpenObservationPtr calibrated(const OpenObservationPtr& chosen_on) const;

@@ -59,10 +59,7 @@ void Document::measure_behind(const OpenObservationPtr& observation, const Journ
     return post(wanted, [this, line = to_line(product.error())] { tell(line); });
   }
   auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
-  post(wanted, [this, index = observation->index(), shared] {
-    products_[index] = shared;
-    changes_.tell(DocumentChange::measures);
-  });
+  post(wanted, [this, index = observation->index(), shared] { take_product(index, shared); });
 }
 
 void Document::take_measured() {

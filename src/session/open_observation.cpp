@@ -20,11 +20,12 @@ Result<void> room_for(const ObservationFiles& observation, std::uint64_t memory_
 }
 
 OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std::size_t index, const Recipe& recipe,
-                                 std::int64_t prefetch, std::uint64_t memory_bytes)
+                                 std::int64_t prefetch, std::uint64_t memory_bytes, std::shared_ptr<KnownPings> known)
     : survey_(std::move(survey)),
       index_(index),
       reach_(reach_within(memory_bytes, shape_of(survey_->observations[index]), prefetch)),
-      engine_(*survey_, survey_->observations[index], recipe) {
+      known_(std::move(known)),
+      engine_(*survey_, survey_->observations[index], recipe, known_.get()) {
   cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
   ground_ = ground_of(engine_, {0, engine_.pings() - 1});
   ground_.ping = [this](std::int64_t i) -> Result<FilteredPing> {
@@ -34,6 +35,12 @@ OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std:
   };
 }
 
+OpenObservation::OpenObservation(const OpenObservation& before, std::shared_ptr<const SurveyFiles> grown,
+                                 std::int64_t prefetch, std::uint64_t memory_bytes)
+    : OpenObservation(std::move(grown), before.index_, before.engine_.recipe(), prefetch, memory_bytes, before.known_) {
+  identity_ = before.identity_;
+}
+
 OpenObservation::OpenObservation(std::shared_ptr<OpenObservation> chosen_on, const Recipe& measuring,
                                  std::int64_t prefetch, std::uint64_t memory_bytes)
     : survey_(chosen_on->survey_),
@@ -41,7 +48,8 @@ OpenObservation::OpenObservation(std::shared_ptr<OpenObservation> chosen_on, con
       chosen_on_(std::move(chosen_on)),
       reach_(reach_within(memory_bytes, shape_of(survey_->observations[index_]), prefetch)),
       identity_(chosen_on_->identity_),
-      engine_(*survey_, survey_->observations[index_], measuring),
+      known_(chosen_on_->known_),
+      engine_(*survey_, survey_->observations[index_], measuring, known_.get()),
       ground_(chosen_on_->ground_) {
   cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "pipeline/engine.h"
 #include "pipeline/manual.h"
@@ -28,7 +29,11 @@ class OpenObservation {
   /// prefetch      pings to each side of the one looked at that are made ahead
   /// memory_bytes  that its pings may take: fewer are made ahead, and where not even one fits, ping() says so
   OpenObservation(std::shared_ptr<const SurveyFiles> survey, std::size_t index, const Recipe& recipe,
-                  std::int64_t prefetch, std::uint64_t memory_bytes = usual_memory());
+                  std::int64_t prefetch, std::uint64_t memory_bytes = usual_memory())
+      : OpenObservation(std::move(survey), index, recipe, prefetch, memory_bytes, std::make_shared<KnownPings>()) {}
+  /// The same observation with the pings that came since.
+  OpenObservation(const OpenObservation& before, std::shared_ptr<const SurveyFiles> grown, std::int64_t prefetch,
+                  std::uint64_t memory_bytes = usual_memory());
   /// The same observation under another calibration.
   OpenObservation(std::shared_ptr<OpenObservation> chosen_on, const Recipe& measuring, std::int64_t prefetch,
                   std::uint64_t memory_bytes = usual_memory());
@@ -49,7 +54,7 @@ class OpenObservation {
   [[nodiscard]] const CommandGround& ground() const { return ground_; }
   /// Whether pictures and measures follow another calibration than choices.
   [[nodiscard]] bool recalibrated() const { return chosen_on_ != nullptr; }
-  /// The same object for the same observation, whatever its calibration.
+  /// The same object for the same observation, whatever its calibration and however many pings it has by now.
   [[nodiscard]] const std::shared_ptr<const int>& identity() const { return identity_; }
   [[nodiscard]] PingCache& cache() { return *cache_; }
 
@@ -59,6 +64,8 @@ class OpenObservation {
   void estimate_background(std::int64_t ping_index);
 
  private:
+  OpenObservation(std::shared_ptr<const SurveyFiles> survey, std::size_t index, const Recipe& recipe,
+                  std::int64_t prefetch, std::uint64_t memory_bytes, std::shared_ptr<KnownPings> known);
   [[nodiscard]] Result<StagedPingPtr> made(std::int64_t ping_index);
 
   std::shared_ptr<const SurveyFiles> survey_;
@@ -66,6 +73,7 @@ class OpenObservation {
   std::shared_ptr<OpenObservation> chosen_on_;  ///< null = this one
   Result<std::int64_t> reach_;                  ///< of the cache, or why no ping can be read
   std::shared_ptr<const int> identity_ = std::make_shared<const int>(0);
+  std::shared_ptr<KnownPings> known_;  ///< goes on with the observation as it grows
   Engine engine_;
   std::mutex estimating_;
   CommandGround ground_;

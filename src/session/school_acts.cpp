@@ -241,7 +241,7 @@ void add_reshaping(Desk& desk) {
       Reshaping::fill_holes);
   add("school.smooth", "Smooth", "Ctrl+H", "Ctrl+Shift+H", "Take off spikes and close notches of the selected school",
       Reshaping::smooth);
-  add("school.largest_part", "Keep the largest part", "L", "Shift+L", "Drop all but the largest piece",
+  add("school.largest_part", "Keep the largest part", "Y", "Shift+Y", "Drop all but the largest piece",
       Reshaping::largest_part);
 }
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "session/desk_parts.h"
+#include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_model.h"
@@ -13,6 +14,7 @@ void add_slices(Desk& desk) {
   desk.seed_tool = std::make_shared<SeedTool>(workspace, desk.pulse);
   desk.brush_tool = std::make_shared<BrushTool>(workspace);
   desk.playback = std::make_shared<Playback>(workspace, desk.pulse);
+  desk.live = std::make_shared<LiveWatch>(workspace, desk.pulse);
   desk.pictures.push_back({"top_slice", "Slice from above", DockPlace::centre, "top_slice",
                            std::make_unique<SliceModel>(SliceSide::top, workspace, *desk.seed_tool, *desk.brush_tool)});
   desk.pictures.push_back(

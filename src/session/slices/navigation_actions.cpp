@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
 
@@ -90,6 +91,25 @@ void add_playing(Desk& desk) {
                     [&playback] { return playback.speed() != PlaySpeed::real_time; }});
 }
 
+void add_live(Desk& desk) {
+  LiveWatch& live = *desk.live;
+  desk.actions.add({.id = "file.live",
+                    .menu = "&File",
+                    .text = "Follow the recording",
+                    .keys = {"Ctrl+L"},
+                    .tip = "The survey is still being recorded: take in what comes, find its schools",
+                    .run = [&live] { live.set_on(!live.on()); },
+                    .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; },
+                    .checked = [&live] { return live.on(); }});
+  desk.actions.add({.id = "ping.live",
+                    .menu = kMenu,
+                    .text = "Newest ping, live",
+                    .keys = {"L"},
+                    .tip = "Back to the newest ping of a recording that is followed, and on with it",
+                    .run = [&live] { live.look_at_newest(); },
+                    .enabled = [&live] { return live.on() && !live.at_newest(); }});
+}
+
 }  // namespace
 
 void add_navigation_actions(Desk& desk) {
@@ -100,6 +120,7 @@ void add_navigation_actions(Desk& desk) {
   add_end(desk, "ping.first", "First ping", "Home", false);
   add_end(desk, "ping.last", "Last ping", "End", true);
   add_playing(desk);
+  add_live(desk);
   add_place(desk, "slice.fan_up", "Top slice: next fan up", "Up", 1, 0);
   add_place(desk, "slice.fan_down", "Top slice: next fan down", "Down", -1, 0);
   add_place(desk, "slice.beam_up", "Side slice: next beam", "Shift+Up", 0, 1);

@@ -40,6 +40,8 @@ struct Echograms::Filling {
 
   [[nodiscard]] std::int64_t pings() const { return keeps->pings(); }
   void begin();
+  /// The same observation with more pings.
+  void go_on_with(OpenObservationPtr grown);
   void add_next();
   void finish();
   [[nodiscard]] EchogramPtr fine_enough(const EchogramPyramid& all) const {
@@ -65,6 +67,14 @@ void Echograms::Filling::begin() {
   echogram = std::make_unique<EchogramPyramid>(range, per_column);
 }
 
+void Echograms::Filling::go_on_with(OpenObservationPtr grown) {
+  keeps = std::move(grown);
+  survey = {keeps, &keeps->survey()};
+  done.reset();
+  if (!echogram) begun = false;  // it came whole from the cache
+  entry = {};                    // not kept while it grows
+}
+
 void Echograms::Filling::add_next() {
   const auto i = static_cast<std::int64_t>(echogram->pings());
   const auto ping = keeps->ping(i);
@@ -84,13 +94,15 @@ void Echograms::Filling::add_next() {
 void Echograms::Filling::finish() {
   if (whole) keep_echogram(entry, *echogram);
   done = fine_enough(*echogram);
-  echogram.reset();
 }
 
 Echograms::Echograms(ChangeQueue& queue, Document& document) : queue_(queue), document_(document) {
   listening_.to(document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) forget();
-    if (change == DocumentChange::observation) follow_calibration();
+    if (change == DocumentChange::observation) {
+      follow_calibration();
+      follow_growth();
+    }
     if (change == DocumentChange::state || change == DocumentChange::ping) go_on();
   });
 }
@@ -101,6 +113,7 @@ void Echograms::forget() {
   kept_.clear();
   wanted_.clear();
   fillings_.clear();
+  asked_.clear();
   changed_.tell();
 }
 
@@ -113,6 +126,17 @@ void Echograms::follow_calibration() {
   kept_.clear();
   fillings_.clear();
   changed_.tell();
+}
+
+void Echograms::follow_growth() {
+  for (auto& [index, filling] : fillings_) {
+    const OpenObservationPtr now = document_.open_observation(index);
+    if (!now || !filling || now->pings() <= asked_[index]) continue;
+    asked_[index] = now->pings();
+    background_.post([filling, now](const Wanted&) { filling->go_on_with(now); });
+    if (const auto kept = kept_.find(index); kept != kept_.end()) kept->second.complete = false;
+  }
+  go_on();
 }
 
 EchogramPtr Echograms::of(std::size_t observation) const {
@@ -153,6 +177,7 @@ void Echograms::go_on() {
     filling->recipe = document_.measuring_recipe();
     filling->cache = document_.options().cache;
     filling->memory_bytes = document_.options().memory_bytes;
+    asked_[*next] = std::ssize(document_.survey()->observations[*next].pings);
   }
   read(filling);
 }
@@ -189,7 +214,8 @@ void Echograms::read(const std::shared_ptr<Filling>& filling) {
 }
 
 void Echograms::take(std::size_t observation, EchogramPtr echogram, bool complete) {
-  if (complete) fillings_.erase(observation);
+  // The last one may still be recorded: then it goes on from here.
+  if (complete && observation + 1 < document_.survey()->observations.size()) fillings_.erase(observation);
   if (!echogram) return;
   kept_[observation] = {std::move(echogram), complete};
   changed_.tell();

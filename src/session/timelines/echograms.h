@@ -46,6 +46,7 @@ class Echograms {
   };
   void forget();
   void follow_calibration();
+  void follow_growth();
   void go_on();
   void read(const std::shared_ptr<Filling>& filling);
   void take(std::size_t observation, EchogramPtr echogram, bool complete);
@@ -56,6 +57,7 @@ class Echograms {
   std::map<std::size_t, Kept> kept_;
   std::map<const void*, std::vector<std::size_t>> wanted_;
   std::map<std::size_t, std::shared_ptr<Filling>> fillings_;
+  std::map<std::size_t, std::int64_t> asked_;  ///< pings of each that is filled
   bool reading_ = false;
   std::string recipe_;                                          ///< hash of what echograms are made under
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QMainWindow>
+
+#include "session/desk.h"
+
+namespace sonar {
+
+/// A strip along the window's foot while a recording is followed: how it goes, and whether its newest ping is on show.
+void add_live_strip(QMainWindow& window, Desk& desk);
+
+}  // namespace sonar

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/live_schools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace sonar {
+namespace {
+
+std::string place(const SchoolPingRow& row) {
+  return std::isfinite(row.latitude) ? fmt::format("{:.5f} {:.5f}", row.latitude, row.longitude) : "place unknown";
+}
+
+std::string motion(const SchoolRow& school) {
+  if (!std::isfinite(school.speed_mps)) return "motion unknown";
+  if (!std::isfinite(school.course_deg)) return fmt::format("{:.1f} m/s", school.speed_mps);
+  return fmt::format("course {:.0f} deg, {:.1f} m/s", school.course_deg, school.speed_mps);
+}
+
+}  // namespace
+
+std::vector<LiveSchool> live_schools(const ObservationProduct& product, const ObservationProduct* before) {
+  std::vector<LiveSchool> schools;
+  const std::int64_t newest_ping = std::ssize(product.pings) - 1;
+  for (const SchoolRow& school : product.schools) {
+    if (school.status == "rejected") continue;
+    const auto last = std::find_if(product.school_pings.rbegin(), product.school_pings.rend(),
+                                   [&](const SchoolPingRow& row) { return row.school_id == school.school_id; });
+    if (last == product.school_pings.rend()) continue;
+    const bool known =
+        before != nullptr && std::any_of(before->schools.begin(), before->schools.end(),
+                                         [&](const SchoolRow& row) { return row.school_id == school.school_id; });
+    if (known && last->ping_index < newest_ping) continue;
+    schools.push_back({school, *last, product.pings[static_cast<std::size_t>(last->ping_index)], !known});
+  }
+  return schools;
+}
+
+std::string name_of(const LiveSchool& school) {
+  return fmt::format("{}/{}", school.newest.observation, school.newest.school_id);
+}
+
+std::string school_line(const LiveSchool& school) {
+  const SchoolPingRow& row = school.newest;
+  const std::string bearing =
+      std::isfinite(row.bearing_deg) ? fmt::format(" at {:.0f} deg", row.bearing_deg) : std::string{};
+  return fmt::format("{} {}: {:.0f} m off{}, {:.0f} m deep; {}; {}; {:.0f} x {:.0f} x {:.0f} m, {:.1f} dB",
+                     iso_time(row.time_utc), name_of(school), row.range_m, bearing, row.depth_m, place(row),
+                     motion(school.school), row.length_m, row.width_m, row.height_m, row.sv_mean_db);
+}
+
+}  // namespace sonar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A survey that is being recorded: more pings, more observations, the same choices.
+#include <algorithm>
+#include <utility>
+
+#include "session/document.h"
+
+namespace sonar {
+namespace {
+
+/// Whether a survey is another one with pings and observations added behind. The last ping of the one before may have been
+/// opened in the middle of its being written: it counts when it is whole.
+bool goes_on(const SurveyFiles& before, const SurveyFiles& grown) {
+  return before.observations.size() <= grown.observations.size() &&
+         std::equal(before.observations.begin(), before.observations.end(), grown.observations.begin(),
+                    [&](const ObservationFiles& a, const ObservationFiles& b) {
+                      return a.name == b.name && a.pings.size() <= b.pings.size() + 1 &&
+                             a.grid.has_value() == b.grid.has_value() &&
+                             before.ping_time(a, 0) == grown.ping_time(b, 0);
+                    });
+}
+
+bool same_pings(const OpenObservation& open, const SurveyFiles& grown) {
+  const ObservationFiles& before = open.files();
+  const ObservationFiles& now = grown.observations[open.index()];
+  return before.pings.size() == now.pings.size() &&
+         open.survey().entry(before.pings.back()).channels == grown.entry(now.pings.back()).channels;
+}
+
+/// A product of fewer pings, with those that came since: whoever draws it may look at any of them.
+ProductPtr with_pings(const ProductPtr& product, const ObservationFiles& observation) {
+  if (!product || product->pings.size() == observation.navigation.size()) return product;
+  if (product->pings.size() > observation.navigation.size()) return nullptr;
+  ObservationProduct grown = *product;
+  grown.pings = observation.navigation;
+  for (std::size_t i = 0; i < product->pings.size(); ++i) grown.pings[i].bad = product->pings[i].bad;
+  return std::make_shared<const ObservationProduct>(std::move(grown));
+}
+
+}  // namespace
+
+void Document::take_product(std::size_t observation, const ProductPtr& product) {
+  products_[observation] = with_pings(product, survey_->observations[observation]);
+  changes_.tell(DocumentChange::measures);
+}
+
+bool Document::grow(std::shared_ptr<const SurveyFiles> survey) {
+  if (!survey_ || !choices_thread_ || !goes_on(*survey_, *survey)) return false;
+  survey_ = std::move(survey);
+  for (auto& [index, chosen_on] : chosen_on_) {
+    if (same_pings(*chosen_on, *survey_)) continue;
+    chosen_on = std::make_shared<OpenObservation>(*chosen_on, survey_, options_.prefetch, options_.memory_bytes);
+    open_[index] = calibrated(chosen_on);
+    if (auto& product = products_[index]) product = with_pings(product, survey_->observations[index]);
+    choices_thread_->grow(chosen_on);
+  }
+  if (shown_) {
+    shown_ = open_.at(shown_->index());
+    ping_ = std::min(ping_, shown_->pings() - 1);
+  }
+  changes_.tell(DocumentChange::observation);
+  return true;
+}
+
+void Document::take_schools(std::size_t observation, const ObservationProduct& found) {
+  if (!survey_ || observation >= survey_->observations.size()) return;
+  take_detected(observation, {detected_schools(found), found.rejected, nullptr}, nullptr);
+}
+
+}  // namespace sonar

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/live_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/live_schools.h"
+#include "pipeline/observe.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kName = "live";
+constexpr double kPoll_s = 0.2;
+
+}  // namespace
+
+LiveWatch::LiveWatch(Workspace& workspace, Pulse& pulse)
+    : workspace_(workspace), pulse_(pulse), listening_(workspace.document.changes().add([this](DocumentChange change) {
+        if (change == DocumentChange::survey) {
+          set_on(false);
+          // When the document has shown what it opens with.
+          if (std::exchange(follows_next_, false)) {
+            workspace_.queue.post([this, alive = std::weak_ptr<bool>(alive_)] {
+              if (!alive.expired()) set_on(true);
+            });
+          }
+        }
+        if (!on() || (change != DocumentChange::looking && change != DocumentChange::ping)) return;
+        if (workspace_.document.ping() != asked_ping_) chasing_ = false;  // somebody looks elsewhere
+        if (change == DocumentChange::ping && chasing_) go_on_with_newest();
+        changed_.tell();
+      })) {}
+
+LiveWatch::~LiveWatch() {
+  set_on(false);
+  workspace_.document.changes().remove(listening_);
+}
+
+void LiveWatch::set_on(bool on) {
+  if (on == this->on()) return;
+  if (!on) {
+    pulse_.stop(kName);
+    work_->cancel();
+    survey_.reset();
+    watched_.reset();
+    memory_.clear();
+    last_found_.clear();
+    asked_.clear();
+    looking_ = finding_ = false;
+    text_.clear();
+    return changed_.tell();
+  }
+  const Document& document = workspace_.document;
+  if (document.survey() == nullptr) return;
+  const Recipe& recipe = document.recipe();
+  survey_ = std::make_shared<LiveSurvey>(document.paths(), recipe.survey, recipe.navigation, document.options().cache);
+  watched_ = std::make_shared<bool>(true);
+  work_ = std::make_shared<Work>(document.options().threads);
+  looked_s_ = 0.0;
+  asked_ping_ = -1;
+  chasing_ = false;
+  found_in_ = {0, 0};
+  text_ = "waiting for pings";
+  pulse_.run(kName, [this](double now_s) { return tick(now_s); });
+  look_at_newest();
+  changed_.tell();
+}
+
+bool LiveWatch::at_newest() const {
+  const Document& document = workspace_.document;
+  if (!on() || !document.shown() || document.survey()->observations.empty()) return false;
+  return document.shown()->index() == newest_observation(*document.survey()) &&
+         document.ping() + 1 == document.shown()->pings();
+}
+
+void LiveWatch::look_at_newest() {
+  Document& document = workspace_.document;
+  if (!on() || document.survey()->observations.empty()) return;
+  const std::size_t newest = newest_observation(*document.survey());
+  const std::int64_t last = std::ssize(document.survey()->observations[newest].pings) - 1;
+  if (document.shown() && document.shown()->index() == newest) {
+    document.look_at(last);
+  } else if (auto shown = document.show(newest, last); !shown) {
+    document.tell(to_line(shown.error()));
+  }
+  asked_ping_ = document.ping();
+  changed_.tell();
+}
+
+/// Not before the last one that was asked for has come: where pings come faster than pictures, some are shown instead of none.
+void LiveWatch::go_on_with_newest() {
+  const Document& document = workspace_.document;
+  const bool on_its_way = document.shown() && document.ping() == asked_ping_ && document.staged() &&
+                          document.staged()->ping_index != document.ping();
+  chasing_ = on_its_way;
+  if (on_its_way) return;
+  look_at_newest();
+}
+
+bool LiveWatch::tick(double now_s) {
+  if (!on()) return false;
+  if (looking_ || now_s - looked_s_ < kPoll_s) return true;
+  looking_ = true;
+  looked_s_ = now_s;
+  (void)looks_.post([this, survey = survey_, watched = std::weak_ptr<bool>(watched_), work = work_,
+                     out = workspace_.document.journal_path().parent_path()](const Wanted&) {
+    const auto begun = LiveClock::now();
+    Seen seen;
+    const auto news = survey->look(begun, *work);
+    if (news && news->cannot) seen.cannot = to_line(*news->cannot);
+    if (news && news->changed && !survey->survey()->observations.empty()) {
+      seen.survey = survey->survey();
+      const double took_s = std::chrono::duration<double>(LiveClock::now() - begun).count();
+      seen.status = live_status(*seen.survey, took_s, out.empty() ? "." : out);
+    }
+    workspace_.queue.post([this, watched, seen] {
+      if (watched.lock()) take(seen);
+    });
+  });
+  return true;
+}
+
+void LiveWatch::take(const Seen& seen) {
+  looking_ = false;
+  Document& document = workspace_.document;
+  if (seen.cannot != cannot_) {
+    cannot_ = seen.cannot;
+    if (!cannot_.empty()) document.tell(cannot_ + "; waiting for it");
+  }
+  if (seen.survey) {
+    const bool follows = at_newest() || chasing_ || !document.shown();
+    if (!document.grow(seen.survey)) {
+      // A file before the others, say: as good as another survey.
+      follow_next();
+      const auto paths = document.paths();
+      return document.open(paths);
+    }
+    if (follows) go_on_with_newest();
+    text_ = status_line(*seen.status);
+    changed_.tell();
+  }
+  find_schools();
+}
+
+void LiveWatch::find_schools() {
+  Document& document = workspace_.document;
+  if (finding_ || document.busy() || document.survey()->observations.empty()) return;
+  const auto survey = document.survey_files();
+  const std::size_t index = newest_observation(*survey);
+  const ObservationFiles& observation = survey->observations[index];
+  const std::pair of(index, std::ssize(observation.pings));
+  if (of == found_in_ || !observation.grid || (asked_.contains(index) && !document.asks_for_schools(index))) return;
+  finding_ = true;
+  found_in_ = of;
+  auto& memory = memory_[index];
+  if (!memory) memory = std::make_shared<ObserveMemory>();
+  work_->set_progress([give_way = GivesWay(document.right_of_way())](std::string_view, std::int64_t,
+                                                                     std::int64_t) mutable { give_way(); });
+  (void)finds_.post([this, survey, index, memory, work = work_, watched = std::weak_ptr<bool>(watched_),
+                     before = last_found_[index], recipe = document.recipe(),
+                     version = document.options().program_version](const Wanted&) mutable {
+    recipe.automatic = true;
+    ObserveOptions options{{}, {}, version};
+    options.memory = memory.get();
+    std::optional<EarlierSchools> numbers;
+    if (before) numbers = numbers_of(*before);
+    if (numbers) options.earlier = &*numbers;
+    auto found = observe(*survey, survey->observations[index], recipe, options, *work);
+    const auto product = found ? std::make_shared<const ObservationProduct>(std::move(*found)) : nullptr;
+    workspace_.queue.post([this, watched, index, product] {
+      if (watched.lock()) take_found(index, product);
+    });
+  });
+}
+
+void LiveWatch::take_found(std::size_t observation, std::shared_ptr<const ObservationProduct> found) {
+  finding_ = false;
+  Document& document = workspace_.document;
+  if (found && !(asked_.contains(observation) && !document.asks_for_schools(observation))) {
+    const auto before = std::exchange(last_found_[observation], found);
+    for (const LiveSchool& school : live_schools(*found, before.get())) {
+      if (school.is_new) document.tell(school_line(school));
+    }
+    document.take_schools(observation, *found);
+    asked_.insert(observation);
+  }
+  find_schools();
+}
+
+void LiveWatch::settle() {
+  looks_.wait();
+  finds_.wait();
+}
+
+}  // namespace sonar

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/task_thread.h"
+#include "pipeline/live_status.h"
+#include "pipeline/live_survey.h"
+#include "pipeline/observe_memory.h"
+#include "session/listeners.h"
+#include "session/pulse.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Follows a survey while it is recorded: what came is there within a moment, the newest ping is shown unless somebody looks
+/// elsewhere, schools are found and told behind the window. Every picture is of the newest state; those between that the
+/// machine could not draw are left out, no ping is.
+/// threads  the window's
+class LiveWatch {
+ public:
+  /// Both outlive the watch.
+  LiveWatch(Workspace& workspace, Pulse& pulse);
+  ~LiveWatch();
+  LiveWatch(const LiveWatch&) = delete;
+  LiveWatch& operator=(const LiveWatch&) = delete;
+
+  [[nodiscard]] bool on() const { return survey_ != nullptr; }
+  /// On: the newest ping is shown.
+  void set_on(bool on);
+  /// The survey that is opened next is followed.
+  void follow_next() { follows_next_ = true; }
+  /// Whether the newest ping is the one looked at.
+  [[nodiscard]] bool at_newest() const;
+  /// Back to the newest ping, and on with it.
+  void look_at_newest();
+  /// How the recording goes, in a line; empty while it is off.
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// Called when on(), at_newest() or text() have changed.
+  [[nodiscard]] Listeners<>& changed() { return changed_; }
+
+  /// Returns when nothing runs behind; for tests.
+  void settle();
+
+ private:
+  /// What one look brought.
+  struct Seen {
+    std::shared_ptr<const SurveyFiles> survey;  ///< null = nothing new
+    std::optional<LiveStatus> status;
+    std::string cannot;
+  };
+  bool tick(double now_s);
+  void take(const Seen& seen);
+  void go_on_with_newest();
+  void find_schools();
+  void take_found(std::size_t observation, std::shared_ptr<const ObservationProduct> found);
+
+  Workspace& workspace_;
+  Pulse& pulse_;
+  std::shared_ptr<LiveSurvey> survey_;  ///< touched by the thread of the looks alone; null = off
+  std::shared_ptr<bool> watched_;       ///< changes that come after the end are dropped
+  bool looking_ = false;                ///< a look is on its way
+  bool follows_next_ = false;
+  std::int64_t asked_ping_ = -1;  ///< the newest, when it was asked for
+  bool chasing_ = false;          ///< a newer one came before that was there
+  double looked_s_ = 0.0;
+  std::string text_;
+  std::string cannot_;
+  bool finding_ = false;
+  std::pair<std::size_t, std::int64_t> found_in_{0, 0};  ///< observation, pings of it
+  std::set<std::size_t> asked_;                          ///< observations whose journal asks for schools on our behalf
+  std::map<std::size_t, std::shared_ptr<ObserveMemory>> memory_;
+  std::map<std::size_t, std::shared_ptr<const ObservationProduct>> last_found_;
+  Listeners<> changed_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
+  int listening_;
+  std::shared_ptr<Work> work_;
+  TaskThread looks_;
+  TaskThread finds_;  // the last members: they end first
+};
+
+}  // namespace sonar
