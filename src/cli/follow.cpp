@@ -67,12 +67,12 @@ class Teller {
     line("finished", fmt::format("{} is over: {}", observation, product.string()),
          {{"observation", observation}, {"product", product.string()}});
   }
-  /// The newest; on a terminal it stands below all lines, elsewhere it is one of them, once a minute.
+  /// The newest; on a terminal it stands below all lines, elsewhere it is one of them, to people once a minute.
   void status(const LiveStatus& status, bool minute) {
     status_ = status_line(status);
     if (terminal_) {
       show_status();
-    } else if (minute) {
+    } else if (minute || json_) {
       line("status", status_, status_json(status));
     }
   }

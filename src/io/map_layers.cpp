@@ -71,7 +71,11 @@ MapLayers::~MapLayers() {
 }
 
 tl::unexpected<Error> MapLayers::refused(std::string_view what) const {
-  return fail(ErrorCode::io, fmt::format("{}: {}", what, CPLGetLastErrorMsg()), {.file = target_.string()});
+  // "sqlite3_exec(CREATE TRIGGER ...) failed: database or disk is full": what it was about to do helps nobody.
+  std::string_view why = CPLGetLastErrorMsg();
+  constexpr std::string_view kFailed = ") failed: ";
+  if (const auto at = why.rfind(kFailed); at != std::string_view::npos) why.remove_prefix(at + kFailed.size());
+  return fail(ErrorCode::io, fmt::format("{}: {}", what, why), {.file = target_.string()});
 }
 
 Result<std::unique_ptr<MapLayers>> MapLayers::create(const std::filesystem::path& target, MapFormat format,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/shared_value.h"
 #include "geo/frames.h"
 #include "model/mask.h"
 #include "school/echo_pieces.h"
@@ -21,10 +22,10 @@ struct Detection {
   double volume_m3 = 0.0;    ///< sum of member cells
   double reference_db = 0.0;
   double threshold_db = 0.0;
-  double evidence = 0.0;        ///< the most that a block of it reaches
-  std::int32_t edge_flags = 0;  ///< EdgeFlags
-  EchoPieces pieces;            ///< in and round the mask; empty where it is very large
-  Run loudest;                  ///< one voxel, where the filtered echo is loudest
+  double evidence = 0.0;           ///< the most that a block of it reaches
+  std::int32_t edge_flags = 0;     ///< EdgeFlags
+  SharedValue<EchoPieces> pieces;  ///< in and round the mask; empty where it is very large
+  Run loudest;                     ///< one voxel, where the filtered echo is loudest
 };
 
 /// What stood out clearly in one ping and was judged no school.

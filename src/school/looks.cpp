@@ -113,7 +113,7 @@ std::vector<Look> looks_of(const SchoolTrack& school, std::span<const DetectedPi
     for (const int d : seen.detections) {
       const Detection& detection = ping.detections[static_cast<std::size_t>(d)];
       look.cut = look.cut || (detection.edge_flags & kCutsCentre) != 0;
-      if (!detection.pieces.empty()) look.pieces.push_back(&detection.pieces);
+      if (!detection.pieces->empty()) look.pieces.push_back(&*detection.pieces);
     }
     looks.push_back(std::move(look));
   }

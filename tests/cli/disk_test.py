@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A disk that is full, or breaks, at any call that would change it; and the order in which things reach it.
+
+SONAR_SHIM = the library that makes calls fail, SONAR_FAULTS = how many of the calls (16; 0 = every one)."""
+import errno
+import os
+import random
+import shutil
+import subprocess
+
+import sonarx
+from sonarx import PROGRAM, SURVEY, WORK, Case
+
+SHIM = os.environ.get("SONAR_SHIM", "")
+SAYS = {errno.ENOSPC: "No space left on device|disk is full", errno.EIO: "Input/output error|disk I/O error"}
+FAULTS = int(os.environ.get("SONAR_FAULTS", "16"))
+
+
+def shimmed(*arguments, below, fail=0, error=errno.ENOSPC, log=None):
+    environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache"), "LD_PRELOAD": SHIM, "SONAR_SHIM_BELOW": str(below),
+                   "SONAR_SHIM_ERROR": str(error)}
+    if fail:
+        environment["SONAR_SHIM_FAIL"] = str(fail)
+    if log:
+        environment["SONAR_SHIM_LOG"] = str(log)
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                          timeout=300, env=environment, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+class Disk(Case):
+    def logged(self, name, *arguments, below):
+        log = self.fresh(name) / "calls"
+        code, _, err = shimmed(*arguments, below=below, log=log)
+        self.assertEqual(code, 0, err)
+        return [line.split(" ") for line in log.read_text().splitlines()]
+
+    def check_order(self, calls):
+        """What is renamed into place was flushed after its last write, and its folder is flushed after the rename."""
+        renamed = 0
+        for i, call in enumerate(calls):
+            if call[0] != "rename":
+                continue
+            renamed += 1
+            source, target = call[1:]
+            before = [c[0] for c in calls[:i] if c[-1] == source]
+            self.assertIn("write", before, target)
+            self.assertEqual(before[-1], "fsync", f"{target}: renamed before it was flushed")
+            folder = os.path.dirname(target)
+            self.assertIn(["fsync", "-", folder], calls[i:], f"{target}: its folder is not flushed")
+            later = [c for c in calls[i:] if c[0] == "write" and c[-1] == target]
+            self.assertEqual(later, [], f"{target}: written to under its own name")
+        return renamed
+
+    def test_what_a_power_cut_leaves_is_whole(self):
+        folder = self.fresh("power")
+        out = folder / "out"
+        # two products, plan, two tables, map, survey.json
+        self.assertEqual(self.check_order(self.logged("power-run", "run", SURVEY, "--out", out, below=out)), 7)
+        self.assertGreater(self.check_order(self.logged("power-export", "export", out, "--to", "csv", "--dest",
+                                                        folder / "csv", below=folder / "csv")), 1)
+        self.assertEqual(self.check_order(self.logged("power-render", "render", "observation-map", out, "--out",
+                                                      folder / "map.png", below=folder)), 1)
+
+    def faulty_runs(self, calls, error):
+        """Some of the calls fail, and all behind them: nothing half is left, and the next run ends as an undisturbed one."""
+        folder = self.fresh(f"faults-{error}")
+        out = folder / "out"
+        places = range(1, calls + 1)
+        if FAULTS and calls > FAULTS:
+            places = sorted({1, calls, *random.Random(error).sample(places, FAULTS - 2)})
+        for at in places:
+            with self.subTest(call=at):
+                shutil.rmtree(out, ignore_errors=True)
+                code, _, err = shimmed("run", SURVEY, "--out", out, below=out, fail=at, error=error)
+                self.assertIn(code, (1, 3), err)
+                self.assertTrue(err.strip().splitlines()[-1].startswith("sonarx: "), err)
+                self.assertRegex(err, SAYS[error])
+                self.assertNotIn("sqlite3_exec", err)
+                left = [p for p in out.rglob("*") if p.is_file() and not p.name.startswith(".")]
+                for product in (p for p in left if p.suffix == ".nc"):
+                    self.sonarx("compare", product, product)
+                for file in left:
+                    theirs = sonarx.OUT / file.relative_to(out)
+                    if file.suffix in (".csv", ".nc") and code == 1:
+                        self.assertEqual(file.read_bytes(), theirs.read_bytes(), file)
+        self.sonarx("run", SURVEY, "--out", out)
+        self.sonarx("compare", sonarx.OUT, out)
+        hidden = [p.name for p in out.rglob(".*") if p.is_file()]
+        self.assertEqual(hidden, [])
+
+    def test_a_disk_that_is_full_or_breaks_at_any_call(self):
+        calls = len(self.logged("count", "run", SURVEY, "--out", self.fresh("count-out") / "out",
+                                below=WORK / "count-out" / "out"))
+        self.assertGreater(calls, 30)
+        for error in (errno.ENOSPC, errno.EIO):
+            self.faulty_runs(calls, error)
+
+
+if __name__ == "__main__":
+    sonarx.main()
