@@ -10,7 +10,7 @@ build=(g++ cmake ninja-build ccache pkg-config ca-certificates
        libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libsleef-dev libproj-dev proj-data libhwy-dev
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
-test=(libgtest-dev libgmock-dev clang-format-16 git python3 python3-numpy python3-netcdf4 xvfb xauth)
+test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-numpy python3-netcdf4 xvfb xauth)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 

@@ -86,6 +86,14 @@ threaded_tests() {
     build/tsan/tests/sonar_observe_test --gtest_brief=1 --gtest_filter='*Threads*:*Cancel*'
 }
 
+same_bytes_of_both_compilers() {
+  # Each simulated and ran the small survey in its tests.
+  local file
+  for file in survey/truth/schools.csv out/schools.csv out/school_pings.csv out/products/obs-0001.nc out/products/obs-0002.nc; do
+    cmp "build/dev/tests/cli/$file" "build/asan/tests/cli/$file" || return 1
+  done
+}
+
 headless() {
   build headless --target sonarx && build/headless/src/cli/sonarx --version || return 1
   # Neither the compiler nor the linker may have been told of Qt.
@@ -115,6 +123,7 @@ if $full; then
   part "build with clang 16, address and undefined-behaviour sanitizers" build asan
   part "clang-tidy" tidy
   part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE 'slow|gui'
+  part "g++ and clang give the same bytes" same_bytes_of_both_compilers
   part "fuzzing" tools/fuzz --seconds 5 --seed 1 --no-ledger
   part "threaded tests with the thread sanitizer" threaded_tests
   part "headless build" headless

@@ -109,20 +109,5 @@ class Stop(Case):
         shutil.rmtree(folder)
 
 
-class EqualBits(Case):
-    """The C library has variants of its functions for each kind of processor, and can be told not to use some."""
-
-    def test_products_do_not_depend_on_the_processor(self):
-        folder = self.fresh("equal-bits")
-        without = "glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4"
-        out = folder / "out"
-        done = subprocess.run([PROGRAM, "run", SURVEY, "--out", out], capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, env={**environment(), "GLIBC_TUNABLES": without})
-        self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("products/obs-0001.nc", "products/obs-0002.nc", "schools.csv", "school_pings.csv", "survey.gpkg"):
-            self.assertEqual((out / name).read_bytes(), (OUT / name).read_bytes(), name)
-        shutil.rmtree(folder)
-
-
 if __name__ == "__main__":
     sonarx.main()
