@@ -136,7 +136,8 @@ class Following {
       if (!looked && !work.cancelled()) return looked;
       if (work.cancelled()) break;
       if (write_is_due()) {
-        if (auto written = write(work); !written) return written;
+        // A disk that is full or gone for a while must not end the watch; what is known stays.
+        if (auto written = write(work); !written) teller_.trouble(to_line(written.error()) + "; tried again");
       }
       if (arguments_.idle_exit_s > 0.0 && seconds_of(follow_.quiet(LiveClock::now())) >= arguments_.idle_exit_s) break;
       std::this_thread::sleep_for(kPoll);
@@ -145,10 +146,13 @@ class Following {
     return {};
   }
 
-  /// What is known is written: after Ctrl-C, with nothing to stop it.
+  /// After Ctrl-C: what came is worked out and written; a second Ctrl-C ends the program.
   Result<void> end() {
     Work work(arguments_.run.jobs);
     if (auto looked = look(work); !looked) return looked;
+    if (bridge_) {
+      for (const std::string& sentence : targets_.end()) bridge_->send(sentence);
+    }
     auto written = write(work);
     teller_.end();
     return written;
@@ -157,9 +161,12 @@ class Following {
  private:
   Result<void> look(Work& work) {
     const auto begun = LiveClock::now();
+    // What came was written after the look before had begun to read, at the earliest.
+    const auto written_since = std::exchange(looked_at_, begun);
     auto look = follow_.look(begun, work);
     if (!look) return pass_on(look);
     const double took_s = seconds_of(LiveClock::now() - begun);
+    const double behind_s = seconds_of(LiveClock::now() - written_since);
     tell_trouble(*look, took_s);
     for (const std::string& observation : look->finished) {
       teller_.finished(observation, product_path(out_, observation));
@@ -175,7 +182,7 @@ class Following {
     if (look->news.pings > 0 && !follow_.survey()->observations.empty()) {
       const bool minute = begun - status_at_ >= kBetweenWrites;
       if (minute) status_at_ = begun;
-      teller_.status(live_status(*follow_.survey(), took_s, out_), minute);
+      teller_.status(live_status(*follow_.survey(), behind_s, out_), minute);
     }
     return {};
   }
@@ -188,6 +195,8 @@ class Following {
       teller_.trouble(fmt::format("{}: {}", *failure.observation, to_line(failure.error)));
     } else if (took_s > seconds_of(kSlow) && look.news.pings > 1) {
       teller_.trouble("work is slower than the recording: schools are told late, nothing is left out");
+    } else if (follow_.survey()->observations.empty()) {
+      teller_.trouble("no ping yet; waiting for the first");
     } else if (look.news.pings > 0) {
       teller_.no_trouble();
     }
@@ -196,10 +205,14 @@ class Following {
   void raise_alarms(const LiveSchool& school) {
     for (const Alarm& alarm : alarms_) {
       const std::pair raised(name_of(school), alarm.text());
-      if (!alarm.holds(school.newest)) {
+      const auto at = std::find_if(school.since.begin(), school.since.end(),
+                                   [&](const SchoolPingRow& row) { return alarm.holds(row); });
+      if (at == school.since.end()) {
         raised_.erase(raised);
       } else if (raised_.insert(raised).second) {
-        teller_.alarm(alarm, school);
+        LiveSchool there = school;
+        there.newest = *at;
+        teller_.alarm(alarm, there);
       }
     }
   }
@@ -227,6 +240,7 @@ class Following {
   Teller teller_;
   LiveTargets targets_;
   std::set<std::pair<std::string, std::string>> raised_;  ///< school, rule: told, and still so
+  LiveClock::time_point looked_at_ = LiveClock::now();
   LiveClock::time_point written_at_ = LiveClock::now();
   LiveClock::time_point status_at_{};
   LiveClock::duration writing_took_{};
@@ -255,6 +269,7 @@ int follow_survey(const FollowArguments& arguments) {
     bridge = std::move(*sender);
   }
   if (auto fit = require_fit(arguments); !fit) return report(fit.error());
+  if (auto ours = require_no_newer_plan(arguments.run.out); !ours) return report(ours.error());
   const auto journal = arguments.run.session.empty() ? Result<Journal>(Journal{}) : read_journal(arguments.run.session);
   if (!journal) return report(journal.error());
   auto recipe = recipe_for(arguments.run, *journal);

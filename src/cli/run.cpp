@@ -99,15 +99,6 @@ Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
   return opened;
 }
 
-/// What a newer program planned here is not ours to replace.
-Result<void> require_no_newer_plan(const std::filesystem::path& out) {
-  std::error_code absent;
-  if (!std::filesystem::exists(out / "plan.json", absent)) return {};
-  const auto plan = read_plan(out / "plan.json");
-  if (!plan && plan.error().code == ErrorCode::newer_version) return pass_on(plan);
-  return {};
-}
-
 Result<void> write_plan(Opened& opened, const RunArguments& arguments, const RunOptions& options) {
   if (auto ours = require_no_newer_plan(options.out); !ours) return ours;
   const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
@@ -207,6 +198,14 @@ int finish(const Opened& opened, const RunOptions& options, RunReport report, Wo
 }
 
 }  // namespace
+
+Result<void> require_no_newer_plan(const std::filesystem::path& out) {
+  std::error_code absent;
+  if (!std::filesystem::exists(out / "plan.json", absent)) return {};
+  const auto plan = read_plan(out / "plan.json");
+  if (!plan && plan.error().code == ErrorCode::newer_version) return pass_on(plan);
+  return {};
+}
 
 Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
   if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct RunArguments {
 
 /// A recipe that was asked for; else the one that the session's choices were made under; else the default.
 [[nodiscard]] Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal);
+
+/// What a newer program planned here is not ours to replace.
+/// errors  newer_version
+[[nodiscard]] Result<void> require_no_newer_plan(const std::filesystem::path& out);
 
 /// The verb `run`. Products that are right stay.
 [[nodiscard]] int run_survey(const RunArguments& arguments);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <system_error>
@@ -77,7 +78,13 @@ class GrowingFile final : public ByteSource {
     if (!file) return pass_on(file);
     const auto size = (*file)->size();
     if (!size) return size;
-    if (*size < seen_) return fail(ErrorCode::mismatch, "is shorter than it was: another file", {.file = name_});
+    const auto another = [&](const char* why) { return fail(ErrorCode::mismatch, why, {.file = name_}); };
+    if (*size < seen_) return another("is shorter than it was: another file");
+    if (*size == seen_) return size;
+    if (auto same = begins_as_before(**file); !same)
+      return pass_on(same);
+    else if (!*same)
+      return another("begins otherwise than it did: another file");
     seen_ = *size;
     return size;
   }
@@ -88,9 +95,23 @@ class GrowingFile final : public ByteSource {
   }
 
  private:
+  /// By its first bytes, which in a recording tell when it was begun.
+  Result<bool> begins_as_before(const ByteSource& file) const {
+    std::array<std::byte, 4096> head{};
+    const auto got = file.read(0, head);
+    if (!got) return pass_on(got);
+    const auto now = std::span<const std::byte>(head).first(*got);
+    const std::scoped_lock lock(mutex_);
+    const bool same = now.size() >= head_.size() && std::equal(head_.begin(), head_.end(), now.begin());
+    if (same) head_.assign(now.begin(), now.end());
+    return same;
+  }
+
   std::filesystem::path path_;
   std::string name_;
   mutable std::atomic<std::uint64_t> seen_{0};
+  mutable std::mutex mutex_;
+  mutable std::vector<std::byte> head_;
 };
 
 }  // namespace

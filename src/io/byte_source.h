@@ -39,7 +39,7 @@ class ByteSource {
 
 /// A file that somebody else is still writing, looked for by its path at every call and never held open: it may be gone for a
 /// while with the disk that it lies on, and no writer is ever in our way.
-/// errors  of its members: also not_found; mismatch: it is shorter than it was, so it is another file
+/// errors  of its members: also not_found; mismatch: it is shorter than it was, or begins otherwise: another file
 [[nodiscard]] std::shared_ptr<const ByteSource> growing_file(const std::filesystem::path& path);
 
 /// The same bytes, until the work is cancelled: then reading fails, so that whoever reads on and on stops soon.

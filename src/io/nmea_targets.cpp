@@ -22,6 +22,13 @@ std::string angle_fields(double degrees, int digits, std::string_view sides) {
                      sides[std::signbit(degrees) ? 1 : 0]);
 }
 
+/// 0.0 to 359.9
+std::string direction_field(double degrees) {
+  if (!std::isfinite(degrees)) return {};
+  const auto tenths = ((std::llround(degrees * 10.0) % 3600) + 3600) % 3600;
+  return fmt::format("{}.{}", tenths / 10, tenths % 10);
+}
+
 std::string number_field(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : std::string{};
 }
@@ -56,8 +63,8 @@ std::string ttm_sentence(const NmeaTarget& target) {
   // Closest approach is not told: fish keep no course.
   return sentence(fmt::format("SSTTM,{:02},{},{},T,{},{},T,,,N,{},{},,{},A", target.number % 100,
                               number_field(target.distance_m / kMetresPerNauticalMile, 3),
-                              number_field(target.bearing_deg, 1), number_field(target.speed_mps / kKnot_mps, 1),
-                              number_field(target.course_deg, 1), name_field(target.name), target.lost ? 'L' : 'T',
+                              direction_field(target.bearing_deg), number_field(target.speed_mps / kKnot_mps, 1),
+                              direction_field(target.course_deg), name_field(target.name), target.lost ? 'L' : 'T',
                               time_field(target.time)));
 }
 

@@ -35,7 +35,7 @@ NmeaTarget target() {
 // By hand, after the fields of NMEA 0183's tables.
 TEST(NmeaTargets, TellPlaceAndMotion) {
   EXPECT_EQ(tll_sentence(target()).substr(0, 65), "$SSTLL,03,6030.0000,S,00445.0000,E,school 103,123519.50,T,*29\r\n");
-  EXPECT_EQ(ttm_sentence(target()).substr(0, 62), "$SSTTM,03,0.500,271.2,T,1.0,90.0,T,,,N,school 103,T,,123519.50");
+  EXPECT_EQ(ttm_sentence(target()).substr(0, 62), "$SSTTM,03,0.500,271.3,T,1.0,90.0,T,,,N,school 103,T,,123519.50");
 }
 
 TEST(NmeaTargets, AreSoundSentencesWhateverIsNotKnown) {
@@ -53,8 +53,10 @@ TEST(NmeaTargets, AreSoundSentencesWhateverIsNotKnown) {
   EXPECT_EQ(parse_nmea(tll_sentence(unknown))->field(8), "L");
 }
 
-TEST(NmeaTargets, MinutesNeverReachSixty) {
+TEST(NmeaTargets, MinutesNeverReachSixtyNorBearingsAWholeTurn) {
   NmeaTarget t = target();
+  t.bearing_deg = 359.96;
+  EXPECT_NE(ttm_sentence(t).find(",0.500,0.0,T,"), std::string::npos);
   t.latitude_deg = 59.99999999;
   EXPECT_NE(tll_sentence(t).find(",6000.0000,N,"), std::string::npos);
 }
@@ -78,7 +80,8 @@ TEST(UdpSender, ReachesAListener) {
 }
 
 TEST(UdpSender, RefusesWhatIsNoAddress) {
-  for (const char* wrong : {"", "127.0.0.1", ":10110", "127.0.0.1:", "127.0.0.1:charts", "[::1"}) {
+  for (const char* wrong :
+       {"", "127.0.0.1", ":10110", "127.0.0.1:", "127.0.0.1:charts", "[::1", "127.0.0.1:0", "127.0.0.1:99999"}) {
     const auto sender = UdpSender::open(wrong);
     ASSERT_FALSE(sender) << wrong;
     EXPECT_EQ(sender.error().code, ErrorCode::usage) << wrong;

@@ -20,7 +20,7 @@
 namespace sonar {
 
 /// Raised whenever RawIndex or what stands in it changes; an index of another version is made again.
-inline constexpr int kIndexVersion = 7;
+inline constexpr int kIndexVersion = 8;
 
 /// What a file's first bytes say it is.
 enum class RawFormat : std::uint8_t {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -34,8 +35,13 @@ Result<UdpSender> UdpSender::open(const std::string& address) {
   if (host.empty() || port.empty()) {
     return fail(ErrorCode::usage, fmt::format("'{}': expected HOST:PORT, as in 127.0.0.1:10110", address));
   }
+  int number = 0;
+  const auto [end, error_code] = std::from_chars(port.data(), port.data() + port.size(), number);
+  if (error_code != std::errc{} || end != port.data() + port.size() || number < 1 || number > 65535) {
+    return fail(ErrorCode::usage, fmt::format("'{}': expected a port from 1 to 65535", address));
+  }
   addrinfo wanted{};
-  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_family = host.find(':') == std::string::npos ? AF_INET : AF_INET6;  // charts listen to the older one
   wanted.ai_socktype = SOCK_DGRAM;
   wanted.ai_flags = AI_NUMERICSERV;
   addrinfo* list = nullptr;

@@ -139,7 +139,7 @@ class Detecting {
     for (std::size_t i = first; i < end; ++i) {
       if (const auto& water = waters[i - first]) judge(i, *water);
     }
-    if (engine_.known() != nullptr) remember(group);
+    if (engine_.known() != nullptr && engine_.refusal()) remember(group);
   }
 
   void judge(std::size_t at, const WaterLevels& water) {

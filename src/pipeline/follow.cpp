@@ -2,6 +2,7 @@
 #include "pipeline/follow.h"
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Before what failed is tried again.
+constexpr std::chrono::seconds kBetweenTries{10};
 
 /// What a product says that pings to come may change: nothing names it right.
 void mark_provisional(ObservationProduct& product) {
@@ -28,15 +32,21 @@ Follow::Follow(FollowOptions options, Recipe recipe)
       recipe_(std::move(recipe)),
       live_(options_.survey, recipe_.survey, recipe_.navigation, options_.cache) {}
 
-void Follow::read_session() {
-  if (options_.session.empty()) return;
+Follow::Which Follow::which(const SurveyFiles& survey, const ObservationFiles& observation) {
+  return {{observation.config.kind, observation.config.sounder_name}, survey.ping_time(observation, 0)};
+}
+
+/// Whether the journal says more than before.
+bool Follow::read_session() {
+  if (options_.session.empty()) return false;
   std::error_code absent;
   const auto size = fs::file_size(options_.session, absent);
-  if (absent || size == journal_size_) return;
+  if (absent || size == journal_size_) return false;
   const auto journal = read_journal(options_.session.string());
-  if (!journal) return;  // its first line is being written
+  if (!journal) return false;  // its first line is being written
   journal_size_ = size;
   journal_ = effective_lines(journal->lines);
+  return true;
 }
 
 Result<Follow::Look> Follow::look(LiveClock::time_point now, Work& work) {
@@ -44,23 +54,33 @@ Result<Follow::Look> Follow::look(LiveClock::time_point now, Work& work) {
   auto news = live_.look(now, work);
   if (!news) return pass_on(news);
   look.news = std::move(*news);
-  const std::uintmax_t said_before = journal_size_;
-  read_session();
-  if (!look.news.changed && journal_size_ == said_before) return look;
+  const bool said = read_session();
+  const bool again = unworked_ && now - tried_at_ >= kBetweenTries;
+  if (!look.news.changed && !said && !again) return look;
+  unworked_ = unwritten_ = true;
   if (look.news.replaced) {
-    for (auto& [name, at_work] : at_work_) at_work.memory = std::make_unique<ObserveMemory>();
+    for (auto& [of, at_work] : at_work_) at_work.memory = std::make_unique<ObserveMemory>();
   }
-  unwritten_ = true;
+  forget_vanished();
   const auto survey = live_.survey();
   for (const ObservationFiles& observation : survey->observations) {
     auto worked = work_on(observation, look, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    if (worked) continue;
-    if (worked.error().code == ErrorCode::no_space) return pass_on(worked);
-    look.failures.push_back({observation.name, worked.error()});
+    if (!worked) look.failures.push_back({observation.name, worked.error()});
   }
+  unworked_ = !look.failures.empty();
+  tried_at_ = now;
   let_go();
   return look;
+}
+
+/// What stood on a file that is gone, or is a part of another observation now.
+void Follow::forget_vanished() {
+  const auto survey = live_.survey();
+  std::erase_if(at_work_, [&](const auto& entry) {
+    return std::none_of(survey->observations.begin(), survey->observations.end(),
+                        [&](const ObservationFiles& there) { return which(*survey, there) == entry.first; });
+  });
 }
 
 Result<ObservationProduct> Follow::observed(const ObservationFiles& observation, AtWork& at_work, bool over,
@@ -81,13 +101,14 @@ Result<ObservationProduct> Follow::observed(const ObservationFiles& observation,
 
 Result<void> Follow::work_on(const ObservationFiles& observation, Look& look, Work& work) {
   const auto survey = live_.survey();
-  AtWork& at_work = at_work_[observation.name];
+  AtWork& at_work = at_work_[which(*survey, observation)];
   const ObserveOptions options{{}, journal_, options_.program_version};
   const std::string key = observation_key(*survey, observation, recipe_, options);
   if (key == at_work.key) return {};
-  tasks_[observation.name] = task_of(*survey, observation, recipe_, options);
+  at_work.task = task_of(*survey, observation, recipe_, options);
   if (live_.over(observation)) return end_one(observation, at_work, look, work);
-  tasks_[observation.name].key.clear();  // no product of it is right yet
+  at_work.task.key.clear();  // no product of it is right yet
+  at_work.key.clear();
   auto product = observed(observation, at_work, false, work);
   if (!product) return pass_on(product);
   mark_provisional(*product);
@@ -98,47 +119,65 @@ Result<void> Follow::work_on(const ObservationFiles& observation, Look& look, Wo
   return {};
 }
 
+/// A right product of other files or another recipe keeps the numbers of its schools, as run() does it.
+Result<void> Follow::hold_other(const fs::path& product, const std::string& key) const {
+  const auto there = read_product_key(product);
+  if (!there || there->input_hash.empty() || there->input_hash == key) return {};
+  return hold(options_.out, product, *there);
+}
+
 Result<void> Follow::end_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work) {
-  auto product = observed(observation, at_work, true, work);
-  if (!product) return pass_on(product);
   const fs::path path = product_path(options_.out, observation.name);
+  const std::string key = at_work.task.key;
   const auto there = read_product_key(path);
-  if (!there || there->input_hash != product->input_hash) {
+  if (!there || there->input_hash != key) {
+    if (auto held = hold_other(path, key); !held) return held;
+    auto product = observed(observation, at_work, true, work);
+    if (!product) return pass_on(product);
     if (auto written = write_product(*product, path, Beside::own_folder); !written) return written;
+    if (!at_work.product) look.schools = live_schools(*product, nullptr);  // nobody was told of any
   }
-  at_work.key = product->input_hash;
+  at_work.key = key;
   at_work.product.reset();
   at_work.memory = std::make_unique<ObserveMemory>();
   look.finished.push_back(observation.name);
   return {};
 }
 
+/// Of each sounder, what is over, but for the last of it: a file of its may go on after all.
 void Follow::let_go() {
-  // One that is over stays before the first that goes on: a file of its may go on after all.
-  const auto survey = live_.survey();
-  std::string first_kept;
-  for (const ObservationFiles& observation : survey->observations) {
-    if (at_work_[observation.name].key.empty()) break;
-    first_kept = observation.name;
+  const auto before = live_.survey();
+  std::map<Which::first_type, std::pair<std::string, bool>> kept;  // the name, and whether one before it was over
+  for (const ObservationFiles& observation : before->observations) {
+    const Which of = which(*before, observation);
+    auto& [name, ended] = kept[of.first];
+    if (ended) continue;
+    ended = at_work_[of].key.empty();
+    if (name.empty() || !ended) name = observation.name;
   }
-  if (first_kept.empty() || first_kept == survey->observations.front().name) return;
-  for (const ObservationFiles& observation : survey->observations) {
-    if (observation.name == first_kept) break;
-    at_work_.erase(observation.name);
+  for (const auto& [sounder, until] : kept) live_.let_go_before(until.first);
+  const auto now = live_.survey();
+  for (const ObservationFiles& observation : before->observations) {
+    const Which of = which(*before, observation);
+    const bool stays = std::any_of(now->observations.begin(), now->observations.end(),
+                                   [&](const ObservationFiles& there) { return which(*now, there) == of; });
+    if (stays) continue;
+    let_go_.push_back(at_work_[of].task);
+    at_work_.erase(of);
   }
-  live_.let_go_before(first_kept);
 }
 
 Result<MergeReport> Follow::write(Work& work) {
   if (auto own = require_own_folder(options_.out / "products"); !own) return pass_on(own);
-  for (const auto& [name, at_work] : at_work_) {
+  for (const auto& [of, at_work] : at_work_) {
     if (!at_work.product) continue;
-    auto written = write_product(*at_work.product, product_path(options_.out, name), Beside::own_folder);
-    if (!written) return pass_on(written);
+    const fs::path path = product_path(options_.out, at_work.product->observation);
+    if (auto held = hold_other(path, ""); !held) return pass_on(held);
+    if (auto written = write_product(*at_work.product, path, Beside::own_folder); !written) return pass_on(written);
   }
   Plan plan = make_plan(*live_.survey(), options_.survey, options_.session, recipe_, {});
-  plan.tasks.clear();
-  for (const auto& [name, task] : tasks_) plan.tasks.push_back(task);
+  plan.tasks = let_go_;
+  for (const auto& [of, at_work] : at_work_) plan.tasks.push_back(at_work.task);
   std::sort(plan.tasks.begin(), plan.tasks.end(),
             [](const PlanTask& a, const PlanTask& b) { return name_less(a.observation, b.observation); });
   if (auto written = write_file(options_.out / "plan.json", plan_text(plan)); !written) return pass_on(written);

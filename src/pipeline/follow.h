@@ -41,7 +41,7 @@ class Follow {
   struct Look {
     LiveSurvey::News news;
     std::vector<std::string> finished;  ///< observations that were over, their products written
-    std::vector<RunFailure> failures;   ///< tried again at a later look
+    std::vector<RunFailure> failures;   ///< tried again some seconds later
     std::vector<LiveSchool> schools;    ///< of the observations that go on: in their newest ping, or new
   };
   /// Takes in what came, works it out, writes the products of observations that are over.
@@ -59,16 +59,22 @@ class Follow {
   [[nodiscard]] bool unwritten() const { return unwritten_; }
 
  private:
+  /// An observation whatever it is called: names shift when another sounder's, or a file before, comes in.
+  using Which = std::pair<std::pair<SounderKind, std::string>, TimeNs>;  ///< sounder, first ping
   struct AtWork {
     std::unique_ptr<ObserveMemory> memory = std::make_unique<ObserveMemory>();
     std::optional<ObservationProduct> product;  ///< the newest; empty once it is over
-    std::string key;                            ///< of the product that is written
+    PlanTask task;
+    std::string key;  ///< of the product that is written
   };
-  void read_session();
+  [[nodiscard]] static Which which(const SurveyFiles& survey, const ObservationFiles& observation);
+  bool read_session();
   Result<void> work_on(const ObservationFiles& observation, Look& look, Work& work);
   Result<void> end_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work);
   [[nodiscard]] Result<ObservationProduct> observed(const ObservationFiles& observation, AtWork& at_work, bool over,
                                                     Work& work);
+  [[nodiscard]] Result<void> hold_other(const std::filesystem::path& product, const std::string& key) const;
+  void forget_vanished();
   void let_go();
 
   FollowOptions options_;
@@ -76,8 +82,10 @@ class Follow {
   LiveSurvey live_;
   std::vector<JournalLine> journal_;
   std::uintmax_t journal_size_ = 0;
-  std::map<std::string, AtWork> at_work_;  ///< by observation
-  std::map<std::string, PlanTask> tasks_;  ///< of all observations, those that were let go too
+  std::map<Which, AtWork> at_work_;
+  std::vector<PlanTask> let_go_;  ///< of observations that are over and not looked at any more
+  bool unworked_ = false;         ///< something came, and not all of it could be worked out
+  LiveClock::time_point tried_at_{};
   bool unwritten_ = false;
 };
 

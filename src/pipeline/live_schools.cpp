@@ -25,17 +25,22 @@ std::string motion(const SchoolRow& school) {
 
 std::vector<LiveSchool> live_schools(const ObservationProduct& product, const ObservationProduct* before) {
   std::vector<LiveSchool> schools;
-  const std::int64_t newest_ping = std::ssize(product.pings) - 1;
+  const std::int64_t fresh = before == nullptr ? 0 : std::ssize(before->pings);
   for (const SchoolRow& school : product.schools) {
     if (school.status == "rejected") continue;
-    const auto last = std::find_if(product.school_pings.rbegin(), product.school_pings.rend(),
-                                   [&](const SchoolPingRow& row) { return row.school_id == school.school_id; });
-    if (last == product.school_pings.rend()) continue;
-    const bool known =
-        before != nullptr && std::any_of(before->schools.begin(), before->schools.end(),
-                                         [&](const SchoolRow& row) { return row.school_id == school.school_id; });
-    if (known && last->ping_index < newest_ping) continue;
-    schools.push_back({school, *last, product.pings[static_cast<std::size_t>(last->ping_index)], !known});
+    LiveSchool live;
+    for (const SchoolPingRow& row : product.school_pings) {
+      if (row.school_id != school.school_id) continue;
+      live.newest = row;
+      if (row.ping_index >= fresh) live.since.push_back(row);
+    }
+    live.is_new =
+        before == nullptr || std::none_of(before->schools.begin(), before->schools.end(),
+                                          [&](const SchoolRow& row) { return row.school_id == school.school_id; });
+    if (live.since.empty() && !live.is_new) continue;
+    live.school = school;
+    live.ship = product.pings[static_cast<std::size_t>(live.newest.ping_index)];
+    schools.push_back(std::move(live));
   }
   return schools;
 }

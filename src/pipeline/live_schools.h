@@ -10,13 +10,14 @@ namespace sonar {
 
 /// A school as it stands while its observation goes on.
 struct LiveSchool {
-  SchoolRow school;      ///< over its pings so far
-  SchoolPingRow newest;  ///< where it was seen last
-  PingNavigation ship;   ///< at that ping
-  bool is_new = false;   ///< was not there at the look before
+  SchoolRow school;                  ///< over its pings so far
+  SchoolPingRow newest;              ///< where it was seen last
+  PingNavigation ship;               ///< at that ping
+  std::vector<SchoolPingRow> since;  ///< in the pings that came since the look before
+  bool is_new = false;               ///< was not there at the look before
 };
 
-/// Schools of an observation that goes on: in its newest ping, or new. Those that a human rejected are not told.
+/// Schools of an observation that goes on: in the pings that came since the look before, or new. Those that a human rejected are not told.
 /// before  what was known of it at the look before, its numbers kept since; null = nothing
 [[nodiscard]] std::vector<LiveSchool> live_schools(const ObservationProduct& product, const ObservationProduct* before);
 

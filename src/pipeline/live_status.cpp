@@ -45,12 +45,19 @@ std::string told(double value, const char* unit, int decimals = 1) {
 
 }  // namespace
 
-std::size_t newest_observation(const SurveyFiles& survey) {
-  const auto newest = std::max_element(survey.observations.begin(), survey.observations.end(),
-                                       [&](const ObservationFiles& a, const ObservationFiles& b) {
-                                         return survey.entry(a.pings.back()).time < survey.entry(b.pings.back()).time;
-                                       });
-  return static_cast<std::size_t>(newest - survey.observations.begin());
+std::size_t newest_observation(const SurveyFiles& survey, const ObservationFiles* like) {
+  std::size_t newest = 0;
+  TimeNs last = std::numeric_limits<TimeNs>::min();
+  for (std::size_t i = 0; i < survey.observations.size(); ++i) {
+    const ObservationFiles& one = survey.observations[i];
+    const bool alike = like == nullptr ||
+                       (one.config.kind == like->config.kind && one.config.sounder_name == like->config.sounder_name);
+    const TimeNs time = survey.entry(one.pings.back()).time;
+    if (!alike || time < last) continue;
+    last = time;
+    newest = i;
+  }
+  return newest;
 }
 
 LiveStatus live_status(const SurveyFiles& survey, double behind_s, const std::filesystem::path& out) {
@@ -64,11 +71,13 @@ LiveStatus live_status(const SurveyFiles& survey, double behind_s, const std::fi
   status.position_age_s = age_s(survey, observation, NavQuantity::position);
   status.heading_age_s = age_s(survey, observation, NavQuantity::heading);
   status.gps_minus_clock_s = observation.gps_minus_clock_s;
-  std::int64_t there = 0;
-  for (const SurveyPing& part : survey.parts(observation.pings.back())) there += survey.entry(part).channels;
-  status.lost_channels = std::max<std::int64_t>(0, std::ssize(observation.config.beams) - there);
+  std::int64_t channels = 0;
+  for (const SurveyPing& part : survey.parts(observation.pings.back())) channels += survey.entry(part).channels;
+  status.lost_channels = std::max<std::int64_t>(0, std::ssize(observation.config.beams) - channels);
   std::error_code unknown;
-  const auto space = std::filesystem::space(out, unknown);
+  std::filesystem::path there = std::filesystem::absolute(out, unknown);
+  while (!std::filesystem::exists(there, unknown) && there.has_relative_path()) there = there.parent_path();
+  const auto space = std::filesystem::space(there, unknown);
   status.disk_left_gb = unknown ? kNotKnown : static_cast<double>(space.available) / 1e9;
   return status;
 }

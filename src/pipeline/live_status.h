@@ -17,8 +17,8 @@ struct LiveStatus {
   std::int64_t pings = 0;         ///< of that observation
   TimeNs newest = 0;              ///< time of the ping
   double pings_per_minute = 0.0;  ///< over the last minute of data
-  double behind_s = 0.0;          ///< since what was written last was taken in, until it was worked out
-  double position_age_s = 0.0;    ///< from the last sentence to the newest datagram
+  double behind_s = 0.0;  ///< from when the newest ping can have been written at the earliest, until it was worked out
+  double position_age_s = 0.0;  ///< from the last sentence to the newest datagram
   double heading_age_s = 0.0;
   double gps_minus_clock_s = 0.0;
   std::int64_t lost_channels = 0;  ///< that the newest ping lacks
@@ -27,7 +27,8 @@ struct LiveStatus {
 
 /// The observation whose last ping is the newest.
 /// survey  with at least one ping
-[[nodiscard]] std::size_t newest_observation(const SurveyFiles& survey);
+/// like    only those of its sounder; null = of any
+[[nodiscard]] std::size_t newest_observation(const SurveyFiles& survey, const ObservationFiles* like = nullptr);
 
 /// survey  with at least one ping
 /// out     folder of the products

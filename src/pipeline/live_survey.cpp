@@ -40,17 +40,19 @@ LiveSurvey::LiveSurvey(std::vector<fs::path> paths, const SurveyParams& params, 
 
 Result<LiveSurvey::News> LiveSurvey::look(LiveClock::time_point now, Work& work) {
   News news;
+  ++looks_;
   if (grew_at_ == LiveClock::time_point{}) grew_at_ = now;
   list(now, news, work);
   for (auto& [path, file] : files_) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     read(file, now, news);
   }
-  if (news.bytes > 0) grew_at_ = now;
+  if (news.bytes > 0 || news.cannot) grew_at_ = now;  // whether it grows meanwhile nobody knows
   finish_files(now, news);
   if (news.pings > 0 || news.changed) {
     news.changed = true;
     arrange();
+    drop_late(news);
   }
   return news;
 }
@@ -74,17 +76,51 @@ void LiveSurvey::list(LiveClock::time_point now, News& news, Work& work) {
     news.cannot = listed.error();
     return;
   }
+  drop_vanished(*listed, news);
   for (const fs::path& path : *listed) {
     if (files_.contains(path) || let_go_.contains(path)) continue;
     File& file = files_[path];
     file.path = path;
     file.bytes = growing_file(path);
+    file.appeared = looks_;
     file.grew_at = now;
     file.pings = ping_source(file.bytes);
     take_whole(file, news, work);
     news.changed = true;
     if (work.cancelled()) return;
   }
+}
+
+/// What somebody removed, or gave another name. Where nothing is left the disk is gone, not its files.
+void LiveSurvey::drop_vanished(const std::vector<fs::path>& listed, News& news) {
+  const auto gone = [&](const auto& entry) {
+    return std::find(listed.begin(), listed.end(), entry.first) == listed.end();
+  };
+  if (files_.empty() || std::none_of(files_.begin(), files_.end(), gone)) return;
+  if (std::all_of(files_.begin(), files_.end(), gone)) {
+    news.cannot = Error{ErrorCode::not_found, "none of its files is there any more", {.file = paths_.front().string()}};
+    return;
+  }
+  std::erase_if(files_, gone);
+  news.changed = news.replaced = true;
+}
+
+/// A file whose pings lie before what is looked at: only a run over all can place them.
+void LiveSurvey::drop_late(News& news) {
+  if (starts_.empty()) return;
+  std::set<fs::path> in_use;
+  for (const ObservationFiles& observation : survey_->observations) {
+    for (const std::uint32_t f : observation.files) in_use.insert(survey_->files[f].path);
+  }
+  std::erase_if(files_, [&](const auto& entry) {
+    const auto& [path, file] = entry;
+    if (file.pings->count() == 0 || in_use.contains(path)) return false;
+    news.cannot = Error{ErrorCode::mismatch,
+                        "its pings lie before what is followed by now: run the survey again for them",
+                        {.file = path.string()}};
+    let_go_.insert(path);
+    return true;
+  });
 }
 
 void LiveSurvey::read(File& file, LiveClock::time_point now, News& news) {
@@ -124,7 +160,9 @@ bool LiveSurvey::is_succeeded(const File& file) const {
   const RawIndex& own = file.pings->index();
   return std::any_of(files_.begin(), files_.end(), [&](const auto& entry) {
     const RawIndex& other = entry.second.pings->index();
-    return &entry.second != &file && same_sounder(own, other) && other.first_datagram_time > own.last_datagram_time;
+    const bool later = entry.second.appeared != file.appeared ? entry.second.appeared > file.appeared
+                                                              : other.first_datagram_time > own.last_datagram_time;
+    return &entry.second != &file && later && same_sounder(own, other);
   });
 }
 
@@ -167,8 +205,15 @@ bool LiveSurvey::over(const ObservationFiles& observation) const {
   const auto any_later = [&](const ObservationFiles& other) {
     return sounder_of(other) == sounder_of(observation) && &other > &observation;
   };
-  const bool others_final =
-      std::all_of(files_.begin(), files_.end(), [](const auto& file) { return file.second.pings->final(); });
+  const bool others_final = std::all_of(files_.begin(), files_.end(), [&](const auto& entry) {
+    const File& file = entry.second;
+    const auto& configs = file.pings->index().configs;
+    const bool of_others =
+        !configs.empty() && std::none_of(configs.begin(), configs.end(), [&](const SounderConfig& config) {
+          return std::pair(config.kind, config.sounder_name) == sounder_of(observation);
+        });
+    return file.pings->final() || of_others || (file.error && file.pings->count() == 0);
+  });
   return others_final || std::any_of(survey_->observations.begin(), survey_->observations.end(), any_later);
 }
 
@@ -190,6 +235,7 @@ void LiveSurvey::let_go_before(const std::string& observation) {
     if (before) continue;
     for (const std::uint32_t f : other.files) in_use.insert(survey_->files[f].path);
   }
+  if (start.observations == starts_[sounder_of(*kept)].observations) return;
   starts_[sounder_of(*kept)] = std::move(start);
   std::erase_if(files_, [&](const auto& entry) {
     const bool done = entry.second.pings->final() && entry.second.pings->count() > 0 && !in_use.contains(entry.first);

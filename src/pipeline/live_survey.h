@@ -50,7 +50,7 @@ class LiveSurvey {
   /// What is known, without the observations that were let go; their number stands before the names of those that are here.
   [[nodiscard]] std::shared_ptr<const SurveyFiles> survey() const { return survey_; }
   /// Whether nothing more will come to an observation of survey(): all its files are final, and another one of its sounder has
-  /// begun, or no file at all is being written.
+  /// begun, or no file of it, or of a sounder not known yet, is being written.
   [[nodiscard]] bool over(const ObservationFiles& observation) const;
   /// Lets go of the files of observations before the one named: they are over, and their products are kept.
   void let_go_before(const std::string& observation);
@@ -64,6 +64,7 @@ class LiveSurvey {
     std::shared_ptr<const ByteSource> bytes;
     std::unique_ptr<PingSource> pings;
     std::uint64_t size = 0;
+    std::int64_t appeared = 0;  ///< at which look
     LiveClock::time_point grew_at;
     std::optional<Error> error;
   };
@@ -72,6 +73,8 @@ class LiveSurvey {
   void read(File& file, LiveClock::time_point now, News& news);
   void finish_files(LiveClock::time_point now, News& news);
   [[nodiscard]] bool is_succeeded(const File& file) const;
+  void drop_vanished(const std::vector<std::filesystem::path>& listed, News& news);
+  void drop_late(News& news);
   void arrange();
 
   std::vector<std::filesystem::path> paths_;
@@ -82,6 +85,7 @@ class LiveSurvey {
   std::set<std::filesystem::path> let_go_;  ///< files that are done with
   SequenceStarts starts_;
   bool ended_ = false;
+  std::int64_t looks_ = 0;
   LiveClock::time_point grew_at_;
   std::shared_ptr<const SurveyFiles> survey_ = std::make_shared<SurveyFiles>();
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,7 +15,6 @@ namespace {
 NmeaTarget target_of(const LiveSchool& school) {
   const SchoolPingRow& row = school.newest;
   NmeaTarget target;
-  target.number = static_cast<int>(row.school_id % 100);
   target.name = fmt::format("school {}", row.school_id);
   target.time = row.time_utc;
   target.latitude_deg = row.latitude;
@@ -30,25 +30,47 @@ NmeaTarget target_of(const LiveSchool& school) {
 
 }  // namespace
 
+int LiveTargets::free_number() const {
+  constexpr int kMost = 99;
+  for (int number = 1; number <= kMost; ++number) {
+    const bool taken = std::any_of(told_.begin(), told_.end(),
+                                   [&](const auto& entry) { return entry.second.target.number == number; });
+    if (!taken) return number;
+  }
+  return 0;
+}
+
 std::vector<std::string> LiveTargets::sentences(std::span<const LiveSchool> seen) {
+  constexpr int kLostAfter = 3;  // a school may be hidden for a ping
   std::vector<std::string> sentences;
   const auto tell = [&](const NmeaTarget& target) {
     sentences.push_back(tll_sentence(target));
     sentences.push_back(ttm_sentence(target));
   };
-  std::map<std::string, NmeaTarget> now;
+  for (auto& [name, told] : told_) ++told.missed;
   for (const LiveSchool& school : seen) {
-    const NmeaTarget target = target_of(school);
-    tell(target);
-    now[name_of(school)] = target;
+    const auto [known, is_new] = told_.try_emplace(name_of(school));
+    const int number = is_new ? free_number() : known->second.target.number;
+    known->second = {target_of(school), 0};
+    known->second.target.number = number;
+    tell(known->second.target);
   }
-  for (auto& [name, target] : told_) {
-    if (now.contains(name)) continue;
-    target.lost = true;
-    tell(target);
-  }
-  told_ = std::move(now);
+  std::erase_if(told_, [&](auto& entry) {
+    if (entry.second.missed < kLostAfter) return false;
+    NmeaTarget lost = entry.second.target;
+    lost.lost = true;
+    tell(lost);
+    return true;
+  });
   return sentences;
+}
+
+std::vector<std::string> LiveTargets::end() {
+  std::vector<std::string> all;
+  while (!told_.empty()) {
+    for (std::string& sentence : sentences({})) all.push_back(std::move(sentence));
+  }
+  return all;
 }
 
 }  // namespace sonar

@@ -255,7 +255,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
     work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-  if (before != nullptr) keep_rows(*before, engine, pings, rows, problems);
+  if (before != nullptr && engine.refusal()) keep_rows(*before, engine, pings, rows, problems);
   Faults faults;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);

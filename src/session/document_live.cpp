@@ -54,11 +54,14 @@ bool Document::grow(std::shared_ptr<const SurveyFiles> survey) {
     if (auto& product = products_[index]) product = with_pings(product, survey_->observations[index]);
     choices_thread_->grow(chosen_on);
   }
+  const OpenObservationPtr before = shown_;
   if (shown_) {
     shown_ = open_.at(shown_->index());
     ping_ = std::min(ping_, shown_->pings() - 1);
   }
   changes_.tell(DocumentChange::observation);
+  // One that was on its way to the observation as it was comes no more.
+  if (shown_ != before && (!staged_ || staged_->ping_index != ping_)) look_at(ping_);
   return true;
 }
 

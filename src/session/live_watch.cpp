@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/live_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -60,25 +62,36 @@ void LiveWatch::set_on(bool on) {
   looked_s_ = 0.0;
   asked_ping_ = -1;
   chasing_ = false;
-  found_in_ = {0, 0};
+  found_in_.clear();
+  left_out_ = 0;
+  looked_at_ = LiveClock::now();
   text_ = "waiting for pings";
   pulse_.run(kName, [this](double now_s) { return tick(now_s); });
   look_at_newest();
   changed_.tell();
 }
 
+/// Of the sounder on show; before anything is, of the first that can be shown.
+std::size_t LiveWatch::newest() const {
+  const Document& document = workspace_.document;
+  const auto& all = document.survey()->observations;
+  if (document.shown()) return newest_observation(*document.survey(), &document.shown()->files());
+  const auto first = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); });
+  return newest_observation(*document.survey(), first == all.end() ? nullptr : &*first);
+}
+
 bool LiveWatch::at_newest() const {
   const Document& document = workspace_.document;
   if (!on() || !document.shown() || document.survey()->observations.empty()) return false;
-  return document.shown()->index() == newest_observation(*document.survey()) &&
-         document.ping() + 1 == document.shown()->pings();
+  return document.shown()->index() == newest() && document.ping() + 1 == document.shown()->pings();
 }
 
 void LiveWatch::look_at_newest() {
   Document& document = workspace_.document;
   if (!on() || document.survey()->observations.empty()) return;
-  const std::size_t newest = newest_observation(*document.survey());
+  const std::size_t newest = this->newest();
   const std::int64_t last = std::ssize(document.survey()->observations[newest].pings) - 1;
+  if (asked_ping_ >= 0 && last > asked_ping_ + 1) left_out_ += last - asked_ping_ - 1;
   if (document.shown() && document.shown()->index() == newest) {
     document.look_at(last);
   } else if (auto shown = document.show(newest, last); !shown) {
@@ -100,10 +113,13 @@ void LiveWatch::go_on_with_newest() {
 
 bool LiveWatch::tick(double now_s) {
   if (!on()) return false;
-  if (looking_ || now_s - looked_s_ < kPoll_s) return true;
+  // A survey that is being opened again is not looked at meanwhile.
+  const bool opening = follows_next_ && !workspace_.document.progress().stage.empty();
+  if (looking_ || opening || now_s - looked_s_ < kPoll_s) return true;
   looking_ = true;
   looked_s_ = now_s;
-  (void)looks_.post([this, survey = survey_, watched = std::weak_ptr<bool>(watched_), work = work_,
+  const auto written_since = std::exchange(looked_at_, LiveClock::now());
+  (void)looks_.post([this, survey = survey_, written_since, watched = std::weak_ptr<bool>(watched_), work = work_,
                      out = workspace_.document.journal_path().parent_path()](const Wanted&) {
     const auto begun = LiveClock::now();
     Seen seen;
@@ -111,8 +127,8 @@ bool LiveWatch::tick(double now_s) {
     if (news && news->cannot) seen.cannot = to_line(*news->cannot);
     if (news && news->changed && !survey->survey()->observations.empty()) {
       seen.survey = survey->survey();
-      const double took_s = std::chrono::duration<double>(LiveClock::now() - begun).count();
-      seen.status = live_status(*seen.survey, took_s, out.empty() ? "." : out);
+      seen.written_since = written_since;
+      seen.status = live_status(*seen.survey, 0.0, out.empty() ? "." : out);
     }
     workspace_.queue.post([this, watched, seen] {
       if (watched.lock()) take(seen);
@@ -136,23 +152,44 @@ void LiveWatch::take(const Seen& seen) {
       const auto paths = document.paths();
       return document.open(paths);
     }
-    if (follows) go_on_with_newest();
-    text_ = status_line(*seen.status);
+    if (follows) {
+      go_on_with_newest();
+    } else {
+      asked_ping_ = -1;
+    }
+    LiveStatus status = *seen.status;
+    status.behind_s = std::chrono::duration<double>(LiveClock::now() - seen.written_since).count();
+    text_ = status_line(status);
+    if (left_out_ > 0) text_ += fmt::format("; {} pings not drawn, all are searched", left_out_);
     changed_.tell();
   }
   find_schools();
 }
 
+/// Observations that ended while their last pings were not searched yet come first.
+std::optional<std::size_t> LiveWatch::to_be_searched() const {
+  const Document& document = workspace_.document;
+  const auto& all = document.survey()->observations;
+  std::set<std::size_t> followed{newest()};
+  for (const auto& [index, memory] : memory_) followed.insert(index);
+  for (const std::size_t index : followed) {
+    if (index >= all.size() || !all[index].grid) continue;
+    const auto found = found_in_.find(index);
+    const bool refused = asked_.contains(index) && !document.asks_for_schools(index);  // somebody undid it
+    if (!refused && (found == found_in_.end() || found->second != std::ssize(all[index].pings))) return index;
+  }
+  return std::nullopt;
+}
+
 void LiveWatch::find_schools() {
   Document& document = workspace_.document;
   if (finding_ || document.busy() || document.survey()->observations.empty()) return;
+  const auto next = to_be_searched();
+  if (!next) return;
   const auto survey = document.survey_files();
-  const std::size_t index = newest_observation(*survey);
-  const ObservationFiles& observation = survey->observations[index];
-  const std::pair of(index, std::ssize(observation.pings));
-  if (of == found_in_ || !observation.grid || (asked_.contains(index) && !document.asks_for_schools(index))) return;
+  const std::size_t index = *next;
   finding_ = true;
-  found_in_ = of;
+  found_in_[index] = std::ssize(survey->observations[index].pings);
   auto& memory = memory_[index];
   if (!memory) memory = std::make_shared<ObserveMemory>();
   work_->set_progress([give_way = GivesWay(document.right_of_way())](std::string_view, std::int64_t,
@@ -184,6 +221,10 @@ void LiveWatch::take_found(std::size_t observation, std::shared_ptr<const Observ
     }
     document.take_schools(observation, *found);
     asked_.insert(observation);
+  }
+  if (observation != newest()) {
+    memory_.erase(observation);  // it is over
+    last_found_.erase(observation);
   }
   find_schools();
 }

@@ -52,11 +52,14 @@ class LiveWatch {
   struct Seen {
     std::shared_ptr<const SurveyFiles> survey;  ///< null = nothing new
     std::optional<LiveStatus> status;
+    LiveClock::time_point written_since;  ///< what is new was written then at the earliest
     std::string cannot;
   };
   bool tick(double now_s);
   void take(const Seen& seen);
   void go_on_with_newest();
+  [[nodiscard]] std::size_t newest() const;
+  [[nodiscard]] std::optional<std::size_t> to_be_searched() const;
   void find_schools();
   void take_found(std::size_t observation, std::shared_ptr<const ObservationProduct> found);
 
@@ -68,12 +71,14 @@ class LiveWatch {
   bool follows_next_ = false;
   std::int64_t asked_ping_ = -1;  ///< the newest, when it was asked for
   bool chasing_ = false;          ///< a newer one came before that was there
+  std::int64_t left_out_ = 0;     ///< pings that were never drawn
   double looked_s_ = 0.0;
+  LiveClock::time_point looked_at_;  ///< when the look before began to read
   std::string text_;
   std::string cannot_;
   bool finding_ = false;
-  std::pair<std::size_t, std::int64_t> found_in_{0, 0};  ///< observation, pings of it
-  std::set<std::size_t> asked_;                          ///< observations whose journal asks for schools on our behalf
+  std::map<std::size_t, std::int64_t> found_in_;  ///< pings of each that schools were looked for in
+  std::set<std::size_t> asked_;                   ///< observations whose journal asks for schools on our behalf
   std::map<std::size_t, std::shared_ptr<ObserveMemory>> memory_;
   std::map<std::size_t, std::shared_ptr<const ObservationProduct>> last_found_;
   Listeners<> changed_;

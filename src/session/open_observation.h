@@ -80,4 +80,10 @@ class OpenObservation {
   std::unique_ptr<PingCache> cache_;  // the last member: its thread ends first
 };
 
+/// Whether two are the same observation, whatever its calibration and however many pings it has; null is like null.
+[[nodiscard]] inline bool same_observation(const std::shared_ptr<OpenObservation>& a,
+                                           const std::shared_ptr<OpenObservation>& b) {
+  return a && b ? a->identity() == b->identity() : !a && !b;
+}
+
 }  // namespace sonar

@@ -21,7 +21,7 @@ Playback::Playback(Workspace& workspace, Pulse& pulse)
         const auto& document = workspace_.document;
         const bool arrived = document.staged() && document.staged()->ping_index == document.ping();
         if (change == DocumentChange::notice && playing_ && !arrived) unreadable_ = true;
-        if (playing_ && document.shown() != of_.lock()) pause();
+        if (playing_ && identity_ != (document.shown() ? document.shown()->identity() : nullptr)) pause();
       })) {}
 
 Playback::~Playback() {
@@ -34,7 +34,7 @@ void Playback::play() {
   if (playing_ || !document.shown() || document.shown()->pings() < 2) return;
   if (document.ping() == document.shown()->pings() - 1) document.look_at(0);
   playing_ = true;
-  of_ = document.shown();
+  identity_ = document.shown()->identity();
   ping_ = -1;
   unreadable_ = false;
   came_s_.clear();

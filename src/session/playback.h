@@ -54,11 +54,11 @@ class Playback {
   Pulse& pulse_;
   bool playing_ = false;
   PlaySpeed speed_ = PlaySpeed::real_time;
-  std::weak_ptr<OpenObservation> of_;  ///< what is played
-  std::int64_t ping_ = -1;             ///< that waits for its successor
-  double since_s_ = 0.0;               ///< when it was there
-  std::deque<double> came_s_;          ///< when the last pings came
-  bool unreadable_ = false;            ///< the ping that was asked for cannot be had
+  std::shared_ptr<const int> identity_;  ///< of what is played
+  std::int64_t ping_ = -1;               ///< that waits for its successor
+  double since_s_ = 0.0;                 ///< when it was there
+  std::deque<double> came_s_;            ///< when the last pings came
+  bool unreadable_ = false;              ///< the ping that was asked for cannot be had
   Listeners<> changed_;
   int listening_;
 };

@@ -109,6 +109,37 @@ class Follow(Case):
             self.sonarx("run", live, "--out", out)
             self.expect_run(live, out)
 
+    def wait_for(self, words, timeout=120):
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            if words in self.follow.stdout.readline():
+                return
+        self.fail(f"nothing said '{words}'")
+
+    def test_what_is_over_is_right_before_a_run_has_the_last_word(self):
+        folder = self.fresh("follow-over")
+        live, out = folder / "live", folder / "out"
+        shutil.copytree(SURVEY, live, ignore=shutil.ignore_patterns("truth"), copy_function=shutil.copyfile)
+        self.start(live, out)
+        self.wait_for("obs-0001 is over")
+        self.follow.send_signal(signal.SIGINT)
+        self.assertEqual(self.end()[0], 130)
+        self.assertEqual((out / "products/obs-0001.nc").read_bytes(), (OUT / "products/obs-0001.nc").read_bytes())
+        self.assertEqual({row["observation"] for row in sonarx.read_csv(out / "schools.csv")}, {"obs-0001", "obs-0002"})
+
+    def test_ctrl_c_amid_a_look_loses_nothing_that_it_took_in(self):
+        for wait_s in (0.05, 0.3, 0.6):
+            folder = self.fresh("follow-amid")
+            live, out = folder / "live", folder / "out"
+            shutil.copytree(SURVEY, live, ignore=shutil.ignore_patterns("truth"), copy_function=shutil.copyfile)
+            self.start(live, out)
+            time.sleep(wait_s)
+            self.follow.send_signal(signal.SIGINT)
+            code, _, err = self.end()
+            self.assertIn(code, (130, -signal.SIGINT), err)
+            if code == 130:
+                self.assertEqual(len(list((out / "products").iterdir())), 2, wait_s)
+
     def test_nothing_is_written_beside_the_recording(self):
         folder = self.fresh("follow-clean")
         live = folder / "live"

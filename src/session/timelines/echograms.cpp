@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/live_status.h"
 #include "publish/echogram_cache.h"
 
 namespace sonar {
@@ -214,8 +215,10 @@ void Echograms::read(const std::shared_ptr<Filling>& filling) {
 }
 
 void Echograms::take(std::size_t observation, EchogramPtr echogram, bool complete) {
-  // The last one may still be recorded: then it goes on from here.
-  if (complete && observation + 1 < document_.survey()->observations.size()) fillings_.erase(observation);
+  // The last one of a sounder may still be recorded: then it goes on from here.
+  const SurveyFiles& survey = *document_.survey();
+  const bool may_grow = newest_observation(survey, &survey.observations[observation]) == observation;
+  if (complete && !may_grow) fillings_.erase(observation);
   if (!echogram) return;
   kept_[observation] = {std::move(echogram), complete};
   changed_.tell();

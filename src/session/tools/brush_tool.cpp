@@ -155,7 +155,7 @@ void BrushTool::cancel() {
 void BrushTool::hear(DocumentChange change) {
   const Document& document = workspace_.document;
   if (change == DocumentChange::observation || change == DocumentChange::survey) {
-    if (observation_ != document.shown()) cancel();
+    if (!same_observation(observation_, document.shown())) cancel();
     return;
   }
   if (change != DocumentChange::state || !selects_) return;

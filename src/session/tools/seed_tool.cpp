@@ -205,7 +205,7 @@ void SeedTool::hear(DocumentChange change) {
     case DocumentChange::survey:
       return forget();
     case DocumentChange::observation:
-      if (workspace_.document.shown() != of_.lock()) forget();
+      if (!same_observation(of_.lock(), workspace_.document.shown())) forget();
       return;
     case DocumentChange::state:
       return take_state();
