@@ -26,7 +26,7 @@ class PingSource {
 
   /// Everything about the file so far but its samples; size, hash and diagnostics once it is final.
   [[nodiscard]] virtual const RawIndex& index() const = 0;
-  /// Pings published so far: only rises, and none changes.
+  /// Pings published so far: only rises, and none changes, as long as this source lives.
   [[nodiscard]] std::size_t count() const { return index().pings.size(); }
   /// Where a ping lies and what it says of the ship; costs nothing.
   [[nodiscard]] const PingEntry& header(std::size_t i) const { return index().pings[i]; }

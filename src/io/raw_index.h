@@ -99,8 +99,4 @@ struct RawIndex {
   [[nodiscard]] bool gives_samples() const { return format == RawFormat::simrad; }
 };
 
-/// RawIndex::hash of a file.
-/// errors  io
-[[nodiscard]] Result<std::string> content_hash(const ByteSource& source);
-
 }  // namespace sonar

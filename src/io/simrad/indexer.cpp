@@ -71,9 +71,25 @@ Result<bool> Indexer::worth_scanning(const ByteSource& source, bool final) {
 Result<void> Indexer::refresh(const ByteSource& source) {
   const auto scan = worth_scanning(source, false);
   if (!scan) return pass_on(scan);
-  if (!*scan) return {};
-  return scanner_.scan(
-      source, [this](const Datagram& d) { take_in(d); }, notes_);
+  if (*scan) {
+    if (auto done = scanner_.scan(
+            source, [this](const Datagram& d) { take_in(d); }, notes_);
+        !done)
+      return done;
+  }
+  return hash_what_came(source);
+}
+
+/// While it lies in memory still: of a file that grows, the end must not cost a second reading of all.
+Result<void> Indexer::hash_what_came(const ByteSource& source) {
+  std::vector<std::byte> bytes(2U << 20U);
+  while (true) {
+    const auto got = source.read(hashed_, bytes);
+    if (!got) return pass_on(got);
+    hasher_.add(std::span<const std::byte>(bytes).first(*got));
+    hashed_ += *got;
+    if (*got < bytes.size()) return {};
+  }
 }
 
 Result<void> Indexer::finish(const ByteSource& source) {
@@ -95,9 +111,8 @@ Result<void> Indexer::finish(const ByteSource& source) {
         fmt::format("{} navigation sentences with a wrong checksum or none readable, the first here", bad_sentences_));
   }
   name_format();
-  const auto hash = content_hash(source);
-  if (!hash) return pass_on(hash);
-  index_.hash = *hash;
+  if (auto hashed = hash_what_came(source); !hashed) return hashed;
+  index_.hash = to_hex(hasher_.value());
   index_.diagnostics = notes_.all();
   return {};
 }

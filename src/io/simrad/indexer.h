@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/result.h"
 #include "io/byte_source.h"
 #include "io/raw_index.h"
@@ -35,6 +36,7 @@ class Indexer {
   [[nodiscard]] RawIndex take() { return std::move(index_); }
 
  private:
+  Result<void> hash_what_came(const ByteSource& source);
   Result<bool> worth_scanning(const ByteSource& source, bool final);
   void take_in(const Datagram& datagram);
   void take_con0(const Datagram& datagram);
@@ -64,6 +66,8 @@ class Indexer {
   void name_format();
 
   Scanner scanner_;
+  Hasher hasher_;
+  std::uint64_t hashed_ = 0;  ///< bytes
   Notes notes_;
   RawIndex index_;
   bool format_known_ = false;
