@@ -76,7 +76,7 @@ class GrowingFile final : public ByteSource {
   [[nodiscard]] Result<std::uint64_t> size() const override {
     const auto file = open_file(path_);
     if (!file) return pass_on(file);
-    const auto size = (*file)->size();
+    auto size = (*file)->size();
     if (!size) return size;
     const auto another = [&](const char* why) { return fail(ErrorCode::mismatch, why, {.file = name_}); };
     if (*size < seen_) return another("is shorter than it was: another file");

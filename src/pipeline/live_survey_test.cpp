@@ -18,7 +18,6 @@ using std::chrono::seconds;
 using test::Bytes;
 using test::kStart;
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 constexpr TimeNs kMinute = 60 * kSecondNs;
 

@@ -211,7 +211,7 @@ void LiveWatch::find_schools() {
   });
 }
 
-void LiveWatch::take_found(std::size_t observation, std::shared_ptr<const ObservationProduct> found) {
+void LiveWatch::take_found(std::size_t observation, const std::shared_ptr<const ObservationProduct>& found) {
   finding_ = false;
   Document& document = workspace_.document;
   if (found && !(asked_.contains(observation) && !document.asks_for_schools(observation))) {

@@ -61,7 +61,7 @@ class LiveWatch {
   [[nodiscard]] std::size_t newest() const;
   [[nodiscard]] std::optional<std::size_t> to_be_searched() const;
   void find_schools();
-  void take_found(std::size_t observation, std::shared_ptr<const ObservationProduct> found);
+  void take_found(std::size_t observation, const std::shared_ptr<const ObservationProduct>& found);
 
   Workspace& workspace_;
   Pulse& pulse_;

@@ -38,7 +38,7 @@ OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std:
 OpenObservation::OpenObservation(const OpenObservation& before, std::shared_ptr<const SurveyFiles> grown,
                                  std::int64_t prefetch, std::uint64_t memory_bytes)
     : OpenObservation(std::move(grown), before.index_, before.engine_.recipe(), prefetch, memory_bytes, before.known_) {
-  identity_ = before.identity_;
+  identity_ = before.identity_;  // NOLINT(cppcoreguidelines-prefer-member-initializer): after a delegated constructor
 }
 
 OpenObservation::OpenObservation(std::shared_ptr<OpenObservation> chosen_on, const Recipe& measuring,
