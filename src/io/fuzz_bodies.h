@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "base/hash.h"
 #include "io/child_process.h"
 #include "io/csv.h"
 #include "io/csv_table.h"
@@ -126,10 +127,21 @@ inline void school_tables(std::string_view text) {
   table_rows<SchoolPingRow>(*table);
 }
 
-/// A stored index is taken whole or not at all.
+/// A stored index is taken whole or not at all; so are the same bytes behind a right check sum, which no mutation would make.
 inline void index_cache(std::span<const std::byte> bytes) {
-  const auto index = decode_index(bytes);
-  if (index) SONAR_CHECK(decode_index(encode_index(*index)).has_value());
+  const auto take = [](std::span<const std::byte> stored) {
+    const auto index = decode_index(stored);
+    if (index) SONAR_CHECK(decode_index(encode_index(*index)).has_value());
+  };
+  take(bytes);
+  constexpr std::size_t kMagicAndVersion = 12;
+  std::vector<std::byte> sealed = encode_index({});
+  sealed.resize(kMagicAndVersion);
+  const Hash128 sum = hash_bytes(bytes);
+  wire::put(sealed, sum.high);
+  wire::put(sealed, sum.low);
+  sealed.insert(sealed.end(), bytes.begin(), bytes.end());
+  take(sealed);
 }
 
 /// Whatever a reading child answers is something, within what was asked for, or nothing.
