@@ -7,6 +7,7 @@ import os
 import random
 import shutil
 import subprocess
+import unittest
 
 import sonarx
 from sonarx import PROGRAM, SURVEY, WORK, Case
@@ -28,6 +29,7 @@ def shimmed(*arguments, below, fail=0, error=errno.ENOSPC, log=None):
     return done.returncode, done.stdout, done.stderr
 
 
+@unittest.skipUnless(SHIM, "SONAR_SHIM, the library that makes calls fail, is not given: none is built with sanitizers")
 class Disk(Case):
     def logged(self, name, *arguments, below):
         log = self.fresh(name) / "calls"

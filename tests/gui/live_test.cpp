@@ -5,43 +5,23 @@
 #include <QLabel>
 #include <QToolBar>
 
-#include "gui/pulse_timer.h"
+#include "clocked_window.h"
 #include "session/live_watch.h"
-#include "window_at_work.h"
 
 namespace sonar {
 namespace {
 
-/// Stops the window's own timer: time passes when the test says so.
-class NoTimer : public QObject {
+class Live : public ClockedWindow {
  protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    return event->type() == QEvent::Timer && dynamic_cast<PulseTimer*>(watched) != nullptr;
-  }
-};
-
-class Live : public WindowAtWork {
- protected:
-  void SetUp() override {
-    WindowAtWork::SetUp();
-    QApplication::instance()->installEventFilter(&no_timer_);
-  }
-  void press(Qt::Key key, Qt::KeyboardModifiers with = {}) {
-    QTest::keyClick(window_->windowHandle(), key, with);
-    settle_jobs();
-  }
   void turns() {
     for (int i = 0; i < 6; ++i) {
-      desk_->pulse.tick(now_s_ += 0.3);
+      tick(0.3);
       desk_->live->settle();
       settle_jobs();
     }
   }
   [[nodiscard]] QToolBar* strip() const { return window_->findChild<QToolBar*>("live"); }
   [[nodiscard]] QString text() const { return window_->findChild<QLabel*>("live_text")->text(); }
-
-  NoTimer no_timer_;
-  double now_s_ = 10.0;
 };
 
 TEST_F(Live, CtrlLFollowsAndLGoesBackToTheNewestPing) {

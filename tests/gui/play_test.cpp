@@ -2,45 +2,20 @@
 // Playing through pings, on a clock that the test turns.
 #include <gtest/gtest.h>
 
-#include "gui/pulse_timer.h"
+#include "clocked_window.h"
 #include "session/playback.h"
-#include "window_at_work.h"
 
 namespace sonar {
 namespace {
 
-/// Stops the window's own timer: time passes when the test says so.
-class NoTimer : public QObject {
+class Playing : public ClockedWindow {
  protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    return event->type() == QEvent::Timer && dynamic_cast<PulseTimer*>(watched) != nullptr;
-  }
-};
-
-class Playing : public WindowAtWork {
- protected:
-  void SetUp() override {
-    WindowAtWork::SetUp();
-    QApplication::instance()->installEventFilter(&no_timer_);
-  }
   /// Seconds from a ping to the next, as they were recorded.
   double between_s(std::int64_t ping) {
     const auto& pings = document().shown()->files().navigation;
     const auto i = static_cast<std::size_t>(ping);
     return static_cast<double>(pings[i + 1].time - pings[i].time) / 1e9;
   }
-  void tick(double later_s) {
-    now_s_ += later_s;
-    desk_->pulse.tick(now_s_);
-    settle_jobs();
-  }
-  void press(Qt::Key key) {
-    QTest::keyClick(window_->windowHandle(), key);
-    settle_jobs();
-  }
-
-  NoTimer no_timer_;
-  double now_s_ = 100.0;
 };
 
 TEST_F(Playing, SpaceShowsEveryPingAtItsTimeAndSpaceStopsIt) {
