@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/live_status.h"
 #include "publish/echogram_cache.h"
 
 namespace sonar {
@@ -115,6 +114,7 @@ void Echograms::forget() {
   wanted_.clear();
   fillings_.clear();
   asked_.clear();
+  grows_.clear();
   changed_.tell();
 }
 
@@ -130,11 +130,14 @@ void Echograms::follow_calibration() {
 }
 
 void Echograms::follow_growth() {
-  for (auto& [index, filling] : fillings_) {
+  for (auto& [index, pings] : asked_) {
     const OpenObservationPtr now = document_.open_observation(index);
-    if (!now || !filling || now->pings() <= asked_[index]) continue;
-    asked_[index] = now->pings();
-    background_.post([filling, now](const Wanted&) { filling->go_on_with(now); });
+    if (!now || now->pings() <= pings) continue;
+    pings = now->pings();
+    grows_.insert(index);
+    if (const auto filling = fillings_.find(index); filling != fillings_.end() && filling->second) {
+      background_.post([of = filling->second, now](const Wanted&) { of->go_on_with(now); });
+    }
     if (const auto kept = kept_.find(index); kept != kept_.end()) kept->second.complete = false;
   }
   go_on();
@@ -215,10 +218,7 @@ void Echograms::read(const std::shared_ptr<Filling>& filling) {
 }
 
 void Echograms::take(std::size_t observation, EchogramPtr echogram, bool complete) {
-  // The last one of a sounder may still be recorded: then it goes on from here.
-  const SurveyFiles& survey = *document_.survey();
-  const bool may_grow = newest_observation(survey, &survey.observations[observation]) == observation;
-  if (complete && !may_grow) fillings_.erase(observation);
+  if (complete && !grows_.contains(observation)) fillings_.erase(observation);  // else it goes on from here
   if (!echogram) return;
   kept_[observation] = {std::move(echogram), complete};
   changed_.tell();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ class Echograms {
   std::map<const void*, std::vector<std::size_t>> wanted_;
   std::map<std::size_t, std::shared_ptr<Filling>> fillings_;
   std::map<std::size_t, std::int64_t> asked_;  ///< pings of each that is filled
+  std::set<std::size_t> grows_;                ///< observations that are being recorded
   bool reading_ = false;
   std::string recipe_;                                          ///< hash of what echograms are made under
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
