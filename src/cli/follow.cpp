@@ -10,7 +10,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -58,10 +57,10 @@ class Teller {
   explicit Teller(bool json) : json_(json), terminal_(!json && isatty(STDERR_FILENO) != 0) {}
 
   void school(const LiveSchool& school) { line("school", school_line(school), school_json(school)); }
-  void alarm(const Alarm& alarm, const LiveSchool& school) {
+  void alarm(const std::string& rule, const LiveSchool& school) {
     nlohmann::json members = school_json(school);
-    members["rule"] = alarm.text();
-    line("alarm", fmt::format("ALARM {}: {}{}", alarm.text(), school_line(school), terminal_ ? "\a" : ""), members);
+    members["rule"] = rule;
+    line("alarm", fmt::format("ALARM {}: {}{}", rule, school_line(school), terminal_ ? "\a" : ""), members);
   }
   void finished(const std::string& observation, const std::filesystem::path& product) {
     line("finished", fmt::format("{} is over: {}", observation, product.string()),
@@ -174,8 +173,8 @@ class Following {
     }
     for (const LiveSchool& school : look->schools) {
       if (school.is_new) teller_.school(school);
-      raise_alarms(school);
     }
+    for (const Alarms::Ringing& ringing : alarms_.ring(look->schools)) teller_.alarm(ringing.rule, ringing.school);
     if (bridge_ && look->news.pings > 0) {
       for (const std::string& sentence : targets_.sentences(look->schools)) bridge_->send(sentence);
     }
@@ -189,7 +188,8 @@ class Following {
 
   void tell_trouble(const Follow::Look& look, double took_s) {
     if (look.news.cannot) {
-      teller_.trouble(to_line(*look.news.cannot) + "; waiting for it");
+      const bool comes_back = look.news.cannot->code != ErrorCode::mismatch;
+      teller_.trouble(to_line(*look.news.cannot) + (comes_back ? "; waiting for it" : ""));
     } else if (!look.failures.empty()) {
       const RunFailure& failure = look.failures.front();
       teller_.trouble(fmt::format("{}: {}", *failure.observation, to_line(failure.error)));
@@ -199,21 +199,6 @@ class Following {
       teller_.trouble("no ping yet; waiting for the first");
     } else if (look.news.pings > 0) {
       teller_.no_trouble();
-    }
-  }
-
-  void raise_alarms(const LiveSchool& school) {
-    for (const Alarm& alarm : alarms_) {
-      const std::pair raised(name_of(school), alarm.text());
-      const auto at = std::find_if(school.since.begin(), school.since.end(),
-                                   [&](const SchoolPingRow& row) { return alarm.holds(row); });
-      if (at == school.since.end()) {
-        raised_.erase(raised);
-      } else if (raised_.insert(raised).second) {
-        LiveSchool there = school;
-        there.newest = *at;
-        teller_.alarm(alarm, there);
-      }
     }
   }
 
@@ -235,11 +220,10 @@ class Following {
   FollowArguments arguments_;
   std::filesystem::path out_;
   Follow follow_;
-  std::vector<Alarm> alarms_;
+  Alarms alarms_;
   std::optional<UdpSender> bridge_;
   Teller teller_;
   LiveTargets targets_;
-  std::set<std::pair<std::string, std::string>> raised_;  ///< school, rule: told, and still so
   LiveClock::time_point looked_at_ = LiveClock::now();
   LiveClock::time_point written_at_ = LiveClock::now();
   LiveClock::time_point status_at_{};
@@ -295,9 +279,10 @@ void add_follow(CLI::App& app, VerbRunner& run) {
   add_measured_options(*verb, arguments->run.measured);
   verb->add_option("--session", arguments->run.session, "Journal of human choices to replay, read again when it grows");
   verb->add_option("--jobs", arguments->run.jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
-  verb->add_option("--alarm", arguments->alarms,
-                   "Tell when a school's newest row of school_pings.csv is so: \"volume_m3 > 20000, range_m < 150\"; "
-                   "may be given again")
+  verb->add_option(
+          "--alarm", arguments->alarms,
+          "Tell when a school's row of school_pings.csv begins to be so: \"volume_m3 > 20000, range_m < 150\"; "
+          "may be given again")
       ->allow_extra_args(false);
   verb->add_option("--nmea", arguments->nmea, "HOST:PORT: schools as NMEA 0183 TLL and TTM by UDP, for the chart")
       ->check(some_name());

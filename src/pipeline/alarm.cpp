@@ -72,4 +72,22 @@ bool Alarm::holds(const SchoolPingRow& row) const {
   });
 }
 
+std::vector<Alarms::Ringing> Alarms::ring(std::span<const LiveSchool> schools) {
+  std::vector<Ringing> ringing;
+  for (const LiveSchool& school : schools) {
+    for (const Alarm& alarm : alarms_) {
+      const std::pair told(name_of(school), alarm.text());
+      const auto at = std::find_if(school.since.begin(), school.since.end(),
+                                   [&](const SchoolPingRow& row) { return alarm.holds(row); });
+      if (at == school.since.end()) {
+        rung_.erase(told);
+      } else if (rung_.insert(told).second) {
+        ringing.push_back({alarm.text(), school});
+        ringing.back().school.newest = *at;
+      }
+    }
+  }
+  return ringing;
+}
+
 }  // namespace sonar

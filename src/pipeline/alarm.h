@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "model/school.h"
+#include "pipeline/live_schools.h"
 
 namespace sonar {
 
@@ -30,6 +33,24 @@ class Alarm {
   };
   std::string text_;
   std::vector<Comparison> comparisons_;
+};
+
+/// Several of them, watched: each rings when a school begins to fit, and again only after it did not.
+/// threads  one
+class Alarms {
+ public:
+  explicit Alarms(std::vector<Alarm> alarms = {}) : alarms_(std::move(alarms)) {}
+
+  /// A rule that a school fits now, and where it was when it did.
+  struct Ringing {
+    std::string rule;
+    LiveSchool school;
+  };
+  [[nodiscard]] std::vector<Ringing> ring(std::span<const LiveSchool> schools);
+
+ private:
+  std::vector<Alarm> alarms_;
+  std::set<std::pair<std::string, std::string>> rung_;  ///< school, rule: told, and still so
 };
 
 }  // namespace sonar

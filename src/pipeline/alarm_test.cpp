@@ -19,6 +19,28 @@ TEST(Alarm, HoldsWhereAllItsComparisonsDo) {
   EXPECT_FALSE(alarm->holds(row));
 }
 
+TEST(Alarm, RingsWhenASchoolBeginsToFitAlsoBetweenTwoLooks) {
+  Alarms alarms({*Alarm::parse("volume_m3 > 100")});
+  LiveSchool school;
+  school.newest.observation = "obs-0001";
+  school.newest.school_id = 3;
+  const auto seen = [&](std::vector<double> volumes_m3) {
+    school.since.clear();
+    for (const double volume_m3 : volumes_m3) {
+      school.since.push_back(school.newest);
+      school.since.back().volume_m3 = volume_m3;
+    }
+    return alarms.ring({&school, 1});
+  };
+  EXPECT_TRUE(seen({50.0}).empty());
+  const auto ringing = seen({60.0, 120.0, 70.0});  // three pings in one look
+  ASSERT_EQ(ringing.size(), 1U);
+  EXPECT_EQ(ringing[0].school.newest.volume_m3, 120.0);
+  EXPECT_TRUE(seen({130.0}).empty()) << "it is told already";
+  EXPECT_TRUE(seen({80.0}).empty());
+  EXPECT_EQ(seen({140.0}).size(), 1U) << "it fits anew";
+}
+
 TEST(Alarm, TellsWhatItExpected) {
   for (const char* wrong : {"", "volume_m3", "volume_m3 >", "big > 3", "time_utc > 3", "volume_m3 > 3,", "> 3"}) {
     const auto alarm = Alarm::parse(wrong);

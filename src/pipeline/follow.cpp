@@ -33,7 +33,7 @@ Follow::Follow(FollowOptions options, Recipe recipe)
       live_(options_.survey, recipe_.survey, recipe_.navigation, options_.cache) {}
 
 Follow::Which Follow::which(const SurveyFiles& survey, const ObservationFiles& observation) {
-  return {{observation.config.kind, observation.config.sounder_name}, survey.ping_time(observation, 0)};
+  return {sounder_of(observation.config), survey.ping_time(observation, 0)};
 }
 
 /// Whether the journal says more than before.
@@ -65,7 +65,10 @@ Result<Follow::Look> Follow::look(LiveClock::time_point now, Work& work) {
   const auto survey = live_.survey();
   for (const ObservationFiles& observation : survey->observations) {
     auto worked = work_on(observation, look, work);
-    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    if (work.cancelled()) {
+      tried_at_ = {};  // the next look takes it up at once
+      return fail(ErrorCode::cancelled, "stopped on request");
+    }
     if (!worked) look.failures.push_back({observation.name, worked.error()});
   }
   unworked_ = !look.failures.empty();
@@ -109,6 +112,10 @@ Result<void> Follow::work_on(const ObservationFiles& observation, Look& look, Wo
   if (live_.over(observation)) return end_one(observation, at_work, look, work);
   at_work.task.key.clear();  // no product of it is right yet
   at_work.key.clear();
+  return look_at_one(observation, at_work, look, work);
+}
+
+Result<void> Follow::look_at_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work) {
   auto product = observed(observation, at_work, false, work);
   if (!product) return pass_on(product);
   mark_provisional(*product);
@@ -132,10 +139,11 @@ Result<void> Follow::end_one(const ObservationFiles& observation, AtWork& at_wor
   const auto there = read_product_key(path);
   if (!there || there->input_hash != key) {
     if (auto held = hold_other(path, key); !held) return held;
+    // Its last pings may bring schools of which nobody was told.
+    if (auto told = look_at_one(observation, at_work, look, work); !told) return told;
     auto product = observed(observation, at_work, true, work);
     if (!product) return pass_on(product);
     if (auto written = write_product(*product, path, Beside::own_folder); !written) return written;
-    if (!at_work.product) look.schools = live_schools(*product, nullptr);  // nobody was told of any
   }
   at_work.key = key;
   at_work.product.reset();
@@ -147,7 +155,7 @@ Result<void> Follow::end_one(const ObservationFiles& observation, AtWork& at_wor
 /// Of each sounder, what is over, but for the last of it: a file of its may go on after all.
 void Follow::let_go() {
   const auto before = live_.survey();
-  std::map<Which::first_type, std::pair<std::string, bool>> kept;  // the name, and whether one before it was over
+  std::map<Sounder, std::pair<std::string, bool>> kept;  // the name, and whether one before it was over
   for (const ObservationFiles& observation : before->observations) {
     const Which of = which(*before, observation);
     auto& [name, ended] = kept[of.first];
@@ -175,7 +183,7 @@ Result<MergeReport> Follow::write(Work& work) {
     if (auto held = hold_other(path, ""); !held) return pass_on(held);
     if (auto written = write_product(*at_work.product, path, Beside::own_folder); !written) return pass_on(written);
   }
-  Plan plan = make_plan(*live_.survey(), options_.survey, options_.session, recipe_, {});
+  Plan plan = plan_without_tasks(*live_.survey(), options_.survey, options_.session, recipe_, {});
   plan.tasks = let_go_;
   for (const auto& [of, at_work] : at_work_) plan.tasks.push_back(at_work.task);
   std::sort(plan.tasks.begin(), plan.tasks.end(),

@@ -60,7 +60,7 @@ class Follow {
 
  private:
   /// An observation whatever it is called: names shift when another sounder's, or a file before, comes in.
-  using Which = std::pair<std::pair<SounderKind, std::string>, TimeNs>;  ///< sounder, first ping
+  using Which = std::pair<Sounder, TimeNs>;  ///< and its first ping
   struct AtWork {
     std::unique_ptr<ObserveMemory> memory = std::make_unique<ObserveMemory>();
     std::optional<ObservationProduct> product;  ///< the newest; empty once it is over
@@ -70,6 +70,7 @@ class Follow {
   [[nodiscard]] static Which which(const SurveyFiles& survey, const ObservationFiles& observation);
   bool read_session();
   Result<void> work_on(const ObservationFiles& observation, Look& look, Work& work);
+  Result<void> look_at_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work);
   Result<void> end_one(const ObservationFiles& observation, AtWork& at_work, Look& look, Work& work);
   [[nodiscard]] Result<ObservationProduct> observed(const ObservationFiles& observation, AtWork& at_work, bool over,
                                                     Work& work);

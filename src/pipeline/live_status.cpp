@@ -50,8 +50,7 @@ std::size_t newest_observation(const SurveyFiles& survey, const ObservationFiles
   TimeNs last = std::numeric_limits<TimeNs>::min();
   for (std::size_t i = 0; i < survey.observations.size(); ++i) {
     const ObservationFiles& one = survey.observations[i];
-    const bool alike = like == nullptr ||
-                       (one.config.kind == like->config.kind && one.config.sounder_name == like->config.sounder_name);
+    const bool alike = like == nullptr || sounder_of(one.config) == sounder_of(like->config);
     const TimeNs time = survey.entry(one.pings.back()).time;
     if (!alike || time < last) continue;
     last = time;

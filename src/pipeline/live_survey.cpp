@@ -19,17 +19,14 @@ LiveClock::duration gap_of(const SurveyParams& params) {
   return duration_cast<LiveClock::duration>(std::chrono::duration<double>(params.observation_gap_s));
 }
 
-bool same_sounder(const RawIndex& a, const RawIndex& b) {
-  const auto has = [&](const SounderConfig& config) {
-    return std::any_of(b.configs.begin(), b.configs.end(), [&](const SounderConfig& other) {
-      return other.kind == config.kind && other.sounder_name == config.sounder_name;
-    });
-  };
-  return std::any_of(a.configs.begin(), a.configs.end(), has);
+bool holds(const RawIndex& index, const Sounder& sounder) {
+  return std::any_of(index.configs.begin(), index.configs.end(),
+                     [&](const SounderConfig& config) { return sounder_of(config) == sounder; });
 }
 
-std::pair<SounderKind, std::string> sounder_of(const ObservationFiles& observation) {
-  return {observation.config.kind, observation.config.sounder_name};
+bool same_sounder(const RawIndex& a, const RawIndex& b) {
+  return std::any_of(a.configs.begin(), a.configs.end(),
+                     [&](const SounderConfig& config) { return holds(b, sounder_of(config)); });
 }
 
 }  // namespace
@@ -115,9 +112,10 @@ void LiveSurvey::drop_late(News& news) {
   std::erase_if(files_, [&](const auto& entry) {
     const auto& [path, file] = entry;
     if (file.pings->count() == 0 || in_use.contains(path)) return false;
-    news.cannot = Error{ErrorCode::mismatch,
-                        "its pings lie before what is followed by now: run the survey again for them",
-                        {.file = path.string()}};
+    news.cannot =
+        Error{ErrorCode::mismatch,
+              "its pings lie before what is followed by now, or are another file's: a run over all will place them",
+              {.file = path.string()}};
     let_go_.insert(path);
     return true;
   });
@@ -203,15 +201,12 @@ bool LiveSurvey::over(const ObservationFiles& observation) const {
                                      [&](std::uint32_t f) { return files_.at(survey_->files[f].path).pings->final(); });
   if (!all_final) return false;
   const auto any_later = [&](const ObservationFiles& other) {
-    return sounder_of(other) == sounder_of(observation) && &other > &observation;
+    return sounder_of(other.config) == sounder_of(observation.config) && &other > &observation;
   };
   const bool others_final = std::all_of(files_.begin(), files_.end(), [&](const auto& entry) {
     const File& file = entry.second;
-    const auto& configs = file.pings->index().configs;
-    const bool of_others =
-        !configs.empty() && std::none_of(configs.begin(), configs.end(), [&](const SounderConfig& config) {
-          return std::pair(config.kind, config.sounder_name) == sounder_of(observation);
-        });
+    const RawIndex& index = file.pings->index();
+    const bool of_others = !index.configs.empty() && !holds(index, sounder_of(observation.config));
     return file.pings->final() || of_others || (file.error && file.pings->count() == 0);
   });
   return others_final || std::any_of(survey_->observations.begin(), survey_->observations.end(), any_later);
@@ -220,6 +215,7 @@ bool LiveSurvey::over(const ObservationFiles& observation) const {
 void LiveSurvey::let_go_before(const std::string& observation) {
   const ObservationFiles* kept = survey_->find(observation);
   if (kept == nullptr || !survey_->further_parts.empty()) return;
+  const Sounder sounder = sounder_of(kept->config);
   SequenceStart start;
   start.file = survey_->files[kept->pings.front().file].path;
   start.entry = kept->pings.front().entry;
@@ -228,15 +224,15 @@ void LiveSurvey::let_go_before(const std::string& observation) {
   start.notes.assign(kept->diagnostics.begin(),
                      kept->diagnostics.begin() + static_cast<std::ptrdiff_t>(kept->cut_notes));
   std::set<fs::path> in_use;
-  start.observations = starts_[sounder_of(*kept)].observations;
+  start.observations = starts_[sounder].observations;
   for (const ObservationFiles& other : survey_->observations) {
-    const bool before = sounder_of(other) == sounder_of(*kept) && &other < kept;
+    const bool before = sounder_of(other.config) == sounder && &other < kept;
     if (before) ++start.observations;
     if (before) continue;
     for (const std::uint32_t f : other.files) in_use.insert(survey_->files[f].path);
   }
-  if (start.observations == starts_[sounder_of(*kept)].observations) return;
-  starts_[sounder_of(*kept)] = std::move(start);
+  if (start.observations == starts_[sounder].observations) return;
+  starts_[sounder] = std::move(start);
   std::erase_if(files_, [&](const auto& entry) {
     const bool done = entry.second.pings->final() && entry.second.pings->count() > 0 && !in_use.contains(entry.first);
     if (done) let_go_.insert(entry.first);

@@ -160,7 +160,7 @@ TEST_F(Recording, WhatComesBeforeWhatIsFollowedIsTold) {
   append("a.raw", test::small_file(2).data);
   const LiveSurvey::News news = look();
   ASSERT_TRUE(news.cannot);
-  EXPECT_THAT(news.cannot->text, testing::HasSubstr("run the survey again"));
+  EXPECT_THAT(news.cannot->text, testing::HasSubstr("a run over all"));
   EXPECT_THAT(observations(), ElementsAre("obs-0002 2"));
   EXPECT_FALSE(look().cannot);
 }

@@ -14,8 +14,7 @@ namespace sonar {
 
 /// Pings of one sounder over all files, each instant once, in the order of the files.
 struct SounderSequence {
-  SounderKind kind = SounderKind::unknown;
-  std::string sounder;
+  Sounder sounder;
   std::vector<SurveyPing> pings;
 };
 

@@ -127,8 +127,8 @@ PlanTask task_of(const SurveyFiles& survey, const ObservationFiles& observation,
   return task;
 }
 
-Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
-               const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
+Plan plan_without_tasks(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
+                        const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
   Plan plan;
   for (const std::filesystem::path& path : paths) {
     plan.survey.push_back(std::filesystem::absolute(path).lexically_normal().string());
@@ -138,6 +138,12 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
   plan.pings = options.pings;
   plan.notes = survey.diagnostics;
   for (Diagnostic& note : plan.notes) note.file = std::filesystem::path(note.file).filename().string();
+  return plan;
+}
+
+Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
+               const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options) {
+  Plan plan = plan_without_tasks(survey, paths, session, recipe, options);
   for (const ObservationFiles& observation : survey.observations) {
     plan.tasks.push_back(task_of(survey, observation, recipe, options));
   }

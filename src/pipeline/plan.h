@@ -45,6 +45,10 @@ struct Plan {
 /// What is to be done for one observation.
 [[nodiscard]] PlanTask task_of(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
                                const ObserveOptions& options);
+/// What a plan says beside its tasks.
+[[nodiscard]] Plan plan_without_tasks(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
+                                      const std::filesystem::path& session, const Recipe& recipe,
+                                      const ObserveOptions& options);
 /// From headers only.
 [[nodiscard]] Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path> paths,
                              const std::filesystem::path& session, const Recipe& recipe, const ObserveOptions& options);

@@ -124,15 +124,14 @@ void join_instants(SurveyFiles& survey, SounderSequence& sequence) {
 std::vector<SounderSequence> sequences_of(SurveyFiles& survey) {
   const std::vector<bool> copy = find_copies(survey);
   // MS70 first, the others by kind and name.
-  std::map<std::tuple<bool, SounderKind, std::string>, SounderSequence> sequences;
+  std::map<std::pair<bool, Sounder>, SounderSequence> sequences;
   for (std::uint32_t f = 0; f < survey.files.size(); ++f) {
     if (copy[f]) continue;
     const RawIndex& index = survey.files[f].index;
     std::vector<SounderSequence*> of_config;
     for (const SounderConfig& config : index.configs) {
-      auto& sequence = sequences[{config.kind != SounderKind::ms70, config.kind, config.sounder_name}];
-      sequence.kind = config.kind;
-      sequence.sounder = config.sounder_name;
+      auto& sequence = sequences[{config.kind != SounderKind::ms70, sounder_of(config)}];
+      sequence.sounder = sounder_of(config);
       of_config.push_back(&sequence);
     }
     for (std::uint32_t e = 0; e < index.pings.size(); ++e) of_config[index.pings[e].config]->pings.push_back({f, e});

@@ -161,7 +161,7 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
   }
   std::size_t number = 0;
   for (SounderSequence& sequence : sequences_of(survey)) {
-    const auto start = starts.find({sequence.kind, sequence.sounder});
+    const auto start = starts.find(sequence.sounder);
     const SequenceStart first = start == starts.end() ? SequenceStart{} : start->second;
     begin_at(survey, first, sequence);
     number += first.observations;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/describe.h"
@@ -146,8 +147,10 @@ struct SequenceStart {
   TimeNs cut_after = 0;
   Diagnostics notes;
 };
-/// By sounder.
-using SequenceStarts = std::map<std::pair<SounderKind, std::string>, SequenceStart>;
+/// What pings of one sequence have in common: kind and name, as the files give them.
+using Sounder = std::pair<SounderKind, std::string>;
+[[nodiscard]] inline Sounder sounder_of(const SounderConfig& config) { return {config.kind, config.sounder_name}; }
+using SequenceStarts = std::map<Sounder, SequenceStart>;
 
 /// Files that a list of paths stands for: of a folder every *.raw in it (any case, not deeper) and every *.nc of
 /// SONAR-netCDF4, which is named though not read, sorted by name; a file as it is.

@@ -80,6 +80,18 @@ std::size_t LiveWatch::newest() const {
   return newest_observation(*document.survey(), first == all.end() ? nullptr : &*first);
 }
 
+Result<void> LiveWatch::set_alarm(const std::string& rule) {
+  std::vector<Alarm> alarms;
+  if (!rule.empty()) {
+    auto alarm = Alarm::parse(rule);
+    if (!alarm) return pass_on(alarm);
+    alarms.push_back(std::move(*alarm));
+  }
+  alarm_ = rule;
+  alarms_ = Alarms(std::move(alarms));
+  return {};
+}
+
 bool LiveWatch::at_newest() const {
   const Document& document = workspace_.document;
   if (!on() || !document.shown() || document.survey()->observations.empty()) return false;
@@ -124,7 +136,9 @@ bool LiveWatch::tick(double now_s) {
     const auto begun = LiveClock::now();
     Seen seen;
     const auto news = survey->look(begun, *work);
-    if (news && news->cannot) seen.cannot = to_line(*news->cannot);
+    if (news && news->cannot) {
+      seen.cannot = to_line(*news->cannot) + (news->cannot->code != ErrorCode::mismatch ? "; waiting for it" : "");
+    }
     if (news && news->changed && !survey->survey()->observations.empty()) {
       seen.survey = survey->survey();
       seen.written_since = written_since;
@@ -142,7 +156,7 @@ void LiveWatch::take(const Seen& seen) {
   Document& document = workspace_.document;
   if (seen.cannot != cannot_) {
     cannot_ = seen.cannot;
-    if (!cannot_.empty()) document.tell(cannot_ + "; waiting for it");
+    if (!cannot_.empty()) document.tell(cannot_);
   }
   if (seen.survey) {
     const bool follows = at_newest() || chasing_ || !document.shown();
@@ -216,8 +230,12 @@ void LiveWatch::take_found(std::size_t observation, const std::shared_ptr<const 
   Document& document = workspace_.document;
   if (found && !(asked_.contains(observation) && !document.asks_for_schools(observation))) {
     const auto before = std::exchange(last_found_[observation], found);
-    for (const LiveSchool& school : live_schools(*found, before.get())) {
+    const std::vector<LiveSchool> schools = live_schools(*found, before.get());
+    for (const LiveSchool& school : schools) {
       if (school.is_new) document.tell(school_line(school));
+    }
+    for (const auto& ringing : alarms_.ring(schools)) {
+      document.tell(fmt::format("ALARM {}: {}", ringing.rule, school_line(ringing.school)));
     }
     document.take_schools(observation, *found);
     asked_.insert(observation);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/task_thread.h"
+#include "pipeline/alarm.h"
 #include "pipeline/live_status.h"
 #include "pipeline/live_survey.h"
 #include "pipeline/observe_memory.h"
@@ -35,6 +36,10 @@ class LiveWatch {
   void set_on(bool on);
   /// The survey that is opened next is followed.
   void follow_next() { follows_next_ = true; }
+  /// A school that begins to fit the rule is told; an empty rule is none.
+  /// errors  usage, as Alarm::parse()
+  Result<void> set_alarm(const std::string& rule);
+  [[nodiscard]] const std::string& alarm() const { return alarm_; }
   /// Whether the newest ping is the one looked at.
   [[nodiscard]] bool at_newest() const;
   /// Back to the newest ping, and on with it.
@@ -76,6 +81,8 @@ class LiveWatch {
   LiveClock::time_point looked_at_;  ///< when the look before began to read
   std::string text_;
   std::string cannot_;
+  std::string alarm_;
+  Alarms alarms_;
   bool finding_ = false;
   std::map<std::size_t, std::int64_t> found_in_;  ///< pings of each that schools were looked for in
   std::set<std::size_t> asked_;                   ///< observations whose journal asks for schools on our behalf

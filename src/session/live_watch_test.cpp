@@ -69,6 +69,12 @@ TEST_F(LiveDesk, ShowsTheNewestPingAndTellsOfSchools) {
   begin();
   const std::int64_t before = document().shown()->pings();
   document().look_at(before - 1);
+  std::string rule = "big > 3";
+  desk_->asking.text = [&](const auto&, const auto&, const auto&) { return std::optional(rule); };
+  press("file.alarm");
+  EXPECT_TRUE(told("'big > 3'"));
+  rule = "range_m < 1000";
+  press("file.alarm");
   press("file.live");
   turns();
   EXPECT_TRUE(live().at_newest());
@@ -79,6 +85,7 @@ TEST_F(LiveDesk, ShowsTheNewestPingAndTellsOfSchools) {
   EXPECT_EQ(document().staged()->ping_index, document().shown()->pings() - 1);
   EXPECT_THAT(live().text(), HasSubstr("obs-0001 ping"));
   EXPECT_TRUE(told("obs-0001/1: "));
+  EXPECT_TRUE(told("ALARM range_m < 1000: "));
   EXPECT_EQ(document().state().schools.size(), 2U);
   ASSERT_TRUE(document().product(0));
   EXPECT_EQ(std::ssize(document().product(0)->pings), document().shown()->pings());

@@ -165,6 +165,37 @@ TEST_F(FollowSurvey, EndsWithTheProductsOfARunHoweverTheBytesCame) {
   }
 }
 
+TEST_F(FollowSurvey, TellsOfSchoolsAlsoWhereAllIsOverAtOnce) {
+  Work work(2);
+  Follow follow({{live()}, out(), {}, "test", {}}, {});
+  Recorder recorder(follow, work);
+  for (const auto& [name, bytes] : *files_) append(name, bytes);
+  follow.end();
+  recorder.look();
+  EXPECT_THAT(recorder.finished, ElementsAre("obs-0001", "obs-0002"));
+  EXPECT_EQ(recorder.fresh, 4);  // two in each
+  expect_equal(written(), expected({}));
+}
+
+TEST_F(FollowSurvey, ALookThatWasStoppedIsTakenUpByTheNext) {
+  Work work(2);
+  Follow follow({{live()}, out(), {}, "test", {}}, {});
+  Recorder recorder(follow, work);
+  const auto& [name, bytes] = files_->front();
+  append(name, std::string_view(bytes).substr(0, bytes.size() / 2));
+  recorder.look();
+  append(name, std::string_view(bytes).substr(bytes.size() / 2));
+  Work stopped(2);
+  stopped.set_progress([&](std::string_view, std::int64_t, std::int64_t) { stopped.cancel(); });
+  EXPECT_EQ(follow.look(LiveClock::time_point{} + seconds(1001), stopped).error().code, ErrorCode::cancelled);
+  const Follow::Look look = recorder.look();
+  EXPECT_EQ(look.news.pings, 0U);  // they were read by the look before
+  ASSERT_TRUE(follow.write(work));
+  const auto product = read_product(product_path(out(), "obs-0001"));
+  ASSERT_TRUE(product);
+  EXPECT_EQ(product->pings.size(), follow.survey()->observations.front().pings.size());
+}
+
 TEST_F(FollowSurvey, WhatGoesOnIsProvisionalAndNoRightProduct) {
   Work work(2);
   Follow follow({{live()}, out(), {}, "test", {}}, {});

@@ -101,6 +101,21 @@ void add_live(Desk& desk) {
                     .run = [&live] { live.set_on(!live.on()); },
                     .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; },
                     .checked = [&live] { return live.on(); }});
+  desk.actions.add({.id = "file.alarm",
+                    .menu = "&File",
+                    .text = "Alarm...",
+                    .keys = {},
+                    .tip = "Tell when a school of a recording that is followed begins to be so",
+                    .run =
+                        [&desk, &live] {
+                          if (!desk.asking.text) return;
+                          const auto rule =
+                              desk.asking.text("Alarm", "volume_m3 > 20000, range_m < 150; empty: none", live.alarm());
+                          if (!rule) return;
+                          if (auto set = live.set_alarm(*rule); !set)
+                            desk.workspace.document.tell(to_line(set.error()));
+                        },
+                    .enabled = [&desk] { return desk.workspace.document.survey() != nullptr; }});
   desk.actions.add({.id = "ping.live",
                     .menu = kMenu,
                     .text = "Newest ping, live",
