@@ -24,7 +24,7 @@ TEST(Alarm, RingsWhenASchoolBeginsToFitAlsoBetweenTwoLooks) {
   LiveSchool school;
   school.newest.observation = "obs-0001";
   school.newest.school_id = 3;
-  const auto seen = [&](std::vector<double> volumes_m3) {
+  const auto seen = [&](const std::vector<double>& volumes_m3) {
     school.since.clear();
     for (const double volume_m3 : volumes_m3) {
       school.since.push_back(school.newest);
