@@ -268,10 +268,11 @@ Navigation navigate(std::span<const NavSeries* const> series, std::span<const Pi
   return result;
 }
 
-std::optional<NavSample> first_fix(std::span<const NavSeries* const> series, const NavigationParams& params) {
+std::optional<std::pair<NavSample, NavSample>> first_and_last_fix(std::span<const NavSeries* const> series,
+                                                                  const NavigationParams& params) {
   const NavTrack track = choose_track(series, NavQuantity::position, params.position_talker);
   if (track.samples.empty()) return std::nullopt;
-  return track.samples.front();
+  return std::pair(track.samples.front(), track.samples.back());
 }
 
 }  // namespace sonar

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/describe.h"
@@ -137,8 +138,8 @@ struct Navigation {
 [[nodiscard]] Navigation navigate(std::span<const NavSeries* const> series, std::span<const PingMotion> pings,
                                   const SounderConfig& config, const NavigationParams& params);
 
-/// The first valid fix of the talker that navigate() would choose; empty where there is none.
-[[nodiscard]] std::optional<NavSample> first_fix(std::span<const NavSeries* const> series,
-                                                 const NavigationParams& params);
+/// The first and the last valid fix of the talker that navigate() would choose; empty where there is none.
+[[nodiscard]] std::optional<std::pair<NavSample, NavSample>> first_and_last_fix(
+    std::span<const NavSeries* const> series, const NavigationParams& params);
 
 }  // namespace sonar

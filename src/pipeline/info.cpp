@@ -54,7 +54,7 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   for (const SounderConfig& config : index.configs) {
     info.channels = std::max(info.channels, static_cast<std::int64_t>(config.beams.size()));
   }
-  if (!index.gives_samples()) add_unread(file, info);
+  if (!index.gives_samples() && !survey.from_ends) add_unread(file, info);
   add_pings(index, info);
   std::vector<const NavSeries*> series;
   for (const NavSeries& s : index.navigation) series.push_back(&s);
@@ -64,7 +64,10 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
       navigate(series, motions, index.configs.empty() ? SounderConfig{} : *index.configs.front(), navigation);
   info.talkers = placed.talkers;
   info.gps_minus_clock_s = placed.gps_minus_clock_s;
-  if (const auto fix = first_fix(series, navigation)) info.first_position = Geographic{fix->first, fix->second};
+  if (const auto fixes = first_and_last_fix(series, navigation)) {
+    info.first_position = Geographic{fixes->first.first, fixes->first.second};
+    info.last_position = Geographic{fixes->second.first, fixes->second.second};
+  }
   info.notes = index.diagnostics;
   for (const Diagnostic& note : survey.diagnostics) {
     if (note.file == index.name) info.notes.push_back(note);
@@ -112,6 +115,7 @@ bool SurveyInfo::all_readable() const {
 Result<SurveyInfo> survey_info(const SurveyFiles& survey, const NavigationParams& navigation, bool with_checksum,
                                Work& work) {
   SurveyInfo info;
+  info.from_ends = survey.from_ends;
   for (const SurveyFile& file : survey.files) info.files.push_back(file_info(file, survey, navigation));
   for (const ObservationFiles& o : survey.observations) info.observations.push_back(observation_info(survey, o));
   if (!with_checksum) return info;

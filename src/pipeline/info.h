@@ -27,6 +27,7 @@ struct FileInfo {
   std::optional<TimeNs> first_time;  ///< of the pings; where there are none, of the datagrams
   std::optional<TimeNs> last_time;
   std::optional<Geographic> first_position;
+  std::optional<Geographic> last_position;
   Talkers talkers;
   double gps_minus_clock_s = 0.0;  ///< NaN = unknown
   std::optional<std::int64_t> power_count_sum;
@@ -49,6 +50,7 @@ struct SurveyInfo {
   };
   std::vector<FileInfo> files;
   std::vector<Observation> observations;
+  bool from_ends = false;  ///< see SurveyFiles::from_ends: what was counted is not told
 
   /// False if any file could not be read at all.
   [[nodiscard]] bool all_readable() const;

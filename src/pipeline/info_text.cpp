@@ -29,23 +29,24 @@ Json notes_json(const Diagnostics& notes) {
 /// To the 8 decimals that degrees have everywhere: a millimetre.
 double rounded_deg(double degrees) { return std::round(degrees * 1e8) / 1e8; }
 
-Json file_json(const FileInfo& file) {
-  Json position = nullptr;
-  if (file.first_position) {
-    position = {{"latitude", rounded_deg(file.first_position->latitude_deg)},
-                {"longitude", rounded_deg(file.first_position->longitude_deg)}};
-  }
+Json position_json(const std::optional<Geographic>& position) {
+  if (!position) return nullptr;
+  return {{"latitude", rounded_deg(position->latitude_deg)}, {"longitude", rounded_deg(position->longitude_deg)}};
+}
+
+Json file_json(const FileInfo& file, bool counted) {
   Json json{{"path", file.path},
             {"format", file.format},
             {"sounder", file.sounder},
             {"size", file.size},
-            {"datagrams", file.datagrams},
+            {"datagrams", counted ? Json(file.datagrams) : Json(nullptr)},
             {"channels", file.channels},
-            {"pings", file.pings},
-            {"samples", {{"min", file.min_samples}, {"max", file.max_samples}}},
+            {"pings", counted ? Json(file.pings) : Json(nullptr)},
+            {"samples", counted ? Json{{"min", file.min_samples}, {"max", file.max_samples}} : Json(nullptr)},
             {"first_time_utc", time_json(file.first_time)},
             {"last_time_utc", time_json(file.last_time)},
-            {"first_position", std::move(position)},
+            {"first_position", position_json(file.first_position)},
+            {"last_position", position_json(file.last_position)},
             {"talkers", file.talkers},
             {"gps_minus_clock_s", std::isnan(file.gps_minus_clock_s) ? Json(nullptr) : Json(file.gps_minus_clock_s)},
             {"notes", notes_json(file.notes)}};
@@ -86,7 +87,7 @@ std::string psi_text(const BeamGrid& grid) {
   return text + '\n';
 }
 
-Json observation_json(const SurveyInfo::Observation& observation) {
+Json observation_json(const SurveyInfo::Observation& observation, bool counted) {
   Json grid = nullptr;
   Json psi = nullptr;
   if (observation.grid) {
@@ -96,7 +97,7 @@ Json observation_json(const SurveyInfo::Observation& observation) {
   return {{"name", observation.name},
           {"files", observation.files},
           {"sounder", observation.sounder},
-          {"pings", observation.pings},
+          {"pings", counted ? Json(observation.pings) : Json(nullptr)},
           {"first_time_utc", iso_time(observation.first_time)},
           {"last_time_utc", iso_time(observation.last_time)},
           {"grid", std::move(grid)},
@@ -121,22 +122,22 @@ std::string notes_text(const Diagnostics& notes) {
   return text;
 }
 
-std::string file_text(const FileInfo& file) {
+std::string file_text(const FileInfo& file, bool counted) {
   std::string text = fmt::format("{}\n  {}{}{}, {} bytes\n", printable(file.path), file.format,
                                  file.sounder.empty() ? "" : ", ", printable(file.sounder), file.size);
-  if (!file.datagrams.empty()) {
+  if (counted && !file.datagrams.empty()) {
     text += "  datagrams:";
     for (const auto& [type, count] : file.datagrams) text += fmt::format(" {} {}", printable(type), count);
     text += '\n';
   }
-  if (file.pings > 0) {
+  if (counted && file.pings > 0) {
     text += fmt::format("  {} pings, {} channels, {} to {} samples\n", file.pings, file.channels, file.min_samples,
                         file.max_samples);
   }
   if (file.first_time) text += fmt::format("  {} to {}\n", iso_time(*file.first_time), iso_time(*file.last_time));
-  if (file.first_position) {
-    text += fmt::format("  first position {:.6f}, {:.6f}\n", file.first_position->latitude_deg,
-                        file.first_position->longitude_deg);
+  for (const auto& [which, position] : {std::pair("first", file.first_position), {"last", file.last_position}}) {
+    if (!position) continue;
+    text += fmt::format("  {} position {:.6f}, {:.6f}\n", which, position->latitude_deg, position->longitude_deg);
   }
   if (!file.talkers.empty()) text += fmt::format("  talkers:{}\n", talkers_text(file.talkers));
   if (!std::isnan(file.gps_minus_clock_s)) {
@@ -146,12 +147,13 @@ std::string file_text(const FileInfo& file) {
   return text + notes_text(file.notes);
 }
 
-std::string observation_text(const SurveyInfo::Observation& o) {
+std::string observation_text(const SurveyInfo::Observation& o, bool counted) {
   const std::string grid =
       o.grid ? fmt::format("{} fans x {} beams", o.grid->fans(), o.grid->beams()) : std::string("no grid");
   std::string text =
-      fmt::format("{}: {}, {} pings, {}, {} to {}{}\n", printable(o.name), printable(o.sounder), o.pings, grid,
-                  iso_time(o.first_time), iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
+      fmt::format("{}: {}, {}{}, {} to {}{}\n", printable(o.name), printable(o.sounder),
+                  counted ? fmt::format("{} pings, ", o.pings) : std::string{}, grid, iso_time(o.first_time),
+                  iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
   if (o.grid) text += psi_text(*o.grid);
   for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));
   return text + notes_text(o.notes);
@@ -161,16 +163,18 @@ std::string observation_text(const SurveyInfo::Observation& o) {
 
 std::string info_json(const SurveyInfo& info) {
   Json json{{"files", Json::array()}, {"observations", Json::array()}};
-  for (const FileInfo& file : info.files) json["files"].push_back(file_json(file));
-  for (const auto& observation : info.observations) json["observations"].push_back(observation_json(observation));
+  for (const FileInfo& file : info.files) json["files"].push_back(file_json(file, !info.from_ends));
+  for (const auto& observation : info.observations) {
+    json["observations"].push_back(observation_json(observation, !info.from_ends));
+  }
   // Names of files need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string info_text(const SurveyInfo& info) {
   std::string text;
-  for (const FileInfo& file : info.files) text += file_text(file);
-  for (const auto& observation : info.observations) text += observation_text(observation);
+  for (const FileInfo& file : info.files) text += file_text(file, !info.from_ends);
+  for (const auto& observation : info.observations) text += observation_text(observation, !info.from_ends);
   return text;
 }
 

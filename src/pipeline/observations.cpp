@@ -60,7 +60,7 @@ class Cutter {
   Cutter(const SurveyFiles& survey, const SurveyParams& params)
       : survey_(survey),
         gap_(ns_of(params.observation_gap_s)),
-        longest_(ns_of(params.observation_max_s)),
+        longest_(survey.from_ends ? 0 : ns_of(params.observation_max_s)),
         given_speed_(gives_speed(params)) {
     for (const SurveyFile& file : survey.files) {
       configs_.emplace_back();
@@ -89,7 +89,8 @@ class Cutter {
       note(DiagnosticCode::settings_changed, change);
       cut = true;
     }
-    if (n.time - b.time > gap_) cut = true;
+    const bool between_ends = survey_.from_ends && before.file == next.file;
+    if (n.time - b.time > gap_ && !between_ends) cut = true;
     if (cut) return true;
     fresh.continues_cut = longest_ > 0 && n.time - f.time > longest_;
     if (given_speed_) {

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <set>
 #include <system_error>
 #include <tuple>
 
+#include "io/file_ends.h"
 #include "io/recordings.h"
 #include "pipeline/observations.h"
 
@@ -104,38 +106,14 @@ Result<void> require_files(const SurveyFiles& survey, std::span<const fs::path> 
   return fail(ErrorCode::not_found, "holds no raw files (*.raw)", {paths.front().string()});
 }
 
-Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyParams& survey,
-                                const NavigationParams& navigation, const IndexCache& cache, Work& work) {
-  if (auto valid = validate(survey); !valid) return pass_on(valid);
-  if (auto valid = check_sound_speed(survey.sound_speed_mps); !valid) return pass_on(valid);
-  if (auto valid = check_profile(survey.sound_speed_profile); !valid) return pass_on(valid);
-  if (auto valid = validate(navigation); !valid) return pass_on(valid);
-  const auto listed = list_survey(paths);
-  if (!listed) return pass_on(listed);
-  std::vector<SurveyFile> files(listed->size());
-  std::atomic<std::int64_t> done{0};
-  SharedSettings settings;
-  work.for_each(static_cast<std::int64_t>(files.size()), [&](std::int64_t i) {
-    SurveyFile& file = files[static_cast<std::size_t>(i)];
-    file.path = (*listed)[static_cast<std::size_t>(i)];
-    file.index.name = file.path.string();
-    auto index = open_index(file.path, cache, work);
-    if (index) {
-      settings.share(*index);
-      file.index = std::move(*index);
-    } else {
-      file.error = index.error();
-    }
-    work.progress("indexing", ++done, static_cast<std::int64_t>(files.size()));
-  });
-  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while indexing");
-  const Diagnostics skipped = take_out_links(files);
-  SurveyFiles arranged = arrange_survey(std::move(files), survey, navigation);
-  arranged.diagnostics.insert(arranged.diagnostics.begin(), skipped.begin(), skipped.end());
-  return arranged;
-}
-
 namespace {
+
+Result<void> check_params(const SurveyParams& survey, const NavigationParams& navigation) {
+  if (auto valid = validate(survey); !valid) return valid;
+  if (auto valid = check_sound_speed(survey.sound_speed_mps); !valid) return valid;
+  if (auto valid = check_profile(survey.sound_speed_profile); !valid) return valid;
+  return validate(navigation);
+}
 
 /// Leaves out the pings before the first of those that are looked at; none where that is not there.
 void begin_at(const SurveyFiles& survey, const SequenceStart& start, SounderSequence& sequence) {
@@ -146,12 +124,16 @@ void begin_at(const SurveyFiles& survey, const SequenceStart& start, SounderSequ
   if (first != sequence.pings.end()) sequence.pings.erase(sequence.pings.begin(), first);
 }
 
-}  // namespace
+/// What is missing in a run of files of which only the ends are known nobody can tell, nor what its number will be.
+void rename_by_file(const SurveyFiles& survey, ObservationFiles& observation) {
+  observation.name = survey.files[observation.files.front()].path.stem().string();
+  observation.diagnostics.clear();
+  observation.cut_notes = 0;
+}
 
-SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& params,
-                           const NavigationParams& navigation, const SequenceStarts& starts) {
-  SurveyFiles survey;
-  survey.files = std::move(files);
+/// survey  its files; observations are made of them
+void arrange(SurveyFiles& survey, const SurveyParams& params, const NavigationParams& navigation,
+             const SequenceStarts& starts = {}) {
   std::sort(survey.files.begin(), survey.files.end(),
             [](const SurveyFile& a, const SurveyFile& b) { return file_order(a) < file_order(b); });
   for (const SurveyFile& file : survey.files) {
@@ -178,10 +160,70 @@ SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& pa
     for (ObservationFiles& observation : cut) {
       observation.name = fmt::format("obs-{:04}", ++number);
       complete_observation(survey, observation, params, navigation);
+      if (survey.from_ends) rename_by_file(survey, observation);
       survey.observations.push_back(std::move(observation));
     }
   }
+}
+
+}  // namespace
+
+SurveyFiles arrange_survey(std::vector<SurveyFile> files, const SurveyParams& params,
+                           const NavigationParams& navigation, const SequenceStarts& starts) {
+  SurveyFiles survey;
+  survey.files = std::move(files);
+  arrange(survey, params, navigation, starts);
   return survey;
+}
+
+namespace {
+
+/// A survey whose files are known as index_of() knows them.
+Result<SurveyFiles> survey_of(std::span<const fs::path> paths, const SurveyParams& params,
+                              const NavigationParams& navigation, bool from_ends, Work& work,
+                              const std::function<Result<RawIndex>(const fs::path&)>& index_of) {
+  if (auto valid = check_params(params, navigation); !valid) return pass_on(valid);
+  const auto listed = list_survey(paths);
+  if (!listed) return pass_on(listed);
+  SurveyFiles survey;
+  survey.from_ends = from_ends;
+  survey.files.resize(listed->size());
+  std::atomic<std::int64_t> done{0};
+  SharedSettings settings;
+  work.for_each(static_cast<std::int64_t>(survey.files.size()), [&](std::int64_t i) {
+    SurveyFile& file = survey.files[static_cast<std::size_t>(i)];
+    file.path = (*listed)[static_cast<std::size_t>(i)];
+    file.index.name = file.path.string();
+    auto index = index_of(file.path);
+    if (index) {
+      settings.share(*index);
+      file.index = std::move(*index);
+    } else {
+      file.error = index.error();
+    }
+    work.progress(from_ends ? "looking at the files' ends" : "indexing", ++done, std::ssize(survey.files));
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped while indexing");
+  survey.diagnostics = take_out_links(survey.files);
+  arrange(survey, params, navigation);
+  return survey;
+}
+
+}  // namespace
+
+Result<SurveyFiles> open_survey(std::span<const fs::path> paths, const SurveyParams& survey,
+                                const NavigationParams& navigation, const IndexCache& cache, Work& work) {
+  return survey_of(paths, survey, navigation, false, work,
+                   [&](const fs::path& path) { return open_index(path, cache, work); });
+}
+
+Result<SurveyFiles> glance_at_survey(std::span<const fs::path> paths, const SurveyParams& survey,
+                                     const NavigationParams& navigation, Work& work) {
+  return survey_of(paths, survey, navigation, true, work, [&](const fs::path& path) -> Result<RawIndex> {
+    const auto bytes = open_file(path);
+    if (!bytes) return pass_on(bytes);
+    return index_ends(*stoppable(*bytes, work));
+  });
 }
 
 namespace {

@@ -108,6 +108,7 @@ struct ObservationFiles {
 
 /// A survey: every file, and the observations they make.
 struct SurveyFiles {
+  bool from_ends = false;                      ///< see glance_at_survey(): only some of the pings are known
   std::vector<SurveyFile> files;               ///< those with pings by first ping's time, then name; then the others
   std::vector<ObservationFiles> observations;  ///< MS70 first, then each other sounder, each in time order
   Diagnostics diagnostics;                     ///< duplicate files, repeated pings, unreadable files
@@ -163,6 +164,14 @@ using SequenceStarts = std::map<Sounder, SequenceStart>;
 /// threads  files are indexed in parallel; the result does not depend on it
 [[nodiscard]] Result<SurveyFiles> open_survey(std::span<const std::filesystem::path> paths, const SurveyParams& survey,
                                               const NavigationParams& navigation, const IndexCache& cache, Work& work);
+
+/// What a survey of any size is, within moments: what the first and last bytes of its files tell. Its observations have no
+/// pings but those, are cut neither within files nor for their length, and have the names of their first files. For lists and
+/// maps, never for samples.
+/// errors   as open_survey()
+[[nodiscard]] Result<SurveyFiles> glance_at_survey(std::span<const std::filesystem::path> paths,
+                                                   const SurveyParams& survey, const NavigationParams& navigation,
+                                                   Work& work);
 
 /// Refuses paths that stand for no file at all.
 /// errors  not_found, naming the first path

@@ -71,7 +71,10 @@ Result<void> Indexer::refresh(const ByteSource& source) {
 
 /// While it lies in memory still: of a file that grows, the end must not cost a second reading of all.
 Result<void> Indexer::hash_what_came(const ByteSource& source) {
-  std::vector<std::byte> bytes(2U << 20U);
+  const auto size = source.size();
+  if (!size) return pass_on(size);
+  std::vector<std::byte> bytes(
+      static_cast<std::size_t>(std::clamp<std::uint64_t>(*size - std::min(*size, hashed_), 1, 2U << 20U)));
   while (true) {
     const auto got = source.read(hashed_, bytes);
     if (!got) return pass_on(got);
