@@ -17,6 +17,7 @@ struct InfoOptions {
   std::vector<std::string> paths;
   bool json = false;
   bool checksum = false;
+  bool quick = false;
   int jobs = 0;
 };
 
@@ -25,7 +26,8 @@ int run_info(const InfoOptions& options) {
   const CancelOnInterrupt cancel(work);
   const std::vector<std::filesystem::path> paths(options.paths.begin(), options.paths.end());
   const NavigationParams navigation;
-  const auto survey = open_survey(paths, SurveyParams{}, navigation, IndexCache::of_user(), work);
+  const auto survey = options.quick ? glance_at_survey(paths, SurveyParams{}, navigation, work)
+                                    : open_survey(paths, SurveyParams{}, navigation, IndexCache::of_user(), work);
   if (!survey) return report(survey.error());
   if (auto some = require_files(*survey, paths); !some) return report(some.error());
   const auto info = survey_info(*survey, navigation, options.checksum, work);
@@ -47,7 +49,10 @@ void add_info(CLI::App& app, VerbRunner& run) {
   CLI::App* verb = app.add_subcommand("info", "Tell what files hold: format, pings, beams, times, places, damage");
   verb->add_option("PATH", options->paths, "Raw files, or folders of them")->required();
   verb->add_flag("--json", options->json, "Print one JSON object");
-  verb->add_flag("--checksum", options->checksum, "Read every sample and give the sum of all power counts");
+  CLI::Option* checksum =
+      verb->add_flag("--checksum", options->checksum, "Read every sample and give the sum of all power counts");
+  verb->add_flag("--quick", options->quick, "Read the first and last bytes of each file alone: nothing is counted")
+      ->excludes(checksum);
   verb->add_option("--jobs", options->jobs, "Threads; 0 = as many as the machine has")->check(CLI::Range(0, 1024));
   verb->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }

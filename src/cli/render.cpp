@@ -50,7 +50,7 @@ Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) 
     recipe = std::move(*named);
   }
   const std::vector<std::filesystem::path> paths(arguments.paths.begin(), arguments.paths.end());
-  auto source = PictureSource::open(paths, recipe, work);
+  auto source = PictureSource::open(paths, recipe, work, arguments.quick);
   if (!source) return pass_on(source);
   // Nothing is ever written into the folder of the raw files.
   for (const std::string& file : {arguments.out, arguments.difference}) {

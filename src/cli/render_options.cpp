@@ -265,6 +265,7 @@ void add_maps(CLI::App& verb, RenderArguments& a) {
   verb.add_flag("--side", a.picture.side_view, "propagation: from the side")->group(group);
   verb.add_flag("--along-log", a.picture.along_log, "timeline: against the log instead of time")->group(group);
   verb.add_flag("--maximum", a.picture.maximum, "timeline: the maximum over beams instead of the mean")->group(group);
+  verb.add_flag("--quick", a.quick, "survey-map: from the first and last bytes of each raw file alone")->group(group);
   verb.add_flag("--whole-survey", a.picture.whole_survey, "timeline: all observations")->group(group);
 }
 

@@ -17,6 +17,7 @@ struct RenderArguments {
   std::vector<std::string> paths;
   std::string observation;
   std::string recipe;
+  bool quick = false;
   std::string out;
   int jobs = 0;
 

@@ -21,13 +21,14 @@ struct Suits {
 };
 constexpr std::string_view kOfPing = "slice- volume propagation observation-map";
 constexpr std::string_view kOfSv = "slice- volume timeline";
-constexpr std::array<Suits, 47> kSuits{{
+constexpr std::array<Suits, 48> kSuits{{
     {"--observation", "slice- volume propagation observation-map timeline"},
     {"--ping", kOfPing},
     {"--refused", "slice- volume observation-map timeline"},
     {"--filtered", kOfSv},
     {"--unfiltered", kOfSv},
     {"--map", kOfSv},
+    {"--quick", "survey-map"},
     {"--low-db", "slice- volume timeline survey-map"},
     {"--span-db", "slice- volume timeline survey-map"},
     {"--threshold-db", kOfSv},

@@ -144,7 +144,8 @@ Result<DrawnPing> DrawnObservation::ping(std::int64_t ping_index, Work& work) {
 }
 
 Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::path> paths,
-                                                           const std::optional<Recipe>& recipe, Work& work) {
+                                                           const std::optional<Recipe>& recipe, Work& work,
+                                                           bool quick) {
   auto inputs = sorted_inputs(paths);
   if (!inputs) return pass_on(inputs);
   auto source = std::make_unique<PictureSource>();
@@ -160,8 +161,9 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::p
     source->recipe_ = std::move(*own);
   }
   if (!inputs->raw.empty()) {
-    auto survey =
-        open_survey(inputs->raw, source->recipe_.survey, source->recipe_.navigation, IndexCache::of_user(), work);
+    const Recipe& known = source->recipe_;
+    auto survey = quick ? glance_at_survey(inputs->raw, known.survey, known.navigation, work)
+                        : open_survey(inputs->raw, known.survey, known.navigation, IndexCache::of_user(), work);
     if (!survey) return pass_on(survey);
     source->survey_ = std::make_shared<const SurveyFiles>(std::move(*survey));
   }

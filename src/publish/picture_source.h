@@ -76,9 +76,11 @@ class PictureSource {
  public:
   /// paths   folders of raw files or raw files; work folders (with products/ in them) or product files
   /// recipe  empty = that of the products, or the default
+  /// quick   of raw files the ends alone (glance_at_survey()): enough for a survey map
   /// errors  not_found, io, format; usage: nothing to draw in the paths
   [[nodiscard]] static Result<std::unique_ptr<PictureSource>> open(std::span<const std::filesystem::path> paths,
-                                                                   const std::optional<Recipe>& recipe, Work& work);
+                                                                   const std::optional<Recipe>& recipe, Work& work,
+                                                                   bool quick = false);
 
   /// Of a survey that is open, with products that are no files yet.
   [[nodiscard]] static std::unique_ptr<PictureSource> of(std::shared_ptr<const SurveyFiles> survey,
