@@ -24,6 +24,7 @@
 #include "io/atomic_file.h"
 #include "io/udp_sender.h"
 #include "pipeline/alarm.h"
+#include "pipeline/journals.h"
 #include "pipeline/live_targets.h"
 
 namespace sonar {
@@ -254,7 +255,7 @@ int follow_survey(const FollowArguments& arguments) {
   }
   if (auto fit = require_fit(arguments); !fit) return report(fit.error());
   if (auto ours = require_no_newer_plan(arguments.run.out); !ours) return report(ours.error());
-  const auto journal = arguments.run.session.empty() ? Result<Journal>(Journal{}) : read_journal(arguments.run.session);
+  const auto journal = arguments.run.session.empty() ? Result<Journal>(Journal{}) : read_session(arguments.run.session);
   if (!journal) return report(journal.error());
   auto recipe = recipe_for(arguments.run, *journal);
   if (!recipe) return report(recipe.error());
@@ -277,7 +278,8 @@ void add_follow(CLI::App& app, VerbRunner& run) {
       ->check(CLI::Range(0.0, 1e9));
   verb->add_option("--recipe", arguments->run.recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->run.measured);
-  verb->add_option("--session", arguments->run.session, "Journal of human choices to replay, read again when it grows");
+  verb->add_option("--session", arguments->run.session,
+                   "Journal of human choices to replay, or the folder of several people's; read again when it grows");
   verb->add_option("--jobs", arguments->run.jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option(
           "--alarm", arguments->alarms,

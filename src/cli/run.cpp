@@ -22,6 +22,7 @@
 #include "io/atomic_file.h"
 #include "io/product.h"
 #include "pipeline/earlier.h"
+#include "pipeline/journals.h"
 #include "pipeline/manual.h"
 #include "pipeline/merge.h"
 #include "pipeline/refused_echoes.h"
@@ -58,16 +59,10 @@ void note_lost_choices(Opened& opened) {
                                      return ping_at(opened.survey, observation, line.ping_time).has_value();
                                    });
     if (found) continue;
-    opened.survey.diagnostics.push_back(
-        {DiagnosticCode::decision_lost, opened.plan.session, -1, -1,
-         fmt::format("choice {} ({}): the survey has no ping of {}", line.n, line.command, iso_time(line.ping_time))});
+    opened.survey.diagnostics.push_back({DiagnosticCode::decision_lost, opened.plan.session, -1, -1,
+                                         fmt::format("choice {} ({}): the survey has no ping of {}", line_title(line.n),
+                                                     line.command, iso_time(line.ping_time))});
   }
-}
-
-/// The session's journal, empty where there is none.
-Result<Journal> read_session(const std::string& path) {
-  if (path.empty()) return Journal{};
-  return read_journal(path);
 }
 
 Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
@@ -80,7 +75,7 @@ Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
     opened.plan = std::move(*plan);
     paths.assign(opened.plan.survey.begin(), opened.plan.survey.end());
   }
-  auto journal = read_session(opened.plan.session);
+  auto journal = opened.plan.session.empty() ? Result<Journal>(Journal{}) : read_session(opened.plan.session);
   if (!journal) return pass_on(journal);
   if (arguments.plan.empty()) {
     auto recipe = recipe_for(arguments, *journal);
@@ -259,7 +254,8 @@ void add_run(CLI::App& app, VerbRunner& run) {
   auto* out = verb->add_option("--out", arguments->out, "Work folder for products and tables")->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--session", arguments->session, "Journal of human choices to replay");
+  verb->add_option("--session", arguments->session,
+                   "Journal of human choices to replay, or the folder of several people's");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002")->check(some_name());
   verb->add_option("--pings", arguments->pings,
@@ -289,7 +285,8 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--session", arguments->session, "Journal of human choices to replay");
+  verb->add_option("--session", arguments->session,
+                   "Journal of human choices to replay, or the folder of several people's");
   verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] {
     run = [arguments] {

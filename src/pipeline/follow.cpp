@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include "io/atomic_file.h"
 #include "io/product.h"
 #include "pipeline/earlier.h"
+#include "pipeline/journals.h"
 #include "pipeline/observe.h"
 
 namespace sonar {
@@ -40,9 +42,16 @@ Follow::Which Follow::which(const SurveyFiles& survey, const ObservationFiles& o
 bool Follow::read_session() {
   if (options_.session.empty()) return false;
   std::error_code absent;
-  const auto size = fs::file_size(options_.session, absent);
-  if (absent || size == journal_size_) return false;
-  const auto journal = read_journal(options_.session.string());
+  std::uintmax_t size = 0;
+  const bool several = fs::is_directory(options_.session, absent);
+  for (const OneJournal& one :
+       several ? journals_in(std::span(&options_.session, 1)) : std::vector<OneJournal>{{options_.session, 0}}) {
+    const auto its_size = fs::file_size(one.path, absent);
+    if (absent) return false;
+    size += its_size;
+  }
+  if (size == journal_size_) return false;
+  const auto journal = sonar::read_session(options_.session);
   if (!journal) return false;  // its first line is being written
   journal_size_ = size;
   journal_ = effective_lines(journal->lines);

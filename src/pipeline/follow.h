@@ -25,7 +25,7 @@ namespace sonar {
 struct FollowOptions {
   std::vector<std::filesystem::path> survey;
   std::filesystem::path out;
-  std::filesystem::path session;  ///< journal of human choices, read again when it grows; empty = none
+  std::filesystem::path session;  ///< see read_session(), read again when it grows; empty = none
   std::string program_version;
   IndexCache cache;  ///< for indexes of files that are final
 };

@@ -14,6 +14,7 @@
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
+#include "pipeline/journals.h"
 #include "pipeline/json_file.h"
 
 namespace sonar {
@@ -96,7 +97,9 @@ std::string journal_text(const JournalLine& line) {
   return sealed(std::move(json));
 }
 
-std::string said_of(const JournalLine& line) { return fmt::format("choice {} ({}): ", line.n, line.command); }
+std::string said_of(const JournalLine& line) {
+  return fmt::format("choice {} ({}): ", line_title(line.n), line.command);
+}
 
 std::string journal_head_text(const Journal& journal) {
   nlohmann::json files = nlohmann::json::array();

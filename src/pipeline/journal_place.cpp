@@ -2,23 +2,22 @@
 #include "pipeline/journal_place.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <ranges>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "pipeline/journals.h"
 
 namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// session.jsonl, session-2.jsonl, ...
-fs::path journal_name(const fs::path& folder, int number) {
-  return folder / (number == 1 ? "session.jsonl" : fmt::format("session-{}.jsonl", number));
-}
 
 /// A folder that is not there is made with the first choice, not before: looking at a survey leaves nothing behind. One that
 /// is a link is not ours.
@@ -28,29 +27,6 @@ bool can_write(const fs::path& folder) {
   while (!fs::exists(there, error) && there.has_parent_path() && there != there.parent_path())
     there = there.parent_path();
   return require_own_folder(folder) && AtomicFile::create(journal_name(there, 1)).has_value();
-}
-
-/// Numbers of the journals that lie in a folder, rising.
-std::vector<int> journals_in(const fs::path& folder) {
-  constexpr int kMost = 1000;
-  std::vector<int> numbers;
-  std::error_code absent;
-  for (int number = 1; number <= kMost; ++number) {
-    if (fs::exists(fs::symlink_status(journal_name(folder, number), absent))) numbers.push_back(number);
-  }
-  return numbers;
-}
-
-/// Copies journals along that lie in a folder before the chosen one, where that has none.
-void bring_along(std::span<const fs::path> before, const fs::path& chosen) {
-  for (const fs::path& folder : before) {
-    if (!journals_in(chosen).empty()) return;
-    for (const int number : journals_in(folder)) {
-      if (const auto bytes = read_file(journal_name(folder, number))) {
-        (void)write_file(journal_name(chosen, number), *bytes);
-      }
-    }
-  }
 }
 
 /// A journal that can be gone on with; an empty one has nothing that can be wrong with it.
@@ -63,37 +39,68 @@ Result<Journal> journal_at(const fs::path& path, const Journal& head) {
   return read_journal(path.string());
 }
 
-/// The last journal of a folder that can be read is gone on with: it was begun because those before it could not be. Where
-/// none can, the next is begun. Whatever else holds choices is named.
-void take_journal(const fs::path& folder, JournalPlace& place) {
+/// The last journal of the last folder that can be read is gone on with: it was begun because those before it could not be,
+/// or were another's. Where none can, the next is begun. Whatever else holds choices is read.
+void take_journal(JournalPlace& place, std::int64_t first) {
   const Journal head = place.journal;
-  const std::vector<int> numbers = journals_in(folder);
-  place.path = journal_name(folder, numbers.empty() ? 1 : numbers.back() + 1);
+  const std::vector<OneJournal> journals = journals_in(place.folders);
+  place.place = journals.empty() ? first : std::max(first, journals.back().place + 1);
   bool taken = false;
-  for (const int number : std::views::reverse(numbers)) {
-    const fs::path path = journal_name(folder, number);
-    auto journal = journal_at(path, head);
+  for (const OneJournal& one : std::views::reverse(journals)) {
+    auto journal = journal_at(one.path, head);
     if (!journal) {
       place.notices.push_back(to_line(journal.error()));
-    } else if (taken) {
-      if (journal->lines.empty()) continue;
-      place.notices.push_back(
-          fmt::format("{} holds {} choices that are not shown", path.string(), journal->lines.size()));
-    } else {
-      taken = true;
-      place.path = path;
-      for (const Diagnostic& note : journal->diagnostics) {
-        place.notices.push_back(fmt::format("{}: {}", path.filename().string(), note.text));
-      }
-      place.journal = std::move(*journal);
+      continue;
     }
+    for (const Diagnostic& note : journal->diagnostics) {
+      place.notices.push_back(fmt::format("{}: {}", one.path.filename().string(), note.text));
+    }
+    if (taken || one.place < first) continue;
+    taken = true;
+    place.place = one.place;
+    place.journal = std::move(*journal);
   }
-  const std::string name = place.path.filename().string();
-  if (name != journal_name(folder, 1).filename())
-    place.notices.push_back(fmt::format("the journal goes on in {}", name));
+  place.path = journal_name(place.folders.back(), place.place - first + 1);
+  if (place.place > first) {
+    place.notices.push_back(fmt::format("the journal goes on in {}", place.path.filename().string()));
+  }
 }
 
 }  // namespace
+
+void JournalPlace::read_lines() {
+  std::vector<std::vector<JournalLine>> of_each;
+  const auto add = [&](const std::vector<JournalLine>& its_lines, std::int64_t its_place) {
+    auto& numbered = of_each.emplace_back();
+    for (const JournalLine& line : its_lines) numbered.push_back(among_all(line, its_place));
+  };
+  std::vector<OneJournal> journals = journals_in(folders);
+  std::erase_if(journals, [this](const OneJournal& one) { return one.place == place; });
+  journals.push_back({path, place});
+  std::ranges::sort(journals, {}, &OneJournal::place);
+  for (const OneJournal& one : journals) {
+    if (one.place == place) {
+      add(journal.lines, place);
+    } else if (const auto theirs = journal_at(one.path, {})) {
+      add(theirs->lines, one.place);
+    }
+  }
+  lines = joined(std::move(of_each));
+}
+
+bool JournalPlace::may_write() const {
+  std::error_code absent;
+  return !fs::exists(path, absent) || ::access(path.c_str(), W_OK) == 0 || errno != EACCES;
+}
+
+void JournalPlace::begin_next() {
+  std::error_code absent;
+  while (fs::exists(fs::symlink_status(path, absent))) {
+    path = journal_name(folders.back(), ++place - first_place() + 1);
+  }
+  journal.lines.clear();
+  journal.diagnostics.clear();
+}
 
 Result<JournalPlace> place_journal(std::span<const fs::path> folders, const Journal& head) {
   std::size_t chosen = 0;
@@ -104,12 +111,13 @@ Result<JournalPlace> place_journal(std::span<const fs::path> folders, const Jour
   }
   JournalPlace place;
   place.journal = head;
+  place.folders.assign(folders.begin(), folders.begin() + static_cast<std::ptrdiff_t>(chosen) + 1);
   if (chosen > 0) {
-    bring_along(folders.first(chosen), folders[chosen]);
     place.notices.push_back(fmt::format("{} cannot be written to; the journal is kept in {}", folders.front().string(),
                                         folders[chosen].string()));
   }
-  take_journal(folders[chosen], place);
+  take_journal(place, static_cast<std::int64_t>(chosen) * kMostJournals);
+  place.read_lines();
   return place;
 }
 

@@ -77,7 +77,7 @@ TEST_F(Place, LaterStartsFindWhatFollowedAJournalThatCannotBeRead) {
       EXPECT_THAT(place.notices, testing::Contains(HasSubstr("session.jsonl")));
       act(place, n);
     }
-    // Also when the first is gone, or can be read again: then it is named.
+    // Also when the first is gone, or can be read again: then what it says is said too.
     fs::remove(folder_ / "work" / "session.jsonl");
     EXPECT_EQ(placed().journal.lines.size(), 3U);
     JournalLine line;
@@ -85,7 +85,7 @@ TEST_F(Place, LaterStartsFindWhatFollowedAJournalThatCannotBeRead) {
     line.command = "propagate";
     ASSERT_TRUE(append_journal((folder_ / "work" / "session.jsonl").string(), {}, line));
     EXPECT_EQ(placed().journal.lines.size(), 3U);
-    EXPECT_THAT(placed().notices, testing::Contains(HasSubstr("1 choices that are not shown")));
+    EXPECT_EQ(placed().lines.size(), 4U);
     fs::remove(folder_ / "work" / "session.jsonl");
     fs::remove(folder_ / "work" / "session-2.jsonl");
   }

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/test_full_disk.h"
-#include "pipeline/journal_lock.h"
+#include "pipeline/named_lock.h"
 
 namespace sonar {
 namespace {
@@ -151,8 +151,8 @@ TEST_F(JournalFile, NothingIsWrittenThroughALink) {
   JournalLine line;
   line.n = 1;
   EXPECT_FALSE(append_journal(path_, head_, line));
-  JournalLock lock;
-  EXPECT_FALSE(lock.take(path_));
+  NamedLock lock;
+  EXPECT_FALSE(lock.take(path_, "", 0));
   EXPECT_FALSE(std::filesystem::exists(elsewhere));
 }
 

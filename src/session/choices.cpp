@@ -18,25 +18,35 @@ constexpr TimeNs kMillisecondNs = 1'000'000;
 
 }  // namespace
 
+History Choices::own_history(const JournalPlace& place) {
+  History history(first_number(place.place));
+  for (const JournalLine& line : place.journal.lines) history.add(among_all(line, place.place));
+  return history;
+}
+
 Choices::Choices(ChangeQueue& queue, JournalPlace place, Options options, Shown shown, Step step)
     : queue_(queue),
       options_(std::move(options)),
       shown_(std::move(shown)),
       step_(std::move(step)),
       place_(std::move(place)),
-      history_(place_.journal.lines) {}
+      history_(own_history(place_)) {}
 
 Choices::~Choices() { stop(); }
 
+/// Never before what is known already: whoever holds an observation comes after those who held it, whatever the clocks of
+/// two machines say.
 TimeNs Choices::now() const {
   const TimeNs time = options_.clock ? options_.clock() : 0;
-  return time - time % kMillisecondNs;
+  const TimeNs last = place_.lines.empty() ? 0 : place_.lines.back().decided;
+  return std::max(time - time % kMillisecondNs, last);
 }
 
 void Choices::run(std::function<Result<std::int64_t>()> job) {
   ++waiting_;
   thread_.post([this, job = std::move(job)](const Wanted&) {
     const auto line = within_memory(job);
+    let_go_but_looked_at();
     publish(line ? std::string{} : to_line(line.error()), line ? *line : 0);
   });
 }
@@ -51,8 +61,10 @@ void Choices::publish(std::string failure, std::int64_t line) {
   if (const auto lines = history_.undoable(); !lines.empty()) shown.undo_text = "Undo " + step_name(lines.back());
   if (const auto lines = history_.redoable(); !lines.empty()) shown.redo_text = "Redo " + step_name(lines.front());
   shown.names = names_;
-  shown.lines = std::make_shared<std::vector<JournalLine>>(place_.journal.lines);
+  shown.lines = std::make_shared<std::vector<JournalLine>>(place_.lines);
   shown.failure = std::move(failure);
+  shown.notices = std::exchange(notices_, {});
+  shown.journal = place_.path;
   shown.done_line = line;
   queue_.post([this, alive = std::weak_ptr<bool>(alive_), shown = std::move(shown)] {
     if (alive.expired()) return;
@@ -101,11 +113,11 @@ void Choices::act(std::size_t observation, std::int64_t ping_index, Command comm
 std::string Choices::step_name(std::int64_t n) const {
   const auto named = names_.find(n);
   std::string name = named == names_.end() ? std::string{} : named->second;
-  const auto of = std::find_if(place_.journal.lines.begin(), place_.journal.lines.end(),
-                               [n](const JournalLine& line) { return line.n == n; });
-  if (of == place_.journal.lines.end() || of->step == 0 || of->command != "detect") return name;
-  const auto all = std::count_if(place_.journal.lines.begin(), place_.journal.lines.end(),
-                                 [&](const JournalLine& line) { return line.step == of->step; });
+  const auto& lines = place_.lines;
+  const auto of = std::find_if(lines.begin(), lines.end(), [n](const JournalLine& line) { return line.n == n; });
+  if (of == lines.end() || of->step == 0 || of->command != "detect") return name;
+  const auto all =
+      std::count_if(lines.begin(), lines.end(), [&](const JournalLine& line) { return line.step == of->step; });
   return all == 1 ? name : fmt::format("{} in {} observations", name, all);
 }
 
@@ -119,7 +131,7 @@ JournalStatePtr Choices::base_of(const OnObservation& of, const std::vector<Jour
 }
 
 bool Choices::asks_to_detect(std::int64_t n) const {
-  const auto& lines = place_.journal.lines;
+  const auto& lines = place_.lines;
   return std::any_of(lines.begin(), lines.end(),
                      [&](const JournalLine& line) { return line.n == n && line.command == "detect"; });
 }
@@ -134,7 +146,7 @@ void Choices::tell_replayed(std::size_t done, std::size_t total) {
 void Choices::rebuild() {
   done_.clear();
   undone_.clear();
-  const std::vector<JournalLine> lines = effective_lines(place_.journal.lines);
+  const std::vector<JournalLine> lines = effective_lines(place_.lines);
   for (auto& [index, of] : open_) of.state = base_of(of, lines);
   for (const JournalLine& line : lines) {
     tell_replayed(done_.size(), lines.size());
@@ -148,14 +160,14 @@ void Choices::rebuild() {
     names_[turn.n] = turn.name;
     done_.push_back(std::move(turn));
   }
-  for (const JournalLine& line : place_.journal.lines) {
+  for (const JournalLine& line : place_.lines) {
     if (names_.contains(line.n)) continue;
     if (const auto act = act_of(line)) names_[line.n] = act_name(*act, {}, nullptr, nullptr);
   }
 }
 
 void Choices::rebuild(std::size_t index) {
-  const std::vector<JournalLine> lines = effective_lines(place_.journal.lines);
+  const std::vector<JournalLine> lines = effective_lines(place_.lines);
   const bool same = std::equal(lines.begin(), lines.end(), done_.begin(), done_.end(),
                                [](const JournalLine& line, const Turn& turn) { return line.n == turn.n; });
   if (!same) return rebuild();
@@ -182,29 +194,11 @@ std::string Choices::name_of(const JournalAct& act, const Turn& turn) const {
   return act_name(act, {}, nullptr, nullptr);
 }
 
-/// Nobody else may have written since the journal was read.
-Result<void> Choices::hold_journal() {
-  if (lock_.held()) return {};
-  if (auto taken = lock_.take(place_.path); !taken) return taken;
-  std::error_code unknown;
-  const bool begun = std::filesystem::file_size(place_.path, unknown) > 0 && !unknown;
-  const auto now = begun ? read_journal(place_.path.string()) : Result<Journal>(Journal{});
-  const auto last = [](const std::vector<JournalLine>& lines) { return lines.empty() ? 0 : lines.back().n; };
-  if (now && now->lines.size() == place_.journal.lines.size() && last(now->lines) == last(place_.journal.lines)) {
-    return {};
-  }
-  lock_.let_go();
-  return fail(ErrorCode::io, "another window has written to the journal since: open the survey again",
-              {place_.path.string()});
-}
-
 Result<void> Choices::write(const JournalLine& line) {
-  if (place_.path.empty()) return fail(ErrorCode::io, "the journal can be kept nowhere: choices would be lost");
-  std::error_code there;  // append_journal() tells what is wrong with the folder
-  std::filesystem::create_directories(place_.path.parent_path(), there);
-  if (auto held = hold_journal(); !held) return held;
-  if (auto written = append_journal(place_.path.string(), place_.journal, line); !written) return written;
-  place_.journal.lines.push_back(line);
+  const JournalLine own = as_written(line, place_.place);
+  if (auto written = append_journal(place_.path.string(), place_.journal, own); !written) return written;
+  place_.journal.lines.push_back(own);
+  place_.lines.push_back(line);
   history_.add(line);
   return {};
 }
@@ -228,6 +222,7 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   if (ping_index < 0 || ping_index >= at->second.observation->pings()) {
     return fail(ErrorCode::usage, "there is no such ping");
   }
+  if (auto held = hold(observation); !held) return pass_on(held);
   JournalAct act{history_.next(), now(), options_.operator_name, ground.times[static_cast<std::size_t>(ping_index)],
                  std::move(command)};
   Turn turn{act.n, 0, {}, {}, {}};
@@ -278,8 +273,15 @@ bool Choices::turn_known(const std::vector<std::int64_t>& targets, bool undo) {
 }
 
 Result<std::int64_t> Choices::turn(bool undo) {
-  const std::vector<std::int64_t> targets = undo ? history_.undoable() : history_.redoable();
-  if (targets.empty()) return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
+  const auto turned = [&] { return undo ? history_.undoable() : history_.redoable(); };
+  const auto none = [&] {
+    return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
+  };
+  if (turned().empty()) return none();
+  if (auto held = hold_journal(); !held) return pass_on(held);
+  const std::vector<std::int64_t> targets = turned();  // the journal may have proved another's
+  if (targets.empty()) return none();
+  if (auto held = hold_turned(targets); !held) return pass_on(held);
   JournalLine line;
   line.decided = now();
   line.operator_name = options_.operator_name;

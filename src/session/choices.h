@@ -3,19 +3,21 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "base/task_thread.h"
 #include "pipeline/commands/state.h"
-#include "pipeline/journal_lock.h"
 #include "pipeline/journal_place.h"
+#include "pipeline/named_lock.h"
 #include "pipeline/school_numbers.h"
 #include "session/change_queue.h"
 #include "session/history.h"
@@ -32,9 +34,12 @@ struct ChoicesShown {
   std::set<std::size_t> searched;  ///< of these, those whose state lies upon what was found without a human
   std::string undo_text;           ///< "Undo grow school 3"; empty where there is nothing
   std::string redo_text;
+  /// Of all journals of the survey, numbered as among_all() does.
   std::shared_ptr<const std::vector<JournalLine>> lines = std::make_shared<std::vector<JournalLine>>();
   std::map<std::int64_t, std::string> names;  ///< what each line did, by n: "grow school 3"; undone ones too
   std::string failure;                        ///< of the act that was just tried; empty = it was done
+  std::vector<std::string> notices;           ///< what a user must be told beside
+  std::filesystem::path journal;              ///< ours
   std::int64_t done_line = 0;                 ///< n of the line that was just written; 0 = none
 };
 
@@ -47,7 +52,8 @@ struct JournalStep {
 };
 
 /// Every human choice on a survey: carried out one after another behind the window, written into the journal and flushed,
-/// and only then shown.
+/// and only then shown. Others may be at work on the same survey: what they choose is shown too, and an observation is held by
+/// whoever chooses in it for as long as they look at it.
 /// threads  members are called from the window's thread; what they bring about comes through the change queue
 class Choices {
  public:
@@ -79,6 +85,8 @@ class Choices {
   /// step  that the act is part of; null = it stands alone
   void act(std::size_t observation, std::int64_t ping_index, Command command,
            std::shared_ptr<JournalStep> step = nullptr);
+  /// This one is looked at from now on; others that were held are let go. What others have chosen since is taken in.
+  void look_at(std::size_t observation);
   void undo() { turn_back(true); }
   void redo() { turn_back(false); }
   /// Ends the propagation that runs, if one does; what it reached stays.
@@ -121,7 +129,13 @@ class Choices {
                                                JournalStep* step);
   bool turn_known(const std::vector<std::int64_t>& targets, bool undo);
   [[nodiscard]] Result<std::int64_t> turn(bool undo);
+  [[nodiscard]] static History own_history(const JournalPlace& place);
+  [[nodiscard]] Result<void> hold(std::size_t observation);
   [[nodiscard]] Result<void> hold_journal();
+  [[nodiscard]] Result<void> hold_turned(const std::vector<std::int64_t>& targets);
+  void let_go_but_looked_at();
+  void tell_unsearched();
+  bool read_others();
   Result<void> write(const JournalLine& line);
   [[nodiscard]] CommandGround watched(std::size_t observation);
   [[nodiscard]] TimeNs now() const;
@@ -136,12 +150,17 @@ class Choices {
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   // Touched by the thread of the acts alone:
   JournalPlace place_;
-  History history_;
+  History history_;  ///< of our own lines
+  std::map<std::filesystem::path, std::pair<std::uintmax_t, std::filesystem::file_time_type>>
+      read_;  ///< others', as they were
+  std::vector<std::string> notices_;
   std::map<std::size_t, OnObservation> open_;
   std::vector<Turn> done_;
   std::vector<Turn> undone_;
   std::map<std::int64_t, std::string> names_;
-  JournalLock lock_;   ///< taken with the first line that is written
+  NamedLock lock_;                         ///< of our journal, taken with the first line that is written
+  std::map<std::size_t, NamedLock> held_;  ///< observations
+  std::size_t looked_at_ = 0;
   TaskThread thread_;  // the last member: it ends first
 };
 

@@ -44,7 +44,10 @@ std::string idle_text(const Desk& desk, const std::string& dock) {
     const std::string words =
         now.stage == "simulate" ? "Making the simulated survey" : "Reading the survey: " + now.stage;
     const auto percent = now.total > 0 ? fmt::format(", {} %", 100 * now.done / now.total) : std::string{};
-    return words + percent + ".\nEsc, or Cancel below, stops it.";
+    const std::string glanced = document.glance() ? "\nThe list and the survey map show what the files' ends tell;\n"
+                                                    "a double-click in the list opens a part alone."
+                                                  : "";
+    return words + percent + ".\nEsc, or Cancel below, stops it." + glanced;
   }
   return dock == "top_slice" ? "Open a survey (Ctrl+O), or drop a folder of raw files here." : "";
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -63,80 +64,6 @@ void Document::cancel() {
   if (work_) work_->cancel();
 }
 
-void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
-  run([this, paths = std::move(paths), first = std::move(first)](Work& work, const Wanted& wanted) {
-    if (const auto done = first ? first(work) : Result<void>{}; !done) {
-      return post(wanted, [this, line = to_line(done.error())] { tell(line); });
-    }
-    auto survey = open_survey(paths, options_.recipe.survey, options_.recipe.navigation, options_.cache, work);
-    if (!survey) {
-      return post(wanted, [this, line = to_line(survey.error())] { tell(line); });
-    }
-    auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
-    Journal head;
-    head.recipe = recipe_text(options_.recipe);
-    head.recipe_hash = recipe_hash(options_.recipe);
-    for (const ObservationFiles& observation : files->observations) {
-      for (InputFile& file : input_files(*files, observation)) head.files.push_back(std::move(file));
-    }
-    const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
-                                                                    : std::vector<std::filesystem::path>{};
-    auto place = place_journal(folders, head);
-    post(wanted, [this, files, paths, place = std::move(place)] {
-      paths_ = paths;
-      take_survey(files, place);
-    });
-  });
-}
-
-void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place) {
-  choices_thread_.reset();
-  chosen_on_.clear();
-  unreadable_.clear();
-  unreplayed_.clear();
-  undetected_.clear();
-  open_.clear();
-  calibration_.reset();
-  shown_.reset();
-  staged_.reset();
-  choices_ = {};
-  replaying_ = {};
-  propagating_.clear();
-  detected_.clear();
-  found_refused_.clear();
-  refused_.clear();
-  products_.clear();
-  measured_.clear();
-  survey_ = std::move(survey);
-  journal_path_ = place ? place->path : std::filesystem::path{};
-  const std::vector<std::string> to_tell = place ? place->notices : std::vector{to_line(place.error())};
-  const std::vector<JournalLine> all_lines = place ? place->journal.lines : std::vector<JournalLine>{};
-  const std::vector<JournalLine> lines = effective_lines(all_lines);
-  choices_.lines = std::make_shared<const std::vector<JournalLine>>(all_lines);  // known before they are replayed
-  choices_thread_ = std::make_unique<Choices>(
-      queue_, place ? std::move(*place) : JournalPlace{},
-      Choices::Options{options_.operator_name, options_.clock,
-                       [this](std::int64_t done, std::int64_t total) {
-                         replaying_ = {"reading the journal", done, total};
-                         changes_.tell(DocumentChange::progress);
-                       }},
-      [this](ChoicesShown shown) { take_choices(std::move(shown)); },
-      [this](std::size_t observation, std::int64_t ping_index, const PingMask& mask) {
-        take_step(observation, ping_index, mask);
-      });
-  changes_.tell(DocumentChange::survey);
-  for (const std::string& notice : to_tell) tell(notice);
-  const auto& all = survey_->observations;
-  const auto first = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); });
-  if (first == all.end()) {
-    return tell(nothing_shown());
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].grid && asks_for_detection(lines, datagram_times(*survey_, all[i]))) undetected_.push_back(i);
-  }
-  (void)show(static_cast<std::size_t>(first - all.begin()));
-}
-
 OpenObservationPtr Document::open_observation(std::size_t index) const {
   const auto found = open_.find(index);
   return found == open_.end() ? nullptr : found->second;
@@ -170,6 +97,7 @@ Result<void> Document::show(std::size_t observation, std::int64_t ping) {
   staged_.reset();
   unreadable_.clear();
   shown_ = opened(observation);
+  choices_thread_->look_at(observation);
   propagating_.clear();
   ping_ = std::clamp<std::int64_t>(ping, 0, shown_->pings() - 1);
   changes_.tell(DocumentChange::observation);
@@ -189,6 +117,7 @@ void Document::look_at(std::int64_t ping_index) {
   if (!shown_) return;
   ping_ = std::clamp<std::int64_t>(ping_index, 0, shown_->pings() - 1);
   unreadable_.clear();
+  look_at_others();
   if (auto held = shown_->cache().held(ping_)) {
     staged_ = std::move(held);
     changes_.tell(DocumentChange::ping);
@@ -217,6 +146,15 @@ void Document::look_at(std::int64_t ping_index) {
   };
   shown_->cache().look_at(ping_, arrived);
   changes_.tell(DocumentChange::looking);
+}
+
+/// While pings are played the disk is not asked for each.
+void Document::look_at_others() {
+  constexpr std::chrono::seconds kBetweenLooks{2};
+  const auto now = std::chrono::steady_clock::now();
+  if (now - others_looked_at_ < kBetweenLooks) return;
+  others_looked_at_ = now;
+  choices_thread_->look_at(shown_->index());
 }
 
 void Document::act(std::int64_t ping_index, Command command) {
@@ -277,6 +215,7 @@ const JournalState& Document::state() const { return state(shown_ ? shown_->inde
 
 void Document::take_choices(ChoicesShown shown) {
   const ChoicesShown before = std::exchange(choices_, std::move(shown));
+  journal_path_ = choices_.journal;
   propagating_.clear();
   if (!std::exchange(replaying_, {}).stage.empty()) changes_.tell(DocumentChange::progress);
   if (!busy() && !std::exchange(following_, {}).stage.empty()) {
@@ -290,6 +229,7 @@ void Document::take_choices(ChoicesShown shown) {
   measure_changed(before);
   tell_unseen(before);
   tell_beyond_reach();
+  for (const std::string& notice : choices_.notices) tell(notice);
   if (!choices_.failure.empty()) tell(choices_.failure);
 }
 

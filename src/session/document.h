@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -89,6 +90,10 @@ class Document {
   [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
   /// The same, for whoever needs it beyond its end here.
   [[nodiscard]] const std::shared_ptr<const SurveyFiles>& survey_files() const { return survey_; }
+  /// What the files' ends tell of a survey that is being read while none is open (glance_at_survey()); else null.
+  [[nodiscard]] const std::shared_ptr<const SurveyFiles>& glance() const { return glance_; }
+  /// Reads the files of one of its observations alone: they are open while the rest would still be read.
+  void open_glanced(std::size_t observation);
   /// Why nothing of the survey is shown, in a line; empty where something is, or no survey is open.
   [[nodiscard]] std::string nothing_shown() const;
   [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
@@ -179,6 +184,7 @@ class Document {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
   };
+  void glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const Wanted& wanted);
   void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
@@ -187,6 +193,7 @@ class Document {
                   const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
   void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
   void follow_refused(const ChoicesShown& before);
+  void look_at_others();
   void tell_unseen(const ChoicesShown& before);
   void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);
@@ -206,6 +213,7 @@ class Document {
   Listeners<DocumentChange> changes_;
   std::vector<std::filesystem::path> paths_;
   std::shared_ptr<const SurveyFiles> survey_;
+  std::shared_ptr<const SurveyFiles> glance_;
   std::filesystem::path journal_path_;
   std::vector<std::string> notices_;
   Progress progress_;
@@ -220,6 +228,7 @@ class Document {
   std::string unreadable_;  ///< why the ping that is looked at did not arrive; empty = it did, or may
   RightOfWay way_;
   ChoicesShown choices_;
+  std::chrono::steady_clock::time_point others_looked_at_;
   std::map<std::int64_t, PingMask> propagating_;
   std::set<std::size_t> detected_;
   std::map<std::size_t, std::vector<RefusedEcho>> found_refused_;  ///< as detection told them

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/document.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -224,29 +225,6 @@ TEST_F(DocumentAtWork, WhatAJournalCouldNotGiveBackIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(document_->journal_path()));
 }
 
-TEST_F(DocumentAtWork, TwoWindowsOnOneSurveyDoNotMixTheirLines) {
-  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
-  document_->settle();
-  ChangeQueue queue;
-  Document other(queue, TestSurvey::options(journal_));
-  other.open({TestSurvey::easy().folder()});
-  other.settle();
-  ASSERT_EQ(other.state().events.size(), 1U) << "it may look";
-  other.act(EventCommand{"station", other.shown()->ground().times[4], ""});
-  other.settle();
-  EXPECT_EQ(other.state().events.size(), 1U);
-  EXPECT_THAT(other.notices().back(), testing::HasSubstr("another window is at work on this survey"));
-  document_->act(EventCommand{"noise", document_->shown()->ground().times[5], ""});
-  document_->settle();
-  EXPECT_EQ(document_->state().events.size(), 2U);
-  const std::string journal = document_->journal_path().string();
-  document_.reset();
-  other.act(EventCommand{"station", other.shown()->ground().times[4], ""});
-  other.settle();
-  EXPECT_THAT(other.notices().back(), testing::HasSubstr("open the survey again"));
-  EXPECT_EQ(read_journal(journal)->lines.size(), 2U);
-}
-
 TEST_F(DocumentAtWork, AnUndoThatNobodySeesIsTold) {
   const auto at = bright();
   grow(at);
@@ -280,6 +258,24 @@ TEST_F(DocumentAtWork, LookingLeavesNothingBehindAndTheFirstChoiceMakesTheFolder
   grow(bright());
   document_->settle();
   EXPECT_TRUE(std::filesystem::exists(journal_ / "session.jsonl"));
+}
+
+// What the files' ends tell comes before anything else, and part of the survey can be asked for instead of all.
+TEST_F(DocumentAtWork, BothEndsOfTheFilesAreThereFirst) {
+  document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
+  std::vector<std::string> seen;
+  document_->changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::survey) return;
+    const auto& glance = document_->glance();
+    seen.push_back(fmt::format("{}/{}", glance ? glance->observations.size() : 0,
+                               document_->survey() != nullptr ? document_->survey()->observations.size() : 0));
+    if (glance && glance->observations.size() == 2) document_->open_glanced(1);
+  });
+  document_->open({TestSurvey::easy().folder()});
+  document_->settle();
+  EXPECT_EQ(seen.front(), "2/0") << "of the whole folder, and no survey yet";
+  EXPECT_EQ(seen.back(), "0/1");
+  EXPECT_EQ(document_->survey()->files.size(), 1U);
 }
 
 TEST_F(DocumentAtWork, AFolderThatIsNotThereIsOneLine) {

@@ -51,10 +51,6 @@ std::string decide_verb(const DecideCommand& command) {
 
 }  // namespace
 
-History::History(std::span<const JournalLine> lines) {
-  for (const JournalLine& line : lines) add(line);
-}
-
 void History::add(const JournalLine& line) {
   last_ = std::max(last_, line.n);
   if (line.command == "undo" || line.command == "redo") {

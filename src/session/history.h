@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +15,8 @@ namespace sonar {
 /// What can be undone and redone, as a journal's lines say it. A new act ends what could be redone.
 class History {
  public:
-  History() = default;
-  explicit History(std::span<const JournalLine> lines);
+  /// first  number of the first line
+  explicit History(std::int64_t first) : last_(first - 1) {}
 
   void add(const JournalLine& line);
   /// n of the lines that undo takes back, in the order in which it does: of a step all, else one. Empty where there is

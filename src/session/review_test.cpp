@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "pipeline/journal_lock.h"
 #include "session/test_desk.h"
 
 namespace sonar {
@@ -88,18 +87,23 @@ TEST_F(ReviewAtWork, AFreshUserReviewsAHundredSchoolsWithThreeKeysEachAtMost) {
 TEST_F(ReviewAtWork, WhatCannotBeWrittenDownIsShownAgainInsteadOfTheNext) {
   paint_schools(3);
   begin();  // a new run, which has written nothing yet
-  JournalLock other_window;
-  ASSERT_TRUE(other_window.take(document().journal_path()));
   press("review.next");
   document().settle();
   const auto school = workspace().school();
   ASSERT_TRUE(school);
+  ChangeQueue queue;
+  Document other_window(queue, TestSurvey::options(document().journal_path().parent_path()));
+  other_window.open({TestSurvey::easy().folder()});
+  other_window.settle();
+  ASSERT_TRUE(other_window.show(school->observation));
+  other_window.act(EventCommand{"trawl", other_window.shown()->ground().times[2], ""});
+  other_window.settle();
   press("review.reject");
   EXPECT_NE(workspace().school(), school) << "it goes on at once";
   document().settle();
   EXPECT_EQ(workspace().school(), school);
   EXPECT_EQ(with_status("rejected"), 0);
-  EXPECT_THAT(document().notices().back(), HasSubstr("another window"));
+  EXPECT_THAT(document().notices().back(), HasSubstr("is at work on obs-000"));
 }
 
 // Detection brings weak and strong schools alike; before all are measured nobody knows which is the strongest.

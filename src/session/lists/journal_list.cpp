@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/journals.h"
 #include "session/history.h"
 #include "session/lists/cells.h"
 #include "session/survey_schools.h"
@@ -48,7 +49,7 @@ std::string JournalList::what(const JournalLine& line) const {
   if (turns_back(line)) {
     const auto target = line.args.find("target");
     const bool known = target != line.args.end() && target->is_number_integer();
-    return known ? fmt::format("{} line {}", line.command, target->get<std::int64_t>()) : line.command;
+    return known ? fmt::format("{} line {}", line.command, line_title(target->get<std::int64_t>())) : line.command;
   }
   const auto& names = workspace().document.choices().names;
   if (const auto named = names.find(line.n); named != names.end()) return named->second;
@@ -58,7 +59,7 @@ std::string JournalList::what(const JournalLine& line) const {
 
 Cell JournalList::cell(std::size_t row, std::size_t column) const {
   const JournalLine& one = line(row);
-  if (column == 0) return count_cell(one.n);
+  if (column == 0) return {line_title(one.n), static_cast<double>(one.n), {}};
   if (column == 1) return text_cell(what(one));
   if (column == 2) return time_cell(one.decided);
   if (column == 3) return text_cell(one.operator_name);

@@ -100,8 +100,24 @@ void SurveyTree::add_observation(std::size_t index) {
   if (observation.grid) add_beams(*observation.grid, index);
 }
 
+/// While the files are read: nothing in them is counted yet.
+void SurveyTree::add_glanced(const SurveyFiles& glance) {
+  for (std::size_t i = 0; i < glance.observations.size(); ++i) {
+    const ObservationFiles& one = glance.observations[i];
+    rows_.push_back({0,
+                     i,
+                     one.name,
+                     span_cell(one.navigation.front().time, one.navigation.back().time),
+                     {},
+                     {},
+                     fmt::format("not read yet; a double-click opens {} alone",
+                                 one.files.size() == 1 ? "its file" : fmt::format("its {} files", one.files.size()))});
+  }
+}
+
 void SurveyTree::make() {
   rows_.clear();
+  if (const auto& glance = workspace().document.glance()) return add_glanced(*glance);
   const SurveyFiles* survey = workspace().document.survey();
   if (survey == nullptr) return;
   std::set<std::size_t> used;
@@ -132,6 +148,7 @@ Cell SurveyTree::cell(std::size_t row, std::size_t column) const {
 void SurveyTree::open(std::size_t row) {
   if (row >= rows_.size() || !rows_[row].observation) return;
   Document& document = workspace().document;
+  if (document.glance()) return document.open_glanced(*rows_[row].observation);
   if (document.shown() && document.shown()->index() == *rows_[row].observation) return;
   if (auto shown = document.show(*rows_[row].observation); !shown) document.tell(to_line(shown.error()));
 }

@@ -38,6 +38,7 @@ class SurveyTree : public DocumentRows {
     Cell schools;
     std::string notes;
   };
+  void add_glanced(const SurveyFiles& glance);
   void add_observation(std::size_t index);
   void add_beams(const BeamGrid& grid, std::size_t observation);
   void add_file(std::size_t file, std::optional<std::size_t> observation);

@@ -18,8 +18,13 @@ constexpr double kSchoolReach_px = 9.0;
 constexpr double kTrackReach_px = 7.0;
 constexpr double kRing_px = 9.0;
 
+const std::shared_ptr<const SurveyFiles>& mapped(const Document& document) {
+  return document.glance() ? document.glance() : document.survey_files();
+}
+
 /// Opens the observation where needed.
 void look_at_ping(Document& document, std::size_t observation, std::int64_t ping) {
+  if (document.glance()) return document.open_glanced(observation);
   const auto& shown = document.shown();
   if (!shown || shown->index() != observation) {
     if (const auto done = document.show(observation); !done) return document.tell(done.error().text);
@@ -79,11 +84,11 @@ void SurveyMapModel::hear(DocumentChange change) {
 
 LivePicture::Build SurveyMapModel::build() {
   const Document& document = workspace_.document;
-  // Where no observation can be looked at, their tracks are what there is to see.
-  if (!document.shown() && document.nothing_shown().empty()) return {};
-  if (document.survey()->observations.empty()) return {};
+  // Where no observation can be looked at, or not yet, their tracks are what there is to see.
+  if (!document.shown() && !document.glance() && document.nothing_shown().empty()) return {};
   SurveyMapWish wish;
-  wish.survey = document.survey_files();
+  wish.survey = mapped(document);
+  if (wish.survey->observations.empty()) return {};
   for (std::size_t i = 0; i < wish.survey->observations.size(); ++i) wish.products.push_back(document.product(i));
   wish.depth_raster = workspace_.depth_raster();
   wish.style.zoom = gesture_.zoom();
@@ -160,14 +165,17 @@ std::vector<Overlay> SurveyMapModel::overlays() const {
 }
 
 std::string SurveyMapModel::hint(PixelPoint at) const {
-  if (!places_ || !places_->map || workspace_.document.survey() == nullptr) return {};
-  const auto& observations = workspace_.document.survey()->observations;
+  const auto& survey = mapped(workspace_.document);
+  if (!places_ || !places_->map || survey == nullptr) return {};
+  const auto& observations = survey->observations;
   std::string text;
   if (const auto* school = places_->school_at(at); school != nullptr) {
     text = fmt::format("{}, {}\n", observations[school->name.observation].name,
                        title_of(workspace_.document, school->name));
   } else if (const auto ping = places_->ping_at(at)) {
-    text = fmt::format("{}, ping {}\n", observations[ping->observation].name, ping->ping);
+    const std::string& name = observations[ping->observation].name;
+    text =
+        survey->from_ends ? name + ": a click opens its files alone\n" : fmt::format("{}, ping {}\n", name, ping->ping);
   }
   const auto there = places_->map->geographic(at);
   if (!there) return text;

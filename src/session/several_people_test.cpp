@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several people at work on one survey: a journal each, an observation held by one, and everybody may look.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "session/test_survey.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+
+class SeveralPeople : public testing::Test {
+ protected:
+  struct Window {
+    ChangeQueue queue;
+    std::unique_ptr<Document> document;
+    Document* operator->() const { return document.get(); }
+
+    void mark(std::int64_t ping, const std::string& text) const {
+      document->act(EventCommand{"trawl", document->shown()->ground().times[static_cast<std::size_t>(ping)], text});
+      document->settle();
+    }
+    [[nodiscard]] std::size_t events() const { return document->state().events.size(); }
+    /// As somebody does who goes to and fro.
+    void look_again() const {
+      const std::size_t shown = document->shown()->index();
+      ASSERT_TRUE(document->show(shown));
+      document->settle();
+    }
+    void undo() const {
+      document->undo();
+      document->settle();
+    }
+  };
+
+  [[nodiscard]] std::unique_ptr<Window> window(const std::string& name, TimeNs clock_ahead = 0) const {
+    auto window = std::make_unique<Window>();
+    DocumentOptions options = TestSurvey::options(work_);
+    options.operator_name = name;
+    options.clock = [clock_ahead] { return TimeNs{1'790'000'000} * kSecondNs + clock_ahead; };
+    window->document = std::make_unique<Document>(window->queue, std::move(options));
+    (*window)->open({TestSurvey::easy().folder()});
+    (*window)->settle();
+    return window;
+  }
+  [[nodiscard]] bool has(const char* file) const { return fs::exists(work_ / file); }
+  [[nodiscard]] std::vector<fs::path> locks() const {
+    std::vector<fs::path> list;
+    std::error_code absent;
+    for (const auto& entry : fs::directory_iterator(work_ / "locks", absent)) list.push_back(entry.path());
+    return list;
+  }
+
+  fs::path work_ = TestSurvey::easy().fresh();
+};
+
+TEST_F(SeveralPeople, EachHasAJournalAndSeesWhatTheOthersChose) {
+  const auto anna = window("anna");
+  const auto bent = window("bent");
+  anna->mark(2, "anna's");
+  ASSERT_TRUE((*bent)->show(1));
+  (*bent)->settle();
+  bent->mark(3, "bent's");
+  EXPECT_TRUE(has("session.jsonl") && has("session-2.jsonl"));
+  EXPECT_EQ(read_journal((work_ / "session.jsonl").string())->lines.size(), 1U);
+  EXPECT_EQ(read_journal((work_ / "session-2.jsonl").string())->lines.front().n, 1);
+  EXPECT_THAT((*bent)->notices(), Contains(HasSubstr("anna (host ")));
+  ASSERT_TRUE((*bent)->show(0));
+  (*bent)->settle();
+  EXPECT_EQ(bent->events(), 1U) << "what anna chose";
+  ASSERT_TRUE((*anna)->show(1));
+  (*anna)->settle();
+  EXPECT_EQ(anna->events(), 1U) << "what bent chose";
+  // Whoever comes later sees both, and a run on the folder carries out both.
+  const auto carl = window("carl");
+  EXPECT_EQ(carl->events(), 1U);
+  EXPECT_EQ((*carl)->choices().lines->size(), 2U);
+  EXPECT_EQ(read_session(work_)->lines.size(), 2U);
+}
+
+TEST_F(SeveralPeople, AnObservationIsHeldByWhoeverChoosesInItWhileTheyLookAtIt) {
+  const auto anna = window("anna");
+  const auto bent = window("bent");
+  anna->mark(2, "");
+  bent->mark(3, "");
+  EXPECT_THAT((*bent)->notices().back(), HasSubstr("anna (host "));
+  EXPECT_THAT((*bent)->notices().back(), HasSubstr("is at work on obs-0001"));
+  EXPECT_FALSE(has("session-2.jsonl"));
+  ASSERT_TRUE((*anna)->show(1));  // she goes on elsewhere
+  (*anna)->settle();
+  bent->mark(3, "");
+  EXPECT_THAT((*bent)->notices().back(), HasSubstr("others have chosen in obs-0001 since"));
+  EXPECT_EQ(bent->events(), 1U) << "hers is shown first";
+  bent->mark(3, "");
+  EXPECT_EQ(bent->events(), 2U);
+  anna->look_again();
+  ASSERT_TRUE((*anna)->show(0));
+  (*anna)->settle();
+  EXPECT_EQ(anna->events(), 2U);
+  (*anna)->undo();
+  (*anna)->settle();
+  EXPECT_THAT((*anna)->notices().back(), HasSubstr("bent (host ")) << "he holds it now";
+}
+
+TEST_F(SeveralPeople, NobodyUndoesWhatAnotherChose) {
+  const auto anna = window("anna");
+  anna->mark(2, "hers");
+  const auto bent = window("bent");
+  bent->undo();
+  EXPECT_THAT((*bent)->notices().back(), HasSubstr("nothing to undo"));
+  ASSERT_TRUE((*anna)->show(1));
+  (*anna)->settle();
+  bent->look_again();
+  bent->mark(4, "his");
+  ASSERT_TRUE((*bent)->show(1));
+  (*bent)->settle();
+  (*anna)->undo();
+  (*anna)->settle();
+  ASSERT_TRUE((*anna)->show(0));
+  (*anna)->settle();
+  if (anna->events() == 2U) anna->undo();  // she was shown his first
+  ASSERT_EQ(anna->events(), 1U);
+  EXPECT_EQ((*anna)->state().events.front().text, "his");
+}
+
+// Clocks of two machines differ: what came later by the locks comes later in the state of everybody.
+TEST_F(SeveralPeople, ASlowClockDoesNotPutAChoiceBeforeThoseItStandsOn) {
+  const auto anna = window("anna", 3600 * kSecondNs);
+  anna->mark(2, "first");
+  ASSERT_TRUE((*anna)->show(1));
+  (*anna)->settle();
+  const auto bent = window("bent");
+  bent->mark(2, "second");
+  EXPECT_GE((*bent)->choices().lines->back().decided, (*bent)->choices().lines->front().decided);
+  EXPECT_EQ((*bent)->choices().lines->back().operator_name, "bent");
+  EXPECT_EQ((*window("carl"))->choices().lines->back().operator_name, "bent");
+}
+
+TEST_F(SeveralPeople, WhoeverClosesTheWindowLeavesNoLocks) {
+  auto anna = window("anna");
+  EXPECT_TRUE(locks().empty()) << "looking locks nothing";
+  anna->mark(2, "");
+  EXPECT_EQ(locks().size(), 2U);
+  anna.reset();
+  EXPECT_TRUE(locks().empty());
+}
+
+// What a program that was killed leaves: the file, and nobody who holds it.
+TEST_F(SeveralPeople, ALockOfAProgramThatIsGoneIsToldAndTakenOver) {
+  std::map<fs::path, std::string> left;
+  {
+    const auto anna = window("anna");
+    anna->mark(2, "");
+    for (const fs::path& lock : locks()) {
+      std::ifstream in(lock);
+      left[lock] = {std::istreambuf_iterator<char>(in), {}};
+    }
+  }
+  ASSERT_EQ(left.size(), 2U);
+  for (const auto& [lock, text] : left) std::ofstream(lock) << text;
+  auto bent = window("bent");
+  bent->mark(3, "");
+  EXPECT_EQ(bent->events(), 2U);
+  EXPECT_THAT((*bent)->notices(), Contains(HasSubstr("was left by a program that has ended")));
+  bent.reset();
+  // Of another machine's nobody here can tell whether it has ended.
+  for (auto [lock, text] : left) {
+    const auto at = text.find("\"host\":\"") + 8;
+    text.insert(at, "far-away-");
+    std::ofstream(lock) << text;
+  }
+  const auto carl = window("carl");
+  carl->mark(4, "");
+  EXPECT_EQ(carl->events(), 2U);
+  EXPECT_THAT((*carl)->notices().back(), HasSubstr("anna (host far-away-"));
+  EXPECT_THAT((*carl)->notices().back(), HasSubstr("if that program is gone, remove "));
+}
+
+TEST_F(SeveralPeople, ALockThatNamesNobodyIsOneLine) {
+  fs::create_directories(work_ / "locks");
+  std::ofstream(work_ / "locks" / "session.jsonl.lock") << "[";
+  const auto anna = window("anna");
+  anna->mark(2, "");
+  EXPECT_EQ(anna->events(), 0U);
+  EXPECT_THAT((*anna)->notices().back(), HasSubstr("names nobody"));
+}
+
+}  // namespace
+}  // namespace sonar
