@@ -38,7 +38,7 @@ void ListColumns::begin() {
 }
 
 void ListColumns::fit() {
-  if (std::exchange(fitted_, true)) return;
+  if (std::exchange(fitted_, !rows_.for_now())) return;
   ours_ = true;
   list_.header()->setResizeContentsPrecision(kRowsThatFit);
   for (int c = 0; c < list_.model()->columnCount(); ++c) {

@@ -16,7 +16,7 @@ class ListColumns : public QObject {
   ListColumns(const Rows& rows, QTreeView& list) : rows_(rows), list_(list) {}
   /// As wide as the titles, until there are rows; the list has its model.
   void begin();
-  /// By the first rows that there are; once.
+  /// By the first rows that there are; once, but anew after those that were there for now.
   void fit();
 
  protected:

@@ -43,6 +43,8 @@ class Rows {
   [[nodiscard]] virtual std::optional<std::size_t> selected() const { return std::nullopt; }
   /// Depth in a tree, 0 = top; rows of a plain table are all 0.
   [[nodiscard]] virtual int level(std::size_t /*row*/) const { return 0; }
+  /// Whether the rows stand here only until those come that are meant.
+  [[nodiscard]] virtual bool for_now() const { return false; }
   /// Shown in grey: undone, rejected.
   [[nodiscard]] virtual bool faded(std::size_t /*row*/) const { return false; }
   /// A limit that makes sense here, "depth>80", to show how one is written; empty = words alone.

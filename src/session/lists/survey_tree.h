@@ -20,6 +20,7 @@ class SurveyTree : public DocumentRows {
   [[nodiscard]] std::size_t rows() const override { return rows_.size(); }
   [[nodiscard]] Cell cell(std::size_t row, std::size_t column) const override;
   [[nodiscard]] int level(std::size_t row) const override { return rows_[row].level; }
+  [[nodiscard]] bool for_now() const override { return workspace().document.glance() != nullptr; }
   void open(std::size_t row) override;
   [[nodiscard]] std::optional<std::size_t> selected() const override;
   [[nodiscard]] std::string example_limit() const override { return "pings>100"; }
