@@ -43,6 +43,7 @@ struct DocumentOptions {
 /// What has changed, for whoever shows it.
 enum class DocumentChange : std::uint8_t {
   survey,       ///< another survey is open, or none
+  glance,       ///< what is known of the one that is being read
   observation,  ///< another observation is looked at, or one more is open
   looking,      ///< another ping is looked at and on its way
   ping,         ///< the ping that is looked at has arrived

@@ -43,7 +43,7 @@ void Document::glance_at(const std::vector<std::filesystem::path>& paths, Work& 
   post(wanted, [this, seen = std::make_shared<const SurveyFiles>(std::move(*glance))] {
     if (survey_) return;  // it stays until the other is there
     glance_ = seen;
-    changes_.tell(DocumentChange::survey);
+    changes_.tell(DocumentChange::glance);
   });
 }
 

@@ -265,7 +265,7 @@ TEST_F(DocumentAtWork, BothEndsOfTheFilesAreThereFirst) {
   document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
   std::vector<std::string> seen;
   document_->changes().add([&](DocumentChange change) {
-    if (change != DocumentChange::survey) return;
+    if (change != DocumentChange::survey && change != DocumentChange::glance) return;
     const auto& glance = document_->glance();
     seen.push_back(fmt::format("{}/{}", glance ? glance->observations.size() : 0,
                                document_->survey() != nullptr ? document_->survey()->observations.size() : 0));

@@ -64,6 +64,16 @@ class LiveDesk : public testing::Test, protected TestDesk {
   double now_s_ = 10.0;
 };
 
+// What the files' ends tell comes first, and is not yet the survey that is to be followed.
+TEST_F(LiveDesk, TheSurveyThatIsOpenedNextIsFollowed) {
+  record(0, 0.5);
+  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  live().follow_next();
+  document().open({live_});
+  document().settle();
+  EXPECT_TRUE(live().on());
+}
+
 TEST_F(LiveDesk, ShowsTheNewestPingAndTellsOfSchools) {
   record(0, 0.3);
   begin();

@@ -28,8 +28,8 @@ Cell span_cell(TimeNs first, TimeNs last) {
 }  // namespace
 
 SurveyTree::SurveyTree(Workspace& workspace)
-    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
-                               DocumentChange::measures}),
+    : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::glance, DocumentChange::observation,
+                               DocumentChange::state, DocumentChange::measures}),
       titles_{{"Survey", "", "observations, their files, and what is wrong with them", false},
               {"Time", "UTC", "from the first ping to the last", false},
               {"Pings", "", "", true},

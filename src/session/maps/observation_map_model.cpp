@@ -87,6 +87,7 @@ void ObservationMapModel::hear(DocumentChange change) {
     case DocumentChange::state:
     case DocumentChange::measures:
       return update();
+    case DocumentChange::glance:
     case DocumentChange::progress:
     case DocumentChange::notice:
       return;

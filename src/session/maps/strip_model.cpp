@@ -62,6 +62,7 @@ void StripModel::hear(DocumentChange change) {
     case DocumentChange::state:
       return update();
     case DocumentChange::measures:
+    case DocumentChange::glance:
     case DocumentChange::progress:
     case DocumentChange::notice:
       return;

@@ -71,13 +71,14 @@ SurveyMapModel::SurveyMapModel(Workspace& workspace)
 }
 
 void SurveyMapModel::hear(DocumentChange change) {
-  if (change == DocumentChange::survey) {
+  const bool another = change == DocumentChange::survey || change == DocumentChange::glance;
+  if (another) {
     gesture_.reset();
     places_.reset();
   }
   if (change == DocumentChange::ping || change == DocumentChange::looking)
     return changed().tell();  // the ship is an overlay
-  if (change == DocumentChange::survey || change == DocumentChange::observation || change == DocumentChange::measures) {
+  if (another || change == DocumentChange::observation || change == DocumentChange::measures) {
     update();
   }
 }

@@ -72,6 +72,7 @@ void TimelineModel::hear(DocumentChange change) {
     case DocumentChange::measures:
       return update();
     case DocumentChange::propagating:
+    case DocumentChange::glance:
     case DocumentChange::progress:
     case DocumentChange::notice:
       return;
