@@ -24,8 +24,14 @@ namespace {
 constexpr std::size_t kPowerBytes = 48U << 20U;
 constexpr std::size_t kLeastPower = 3;
 /// Stages that are kept from detecting to measuring: most of a short observation. With it a run stays below 600 MB.
-constexpr std::size_t kStagedBytes = 240U << 20U;
-constexpr std::size_t kStagedBytesPerVoxel = 5;  // Sv, filtered Sv, flags
+constexpr std::size_t kStagedBytes = 200U << 20U;
+
+std::size_t bytes_of(const Volume& volume) {
+  return volume.counts.all().size_bytes() + volume.flags.all().size_bytes();
+}
+std::size_t bytes_of(const StagedPing& ping) {
+  return bytes_of(ping.sv) + bytes_of(*ping.filtered) + ping.means.all().size_bytes();
+}
 
 /// A sonar whose rows are not calibrated has no Sv there.
 void apply_tables(const Array3<std::int16_t>& table, Volume& volume) {
@@ -66,7 +72,6 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
   const auto voxels = static_cast<std::size_t>(grid().fans()) * static_cast<std::size_t>(grid().beams()) *
                       static_cast<std::size_t>(std::max(1, observation.range.count));
   power_limit_ = std::clamp(kPowerBytes / (voxels * 3), kLeastPower, std::size_t{64});
-  staged_limit_ = kStagedBytes / (voxels * kStagedBytesPerVoxel);
 }
 
 Placement Engine::placement(std::int64_t ping_index) const {
@@ -298,7 +303,17 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
 
 void Engine::keep(std::shared_ptr<const StagedPing> ping) {
   const std::scoped_lock lock(mutex_);
-  if (staged_.size() < staged_limit_) staged_.emplace(ping->ping_index, std::move(ping));
+  const std::size_t bytes = bytes_of(*ping);
+  if (staged_bytes_ + bytes > kStagedBytes) return;
+  if (staged_.emplace(ping->ping_index, std::move(ping)).second) staged_bytes_ += bytes;
+}
+
+void Engine::rest() {
+  const std::scoped_lock lock(mutex_);
+  power_.clear();
+  power_order_.clear();
+  staged_.clear();
+  staged_bytes_ = 0;
 }
 
 Result<std::shared_ptr<const StagedPing>> Engine::kept_or_staged(std::int64_t ping_index) {

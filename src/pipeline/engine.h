@@ -93,7 +93,9 @@ class Engine {
   /// detecting just did. Which pings are kept changes no result.
   void keep(std::shared_ptr<const StagedPing> ping);
   [[nodiscard]] Result<std::shared_ptr<const StagedPing>> kept_or_staged(std::int64_t ping_index);
-  /// The same for growing and propagating.
+  /// Lets go of the pings that are kept for their neighbours: an observation that nobody looks at costs no memory.
+  void rest();
+  /// A ping for growing and propagating.
   [[nodiscard]] Result<FilteredPing> filtered(std::int64_t ping_index);
   [[nodiscard]] FilteredPing filtered(const StagedPing& ping) const;
 
@@ -129,8 +131,8 @@ class Engine {
   std::size_t power_limit_;
   std::vector<std::int64_t> power_order_;
   std::unordered_map<std::int64_t, Power> power_;
-  std::size_t staged_limit_;
   std::unordered_map<std::int64_t, std::shared_ptr<const StagedPing>> staged_;
+  std::size_t staged_bytes_ = 0;  ///< of these
 };
 
 }  // namespace sonar

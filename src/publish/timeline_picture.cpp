@@ -81,6 +81,7 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
     const bool drawable = !observation->has_raw() || observation->engine() != nullptr;
     if (!drawable && observations.size() > 1) continue;
     auto made = echogram(*observation, options.filtered.value_or(false), level, work);
+    if (observation->engine() != nullptr) observation->engine()->rest();
     if (!made) return pass_on(made);
     echograms.push_back(std::move(*made));
     products.push_back(with_chosen_schools(observation->product(), options));

@@ -92,17 +92,25 @@ Result<void> Document::show(std::size_t observation, std::int64_t ping) {
   if (!survey_ || observation >= survey_->observations.size()) return fail(ErrorCode::usage, "no such observation");
   const ObservationFiles& files = survey_->observations[observation];
   if (!files.grid) return fail(ErrorCode::usage, why_no_grid(files));
-  // One observation is looked at, and one has its pings in memory.
-  if (shown_ && shown_->index() != observation) shown_->cache().rest();
+  const OpenObservationPtr before = shown_;
   staged_.reset();
   unreadable_.clear();
   shown_ = opened(observation);
+  if (before && before->index() != observation) rest_unless_shown(before->index());
   choices_thread_->look_at(observation);
   propagating_.clear();
   ping_ = std::clamp<std::int64_t>(ping, 0, shown_->pings() - 1);
   changes_.tell(DocumentChange::observation);
   look_at(ping_);
   return {};
+}
+
+/// One observation is looked at, and one has its pings in memory.
+void Document::rest_unless_shown(std::size_t observation) {
+  if (shown_ && shown_->index() == observation) return;
+  for (const auto* kept : {&open_, &chosen_on_}) {
+    if (const auto found = kept->find(observation); found != kept->end() && found->second) found->second->rest();
+  }
 }
 
 void Document::open_all() {

@@ -195,6 +195,7 @@ class Document {
   void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
   void follow_refused(const ChoicesShown& before);
   void look_at_others();
+  void rest_unless_shown(std::size_t observation);
   void tell_unseen(const ChoicesShown& before);
   void tell_beyond_reach();
   void tell_lacking(const std::vector<std::size_t>& observations);

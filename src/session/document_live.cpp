@@ -41,6 +41,7 @@ ProductPtr with_pings(const ProductPtr& product, const ObservationFiles& observa
 
 void Document::take_product(std::size_t observation, const ProductPtr& product) {
   products_[observation] = with_pings(product, survey_->observations[observation]);
+  rest_unless_shown(observation);
   changes_.tell(DocumentChange::measures);
 }
 

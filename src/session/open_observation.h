@@ -58,6 +58,12 @@ class OpenObservation {
   [[nodiscard]] const std::shared_ptr<const int>& identity() const { return identity_; }
   [[nodiscard]] PingCache& cache() { return *cache_; }
 
+  /// Its pings leave the memory: nobody looks at it.
+  void rest() {
+    cache_->rest();
+    engine_.rest();
+  }
+
   /// All stages of a ping, from the cache or made now. errors: as Engine::staged()
   [[nodiscard]] Result<StagedPingPtr> ping(std::int64_t ping_index) { return cache_->ping(ping_index); }
   /// Makes sure that the background of a ping is known, as the engine's other calls need it.

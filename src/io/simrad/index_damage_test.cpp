@@ -213,11 +213,24 @@ TEST(RawDamage, ChannelsOfOneTimeFarApartAreDropped) {
   };
   Bytes head = test::con0(test::small_ms70());
   head.add(test::raw0(kStart, {.channel = 1}, {1}));
-  const Sparse source(head, test::raw0(kStart, {.channel = 2}, {2}), std::uint64_t{9} * (32 << 20));
+  Bytes tail = test::raw0(kStart, {.channel = 2}, {2});
+  tail.add(test::raw0(kStart, {.channel = 3}, {3}));
+  const Sparse source(head, tail, std::uint64_t{9} * (32 << 20));
   const auto index = index_raw(source);
   ASSERT_TRUE(index);
   EXPECT_EQ(index->datagrams.at("TAG0"), 9);
-  EXPECT_EQ(codes(*index), Codes{DiagnosticCode::ping_too_long});
+  EXPECT_EQ(codes(*index), Codes{DiagnosticCode::ping_too_long}) << "once for the ping";
+}
+
+TEST(RawDamage, AChannelOfMoreSamplesThanAreReadIsToldAsThat) {
+  Bytes bytes = test::small_file(1);
+  const std::vector<std::int16_t> many((std::size_t{1} << 20) + 1, 7);
+  bytes.add(test::raw0(kStart + kSecondNs, {.channel = 1}, many))
+      .add(test::raw0(kStart + kSecondNs, {.channel = 2}, {2}));
+  const RawIndex index = index_of(bytes);
+  ASSERT_EQ(codes(index), Codes{DiagnosticCode::bad_sample_counts});
+  EXPECT_NE(index.diagnostics[0].text.find("channel 1: more samples than"), std::string::npos);
+  EXPECT_EQ(index.pings.back().channels, 1);
 }
 
 TEST(RawDamage, NotesHaveACeiling) {

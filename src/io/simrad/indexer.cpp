@@ -219,8 +219,12 @@ bool Indexer::join_ping(const Arrival& arrival) {
                fmt::format("channel {} came before with the same time stamp", channel + 1));
     return false;
   } else if (arrival.end - ping_.offset > kMaxPingBytes) {
-    notes_.add(DiagnosticCode::ping_too_long, arrival.offset,
-               fmt::format("the ping begins at byte {}; channel {} was dropped", ping_.offset, channel + 1));
+    if (std::exchange(too_long_, ping_number_) == ping_number_) return false;
+    notes_.add(
+        DiagnosticCode::ping_too_long, arrival.offset,
+        fmt::format("the ping begins at byte {}, and no more than {} MB are read of one: channel {} and what lies "
+                    "behind it are left out",
+                    ping_.offset, kMaxPingBytes >> 20U, channel + 1));
     return false;
   }
   seen_in_ping_[channel] = ping_number_;

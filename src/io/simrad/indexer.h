@@ -78,6 +78,7 @@ class Indexer {
   bool ping_published_ = false;  ///< the open one, as it has all beams; what repeats them is noted as such
   PingEntry ping_;
   std::uint64_t ping_number_ = 0;
+  std::uint64_t too_long_ = 0;  ///< number of the last ping that was
   ClockRuns clock_runs_;
   std::vector<std::uint64_t> seen_in_ping_;  ///< [channel] number of the ping it was last seen in
   struct OpenChannel {

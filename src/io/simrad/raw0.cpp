@@ -14,6 +14,8 @@
 namespace sonar::simrad {
 namespace {
 
+static_assert(kMaxSamples == 1048576, "as a message says");
+
 // A quarter of the shortest and of the longest pulse of any echo sounder, with room; and sound in water, with room.
 constexpr double kLeastInterval_s = 1e-6;
 constexpr double kMostInterval_s = 0.02;
@@ -201,7 +203,10 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
       raw.bad_attitude = true;
     }
   }
-  if (head.offset < 0 || count < 0 || head.offset > kMaxSamples || count > kMaxSamples - head.offset ||
+  if (head.offset > kMaxSamples || count > kMaxSamples - std::max(head.offset, 0)) {
+    return unusable(raw, "more samples than the 1048576 that are read of a channel", DiagnosticCode::bad_sample_counts);
+  }
+  if (head.offset < 0 || count < 0 ||
       promised_bytes(head.mode, count) > static_cast<std::int64_t>(body.size() - kRaw0HeadBytes)) {
     return unusable(raw, "offset and count do not fit the body", DiagnosticCode::bad_sample_counts);
   }
