@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/machine_memory.h"
 #include "cli/exit_codes.h"
 #include "cli/follow_lines.h"
 #include "cli/named_path.h"
@@ -184,6 +185,7 @@ class Following {
       if (minute) status_at_ = begun;
       teller_.status(live_status(*follow_.survey(), behind_s, out_), minute);
     }
+    if (look->news.pings > 0) give_memory_back();
     return {};
   }
 

@@ -94,7 +94,7 @@ class Raster : public testing::Test {
     for (const double y : lat) {
       for (const double x : lon) z.push_back(static_cast<float>(g.sign * depth_of(y, x)));
     }
-    netcdf::Writer w(path, name);
+    netcdf::Writer w(name);
     const auto lats = w.dimension(w.root(), "lat", lat.size());
     const auto lons = w.dimension(w.root(), "lon", lon.size());
     const int vlat = w.variable(w.root(), "lat", "degrees_north", {lats}, lat);
@@ -105,7 +105,8 @@ class Raster : public testing::Test {
     const int v = w.variable(w.root(), g.variable, "m", {lats, lons}, z);
     if (!g.positive.empty()) w.attribute(w.root(), v, "positive", g.positive);
     w.attribute(w.root(), netcdf::Writer::kGlobal, "Conventions", "CF-1.6");
-    EXPECT_TRUE(w.close());
+    auto file = AtomicFile::create(path);
+    EXPECT_TRUE(file && w.close_into(*file) && file->commit());
     return path;
   }
 

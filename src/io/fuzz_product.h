@@ -109,7 +109,7 @@ class ProductFuzz {
     for (int edits = 0; edits < 24 && !in.done(); ++edits) edit(file, in);
     const std::filesystem::path spoilt = folder_ / "spoilt.nc";
     if (!write_netcdf_model(file, spoilt)) return;
-    SONAR_CHECK(append_seal(spoilt, spoilt.string()).has_value());
+    SONAR_CHECK(example::append_seal(spoilt));
     const auto read = read_product(spoilt);
     if (!read) {
       SONAR_CHECK(!read.error().text.empty() && read.error().where.file == spoilt.string());
@@ -139,7 +139,7 @@ inline void product_bytes(std::string_view bytes, const std::filesystem::path& f
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     SONAR_CHECK(out.good());
   }
-  SONAR_CHECK(append_seal(file, file.string()).has_value());
+  SONAR_CHECK(example::append_seal(file));
   const auto read = read_product(file);
   SONAR_CHECK(read.has_value() || !read.error().text.empty());
 }

@@ -102,18 +102,16 @@ Result<void> write_mask_volume(const ObservationProduct& product, const std::fil
   }
   auto file = AtomicFile::create(path);
   if (!file) return pass_on(file);
-  {
-    Writer out(file->temporary(), path.string());
-    out.attribute(out.root(), Writer::kGlobal, "Conventions", std::string_view("CF-1.8"));
-    out.attribute(out.root(), Writer::kGlobal, "title", std::string_view(product.title));
-    out.attribute(out.root(), Writer::kGlobal, "observation", std::string_view(product.observation));
-    out.attribute(out.root(), Writer::kGlobal, "recipe_hash", std::string_view(product.recipe_hash));
-    const Dimension ping = out.dimension(out.root(), "ping", product.pings.size());
-    write_coordinates(out, product, ping);
-    if (product.grid && ping.length > 0 && product.grid->range.count > 0) write_arrays(out, product, ping, work);
-    if (auto closed = out.close(); !closed) return closed;
-  }
+  Writer out(path.string());
+  out.attribute(out.root(), Writer::kGlobal, "Conventions", std::string_view("CF-1.8"));
+  out.attribute(out.root(), Writer::kGlobal, "title", std::string_view(product.title));
+  out.attribute(out.root(), Writer::kGlobal, "observation", std::string_view(product.observation));
+  out.attribute(out.root(), Writer::kGlobal, "recipe_hash", std::string_view(product.recipe_hash));
+  const Dimension ping = out.dimension(out.root(), "ping", product.pings.size());
+  write_coordinates(out, product, ping);
+  if (product.grid && ping.length > 0 && product.grid->range.count > 0) write_arrays(out, product, ping, work);
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  if (auto closed = out.close_into(*file); !closed) return pass_on(closed);
   return file->commit();
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "io/atomic_file.h"
 
 namespace sonar::netcdf {
 
@@ -28,12 +29,13 @@ struct Dimension {
 /// How a variable is stored: in one piece, or in chunks with shuffle and deflate 1.
 enum class Storage { plain, packed };
 
-/// Writes one netCDF-4 file. After the first failure every further call does nothing and close() tells the failure.
+/// Writes one netCDF-4 file, in memory until it is whole: netCDF and HDF5 break where a disk fails under them. After the first
+/// failure every further call does nothing and close_into() tells the failure.
 /// threads  holds the lock for its lifetime
 class Writer {
  public:
-  /// path  written over; `named` stands in messages
-  Writer(const std::filesystem::path& path, std::string named);
+  /// named  stands in messages
+  explicit Writer(std::string named);
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -65,10 +67,13 @@ class Writer {
 
   /// Remarks a failure that is not netCDF's.
   void refuse(Error error);
-  [[nodiscard]] Result<void> close();
+  /// Appends the whole file to one that is written.
+  /// out  hexadecimal XXH3-128 of its bytes
+  [[nodiscard]] Result<std::string> close_into(AtomicFile& file);
 
  private:
   bool check(int status, std::string_view what);
+  [[nodiscard]] Result<std::vector<std::byte>> image();
   int define(int group, const std::string& name, std::string_view unit, const std::vector<Dimension>& dimensions,
              int type, std::size_t value_size, Storage storage);
   std::unique_lock<std::mutex> lock_;

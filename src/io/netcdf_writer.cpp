@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <utility>
+#include <vector>
 
-#include "io/atomic_file.h"
+#include "base/hash.h"
+#include "io/hdf5_image.h"
 #include "io/netcdf_file.h"
 
 namespace sonar::netcdf {
@@ -52,9 +53,8 @@ std::unique_lock<std::mutex> lock() {
   return held;
 }
 
-Writer::Writer(const std::filesystem::path& path, std::string named) : lock_(lock()), named_(std::move(named)) {
-  errno = 0;
-  if (!check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_), "cannot create")) file_ = -1;
+Writer::Writer(std::string named) : lock_(lock()), named_(std::move(named)) {
+  if (!check(nc_create(named_.c_str(), NC_NETCDF4 | NC_CLOBBER | NC_DISKLESS, &file_), "cannot create")) file_ = -1;
   if (file_ >= 0) {
     int old_mode = 0;
     check(nc_set_fill(file_, NC_NOFILL, &old_mode), "fill mode");
@@ -66,14 +66,10 @@ Writer::~Writer() {
 }
 
 bool Writer::check(int status, std::string_view what) {
-  if (!status_) return false;
-  if (status == NC_NOERR) return true;
-  // "HDF error" tells a user nothing; what the system said of the last write does, where it was a full disk.
-  auto refused = refused_write("cannot write", errno, named_);
-  const bool full = refused.value().code == ErrorCode::no_space;
-  if (!full) refused = fail(ErrorCode::io, fmt::format("netCDF, {}: {}", what, nc_strerror(status)), {.file = named_});
-  status_ = std::move(refused);
-  return false;
+  if (status_ && status != NC_NOERR) {
+    status_ = fail(ErrorCode::io, fmt::format("netCDF, {}: {}", what, nc_strerror(status)), {.file = named_});
+  }
+  return status_.has_value();
 }
 
 void Writer::refuse(Error error) {
@@ -203,13 +199,29 @@ template int Writer::sliced_variable<std::uint8_t>(int, const std::string&, std:
 template void Writer::slice(int, int, std::size_t, const std::vector<Dimension>&, const std::vector<std::int32_t>&);
 template void Writer::slice(int, int, std::size_t, const std::vector<Dimension>&, const std::vector<std::uint8_t>&);
 
-Result<void> Writer::close() {
-  if (file_ >= 0) {
-    const int status = nc_close(file_);
-    file_ = -1;
-    check(status, "close");
+/// The bytes of the one file that HDF5 has open while we hold the lock.
+Result<std::vector<std::byte>> Writer::image() {
+  if (file_ >= 0) check(nc_sync(file_), "close");
+  if (!status_) return pass_on(status_);
+  hid_t open = H5I_INVALID_HID;
+  const bool found = H5Fget_obj_ids(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_FILE, 1, &open) == 1;
+  const ssize_t size = found && H5Fflush(open, H5F_SCOPE_LOCAL) >= 0 ? H5Fget_file_image(open, nullptr, 0) : -1;
+  std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  if (size <= 0 || H5Fget_file_image(open, bytes.data(), bytes.size()) != size || !seal_superblock(bytes)) {
+    return fail(ErrorCode::io, "netCDF, close: HDF5 does not give the file", {.file = named_});
   }
-  return status_;
+  return bytes;
+}
+
+Result<std::string> Writer::close_into(AtomicFile& file) {
+  const auto bytes = image();
+  if (!bytes) return pass_on(bytes);
+  if (auto written = file.write({reinterpret_cast<const char*>(bytes->data()), bytes->size()}); !written) {
+    return pass_on(written);
+  }
+  Hasher hasher;
+  hasher.add(*bytes);
+  return to_hex(hasher.value());
 }
 
 }  // namespace sonar::netcdf

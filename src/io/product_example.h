@@ -2,11 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/hash.h"
 #include "geo/geodesic.h"
+#include "io/product_seal.h"
 #include "model/product.h"
 
 namespace sonar::example {
@@ -20,6 +26,18 @@ inline constexpr int kSamples = 60;
 inline constexpr TimeNs kStart = 1'700'000'000'123'456'700;
 inline constexpr double kPingSeconds = 2.0;
 inline constexpr double kShip_mps = 3.0;
+
+/// Seals a file as it is now.
+inline bool append_seal(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  Hasher hasher;
+  hasher.add(std::as_bytes(std::span(bytes)));
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << seal_text(to_hex(hasher.value()));
+  out.close();
+  return !out.fail();
+}
 
 inline GridRecord grid() {
   GridRecord record;

@@ -40,12 +40,12 @@ class ProductHostile : public testing::Test {
   }
   void put_sealed(const std::string& bytes) const {
     std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
-    ASSERT_TRUE(append_seal(file_, "x"));
+    ASSERT_TRUE(example::append_seal(file_));
   }
   [[nodiscard]] hid_t opened() const { return H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT); }
   void sealed_after(hid_t file) const {
     H5Fclose(file);
-    ASSERT_TRUE(append_seal(file_, "x"));
+    ASSERT_TRUE(example::append_seal(file_));
   }
   /// Five numbers of another file, in place of the pings' latitudes.
   void put_secret() const {
@@ -116,7 +116,7 @@ TEST_F(ProductHostile, NamesThatLeadElsewhereAreRefused) {
       if (attribute.name == "observation") attribute.texts = {name};
     }
     ASSERT_TRUE(fuzz::write_netcdf_model(model, file_));
-    ASSERT_TRUE(append_seal(file_, "x"));
+    ASSERT_TRUE(example::append_seal(file_));
     const auto product = read_product(file_);
     ASSERT_FALSE(product) << name;
     EXPECT_THAT(product.error().text, HasSubstr("obs-0001"));

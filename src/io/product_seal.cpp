@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -14,7 +13,6 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "io/atomic_file.h"
 
 namespace sonar {
 namespace {
@@ -40,19 +38,7 @@ std::string hash_of_head(std::ifstream& in, std::uint64_t size) {
 
 }  // namespace
 
-Result<void> append_seal(const fs::path& path, const std::string& named) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  const std::string hash = hash_of_head(in, error ? 0 : size);
-  errno = 0;
-  std::ofstream out(path, std::ios::binary | std::ios::app);
-  out << kLabel << hash << '\n';
-  out.close();
-  if (!out) return refused_write("cannot write the seal", errno, named);
-  if (error || hash.empty()) return fail(ErrorCode::io, "cannot write the seal", {.file = named});
-  return {};
-}
+std::string seal_text(const std::string& hash) { return fmt::format("{}{}\n", kLabel, hash); }
 
 Result<bool> check_seal(const fs::path& path, const std::string& named) {
   const Where where{.file = named};

@@ -16,9 +16,8 @@ namespace sonar {
 /// Hundreds of pings take some megabytes; a file that only pretends to be as large as it says is not read to its end.
 inline constexpr std::uint64_t kMostProductBytes = 4ULL << 30U;
 
-/// named   stands in messages
-/// errors  io, no_space
-Result<void> append_seal(const std::filesystem::path& path, const std::string& named);
+/// hash  hexadecimal XXH3-128 of the bytes before it
+[[nodiscard]] std::string seal_text(const std::string& hash);
 
 /// out     whether there is a seal (and it is whole)
 /// errors  not_found, io, format: no HDF5 file, or bytes changed since it was written

@@ -35,7 +35,7 @@ class ProductSpoilt : public testing::Test {
 
   [[nodiscard]] Result<ObservationProduct> read() const {
     EXPECT_TRUE(fuzz::write_netcdf_model(file_, folder_ / "spoilt.nc"));
-    EXPECT_TRUE(append_seal(folder_ / "spoilt.nc", "spoilt.nc"));
+    EXPECT_TRUE(example::append_seal(folder_ / "spoilt.nc"));
     return read_product(folder_ / "spoilt.nc");
   }
   fuzz::NetcdfModel::Group& group(const std::string& name) {

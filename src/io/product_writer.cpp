@@ -309,19 +309,18 @@ Result<void> write_product(const ObservationProduct& product, const std::filesys
   if (!runs) return pass_on(runs);
   auto file = AtomicFile::create(path, beside);
   if (!file) return pass_on(file);
-  {
-    Writer out(file->temporary(), path.string());
-    write_attributes(out, product);
-    write_pings(out, product);
-    write_grid(out, product);
-    write_rows(out, "schools", "school", product.schools);
-    write_rows(out, "school_pings", "row", product.school_pings);
-    write_mask(out, *runs);
-    write_rows(out, "rejected", "echo", product.rejected);
-    write_diagnostics(out, product.diagnostics);
-    if (auto closed = out.close(); !closed) return closed;
-  }
-  if (auto sealed = append_seal(file->temporary(), path.string()); !sealed) return sealed;
+  Writer out(path.string());
+  write_attributes(out, product);
+  write_pings(out, product);
+  write_grid(out, product);
+  write_rows(out, "schools", "school", product.schools);
+  write_rows(out, "school_pings", "row", product.school_pings);
+  write_mask(out, *runs);
+  write_rows(out, "rejected", "echo", product.rejected);
+  write_diagnostics(out, product.diagnostics);
+  const auto hash = out.close_into(*file);
+  if (!hash) return pass_on(hash);
+  if (auto sealed = file->write(seal_text(*hash)); !sealed) return sealed;
   return file->commit();
 }
 

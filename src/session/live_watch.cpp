@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/machine_memory.h"
 #include "pipeline/live_schools.h"
 #include "pipeline/observe.h"
 
@@ -219,6 +220,7 @@ void LiveWatch::find_schools() {
     if (numbers) options.earlier = &*numbers;
     auto found = observe(*survey, survey->observations[index], recipe, options, *work);
     const auto product = found ? std::make_shared<const ObservationProduct>(std::move(*found)) : nullptr;
+    give_memory_back();
     workspace_.queue.post([this, watched, index, product] {
       if (watched.lock()) take_found(index, product);
     });

@@ -3,17 +3,20 @@
 
 SONAR_SHIM = the library that makes calls fail, SONAR_FAULTS = how many of the calls (16; 0 = every one)."""
 import errno
+import json
 import os
 import random
 import shutil
 import subprocess
 import unittest
 
+import propagate_test
 import sonarx
 from sonarx import PROGRAM, SURVEY, WORK, Case
 
 SHIM = os.environ.get("SONAR_SHIM", "")
-SAYS = {errno.ENOSPC: "No space left on device|disk is full", errno.EIO: "Input/output error|disk I/O error"}
+# SQLite calls a flush that finds no room an I/O error.
+SAYS = {errno.ENOSPC: "No space left on device|disk is full|disk I/O error", errno.EIO: "Input/output error|disk I/O error"}
 FAULTS = int(os.environ.get("SONAR_FAULTS", "16"))
 
 
@@ -97,6 +100,51 @@ class Disk(Case):
         self.assertGreater(calls, 30)
         for error in (errno.ENOSPC, errno.EIO):
             self.faulty_runs(calls, error)
+
+    def whole_or_absent(self, name, into, *arguments, begin=None):
+        """Some of the calls under the folder `into` fail, and all behind them: what is there then is what an undisturbed one
+        writes, byte for byte; of a journal, whole lines of it. begin(into) = what stands there before."""
+        folder = self.fresh(f"faulty-{name}")
+        wanted, faulty = folder / "wanted", folder / "faulty"
+
+        def fresh(out):
+            shutil.rmtree(out, ignore_errors=True)
+            if begin:
+                begin(out)
+
+        fresh(wanted)
+        calls = len(self.logged(f"faulty-{name}-count", *arguments, into, wanted, below=wanted))
+        self.assertGreater(calls, 5)
+        for error in (errno.ENOSPC, errno.EIO):
+            places = range(1, calls + 1)
+            if FAULTS and calls > FAULTS // 2:
+                places = sorted({1, calls, *random.Random(error).sample(places, FAULTS // 2 - 2)})
+            for at in places:
+                with self.subTest(verb=name, call=at, error=errno.errorcode[error]):
+                    fresh(faulty)
+                    code, _, err = shimmed(*arguments, into, faulty, below=faulty, fail=at, error=error)
+                    self.assertIn(code, (1, 3), err)
+                    self.assertRegex(err, SAYS[error])
+                    for file in (p for p in faulty.rglob("*") if p.is_file() and not p.name.startswith(".")):
+                        theirs = wanted / file.relative_to(faulty)
+                        if file.suffix == ".jsonl":
+                            self.assertTrue(all(json.loads(line) for line in file.read_text().splitlines()))
+                        elif name == "propagate":  # it tells when it was decided
+                            self.assertEqual(len(file.read_bytes()), len(theirs.read_bytes()), file)
+                        elif file.name != "survey.json" and file.parent.name != "earlier":  # what failed; what was held on to
+                            self.assertEqual(file.read_bytes(), theirs.read_bytes(), file)
+
+    def test_exports_merges_clicks_and_follow_leave_nothing_half(self):
+        out = sonarx.OUT
+        for kind in ("csv", "gpkg", "geojson", "netcdf-mask"):
+            self.whole_or_absent(f"export-{kind}", "--dest", "export", out, "--to", kind)
+        self.whole_or_absent("raw-reduced", "--dest", "export", out, "--to", "raw-reduced", "--survey", SURVEY)
+        if propagate_test.netCDF4 is not None:
+            seed, _ = propagate_test.seed()
+            self.whole_or_absent("propagate", "--out", "propagate", SURVEY, "--observation", "obs-0001", "--seed", seed,
+                                 "--tolerance-db", "10", "--reach", "2")
+        self.whole_or_absent("follow", "--out", "follow", SURVEY, "--idle-exit", "1")
+        self.whole_or_absent("merge", "merge", begin=lambda to: shutil.copytree(out, to))
 
 
 if __name__ == "__main__":
