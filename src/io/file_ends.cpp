@@ -13,7 +13,8 @@ namespace sonar {
 namespace {
 
 constexpr std::uint64_t kLeastReach = std::uint64_t{256} << 10U;  ///< bytes; a configuration of 500 beams takes 160 kB
-constexpr std::uint64_t kMostReach = std::uint64_t{16} << 20U;    ///< some pings
+constexpr std::uint64_t kReachForPosition = std::uint64_t{1} << 20U;
+constexpr std::uint64_t kMostReach = std::uint64_t{16} << 20U;  ///< some pings
 /// As far as navigation holds a fix unless told otherwise.
 constexpr double kFixHolds_s = 30.0;
 
@@ -61,10 +62,11 @@ bool placed(const RawIndex& index, TimeNs time) {
   });
 }
 
-/// Whether more of the file's beginning would tell nothing that is looked for there.
+/// Whether more of the file's beginning would tell nothing that is looked for there. A position stands near the first ping, or
+/// nobody tells any.
 bool tells_beginning(const RawIndex& index, std::uint64_t head) {
   if (index.format != RawFormat::unknown && !index.gives_samples()) return true;
-  return !index.pings.empty() && index.pings.front().offset < head && placed(index, index.pings.front().time);
+  return !index.pings.empty() && (head >= kReachForPosition || placed(index, index.pings.front().time));
 }
 
 /// A file's first bytes, and its last datagrams where they are known.
@@ -73,12 +75,22 @@ std::vector<simrad::Extent> ends_of(std::uint64_t size, std::uint64_t head, cons
   for (const simrad::Extent& one : last) {
     if (one.offset >= head) ends.push_back(one);
   }
-  // Whoever was cut off in writing left no length word at the end.
-  if (last.empty()) {
+  if (last.empty() && head < size) {
     const std::uint64_t from = std::max(head, size - std::min(size, kLeastReach));
     ends.push_back({from, size - from});
   }
   return ends;
+}
+
+/// As much of a file's beginning as is needed.
+Result<std::uint64_t> head_of(const ByteSource& bytes, std::uint64_t size, RawIndex& index) {
+  for (std::uint64_t reach = kLeastReach;; reach *= 4) {
+    const std::uint64_t head = size <= 4 * reach ? size : reach;
+    auto first = index_raw(Stretches(bytes, {{0, head}}));
+    if (!first) return pass_on(first);
+    index = std::move(*first);
+    if (head == size || reach >= kMostReach || tells_beginning(index, head)) return head;
+  }
 }
 
 }  // namespace
@@ -86,19 +98,25 @@ std::vector<simrad::Extent> ends_of(std::uint64_t size, std::uint64_t head, cons
 Result<RawIndex> index_ends(const ByteSource& bytes) {
   const auto size = bytes.size();
   if (!size) return pass_on(size);
-  const auto last = simrad::last_datagrams(bytes, *size, std::max(kLeastReach, *size - std::min(*size, kMostReach)));
-  if (!last) return pass_on(last);
-  for (std::uint64_t reach = kLeastReach;; reach *= 4) {
-    const std::uint64_t head = *size <= 4 * reach ? *size : reach;
-    auto index = index_raw(Stretches(bytes, ends_of(*size, head, *last)));
-    if (!index) return index;
-    if (head < *size && reach < kMostReach && !tells_beginning(*index, head)) continue;
-    index->size = *size;
-    std::erase_if(index->diagnostics, [](const Diagnostic& note) {
-      return note.code != DiagnosticCode::format_not_read && note.code != DiagnosticCode::not_recognised;
+  RawIndex index;
+  const auto head = head_of(bytes, *size, index);
+  if (!head) return pass_on(head);
+  if (*head < *size) {
+    const bool positions = std::any_of(index.navigation.begin(), index.navigation.end(), [](const NavSeries& series) {
+      return series.quantity == NavQuantity::position;
     });
-    return index;
+    const std::uint64_t from = std::max(*head, *size - std::min(*size, kMostReach));
+    const auto last = simrad::last_datagrams(bytes, *size, from, positions);
+    if (!last) return pass_on(last);
+    auto both = index_raw(Stretches(bytes, ends_of(*size, *head, *last)));
+    if (!both) return both;
+    index = std::move(*both);
   }
+  index.size = *size;
+  std::erase_if(index.diagnostics, [](const Diagnostic& note) {
+    return note.code != DiagnosticCode::format_not_read && note.code != DiagnosticCode::not_recognised;
+  });
+  return index;
 }
 
 }  // namespace sonar

@@ -107,6 +107,42 @@ TEST(FileEnds, AFileThatWasCutOffInWritingEndsWithItsLastWholeDatagram) {
   EXPECT_EQ(ends->pings.back().time, kStart + 199 * kPingEvery_ns);
 }
 
+// A ping is 720 kB: no fix stands in what lies behind the last one.
+TEST(FileEnds, OfAFileThatWasCutOffTheLastPositionIsToldToo) {
+  const Bytes whole = recording(40, 60'000, 1);
+  for (const std::size_t cut : {1U, 777U, 100'000U}) {
+    Bytes bytes = whole;
+    bytes.data.resize(bytes.data.size() - cut);
+    const Counted source(bytes);
+    const auto ends = index_ends(source);
+    ASSERT_TRUE(ends);
+    EXPECT_EQ(ends->pings.back().time, kStart + 39 * kPingEvery_ns);
+    EXPECT_EQ(positions(*ends).samples.back(),
+              positions(*index_raw(MemorySource("cut.raw", bytes.data))).samples.back());
+    EXPECT_LT(source.bytes_read(), 8'000'000U) << cut;  // every pair of equal counts may be a length
+  }
+}
+
+TEST(FileEnds, ASecondReceiverThatSpeaksLastIsNotTheOnlyOneHeard) {
+  Bytes bytes = recording(200, 10'000, 1);
+  bytes.add(
+      test::nme0(kStart + 800 * kSecondNs, test::with_checksum("INGGA,000000,6100.0000,N,00500.0000,E,1,,,,,,,,")));
+  const auto ends = index_ends(MemorySource("two.raw", bytes.data));
+  ASSERT_TRUE(ends);
+  const auto whole = index_raw(MemorySource("two.raw", bytes.data));
+  EXPECT_EQ(positions(*ends).talker, "GP");
+  EXPECT_EQ(positions(*ends).samples.back(), positions(*whole).samples.back());
+}
+
+TEST(FileEnds, WhereNobodyTellsPositionsLittleMoreIsRead) {
+  const Bytes bytes = recording(200, 10'000, 1000);
+  Bytes silent = test::con0(test::small_ms70());
+  silent.data.insert(silent.data.end(), bytes.data.end() - 20'000'000, bytes.data.end());
+  const Counted source(silent);
+  ASSERT_TRUE(index_ends(source));
+  EXPECT_LT(source.bytes_read(), 6'000'000U);
+}
+
 TEST(FileEnds, LyingLengthWordsAtTheEndCostNothing) {
   Bytes bytes = recording(200, 10'000, 1);
   for (const std::int32_t lie : {-1, 0, 11, 12, 13, 1 << 26, 0x7FFFFFFF, 120'000}) {

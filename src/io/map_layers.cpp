@@ -22,8 +22,13 @@ constexpr std::size_t kTimeTextSize = 24;
 /// Keeps GDAL from printing, and today's date out of its files, while it lives.
 class QuietGdal {
  public:
-  explicit QuietGdal(const std::string& date) {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
+  /// failure  becomes the first failure that GDAL tells: those behind it follow from it
+  QuietGdal(const std::string& date, std::string& failure) {
+    const auto keep_first = [](CPLErr kind, CPLErrorNum, const char* text) {
+      auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
+      if (kind >= CE_Failure && first.empty()) first = text;
+    };
+    CPLPushErrorHandlerEx(keep_first, &failure);
     CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", date.c_str());
     // The whole file is flushed before it is renamed; SQLite's own flushing would only cost time.
     CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
@@ -66,13 +71,13 @@ MapLayers::MapLayers(std::filesystem::path target, MapFormat format, TimeNs last
     : target_(std::move(target)), format_(format), date_(iso_time(last_ping_time)) {}
 
 MapLayers::~MapLayers() {
-  const QuietGdal quiet(date_);
+  const QuietGdal quiet(date_, failure_);
   dataset_.reset();
 }
 
 tl::unexpected<Error> MapLayers::refused(std::string_view what) const {
   // "sqlite3_exec(CREATE TRIGGER ...) failed: database or disk is full": what it was about to do helps nobody.
-  std::string_view why = CPLGetLastErrorMsg();
+  std::string_view why = failure_;
   constexpr std::string_view kFailed = ") failed: ";
   if (const auto at = why.rfind(kFailed); at != std::string_view::npos) why.remove_prefix(at + kFailed.size());
   return fail(ErrorCode::io, fmt::format("{}: {}", what, why), {.file = target_.string()});
@@ -90,7 +95,7 @@ Result<std::unique_ptr<MapLayers>> MapLayers::create(const std::filesystem::path
 }
 
 Result<void> MapLayers::open_geopackage() {
-  const QuietGdal quiet(date_);
+  const QuietGdal quiet(date_, failure_);
   auto file = AtomicFile::create(target_);
   if (!file) return pass_on(file);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
@@ -113,7 +118,7 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
     json_files_.emplace(name, std::move(*file));
     return {};
   }
-  const QuietGdal quiet(date_);
+  const QuietGdal quiet(date_, failure_);
   OGRSpatialReference wgs84;
   wgs84.importFromEPSG(4326);
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -129,7 +134,7 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
 
 Result<void> MapLayers::add(const std::string& layer_name, const OGRGeometry* geometry,
                             const std::vector<TableColumn>& columns, std::size_t row) {
-  const QuietGdal quiet(date_);
+  const QuietGdal quiet(date_, failure_);
   const bool there = geometry != nullptr && !geometry->IsEmpty();
   const std::unique_ptr<OGRGeometry> cut = there ? cut_at_date_line(*geometry) : nullptr;
   if (format_ == MapFormat::geojson) return json_files_.at(layer_name).add(cut.get(), columns, row);
@@ -150,7 +155,7 @@ Result<void> MapLayers::commit() {
   }
   if (!geopackage_) return {};
   {
-    const QuietGdal quiet(date_);
+    const QuietGdal quiet(date_, failure_);
     CPLErrorReset();
     if (dataset_->CommitTransaction() != OGRERR_NONE) return refused("SQLite");
     layers_.clear();

@@ -47,6 +47,7 @@ class MapLayers {
   std::filesystem::path target_;
   MapFormat format_;
   std::string date_;
+  std::string failure_;  ///< the first that GDAL told
   std::optional<AtomicFile> geopackage_;
   Dataset dataset_;
   std::map<std::string, OGRLayer*> layers_;        ///< of the GeoPackage

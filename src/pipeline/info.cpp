@@ -65,8 +65,14 @@ FileInfo file_info(const SurveyFile& file, const SurveyFiles& survey, const Navi
   info.talkers = placed.talkers;
   info.gps_minus_clock_s = placed.gps_minus_clock_s;
   if (const auto fixes = first_and_last_fix(series, navigation)) {
-    info.first_position = Geographic{fixes->first.first, fixes->first.second};
-    info.last_position = Geographic{fixes->second.first, fixes->second.second};
+    // Of ends alone a fix is the first or the last only where it lies near.
+    const auto near = [&](const NavSample& fix, const std::optional<TimeNs>& time) {
+      return !survey.from_ends ||
+             (time && std::abs(static_cast<double>(fix.time - *time)) <= navigation.fix_limit_s * 1e9);
+    };
+    const auto place = [](const NavSample& fix) { return Geographic{fix.first, fix.second}; };
+    if (near(fixes->first, info.first_time)) info.first_position = place(fixes->first);
+    if (near(fixes->second, info.last_time)) info.last_position = place(fixes->second);
   }
   info.notes = index.diagnostics;
   for (const Diagnostic& note : survey.diagnostics) {

@@ -15,12 +15,14 @@ struct Extent {
   std::uint64_t size = 0;
 };
 
-/// The datagrams that tell how a file ends: the last one of samples, and the ship's sentences from the last position on. They
-/// are found by walking back over the length words that end each datagram, which costs reading little more than a ping.
-/// from     how far back to look
-/// out      in file order; empty where the file does not end with a whole datagram
-/// errors   io
+/// The datagrams that tell how a file ends: the last one of samples, and the ship's sentences from where one of those that tell
+/// a position speaks for the second time: each that speaks as often is among them then. They are found by walking back over the
+/// length words that end each datagram; where the last was cut off in writing, from the last whole one.
+/// from       how far back to look
+/// positions  whether they are waited for
+/// out        in file order; empty where no whole datagram ends in the last 256 kB
+/// errors     io
 [[nodiscard]] Result<std::vector<Extent>> last_datagrams(const ByteSource& bytes, std::uint64_t size,
-                                                         std::uint64_t from);
+                                                         std::uint64_t from, bool positions);
 
 }  // namespace sonar::simrad
