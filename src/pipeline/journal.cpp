@@ -181,7 +181,7 @@ Result<void> append_journal(const std::string& path, const Journal& head, const 
   int error = write_all(file, text);
   if (error == 0 && ::fsync(file) != 0) error = errno;
   // Who is refused must find the journal as it was: half a line, or a whole one that nobody knows of, must not stay.
-  const bool restored = error == 0 || ::ftruncate(file, size) == 0;
+  const bool restored = error == 0 || (size == 0 ? ::unlink(path.c_str()) : ::ftruncate(file, size)) == 0;
   ::close(file);
   if (error == 0) return {};
   auto refused = refused_write("could not be written", error, path);

@@ -67,13 +67,14 @@ std::vector<OneJournal> journals_in(std::span<const fs::path> folders) {
   return journals;
 }
 
+std::int64_t place_of(std::int64_t n) { return (n - 1) / kApart; }
 std::int64_t first_number(std::int64_t place) { return place * kApart + 1; }
 
 JournalLine among_all(JournalLine line, std::int64_t place) { return moved(std::move(line), place * kApart); }
 JournalLine as_written(JournalLine line, std::int64_t place) { return moved(std::move(line), -place * kApart); }
 
 std::string line_title(std::int64_t n) {
-  const std::int64_t place = (n - 1) / kApart;
+  const std::int64_t place = place_of(n);
   return place <= 0 ? std::to_string(n) : fmt::format("{}:{}", place + 1, n - place * kApart);
 }
 
@@ -92,6 +93,15 @@ std::vector<JournalLine> joined(std::vector<std::vector<JournalLine>> lines) {
   }
 }
 
+Result<Journal> read_one(const fs::path& path) {
+  std::error_code absent;
+  if (fs::is_symlink(fs::symlink_status(path, absent))) {
+    return fail(ErrorCode::io, "is a link: nothing is written through it", {path.string()});
+  }
+  if (fs::exists(path, absent) && fs::file_size(path, absent) == 0) return Journal{};
+  return read_journal(path.string());
+}
+
 Result<Journal> read_session(const fs::path& path) {
   std::error_code absent;
   if (!fs::is_directory(path, absent)) return read_journal(path.string());
@@ -100,7 +110,7 @@ Result<Journal> read_session(const fs::path& path) {
   Journal session;
   std::vector<std::vector<JournalLine>> lines;
   for (const OneJournal& one : journals) {
-    auto journal = read_journal(one.path.string());
+    auto journal = read_one(one.path);
     if (!journal) return pass_on(journal);
     for (JournalLine& line : journal->lines) line = among_all(std::move(line), one.place);
     lines.push_back(std::move(journal->lines));

@@ -26,6 +26,8 @@ inline constexpr std::int64_t kMostJournals = 1000;
 /// Those that are there, links among them, in the order of folders and numbers.
 [[nodiscard]] std::vector<OneJournal> journals_in(std::span<const std::filesystem::path> folders);
 
+/// The place of the journal that a number among all journals' lines belongs to.
+[[nodiscard]] std::int64_t place_of(std::int64_t n);
 /// Lowest number that lines of a journal can have among all journals' lines.
 [[nodiscard]] std::int64_t first_number(std::int64_t place);
 /// A line with the numbers (its own, those it names) that it has among all journals' lines, and back.
@@ -37,6 +39,10 @@ inline constexpr std::int64_t kMostJournals = 1000;
 /// The lines of several journals as one: by the time they were decided, each journal's in its own order.
 /// lines  of each, with their numbers among all
 [[nodiscard]] std::vector<JournalLine> joined(std::vector<std::vector<JournalLine>> lines);
+
+/// One of a survey's journals; an empty file has nothing that can be wrong with it.
+/// errors  as read_journal(); io: a link, through which nothing of ours is written
+[[nodiscard]] Result<Journal> read_one(const std::filesystem::path& path);
 
 /// A session as a user names it: a journal, or the folder of a survey's journals.
 /// errors  as read_journal(); not_found: the folder has none

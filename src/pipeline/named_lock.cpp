@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -52,9 +53,11 @@ std::string text_of(const Holder& holder) {
          "\n";
 }
 
-std::optional<Holder> holder_in(const fs::path& file) {
-  const auto text = read_file(file, 4096);
-  const auto json = nlohmann::json::parse(text ? *text : std::string{}, nullptr, false);
+std::optional<Holder> holder_in(int file) {
+  std::string text(4096, '\0');
+  const ssize_t got = ::pread(file, text.data(), text.size(), 0);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   const auto word = [&](const char* name) {
     const auto found = json.find(name);
@@ -81,32 +84,41 @@ bool still_there(const fs::path& path, int file) {
 
 bool lives(const Holder& holder) { return ::kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM; }
 
-/// What becomes of a lock that is there already.
+/// A lock that is there already.
 struct Found {
-  std::string held_by{};
-  std::string notice{};
-  bool gone = false;  ///< it was taken away, or is no more
+  enum class State { gone, unnamed, held, left } state = State::gone;
+  std::string words{};
 };
 
-Found look_at(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return {.gone = errno == ENOENT};
-  const auto close = [&](Found found) {
-    ::close(file);
-    return found;
-  };
+/// An open lock file; whoever looks at it in earnest takes it along, when it was left behind.
+Found look_at(const fs::path& path, int file, bool take_away) {
   const int locked = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-  const std::optional<Holder> holder = holder_in(path);
-  if (locked == EWOULDBLOCK) return close({.held_by = holder ? words(*holder) : "another window"});
-  if (!holder) return close({});  // it is being written, or nobody knows what it is
+  const std::optional<Holder> holder = holder_in(file);
+  if (!holder) return {locked == EWOULDBLOCK ? Found::State::held : Found::State::unnamed, "another window"};
+  if (locked == EWOULDBLOCK) return {Found::State::held, words(*holder)};
   if (holder->host != host_name() || holder->machine != machine_id()) {
-    return close({.held_by = fmt::format("{}; if that program is gone, remove {}", words(*holder), path.string())});
+    return {Found::State::held, fmt::format("{}; if that program is gone, remove {}", words(*holder), path.string())};
   }
   // A disk without locks does not tell by them.
-  if (locked != 0 && lives(*holder)) return close({.held_by = words(*holder)});
-  if (still_there(path, file)) ::unlink(path.c_str());
-  return close(
-      {.notice = fmt::format("the lock of {} was left by a program that has ended", words(*holder)), .gone = true});
+  if (locked != 0 && lives(*holder)) return {Found::State::held, words(*holder)};
+  const bool stays = take_away && still_there(path, file) && ::unlink(path.c_str()) != 0;
+  if (!stays) return {Found::State::left, words(*holder)};
+  return {Found::State::held, fmt::format("{}, which has ended; remove {}", words(*holder), path.string())};
+}
+
+Found look_at(const fs::path& path, bool take_away) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return {errno == ENOENT ? Found::State::gone : Found::State::unnamed};
+  Found found = look_at(path, file, take_away);
+  ::close(file);
+  return found;
+}
+
+/// In a folder that several share the locks may be taken away by each of them.
+void make_folder(const fs::path& folder) {
+  std::error_code ignored;  // what is wrong with it is told when the file cannot be made
+  if (!fs::create_directories(folder, ignored)) return;
+  fs::permissions(folder, fs::status(folder.parent_path(), ignored).permissions(), ignored);
 }
 
 }  // namespace
@@ -120,15 +132,20 @@ void NamedLock::let_go() {
   file_ = -1;
 }
 
+std::string NamedLock::holder(const fs::path& file) {
+  const Found found = look_at(file, false);
+  return found.state == Found::State::held ? found.words : std::string{};
+}
+
 Result<NamedLock::Taken> NamedLock::take(const fs::path& file, const std::string& operator_name, TimeNs now) {
   if (auto ours = require_own_folder(file.parent_path()); !ours) return pass_on(ours);
-  std::error_code there;  // what is wrong with the folder is told when the file cannot be made
-  fs::create_directories(file.parent_path(), there);
+  make_folder(file.parent_path());
   Taken taken;
+  Found found;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (made >= 0) {
-      (void)::flock(made, LOCK_EX | LOCK_NB);  // a disk without locks has the name alone
+      (void)::flock(made, LOCK_EX);  // who looks at it holds it for a moment; a disk without locks has the name alone
       const std::string text = text_of({host_name(), machine_id(), ::getpid(), operator_name, iso_time(now)});
       file_ = made;
       path_ = file;
@@ -138,11 +155,14 @@ Result<NamedLock::Taken> NamedLock::take(const fs::path& file, const std::string
       return refused_write("could not be written", error, file.string());
     }
     if (errno != EEXIST) return refused_write("could not be written", errno, file.string());
-    Found found = look_at(file);
-    if (!found.notice.empty()) taken.notice = std::move(found.notice);
-    if (!found.held_by.empty()) return Taken{std::move(found.held_by), {}};
-    if (!found.gone) ::usleep(20'000);
+    found = look_at(file, true);
+    if (found.state == Found::State::left) {
+      taken.notice = fmt::format("the lock of {} was left by a program that has ended", found.words);
+    } else if (found.state != Found::State::gone) {
+      ::usleep(10'000);  // somebody may be about to take it, or only looking
+    }
   }
+  if (found.state == Found::State::held) return Taken{std::move(found.words), {}};
   return fail(ErrorCode::io, "is a lock that names nobody; remove it if no other program is at work here",
               {file.string()});
 }

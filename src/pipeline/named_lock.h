@@ -27,6 +27,8 @@ class NamedLock {
   /// errors  io, no_space: the file can be neither made nor read
   [[nodiscard]] Result<Taken> take(const std::filesystem::path& file, const std::string& operator_name, TimeNs now);
   void let_go();
+  /// Whose it is, without taking it; empty where nobody holds it, as far as can be told here.
+  [[nodiscard]] static std::string holder(const std::filesystem::path& file);
 
  private:
   std::filesystem::path path_;

@@ -34,12 +34,16 @@ Choices::Choices(ChangeQueue& queue, JournalPlace place, Options options, Shown 
 
 Choices::~Choices() { stop(); }
 
-/// Never before what is known already: whoever holds an observation comes after those who held it, whatever the clocks of
+/// Behind all that others have chosen: whoever holds an observation comes after those who held it, whatever the clocks of
 /// two machines say.
 TimeNs Choices::now() const {
-  const TimeNs time = options_.clock ? options_.clock() : 0;
-  const TimeNs last = place_.lines.empty() ? 0 : place_.lines.back().decided;
-  return std::max(time - time % kMillisecondNs, last);
+  const TimeNs clock = options_.clock ? options_.clock() : 0;
+  TimeNs time = clock - clock % kMillisecondNs;
+  for (const JournalLine& line : place_.lines) {
+    const bool own = place_of(line.n) == place_.place;
+    time = std::max(time, own ? line.decided : line.decided + kMillisecondNs);
+  }
+  return time;
 }
 
 void Choices::run(std::function<Result<std::int64_t>()> job) {
@@ -103,8 +107,9 @@ void Choices::act(std::size_t observation, std::int64_t ping_index, Command comm
   stopping_ = false;
   run([this, observation, ping_index, command = std::move(command), step = std::move(step)]() mutable {
     if (step && step->broken) return Result<std::int64_t>(0);
+    others_hold_ = false;
     auto line = carry_out(observation, ping_index, std::move(command), step.get());
-    if (step && !line) step->broken = true;
+    if (step && !line && !others_hold_) step->broken = true;  // what others hold is left out alone
     return line;
   });
 }
@@ -222,7 +227,7 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   if (ping_index < 0 || ping_index >= at->second.observation->pings()) {
     return fail(ErrorCode::usage, "there is no such ping");
   }
-  if (auto held = hold(observation); !held) return pass_on(held);
+  if (auto held = hold(at->second.observation->survey(), observation); !held) return pass_on(held);
   JournalAct act{history_.next(), now(), options_.operator_name, ground.times[static_cast<std::size_t>(ping_index)],
                  std::move(command)};
   Turn turn{act.n, 0, {}, {}, {}};

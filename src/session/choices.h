@@ -130,12 +130,12 @@ class Choices {
   bool turn_known(const std::vector<std::int64_t>& targets, bool undo);
   [[nodiscard]] Result<std::int64_t> turn(bool undo);
   [[nodiscard]] static History own_history(const JournalPlace& place);
-  [[nodiscard]] Result<void> hold(std::size_t observation);
+  [[nodiscard]] Result<void> hold(const SurveyFiles& survey, std::size_t index);
   [[nodiscard]] Result<void> hold_journal();
   [[nodiscard]] Result<void> hold_turned(const std::vector<std::int64_t>& targets);
   void let_go_but_looked_at();
   void tell_unsearched();
-  bool read_others();
+  bool read_all();
   Result<void> write(const JournalLine& line);
   [[nodiscard]] CommandGround watched(std::size_t observation);
   [[nodiscard]] TimeNs now() const;
@@ -151,8 +151,10 @@ class Choices {
   // Touched by the thread of the acts alone:
   JournalPlace place_;
   History history_;  ///< of our own lines
-  std::map<std::filesystem::path, std::pair<std::uintmax_t, std::filesystem::file_time_type>>
-      read_;  ///< others', as they were
+  /// Size and time of the journals when they were read last; ours only while somebody else may write it.
+  std::optional<std::map<std::filesystem::path, std::pair<std::uintmax_t, std::filesystem::file_time_type>>> read_;
+  std::set<std::size_t> unsearched_told_;
+  bool others_hold_ = false;  ///< why the last act was refused
   std::vector<std::string> notices_;
   std::map<std::size_t, OnObservation> open_;
   std::vector<Turn> done_;

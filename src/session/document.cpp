@@ -97,7 +97,7 @@ Result<void> Document::show(std::size_t observation, std::int64_t ping) {
   unreadable_.clear();
   shown_ = opened(observation);
   if (before && before->index() != observation) rest_unless_shown(before->index());
-  choices_thread_->look_at(observation);
+  others_looked_at_ = {};
   propagating_.clear();
   ping_ = std::clamp<std::int64_t>(ping, 0, shown_->pings() - 1);
   changes_.tell(DocumentChange::observation);

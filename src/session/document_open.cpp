@@ -10,11 +10,13 @@
 namespace sonar {
 
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
-  run([this, paths = std::move(paths), first = std::move(first)](Work& work, const Wanted& wanted) {
+  if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
+  run([this, paths = std::move(paths), first = std::move(first), none = survey_ == nullptr](Work& work,
+                                                                                            const Wanted& wanted) {
     if (const auto done = first ? first(work) : Result<void>{}; !done) {
       return post(wanted, [this, line = to_line(done.error())] { tell(line); });
     }
-    glance_at(paths, work, wanted);
+    if (none) glance_at(paths, work, wanted);
     auto survey = open_survey(paths, options_.recipe.survey, options_.recipe.navigation, options_.cache, work);
     if (!survey) {
       return post(wanted, [this, line = to_line(survey.error())] { tell(line); });
@@ -28,7 +30,7 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
     }
     const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
                                                                     : std::vector<std::filesystem::path>{};
-    auto place = place_journal(folders, head);
+    auto place = place_journal(folders, head, options_.operator_name);
     post(wanted, [this, files, paths, place = std::move(place)] {
       paths_ = paths;
       take_survey(files, place);

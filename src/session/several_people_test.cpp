@@ -112,6 +112,81 @@ TEST_F(SeveralPeople, AnObservationIsHeldByWhoeverChoosesInItWhileTheyLookAtIt) 
   EXPECT_THAT((*anna)->notices().back(), HasSubstr("bent (host ")) << "he holds it now";
 }
 
+TEST_F(SeveralPeople, WhoOnlyLooksSeesWhatIsChosenMeanwhile) {
+  const auto bent = window("bent");
+  const auto anna = window("anna");
+  anna->mark(2, "");
+  bent->look_again();
+  EXPECT_EQ(bent->events(), 1U);
+  anna->mark(3, "");
+  bent->look_again();
+  EXPECT_EQ(bent->events(), 2U);
+  EXPECT_FALSE(has("session-2.jsonl"));
+}
+
+// A journal is locked before its first line is written, and may stay without one.
+TEST_F(SeveralPeople, AThirdPersonFindsAJournalOfTheirOwn) {
+  const auto anna = window("anna");
+  const auto bent = window("bent");
+  const auto carl = window("carl");
+  anna->mark(2, "");
+  bent->mark(3, "");  // refused: anna is at work there
+  EXPECT_FALSE(has("session-2.jsonl"));
+  ASSERT_TRUE((*carl)->show(1));
+  (*carl)->settle();
+  carl->mark(2, "");
+  EXPECT_EQ(carl->events(), 1U);
+  EXPECT_TRUE(has("session-3.jsonl"));
+}
+
+TEST_F(SeveralPeople, WhoComesAfterSomebodyWhoLeftIsShownTheirChoiceFirst) {
+  const auto bent = window("bent");
+  {
+    const auto anna = window("anna");
+    anna->mark(2, "hers");
+  }
+  bent->mark(3, "his");
+  EXPECT_THAT((*bent)->notices().back(), HasSubstr("others have chosen in obs-0001 since"));
+  EXPECT_EQ(bent->events(), 1U);
+  bent->mark(3, "his");
+  EXPECT_EQ(bent->events(), 2U);
+  EXPECT_TRUE(has("session-2.jsonl")) << "hers stays hers";
+  // The day after, each goes on in their own.
+  EXPECT_EQ((*window("anna"))->journal_path().filename(), "session.jsonl");
+  EXPECT_EQ((*window("bent"))->journal_path().filename(), "session-2.jsonl");
+}
+
+TEST_F(SeveralPeople, WhatOthersHoldIsLeftOutOfASearchOfAll) {
+  const auto anna = window("anna");
+  anna->mark(2, "");
+  const auto bent = window("bent");
+  (*bent)->open_all();
+  (*bent)->settle();
+  (*bent)->detect({0, 1});
+  (*bent)->settle();
+  EXPECT_THAT((*bent)->notices(), Contains(HasSubstr("is at work on obs-0001")));
+  EXPECT_FALSE((*bent)->asks_for_schools(0));
+  EXPECT_TRUE((*bent)->asks_for_schools(1));
+}
+
+// Also where the observation is not open here.
+TEST_F(SeveralPeople, NothingIsUndoneWhereAnotherIsAtWork) {
+  {
+    const auto anna = window("anna");
+    ASSERT_TRUE((*anna)->show(1));
+    (*anna)->settle();
+    anna->mark(2, "hers");
+  }
+  const auto bent = window("bent");
+  ASSERT_TRUE((*bent)->show(1));
+  (*bent)->settle();
+  bent->mark(3, "his");
+  const auto anna = window("anna");
+  anna->undo();
+  EXPECT_THAT((*anna)->notices().back(), HasSubstr("is at work on obs-0002"));
+  EXPECT_EQ(effective_lines(read_session(work_)->lines).size(), 2U);
+}
+
 TEST_F(SeveralPeople, NobodyUndoesWhatAnotherChose) {
   const auto anna = window("anna");
   anna->mark(2, "hers");
@@ -144,6 +219,18 @@ TEST_F(SeveralPeople, ASlowClockDoesNotPutAChoiceBeforeThoseItStandsOn) {
   EXPECT_GE((*bent)->choices().lines->back().decided, (*bent)->choices().lines->front().decided);
   EXPECT_EQ((*bent)->choices().lines->back().operator_name, "bent");
   EXPECT_EQ((*window("carl"))->choices().lines->back().operator_name, "bent");
+  // Nor where theirs is the journal that comes first.
+  anna->look_again();
+  ASSERT_TRUE((*bent)->show(1));
+  (*bent)->settle();
+  anna->look_again();
+  ASSERT_TRUE((*anna)->show(0));
+  (*anna)->settle();
+  anna->mark(4, "third");
+  const auto lines = (*window("carl"))->choices().lines;
+  ASSERT_EQ(lines->size(), 3U);
+  EXPECT_EQ(lines->back().operator_name, "anna");
+  EXPECT_LT((*lines)[1].decided, (*lines)[2].decided);
 }
 
 TEST_F(SeveralPeople, WhoeverClosesTheWindowLeavesNoLocks) {
