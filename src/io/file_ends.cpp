@@ -39,7 +39,7 @@ class Stretches final : public ByteSource {
         continue;
       }
       const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(one.size - offset, out.size() - done));
-      const auto got = bytes_.read(one.offset + offset, out.subspan(done, wanted));
+      auto got = bytes_.read(one.offset + offset, out.subspan(done, wanted));
       if (!got) return got;
       done += *got;
       if (*got < wanted) break;

@@ -43,7 +43,7 @@ class Counted final : public ByteSource {
   [[nodiscard]] const std::string& name() const override { return bytes_.name(); }
   [[nodiscard]] Result<std::uint64_t> size() const override { return bytes_.size(); }
   [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::byte> out) const override {
-    const auto got = bytes_.read(offset, out);
+    auto got = bytes_.read(offset, out);
     if (got) read_ += *got;
     return got;
   }

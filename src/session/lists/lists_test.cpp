@@ -44,6 +44,31 @@ TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {
   EXPECT_EQ(tree.selected(), top[1]);
 }
 
+// While the files are read the list has what their ends tell, and opens a part.
+TEST(ListsWhileReading, TheSurveyTreeTellsRunsOfFilesAndOpensOneAlone) {
+  ChangeQueue queue;
+  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  Document& document = desk.workspace.document;
+  Rows& tree = *desk.rows("survey_tree");
+  std::vector<std::string> names;
+  std::string hint;
+  document.changes().add([&](DocumentChange change) {
+    if (change != DocumentChange::glance || !document.glance() || document.glance()->files.size() < 2) return;
+    for (std::size_t row = 0; row < tree.rows(); ++row) names.push_back(tree.cell(row, 0).text);
+    hint = tree.cell(0, 4).text;
+    EXPECT_TRUE(tree.for_now());
+    tree.open(1);
+  });
+  document.open({TestSurvey::easy().folder()});
+  document.settle();
+  ASSERT_EQ(names.size(), 2U);
+  EXPECT_THAT(names[0], HasSubstr("SYNTHETIC-D"));
+  EXPECT_EQ(hint, "not read yet; a double-click opens its file alone");
+  EXPECT_FALSE(tree.for_now());
+  EXPECT_EQ(document.survey()->files.size(), 1U);
+  EXPECT_EQ(tree.cell(0, 0).text, "obs-0001");
+}
+
 // The simulated sonar's table is a published MS70's: by its own figures psi is 0.4 to 6.7 dB beyond the widths, most in the
 // deepest fan.
 TEST_F(Lists, TheSurveyTreeTellsBeamAnglesFanByFan) {
