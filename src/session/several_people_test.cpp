@@ -169,6 +169,31 @@ TEST_F(SeveralPeople, WhatOthersHoldIsLeftOutOfASearchOfAll) {
   EXPECT_TRUE((*bent)->asks_for_schools(1));
 }
 
+// Numbers in a journal are its own.
+TEST_F(SeveralPeople, UndoAndRedoInASecondJournalComeBack) {
+  const auto anna = window("anna");
+  anna->mark(2, "hers");
+  {
+    const auto bent = window("bent");
+    ASSERT_TRUE((*bent)->show(1));
+    (*bent)->settle();
+    bent->mark(2, "first");
+    bent->mark(3, "second");
+    bent->undo();
+    EXPECT_EQ(bent->events(), 1U);
+  }
+  const auto lines = read_journal((work_ / "session-2.jsonl").string())->lines;
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[2].args.at("target"), 2);
+  const auto bent = window("bent");
+  ASSERT_TRUE((*bent)->show(1));
+  (*bent)->settle();
+  EXPECT_EQ(bent->events(), 1U);
+  (*bent)->redo();
+  (*bent)->settle();
+  EXPECT_EQ(bent->events(), 2U);
+}
+
 // Also where the observation is not open here.
 TEST_F(SeveralPeople, NothingIsUndoneWhereAnotherIsAtWork) {
   {
