@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,13 +24,14 @@
 #include "io/ping_source.h"
 #include "io/raw_index.h"
 #include "io/simrad/con1.h"
+#include "io/simrad/last_datagrams.h"
 #include "io/wire.h"
 #include "model/school.h"
 
 namespace sonar::fuzz {
 
 /// Any bytes make an index; it is the same when they come in two pieces, survives its cache, and every ping of it can
-/// be read.
+/// be read. Nor do they lead astray whoever walks back from their end.
 inline void simrad_raw(std::span<const std::byte> bytes) {
   const MemorySource whole("fuzz", bytes);
   const auto index = index_raw(whole);
@@ -46,6 +48,13 @@ inline void simrad_raw(std::span<const std::byte> bytes) {
   for (const PingEntry& entry : index->pings) {
     const auto ping = read_ping(whole, entry);
     SONAR_CHECK(ping.has_value() && !ping->channels.empty());
+  }
+  const auto last = simrad::last_datagrams(whole, bytes.size(), 0, true);
+  SONAR_CHECK(last.has_value());
+  std::uint64_t before = 0;
+  for (const simrad::Extent& one : *last) {
+    SONAR_CHECK(one.offset >= before && one.size >= 20 && one.offset + one.size <= bytes.size());
+    before = one.offset + one.size;
   }
 }
 
