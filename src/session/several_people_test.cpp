@@ -31,12 +31,12 @@ class SeveralPeople : public testing::Test {
       document->settle();
     }
     [[nodiscard]] std::size_t events() const { return document->state().events.size(); }
-    /// As somebody does who goes to and fro.
-    void look_again() const {
-      const std::size_t shown = document->shown()->index();
-      ASSERT_TRUE(document->show(shown));
+    void go_to(std::size_t observation) const {
+      ASSERT_TRUE(document->show(observation));
       document->settle();
     }
+    /// As somebody does who goes to and fro.
+    void look_again() const { go_to(document->shown()->index()); }
     void undo() const {
       document->undo();
       document->settle();
@@ -68,18 +68,15 @@ TEST_F(SeveralPeople, EachHasAJournalAndSeesWhatTheOthersChose) {
   const auto anna = window("anna");
   const auto bent = window("bent");
   anna->mark(2, "anna's");
-  ASSERT_TRUE((*bent)->show(1));
-  (*bent)->settle();
+  bent->go_to(1);
   bent->mark(3, "bent's");
   EXPECT_TRUE(has("session.jsonl") && has("session-2.jsonl"));
   EXPECT_EQ(read_journal((work_ / "session.jsonl").string())->lines.size(), 1U);
   EXPECT_EQ(read_journal((work_ / "session-2.jsonl").string())->lines.front().n, 1);
   EXPECT_THAT((*bent)->notices(), Contains(HasSubstr("anna (host ")));
-  ASSERT_TRUE((*bent)->show(0));
-  (*bent)->settle();
+  bent->go_to(0);
   EXPECT_EQ(bent->events(), 1U) << "what anna chose";
-  ASSERT_TRUE((*anna)->show(1));
-  (*anna)->settle();
+  anna->go_to(1);
   EXPECT_EQ(anna->events(), 1U) << "what bent chose";
   // Whoever comes later sees both, and a run on the folder carries out both.
   const auto carl = window("carl");
@@ -104,11 +101,9 @@ TEST_F(SeveralPeople, AnObservationIsHeldByWhoeverChoosesInItWhileTheyLookAtIt) 
   bent->mark(3, "");
   EXPECT_EQ(bent->events(), 2U);
   anna->look_again();
-  ASSERT_TRUE((*anna)->show(0));
-  (*anna)->settle();
+  anna->go_to(0);
   EXPECT_EQ(anna->events(), 2U);
-  (*anna)->undo();
-  (*anna)->settle();
+  anna->undo();
   EXPECT_THAT((*anna)->notices().back(), HasSubstr("bent (host ")) << "he holds it now";
 }
 
@@ -132,8 +127,7 @@ TEST_F(SeveralPeople, AThirdPersonFindsAJournalOfTheirOwn) {
   anna->mark(2, "");
   bent->mark(3, "");  // refused: anna is at work there
   EXPECT_FALSE(has("session-2.jsonl"));
-  ASSERT_TRUE((*carl)->show(1));
-  (*carl)->settle();
+  carl->go_to(1);
   carl->mark(2, "");
   EXPECT_EQ(carl->events(), 1U);
   EXPECT_TRUE(has("session-3.jsonl"));
@@ -175,8 +169,7 @@ TEST_F(SeveralPeople, UndoAndRedoInASecondJournalComeBack) {
   anna->mark(2, "hers");
   {
     const auto bent = window("bent");
-    ASSERT_TRUE((*bent)->show(1));
-    (*bent)->settle();
+    bent->go_to(1);
     bent->mark(2, "first");
     bent->mark(3, "second");
     bent->undo();
@@ -186,8 +179,7 @@ TEST_F(SeveralPeople, UndoAndRedoInASecondJournalComeBack) {
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[2].args.at("target"), 2);
   const auto bent = window("bent");
-  ASSERT_TRUE((*bent)->show(1));
-  (*bent)->settle();
+  bent->go_to(1);
   EXPECT_EQ(bent->events(), 1U);
   (*bent)->redo();
   (*bent)->settle();
@@ -198,13 +190,11 @@ TEST_F(SeveralPeople, UndoAndRedoInASecondJournalComeBack) {
 TEST_F(SeveralPeople, NothingIsUndoneWhereAnotherIsAtWork) {
   {
     const auto anna = window("anna");
-    ASSERT_TRUE((*anna)->show(1));
-    (*anna)->settle();
+    anna->go_to(1);
     anna->mark(2, "hers");
   }
   const auto bent = window("bent");
-  ASSERT_TRUE((*bent)->show(1));
-  (*bent)->settle();
+  bent->go_to(1);
   bent->mark(3, "his");
   const auto anna = window("anna");
   anna->undo();
@@ -218,16 +208,12 @@ TEST_F(SeveralPeople, NobodyUndoesWhatAnotherChose) {
   const auto bent = window("bent");
   bent->undo();
   EXPECT_THAT((*bent)->notices().back(), HasSubstr("nothing to undo"));
-  ASSERT_TRUE((*anna)->show(1));
-  (*anna)->settle();
+  anna->go_to(1);
   bent->look_again();
   bent->mark(4, "his");
-  ASSERT_TRUE((*bent)->show(1));
-  (*bent)->settle();
-  (*anna)->undo();
-  (*anna)->settle();
-  ASSERT_TRUE((*anna)->show(0));
-  (*anna)->settle();
+  bent->go_to(1);
+  anna->undo();
+  anna->go_to(0);
   if (anna->events() == 2U) anna->undo();  // she was shown his first
   ASSERT_EQ(anna->events(), 1U);
   EXPECT_EQ((*anna)->state().events.front().text, "his");
@@ -237,8 +223,7 @@ TEST_F(SeveralPeople, NobodyUndoesWhatAnotherChose) {
 TEST_F(SeveralPeople, ASlowClockDoesNotPutAChoiceBeforeThoseItStandsOn) {
   const auto anna = window("anna", 3600 * kSecondNs);
   anna->mark(2, "first");
-  ASSERT_TRUE((*anna)->show(1));
-  (*anna)->settle();
+  anna->go_to(1);
   const auto bent = window("bent");
   bent->mark(2, "second");
   EXPECT_GE((*bent)->choices().lines->back().decided, (*bent)->choices().lines->front().decided);
@@ -246,11 +231,9 @@ TEST_F(SeveralPeople, ASlowClockDoesNotPutAChoiceBeforeThoseItStandsOn) {
   EXPECT_EQ((*window("carl"))->choices().lines->back().operator_name, "bent");
   // Nor where theirs is the journal that comes first.
   anna->look_again();
-  ASSERT_TRUE((*bent)->show(1));
-  (*bent)->settle();
+  bent->go_to(1);
   anna->look_again();
-  ASSERT_TRUE((*anna)->show(0));
-  (*anna)->settle();
+  anna->go_to(0);
   anna->mark(4, "third");
   const auto lines = (*window("carl"))->choices().lines;
   ASSERT_EQ(lines->size(), 3U);
