@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "latency_clock.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 #include "publish/painted.h"
 #include "session/desk.h"
 #include "session/playback.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar::bench {
 

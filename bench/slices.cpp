@@ -15,8 +15,8 @@
 #include "base/units.h"
 #include "render/draw_frame.h"
 #include "synth/beam_table.h"
-#include "view/slice_geometry.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_geometry.h"
+#include "view/slices/slice_picture.h"
 
 namespace sonar::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "pipeline/recipe.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/compare.h"
+#include "pipeline/tasks/compare.h"
 
 #include <fmt/format.h>
 

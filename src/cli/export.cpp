@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/export.h"
+#include "pipeline/exports/export.h"
 
 #include <fmt/format.h>
 

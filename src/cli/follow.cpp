@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/follow.h"
+#include "pipeline/live/follow.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,9 +24,9 @@
 #include "cli/verb.h"
 #include "io/atomic_file.h"
 #include "io/udp_sender.h"
-#include "pipeline/alarm.h"
-#include "pipeline/journals.h"
-#include "pipeline/live_targets.h"
+#include "pipeline/journal/journals.h"
+#include "pipeline/live/alarm.h"
+#include "pipeline/live/live_targets.h"
 
 namespace sonar {
 namespace {

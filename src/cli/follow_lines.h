@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "pipeline/live_schools.h"
-#include "pipeline/live_status.h"
+#include "pipeline/live/live_schools.h"
+#include "pipeline/live/live_status.h"
 
 namespace sonar {
 

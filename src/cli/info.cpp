@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/info.h"
+#include "pipeline/exports/info.h"
 
 #include <cstdio>
 #include <filesystem>

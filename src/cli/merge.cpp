@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/merge.h"
+#include "pipeline/tasks/merge.h"
 
 #include <fmt/format.h>
 

@@ -20,10 +20,10 @@
 #include "io/atomic_file.h"
 #include "io/product.h"
 #include "model/school_totals.h"
-#include "pipeline/manual.h"
-#include "pipeline/merge.h"
-#include "pipeline/run.h"
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/recipe/transfer_function_json.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/run.h"
 
 namespace sonar {
 namespace {

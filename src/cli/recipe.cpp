@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/recipe.h"
+#include "pipeline/recipe/recipe.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
 #include "cli/verb.h"
-#include "pipeline/parameter_table.h"
+#include "pipeline/recipe/parameter_table.h"
 
 namespace sonar {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/verb.h"
-#include "pipeline/recipe.h"
+#include "pipeline/recipe/recipe.h"
 #include "publish/picture.h"
 #include "publish/picture_files.h"
 #include "render/compare_pictures.h"

@@ -12,7 +12,7 @@
 
 #include "base/units.h"
 #include "cli/whole_numbers.h"
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {
 namespace {

@@ -21,12 +21,12 @@
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
 #include "io/product.h"
-#include "pipeline/earlier.h"
-#include "pipeline/journals.h"
-#include "pipeline/manual.h"
-#include "pipeline/merge.h"
-#include "pipeline/refused_echoes.h"
-#include "pipeline/run.h"
+#include "pipeline/journal/earlier.h"
+#include "pipeline/journal/journals.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/refused_echoes.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/run.h"
 
 namespace sonar {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "base/result.h"
 #include "cli/chosen_recipe.h"
-#include "pipeline/journal.h"
-#include "pipeline/recipe.h"
+#include "pipeline/journal/journal.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/score.h"
+#include "pipeline/score/score.h"
 
 #include <fmt/format.h>
 

@@ -17,10 +17,10 @@
 #include "cli/naming_option.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
-#include "pipeline/json_file.h"
-#include "pipeline/json_parameters.h"
-#include "pipeline/parameter_table.h"
-#include "pipeline/survey.h"
+#include "pipeline/recipe/json_file.h"
+#include "pipeline/recipe/json_parameters.h"
+#include "pipeline/recipe/parameter_table.h"
+#include "pipeline/survey/survey.h"
 #include "synth/array/simulate.h"
 
 namespace sonar {

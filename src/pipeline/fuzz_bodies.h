@@ -9,13 +9,13 @@
 
 #include "base/check.h"
 #include "io/csv_table.h"
-#include "pipeline/journal.h"
-#include "pipeline/json_file.h"
-#include "pipeline/manual.h"
-#include "pipeline/plan.h"
-#include "pipeline/recipe.h"
-#include "pipeline/sound_profile.h"
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/journal/journal.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/recipe/json_file.h"
+#include "pipeline/recipe/recipe.h"
+#include "pipeline/recipe/transfer_function_json.h"
+#include "pipeline/survey/sound_profile.h"
+#include "pipeline/tasks/plan.h"
 
 namespace sonar::fuzz {
 

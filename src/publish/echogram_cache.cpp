@@ -14,7 +14,7 @@
 
 #include "base/hash.h"
 #include "io/sealed_file.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 
 namespace sonar {
 namespace {

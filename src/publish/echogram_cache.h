@@ -6,8 +6,8 @@
 #include <string>
 
 #include "io/index_cache.h"
-#include "pipeline/survey.h"
-#include "view/echogram_pyramid.h"
+#include "pipeline/survey/survey.h"
+#include "view/timelines/echogram_pyramid.h"
 
 namespace sonar {
 

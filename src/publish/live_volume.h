@@ -14,10 +14,10 @@
 #include "base/task_thread.h"
 #include "base/work.h"
 #include "model/navigation.h"
-#include "pipeline/engine.h"
+#include "pipeline/stages/engine.h"
 #include "publish/picture_options.h"
 #include "view/frame_description.h"
-#include "view/pick.h"
+#include "view/volume/pick.h"
 
 namespace sonar {
 

@@ -11,7 +11,7 @@
 
 #include "base/task_thread.h"
 #include "publish/renderer_choice.h"
-#include "view/slice_example.h"
+#include "view/slices/slice_example.h"
 
 namespace sonar {
 namespace {

@@ -11,9 +11,9 @@
 #include "io/map_outlines.h"
 #include "model/school_totals.h"
 #include "publish/drawn_schools.h"
-#include "view/observation_map.h"
-#include "view/propagation_view.h"
-#include "view/survey_map.h"
+#include "view/maps/observation_map.h"
+#include "view/maps/survey_map.h"
+#include "view/volume/propagation_view.h"
 
 namespace sonar {
 namespace {

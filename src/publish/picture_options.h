@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "model/transfer_function.h"
-#include "view/camera.h"
-#include "view/context_scene.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_picture.h"
 #include "view/sv_scale.h"
 #include "view/theme.h"
-#include "view/volume_scene.h"
+#include "view/volume/camera.h"
+#include "view/volume/context_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

@@ -8,10 +8,10 @@
 
 #include "io/product.h"
 #include "io/recordings.h"
-#include "pipeline/join_tracks.h"
-#include "pipeline/merge.h"
-#include "pipeline/observe.h"
-#include "pipeline/plan.h"
+#include "pipeline/stages/observe.h"
+#include "pipeline/tasks/join_tracks.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/plan.h"
 
 namespace sonar {
 namespace {

@@ -17,9 +17,9 @@
 #include "model/navigation.h"
 #include "model/product.h"
 #include "model/volume.h"
-#include "pipeline/engine.h"
-#include "pipeline/recipe.h"
-#include "pipeline/survey.h"
+#include "pipeline/recipe/recipe.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/survey/survey.h"
 
 namespace sonar {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "publish/drawn_schools.h"
 #include "view/school_look.h"
 

@@ -8,8 +8,8 @@
 #include "publish/drawn_schools.h"
 #include "publish/echogram_cache.h"
 #include "publish/map_pictures.h"
-#include "view/echogram_pyramid.h"
-#include "view/timeline.h"
+#include "view/timelines/echogram_pyramid.h"
+#include "view/timelines/timeline.h"
 
 namespace sonar {
 namespace {

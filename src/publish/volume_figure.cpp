@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/time_text.h"

@@ -10,7 +10,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "model/navigation.h"
-#include "pipeline/engine.h"
+#include "pipeline/stages/engine.h"
 #include "publish/picture_options.h"
 #include "render/context_picture.h"
 #include "render/volume_renderer.h"

@@ -6,9 +6,9 @@
 
 #include "base/work.h"
 #include "render/volume_renderer.h"
-#include "view/camera.h"
-#include "view/context_scene.h"
 #include "view/image.h"
+#include "view/volume/camera.h"
+#include "view/volume/context_scene.h"
 
 namespace sonar {
 

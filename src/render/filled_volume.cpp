@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/units.h"
-#include "view/filled_sample.h"
+#include "view/slices/filled_sample.h"
 
 namespace sonar {
 FilledVolume filled_volume(const Array3<std::int16_t>& sv) {

@@ -8,7 +8,7 @@
 
 #include "base/array.h"
 #include "render/macrocells.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/array.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

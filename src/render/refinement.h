@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "render/volume_renderer.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

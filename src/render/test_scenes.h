@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar::scenes {
 

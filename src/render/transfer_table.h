@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

@@ -11,7 +11,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "view/image.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

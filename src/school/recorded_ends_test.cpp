@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/units.h"
-#include "school/grow.h"
-#include "school/mask_edit.h"
+#include "school/grow/grow.h"
+#include "school/grow/mask_edit.h"
 #include "school/test_scene.h"
 
 namespace sonar {

@@ -7,7 +7,7 @@
 #include "geo/geodesic.h"
 #include "geo/sector.h"
 #include "model/mask.h"
-#include "school/motion.h"
+#include "school/track/motion.h"
 
 namespace sonar::test {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "school/correct_sizes.h"
-#include "school/measure.h"
+#include "school/measure/correct_sizes.h"
+#include "school/measure/measure.h"
+#include "school/measure/two_way_beam.h"
 #include "school/test_water.h"
-#include "school/two_way_beam.h"
 
 namespace sonar::test {
 

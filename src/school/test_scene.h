@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "school/detect.h"
+#include "school/bottom/seabed.h"
+#include "school/detect/detect.h"
 #include "school/evidence/block_means.h"
 #include "school/evidence/null_model.h"
-#include "school/seabed.h"
 #include "school/test_water.h"
 
 namespace sonar::test {

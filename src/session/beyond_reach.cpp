@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/continued.h"
+#include "pipeline/journal/continued.h"
 #include "session/survey_schools.h"
 #include "session/tools/growth.h"
 

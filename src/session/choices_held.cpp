@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "pipeline/manual.h"
+#include "pipeline/journal/manual.h"
 #include "session/choices.h"
 
 namespace sonar {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/describe.h"
-#include "pipeline/recipe.h"
+#include "pipeline/recipe/recipe.h"
 #include "view/sv_scale.h"
 
 namespace sonar {

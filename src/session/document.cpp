@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/within_memory.h"
-#include "pipeline/detected_cache.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/detected_cache.h"
+#include "pipeline/stages/observe.h"
 
 namespace sonar {
 

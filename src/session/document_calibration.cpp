@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/calibration_json.h"
+#include "pipeline/survey/calibration_json.h"
 #include "session/document.h"
 
 namespace sonar {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
-#include "pipeline/continued.h"
+#include "pipeline/journal/continued.h"
 #include "session/document.h"
 
 namespace sonar {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/detected_cache.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/detected_cache.h"
+#include "pipeline/stages/observe.h"
 #include "session/document.h"
 
 namespace sonar {

@@ -2,7 +2,7 @@
 // Echoes that detection refused: those that are no school by what humans have chosen since.
 #include <utility>
 
-#include "pipeline/refused_echoes.h"
+#include "pipeline/stages/refused_echoes.h"
 #include "session/document.h"
 
 namespace sonar {

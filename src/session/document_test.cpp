@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/test_full_disk.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 #include "session/test_survey.h"
 
 namespace sonar {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/detected_cache.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/detected_cache.h"
+#include "pipeline/stages/observe.h"
 #include "session/test_survey.h"
 
 namespace sonar {

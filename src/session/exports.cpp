@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "model/school_totals.h"
-#include "pipeline/export.h"
-#include "pipeline/observe.h"
-#include "pipeline/write_survey.h"
+#include "pipeline/exports/export.h"
+#include "pipeline/stages/observe.h"
+#include "pipeline/survey/write_survey.h"
 #include "publish/picture.h"
 #include "publish/picture_files.h"
 #include "session/slices/slice_look.h"

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "base/test_full_disk.h"
-#include "pipeline/journal.h"
-#include "pipeline/run.h"
+#include "pipeline/journal/journal.h"
+#include "pipeline/tasks/run.h"
 #include "publish/picture_source.h"
 #include "session/test_desk.h"
 

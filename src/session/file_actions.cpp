@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/calibration_json.h"
-#include "pipeline/export.h"
+#include "pipeline/exports/export.h"
+#include "pipeline/survey/calibration_json.h"
 #include "session/desk_parts.h"
 #include "session/exports.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/journal.h"
+#include "pipeline/journal/journal.h"
 
 namespace sonar {
 

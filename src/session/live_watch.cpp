@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/machine_memory.h"
-#include "pipeline/live_schools.h"
-#include "pipeline/observe.h"
+#include "pipeline/live/live_schools.h"
+#include "pipeline/stages/observe.h"
 
 namespace sonar {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "base/task_thread.h"
-#include "pipeline/alarm.h"
-#include "pipeline/live_status.h"
-#include "pipeline/live_survey.h"
-#include "pipeline/observe_memory.h"
+#include "pipeline/live/alarm.h"
+#include "pipeline/live/live_status.h"
+#include "pipeline/live/live_survey.h"
+#include "pipeline/stages/observe_memory.h"
 #include "session/listeners.h"
 #include "session/pulse.h"
 #include "session/workspace.h"

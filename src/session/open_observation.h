@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/engine.h"
-#include "pipeline/manual.h"
-#include "pipeline/survey.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/survey/survey.h"
 #include "session/ping_cache.h"
 #include "session/ping_memory.h"
 

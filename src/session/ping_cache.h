@@ -11,7 +11,7 @@
 
 #include "base/result.h"
 #include "base/task_thread.h"
-#include "pipeline/engine.h"
+#include "pipeline/stages/engine.h"
 
 namespace sonar {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/hash.h"
-#include "pipeline/json_file.h"
-#include "pipeline/json_parameters.h"
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/recipe/json_file.h"
+#include "pipeline/recipe/json_parameters.h"
+#include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "pipeline/journal_place.h"
+#include "pipeline/journal/journal_place.h"
 #include "session/curves.h"
 #include "session/desk_parts.h"
 #include "session/test_survey.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
-#include "pipeline/continued.h"
+#include "pipeline/journal/continued.h"
 
 namespace sonar {
 namespace {

@@ -13,7 +13,7 @@
 #include "session/curves.h"
 #include "session/place_text.h"
 #include "session/slices/slice_look.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_picture.h"
 #include "view/time_text.h"
 
 namespace sonar {

@@ -10,15 +10,15 @@
 #include <variant>
 
 #include "model/transfer_function.h"
-#include "pipeline/reduce.h"
+#include "pipeline/exports/reduce.h"
 #include "session/change_queue.h"
 #include "session/display.h"
 #include "session/document.h"
 #include "session/listeners.h"
 #include "session/parameters.h"
 #include "session/picture_file.h"
-#include "view/camera.h"
-#include "view/slice.h"
+#include "view/slices/slice.h"
+#include "view/volume/camera.h"
 
 namespace sonar {
 

@@ -10,7 +10,7 @@
 #include "model/refused_echo.h"
 #include "view/frame_description.h"
 #include "view/key_rows.h"
-#include "view/slice.h"
+#include "view/slices/slice.h"
 #include "view/theme.h"
 
 namespace sonar {

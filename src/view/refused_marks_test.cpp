@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <span>
 
-#include "view/map_example.h"
-#include "view/observation_map.h"
-#include "view/slice_example.h"
-#include "view/timeline.h"
+#include "view/maps/map_example.h"
+#include "view/maps/observation_map.h"
+#include "view/slices/slice_example.h"
+#include "view/timelines/timeline.h"
 
 namespace sonar {
 namespace {

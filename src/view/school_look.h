@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "model/school_totals.h"
-#include "view/survey_map.h"
-#include "view/volume_scene.h"
+#include "view/maps/survey_map.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

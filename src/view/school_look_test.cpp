@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "view/map_example.h"
+#include "view/maps/map_example.h"
 
 namespace sonar {
 namespace {

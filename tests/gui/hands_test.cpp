@@ -11,7 +11,7 @@
 
 #include "base/test_full_disk.h"
 #include "gui/action_menus.h"
-#include "school/mask_edit.h"
+#include "school/grow/mask_edit.h"
 #include "window_at_work.h"
 
 namespace sonar {

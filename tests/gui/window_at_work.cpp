@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 
 namespace sonar {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/engine.h"
-#include "pipeline/observe.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/stages/observe.h"
 #include "synth/beam_table.h"
 #include "synth/presets.h"
 #include "synth/simulate.h"

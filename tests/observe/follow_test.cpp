@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A survey that is being recorded: what follows it ends with the products of a run over the finished files.
-#include "pipeline/follow.h"
+#include "pipeline/live/follow.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include "io/atomic_file.h"
 #include "io/product.h"
 #include "io/simrad/test_bytes.h"
-#include "pipeline/run.h"
+#include "pipeline/tasks/run.h"
 #include "synth/beam_table.h"
 #include "synth/presets.h"
 #include "synth/simulate.h"

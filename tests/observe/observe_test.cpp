@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From raw bytes to products, on small synthetic surveys.
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,10 +17,10 @@
 #include "base/units.h"
 #include "io/simrad/test_bytes.h"
 #include "observed_survey.h"
-#include "pipeline/compare.h"
-#include "pipeline/engine.h"
-#include "pipeline/manual.h"
-#include "pipeline/survey.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/survey/survey.h"
+#include "pipeline/tasks/compare.h"
 
 namespace sonar {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/manual.h"
-#include "pipeline/observe.h"
-#include "pipeline/survey.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/observe.h"
+#include "pipeline/survey/survey.h"
 #include "synth/beam_table.h"
 #include "synth/presets.h"
 #include "synth/simulate.h"

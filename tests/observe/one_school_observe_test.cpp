@@ -10,7 +10,7 @@
 #include "model/school_totals.h"
 #include "observed_survey.h"
 #include "pipeline/commands/command.h"
-#include "pipeline/merge.h"
+#include "pipeline/tasks/merge.h"
 
 namespace sonar {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "fixed_survey.h"
 #include "io/simrad/test_bytes.h"
-#include "pipeline/engine.h"
-#include "pipeline/manual.h"
-#include "pipeline/observe.h"
-#include "pipeline/recipe.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/recipe/recipe.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/stages/observe.h"
 
 namespace sonar {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "io/simrad/test_bytes.h"
 #include "observed_survey.h"
-#include "pipeline/plan.h"
-#include "pipeline/run.h"
+#include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/run.h"
 
 namespace sonar {
 namespace {

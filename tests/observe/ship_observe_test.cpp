@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "geo/frames.h"
 #include "observed_survey.h"
-#include "pipeline/engine.h"
+#include "pipeline/stages/engine.h"
 
 namespace sonar {
 namespace {

@@ -15,13 +15,13 @@
 #include "base/hash.h"
 #include "fixed_survey.h"
 #include "io/columns.h"
-#include "pipeline/engine.h"
-#include "pipeline/group_water.h"
-#include "pipeline/load_volume.h"
-#include "pipeline/manual.h"
-#include "pipeline/observe.h"
-#include "school/detect.h"
-#include "school/track.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/stages/group_water.h"
+#include "pipeline/stages/load_volume.h"
+#include "pipeline/stages/observe.h"
+#include "school/detect/detect.h"
+#include "school/track/track.h"
 
 namespace sonar {
 namespace {
@@ -210,9 +210,10 @@ TEST(StageVersions, AreRaisedWhenResultsChange) {
     if (changed.empty() && hash != recorded.hash) changed = versions.at(stage) == recorded.version ? stage : "-";
   }
   if (!changed.empty() && changed != "-") {
-    ADD_FAILURE() << "The results of stage '" << changed << "' changed, but its number in kStageVersions "
-                  << "(src/pipeline/observe.h) did not. If the change is meant, raise the number, so that old and new "
-                  << "products are never merged; then record the new hashes here.";
+    ADD_FAILURE()
+        << "The results of stage '" << changed << "' changed, but its number in kStageVersions "
+        << "(src/pipeline/stages/observe.h) did not. If the change is meant, raise the number, so that old and new "
+        << "products are never merged; then record the new hashes here.";
   }
   EXPECT_TRUE(same) << "Record these in kRecorded (tests/observe/stage_versions_test.cpp):\n" << table;
 }

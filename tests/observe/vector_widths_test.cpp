@@ -4,7 +4,7 @@
 #include <hwy/targets.h>
 
 #include "observed_survey.h"
-#include "pipeline/compare.h"
+#include "pipeline/tasks/compare.h"
 
 namespace sonar {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "base/result.h"
 #include "base/time.h"
-#include "pipeline/journal.h"
-#include "pipeline/manual.h"
-#include "pipeline/recipe.h"
+#include "pipeline/journal/journal.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/calibration_json.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/json_members.h"
-#include "pipeline/json_file.h"
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/recipe/json_file.h"
+#include "pipeline/recipe/transfer_function_json.h"
+#include "pipeline/survey/calibration_json.h"
 
 namespace sonar {
 namespace {

@@ -11,7 +11,7 @@
 #include "pipeline/commands/state.h"
 #include "pipeline/commands/test_commands.h"
 #include "pipeline/commands/test_ground.h"
-#include "school/mask_edit.h"
+#include "school/grow/mask_edit.h"
 
 namespace sonar {
 namespace {

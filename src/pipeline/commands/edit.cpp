@@ -9,8 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include "pipeline/carried.h"
-#include "pipeline/continued.h"
+#include "pipeline/journal/carried.h"
+#include "pipeline/journal/continued.h"
 
 namespace sonar {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/units.h"
 #include "pipeline/commands/edit.h"
-#include "school/grow.h"
-#include "school/mask_edit.h"
+#include "school/grow/grow.h"
+#include "school/grow/mask_edit.h"
 
 namespace sonar {
 namespace {

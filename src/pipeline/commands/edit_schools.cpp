@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "pipeline/commands/edit.h"
-#include "school/mask_edit.h"
+#include "school/grow/mask_edit.h"
 
 namespace sonar {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/transfer_function_json.h"
+#include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar::members {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 #include "pipeline/commands/command.h"
-#include "pipeline/json_parameters.h"
+#include "pipeline/recipe/json_parameters.h"
 
 // Members that several commands have, to and from JSON. Every error names the member.
 namespace sonar::members {

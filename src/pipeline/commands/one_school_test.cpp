@@ -11,7 +11,7 @@
 #include "model/school_totals.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/commands/test_ground.h"
-#include "pipeline/continued.h"
+#include "pipeline/journal/continued.h"
 
 namespace sonar {
 namespace {

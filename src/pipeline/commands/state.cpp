@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "school/mask_edit.h"
+#include "school/grow/mask_edit.h"
 
 namespace sonar {
 

@@ -11,9 +11,9 @@
 #include "base/diagnostics.h"
 #include "base/result.h"
 #include "pipeline/commands/command.h"
-#include "pipeline/journal.h"
-#include "pipeline/manual.h"
-#include "pipeline/measure_schools.h"
+#include "pipeline/journal/journal.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/stages/measure_schools.h"
 
 namespace sonar {
 

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "geo/sector.h"
 #include "pipeline/commands/state.h"
-#include "school/mask_edit.h"
+#include "school/grow/mask_edit.h"
 
 // A small still sea for tests of commands: 6 fans, 8 beams, 80 samples, 9 pings two seconds apart. Two schools of -40 dB
 // lie in -90 dB of water in every ping: A and B, six samples apart. Channels count

@@ -8,7 +8,7 @@
 #include "render/grid_axes.h"
 #include "render/homogeneous_cells.h"
 #include "render/mask_grid.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

@@ -7,7 +7,7 @@
 #include "render/gl/fold_plan.h"
 #include "render/grid_axes.h"
 #include "render/transfer_table.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

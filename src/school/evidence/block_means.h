@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "geo/sector.h"
-#include "school/background.h"
+#include "school/detect/background.h"
 
 namespace sonar {
 

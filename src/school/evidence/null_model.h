@@ -8,8 +8,8 @@
 #include "base/array.h"
 #include "geo/sector.h"
 #include "model/water_levels.h"
-#include "school/background.h"
-#include "school/seabed.h"
+#include "school/bottom/seabed.h"
+#include "school/detect/background.h"
 
 namespace sonar {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/units.h"
+#include "school/bottom/seabed_plane.h"
 #include "school/evidence/block_means.h"
-#include "school/seabed_plane.h"
 #include "school/test_water.h"
 
 namespace sonar {

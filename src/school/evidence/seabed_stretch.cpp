@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/median.h"
-#include "school/seabed_echoes.h"
-#include "school/seabed_plane.h"
+#include "school/bottom/seabed_echoes.h"
+#include "school/bottom/seabed_plane.h"
 
 namespace sonar {
 namespace {

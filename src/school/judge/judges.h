@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "school/detect_params.h"
+#include "school/detect/detect_params.h"
 #include "school/judge/confirmation.h"
 #include "school/judge/level.h"
 #include "school/judge/ping_echo.h"

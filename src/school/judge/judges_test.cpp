@@ -9,7 +9,7 @@
 #include "geo/geodesic.h"
 #include "school/judge/judges.h"
 #include "school/test_scene.h"
-#include "school/track.h"
+#include "school/track/track.h"
 
 // Each judge with the scene in which it matters: without it the scene shows a school that is none.
 namespace sonar {

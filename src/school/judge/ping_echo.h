@@ -6,8 +6,8 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "geo/sector.h"
-#include "school/background.h"
-#include "school/seabed.h"
+#include "school/bottom/seabed.h"
+#include "school/detect/background.h"
 
 namespace sonar {
 

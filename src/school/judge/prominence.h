@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "school/detection.h"
+#include "school/detect/detection.h"
 #include "school/judge/ping_echo.h"
 
 namespace sonar {

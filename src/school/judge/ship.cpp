@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/school.h"
-#include "school/motion.h"
+#include "school/track/motion.h"
 
 namespace sonar {
 namespace {

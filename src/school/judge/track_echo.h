@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "school/track.h"
+#include "school/track/track.h"
 
 namespace sonar {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/journals.h"
+#include "pipeline/journal/journals.h"
 #include "session/history.h"
 #include "session/lists/cells.h"
 #include "session/survey_schools.h"

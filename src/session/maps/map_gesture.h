@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "view/map_frame.h"
+#include "view/maps/map_frame.h"
 #include "view/pointer_event.h"
 
 namespace sonar {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "session/choices.h"
-#include "view/mask_mosaic.h"
+#include "view/maps/mask_mosaic.h"
 
 namespace sonar {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/beam_figures.h"
+#include "pipeline/survey/beam_figures.h"
 
 namespace sonar {
 

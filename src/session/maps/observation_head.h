@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/product.h"
-#include "pipeline/survey.h"
+#include "pipeline/survey/survey.h"
 
 namespace sonar {
 

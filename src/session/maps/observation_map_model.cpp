@@ -14,7 +14,7 @@
 #include "session/place_text.h"
 #include "session/refused_layer.h"
 #include "session/survey_schools.h"
-#include "view/map_items.h"
+#include "view/maps/map_items.h"
 
 namespace sonar {
 namespace {

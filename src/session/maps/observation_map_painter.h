@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "session/maps/observation_map_model.h"
-#include "view/observation_map.h"
+#include "view/maps/observation_map.h"
 
 namespace sonar {
 

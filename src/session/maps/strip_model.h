@@ -11,7 +11,7 @@
 #include "session/maps/listening.h"
 #include "session/maps/masked_pings.h"
 #include "session/workspace.h"
-#include "view/propagation_view.h"
+#include "view/volume/propagation_view.h"
 
 namespace sonar {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/join_tracks.h"
+#include "pipeline/tasks/join_tracks.h"
 #include "publish/chart_layers.h"
 #include "session/maps/dock_theme.h"
 #include "session/maps/observation_head.h"

@@ -12,7 +12,7 @@
 #include "model/map_outlines.h"
 #include "session/document.h"
 #include "session/maps/survey_map_model.h"
-#include "view/survey_map.h"
+#include "view/maps/survey_map.h"
 
 namespace sonar {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 #include "session/maps/observation_map_model.h"
 #include "session/maps/strip_model.h"
 #include "session/maps/survey_map_model.h"

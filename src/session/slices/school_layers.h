@@ -7,7 +7,7 @@
 
 #include "session/workspace.h"
 #include "view/theme.h"
-#include "view/volume_scene.h"
+#include "view/volume/volume_scene.h"
 
 namespace sonar {
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "base/units.h"
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "session/screen_theme.h"
 
 namespace sonar {

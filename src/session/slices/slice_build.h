@@ -6,7 +6,7 @@
 
 #include "session/slices/school_layers.h"
 #include "session/slices/slice_look.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_picture.h"
 
 namespace sonar {
 

@@ -3,7 +3,7 @@
 
 #include "base/sample_flags.h"
 #include "session/workspace.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_picture.h"
 
 namespace sonar {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "session/refused_layer.h"
 #include "session/screen_theme.h"
 #include "session/slices/slice_build.h"

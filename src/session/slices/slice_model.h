@@ -11,7 +11,7 @@
 #include "session/tools/brush_tool.h"
 #include "session/tools/seed_tool.h"
 #include "session/workspace.h"
-#include "view/slice_picture.h"
+#include "view/slices/slice_picture.h"
 
 namespace sonar {
 

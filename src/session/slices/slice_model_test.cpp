@@ -7,7 +7,7 @@
 #include <array>
 
 #include "base/units.h"
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "publish/painted.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/slice_look.h"

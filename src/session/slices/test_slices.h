@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipeline/observe.h"
+#include "pipeline/stages/observe.h"
 #include "session/desk.h"
 #include "session/playback.h"
 #include "session/slices/slice_model.h"

@@ -12,7 +12,7 @@
 #include "session/document.h"
 #include "session/listeners.h"
 #include "session/maps/listening.h"
-#include "view/echogram_pyramid.h"
+#include "view/timelines/echogram_pyramid.h"
 
 namespace sonar {
 

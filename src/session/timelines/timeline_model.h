@@ -11,7 +11,7 @@
 #include "session/maps/listening.h"
 #include "session/timelines/echograms.h"
 #include "session/workspace.h"
-#include "view/timeline.h"
+#include "view/timelines/timeline.h"
 
 namespace sonar {
 

@@ -9,7 +9,7 @@
 #include "session/refused_layer.h"
 #include "session/timelines/timeline_model.h"
 #include "session/timelines/timeline_painter.h"
-#include "view/map_items.h"
+#include "view/maps/map_items.h"
 
 namespace sonar {
 namespace {

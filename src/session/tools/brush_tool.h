@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "session/workspace.h"
-#include "view/slice.h"
+#include "view/slices/slice.h"
 
 namespace sonar {
 

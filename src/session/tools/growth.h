@@ -9,7 +9,7 @@
 #include "session/display.h"
 #include "session/document.h"
 #include "session/workspace.h"
-#include "view/slice.h"
+#include "view/slices/slice.h"
 
 namespace sonar {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/weak_samples.h"
+#include "pipeline/stages/weak_samples.h"
 #include "publish/renderer_choice.h"
 #include "session/volume/volume_test_ground.h"
 

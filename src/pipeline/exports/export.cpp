@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/exports/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "io/csv.h"
+#include "io/mask_volume.h"
+#include "io/product.h"
+#include "io/survey_map.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/plan.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::vector<fs::path>;
+
+constexpr std::array<ExportFormat, 5> kFormats = {{
+    {"csv", "schools.csv and school_pings.csv"},
+    {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
+    {"gpkg", "the survey map as one GeoPackage"},
+    {"geojson", "the survey map, one GeoJSON file a layer"},
+    {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
+}};
+
+std::string format_names() {
+  std::string names;
+  for (const ExportFormat& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
+/// The products' files with the merged rows; masks are read when they are needed.
+struct Source {
+  Files files;
+  Survey survey;
+};
+
+Result<Source> read_source(const fs::path& out, Work& work) {
+  auto files = product_files(out);
+  if (!files) return pass_on(files);
+  if (files->empty()) return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
+  std::vector<ObservationProduct> products;
+  for (const fs::path& file : *files) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    auto product = read_product(file);
+    if (!product) return pass_on(product);
+    product->masks = {};
+    product->background_db = {};
+    products.push_back(std::move(*product));
+  }
+  auto survey = merge(std::move(products));
+  if (!survey) return pass_on(survey);
+  return Source{std::move(*files), std::move(*survey)};
+}
+
+/// An observation's rows as merged, with its masks and background levels.
+Result<ObservationProduct> with_masks(const Source& source, std::size_t i) {
+  ObservationProduct product = source.survey.observations[i];
+  auto stored = read_product(source.files[i]);
+  if (!stored) return pass_on(stored);
+  if (stored->observation != product.observation) {
+    return fail(ErrorCode::mismatch, fmt::format("holds {}", stored->observation), {.file = source.files[i].string()});
+  }
+  product.masks = std::move(stored->masks);
+  product.background_db = std::move(stored->background_db);
+  return product;
+}
+
+Result<Files> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
+  Files files = {dest / "schools.csv", dest / "school_pings.csv"};
+  auto written = write_csv_rows(files[0], source.survey.schools, texts);
+  if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
+  if (!written) return pass_on(written);
+  return files;
+}
+
+Result<Files> export_masks(const Source& source, const fs::path& dest, Work& work) {
+  Files files;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    files.push_back(dest / (product->observation + "-mask.nc"));
+    if (auto written = write_mask_volume(*product, files.back(), work); !written) return pass_on(written);
+    work.progress("masks", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
+  }
+  return files;
+}
+
+Result<Files> export_map(const Source& source, const fs::path& dest, MapFormat format, Work& work) {
+  const fs::path target = format == MapFormat::geopackage ? dest / "survey.gpkg" : dest;
+  auto map = SurveyMapWriter::create(target, format, source.survey.observations);
+  if (!map) return pass_on(map);
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    if (auto added = map->add(*product); !added) return pass_on(added);
+    work.progress("map", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
+  }
+  if (auto finished = map->finish(); !finished) return pass_on(finished);
+  return Files{target};
+}
+
+Result<Files> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
+  if (options.survey.empty()) return fail(ErrorCode::usage, "raw-reduced needs --survey, the folder of the raw files");
+  const auto recipe = recipe_from_text(source.survey.observations.front().recipe_json);
+  if (!recipe) return pass_on(recipe);
+  const std::array<fs::path, 1> paths = {options.survey};
+  const auto survey = open_survey(paths, recipe->survey, recipe->navigation, IndexCache::of_user(), work);
+  if (!survey) return pass_on(survey);
+  std::vector<ObservationProduct> products;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    // A school that a human has rejected is not selected.
+    std::erase_if(product->masks, [&](const SchoolMask& m) {
+      return std::any_of(product->schools.begin(), product->schools.end(),
+                         [&](const SchoolRow& s) { return s.school_id == m.school_id && s.status == "rejected"; });
+    });
+    products.push_back(std::move(*product));
+  }
+  auto reduced = reduce_survey(*survey, products, *recipe, options.dest, options.reduce, work);
+  if (!reduced) return pass_on(reduced);
+  return std::move(reduced->files);
+}
+
+/// Whether a folder holds every raw file that the products were made of: the survey itself, copied or moved.
+bool holds_survey(const Survey& survey, const fs::path& folder) {
+  std::size_t files = 0;
+  for (const ObservationProduct& product : survey.observations) {
+    for (const InputFile& input : product.input_files) {
+      std::error_code absent;
+      const auto size = fs::file_size(folder / input.name, absent);
+      if (absent || size != input.size) return false;
+      ++files;
+    }
+  }
+  return files > 0;
+}
+
+/// Nothing is written where raw files lie: those that were run, those that are named, or those of a folder above.
+Result<void> require_outside(const ExportOptions& options) {
+  std::vector<fs::path> raw;
+  if (!options.survey.empty()) raw.push_back(options.survey);
+  const auto run_on = planned_survey(options.out);
+  if (!run_on) return pass_on(run_on);
+  raw.insert(raw.end(), run_on->begin(), run_on->end());
+  if (auto outside = require_outside_raw(raw, options.dest); !outside) return outside;
+  return require_not_beneath_raw(options.dest);
+}
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return kFormats; }
+
+Result<Files> export_products(const ExportOptions& options, Work& work) {
+  const auto format =
+      std::find_if(kFormats.begin(), kFormats.end(), [&](const ExportFormat& f) { return f.name == options.format; });
+  if (format == kFormats.end()) {
+    return fail(ErrorCode::usage, fmt::format("no export format '{}'; there are {}", options.format, format_names()));
+  }
+  if (auto sound = validate(options.reduce); !sound) return pass_on(sound);
+  if (auto outside = require_outside(options); !outside) return pass_on(outside);
+  const auto source = read_source(options.out, work);
+  if (!source) return pass_on(source);
+  if (holds_survey(source->survey, options.dest)) {
+    return fail(ErrorCode::usage, "holds the raw files, beside which nothing is ever written",
+                {.file = options.dest.string()});
+  }
+  if (format->name == "csv") return export_csv(*source, options.dest, options.texts);
+  if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
+  if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
+  if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  return export_reduced(*source, options, work);
+}
+
+}  // namespace sonar

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/exports/export.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "io/product.h"
+#include "io/product_example.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Export : public testing::Test {
+ protected:
+  Export() : folder_(fs::temp_directory_path() / ("sonar_export_" + std::to_string(::getpid()))) {
+    ObservationProduct p = example::empty("obs-0001", 5);
+    example::add_school(p, 1, 0, 3, example::block(1, 1, 2, 20, 8));
+    EXPECT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
+  }
+  ~Export() override { fs::remove_all(folder_); }
+  Export(const Export&) = delete;
+  Export& operator=(const Export&) = delete;
+  Result<std::vector<fs::path>> run(const std::string& format) {
+    ExportOptions options;
+    options.out = folder_ / "out";
+    options.format = format;
+    options.dest = folder_ / format;
+    return export_products(options, work_);
+  }
+  fs::path folder_;
+  Work work_{1};
+};
+
+TEST_F(Export, tables_maps_and_masks) {
+  const auto csv = run("csv");
+  ASSERT_TRUE(csv) << to_line(csv.error());
+  EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->at(1))->size(), 4U);
+  for (const char* format : {"gpkg", "geojson", "netcdf-mask"}) {
+    const auto files = run(format);
+    ASSERT_TRUE(files) << to_line(files.error());
+    EXPECT_FALSE(fs::is_empty(folder_ / format)) << format;
+  }
+}
+
+TEST_F(Export, refuses_in_one_line) {
+  const auto unknown = run("shapefile");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code, ErrorCode::usage);
+  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, raw-reduced"));
+  EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
+  fs::remove_all(folder_ / "out");
+  EXPECT_EQ(run("csv").error().code, ErrorCode::not_found);
+}
+
+TEST_F(Export, nothing_is_written_where_raw_files_lie) {
+  const fs::path raw = folder_ / "raw";
+  ASSERT_TRUE(write_file(raw / "a file.raw", std::string(12345, 'x')));  // as the product remembers it
+  ExportOptions options{.out = folder_ / "out", .format = "csv", .dest = raw, .survey = {}, .reduce = {}};
+  const auto copied = export_products(options, work_);
+  ASSERT_FALSE(copied);
+  EXPECT_EQ(copied.error().code, ErrorCode::usage);
+  options.survey = folder_ / "elsewhere";
+  options.dest = options.survey / "inside";
+  EXPECT_EQ(export_products(options, work_).error().code, ErrorCode::usage);
+  options.survey.clear();
+  EXPECT_TRUE(export_products(options, work_));
+  options.dest = folder_ / "fresh";
+  ASSERT_TRUE(write_file(folder_ / "out" / "plan.json", R"({"plan_version":99})"));
+  EXPECT_EQ(export_products(options, work_).error().code, ErrorCode::newer_version);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/journal/manual.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "pipeline/commands/json_members.h"
+#include "pipeline/commands/state.h"
+#include "pipeline/recipe/transfer_function_json.h"
+#include "school/grow/propagate_tracked.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::int64_t kMaxReach = 1'000'000;
+
+PingReach reach_round(std::int64_t ping_index, const PropagateCommand& command, PingReach limits) {
+  const std::int64_t back = command.reach_backward.value_or(command.reach);
+  const std::int64_t forward = command.reach_forward.value_or(command.reach);
+  return {back < 0 ? limits.first : std::max(limits.first, ping_index - back),
+          forward < 0 ? limits.last : std::min(limits.last, ping_index + forward)};
+}
+
+Result<std::int64_t> read_reach(const nlohmann::json& args, const char* member, std::int64_t otherwise) {
+  const auto found = args.find(member);
+  if (found == args.end()) return otherwise;
+  const auto pings = whole_number(*found);
+  if (!pings) return fail(ErrorCode::format, fmt::format("{}: expected a whole number", member));
+  return std::clamp<std::int64_t>(*pings, -1, kMaxReach);
+}
+
+/// What carried out without an observer gives the same; a side that came to its own end keeps its reach.
+PropagateCommand reached_by(const PropagateCommand& command, std::int64_t clicked, const Propagation& propagation) {
+  if (!propagation.stopped_at) return command;
+  const std::int64_t stop = *propagation.stopped_at;
+  if (stop < clicked) return as_far_as(command, clicked - stop, 0);
+  return as_far_as(command, command.reach_backward.value_or(command.reach), stop - clicked);
+}
+
+SchoolMasks school_of(Propagation& propagation) {
+  SchoolMasks school;
+  school.decided.origin = "manual";
+  for (PropagatedPing& ping : propagation.pings) {
+    if (!ping.mask.empty()) school.pings.push_back({ping.ping_index, std::move(ping.mask), ping.threshold_db});
+  }
+  return school;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const PropagateCommand& command) {
+  nlohmann::json args = {{"mode", kGrowModeNames[static_cast<std::size_t>(command.mode)]},
+                         {"grow", members::described(command.grow)},
+                         {"growth_curve", to_json(command.growth_curve)},
+                         {"propagate_paper", members::described(command.paper)},
+                         {"propagate_tracked", members::described(command.tracked)},
+                         {"reach", command.reach}};
+  if (command.reach_backward) args["reach_backward"] = *command.reach_backward;
+  if (command.reach_forward) args["reach_forward"] = *command.reach_forward;
+  if (command.school) {
+    args["school"] = members::from_school(*command.school);
+  } else {
+    args["seeds"] = members::from_seeds(command.seeds);
+  }
+  return args;
+}
+
+Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time) {
+  PropagateCommand command;
+  const auto school = members::read_optional_school(args, ping_time);
+  if (!school) return pass_on(school);
+  command.school = *school;
+  if (!command.school) {
+    auto seeds = members::read_seeds(args);
+    if (!seeds) return pass_on(seeds);
+    command.seeds = std::move(*seeds);
+  }
+  const auto grow = members::read_described<GrowParams>(args, "grow");
+  if (!grow) return pass_on(grow);
+  if (args.contains("mode")) {
+    const auto mode = members::read_choice(args, "mode", kGrowModeNames);
+    if (!mode) return pass_on(mode);
+    command.mode = static_cast<GrowMode>(*mode);
+  }
+  const auto paper = members::read_described<PaperPropagationParams>(args, "propagate_paper");
+  if (!paper) return pass_on(paper);
+  const auto tracked = members::read_described<TrackedPropagationParams>(args, "propagate_tracked");
+  if (!tracked) return pass_on(tracked);
+  auto curve = members::read_growth_curve(args);
+  if (!curve) return pass_on(curve);
+  const auto reach = read_reach(args, "reach", -1);
+  if (!reach) return pass_on(reach);
+  for (const auto& [member, side] :
+       {std::pair("reach_backward", &command.reach_backward), {"reach_forward", &command.reach_forward}}) {
+    if (!args.contains(member)) continue;
+    const auto pings = read_reach(args, member, -1);
+    if (!pings) return pass_on(pings);
+    *side = *pings;
+  }
+  command.grow = *grow;
+  command.paper = *paper;
+  command.tracked = *tracked;
+  command.growth_curve = std::move(*curve);
+  command.reach = *reach;
+  return command;
+}
+
+bool goes_backward(const PropagateCommand& command) { return command.reach_backward.value_or(command.reach) != 0; }
+bool goes_forward(const PropagateCommand& command) { return command.reach_forward.value_or(command.reach) != 0; }
+
+PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward) {
+  command.reach_backward = backward;
+  command.reach_forward = forward;
+  return command;
+}
+
+namespace {
+
+/// Ends that only the reach made: nothing else ended it there, and there are more pings.
+void mark_ends(ManualSchool& made, std::int64_t ping_index, PingReach limits) {
+  const auto& pings = made.school.pings;
+  // One that was stopped has the reach that it came to.
+  const PingReach asked = reach_round(ping_index, made.reached, limits);
+  if (goes_backward(made.reached) && made.note_backward.empty() && asked.first > limits.first) {
+    made.school.reach.first = pings.front().ping_index;
+  }
+  if (goes_forward(made.reached) && made.note_forward.empty() && asked.last < limits.last) {
+    made.school.reach.last = pings.back().ping_index;
+  }
+}
+
+}  // namespace
+
+CommandGround ground_of(Engine& engine, PingReach limits) {
+  CommandGround ground;
+  ground.ping = [&engine](std::int64_t ping_index) { return engine.filtered(ping_index); };
+  ground.sector = &engine.sector();
+  ground.grid = &engine.grid();
+  for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
+  ground.limits = limits;
+  const Recipe& recipe = engine.recipe();
+  ground.least_pings = names_judge(recipe.detect.left_out, "confirmation") ? 1 : recipe.track.confirmation.pings;
+  return ground;
+}
+
+Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping, std::span<const SeedKey> seeds,
+                            const TransferFunction& growth_curve, const GrowParams& params) {
+  if (ping.bad) return fail(ErrorCode::bad_parameter, "the ping was made without transmitting; it shows no school");
+  const std::vector<int> rows = ground.grid->row_of_channel();
+  // The paper grows on opacity alone.
+  const bool limited = params.mode == GrowMode::tracked && params.margin_db > 0.0 && ping.standing_out;
+  PingMask inside;
+  // What a human points at may be the water itself, as a layer is: it has to stand above the noise alone.
+  if (limited) inside.runs = ping.standing_out(params.margin_db, Above::noise);
+  PingMask selection;
+  for (const SeedKey& seed : seeds) {
+    if (seed.channel < 0 || static_cast<std::size_t>(seed.channel) >= rows.size() ||
+        rows[static_cast<std::size_t>(seed.channel)] < 0) {
+      return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", seed.channel));
+    }
+    auto grown = grow_from_click(ping.volume->counts.view(), ping.volume->flags.view(),
+                                 {rows[static_cast<std::size_t>(seed.channel)], seed.sample}, growth_curve, params,
+                                 limited ? &inside : nullptr);
+    if (!grown) return grown;
+    selection = unite(selection, *grown);
+  }
+  return subtract(selection, ping.taken);
+}
+
+Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index, const PingMask& selection,
+                           const PropagateCommand& command, const TakenVoxels& taken) {
+  const PingProvider provider = [&](std::int64_t i) {
+    auto ping = ground.ping(i);
+    if (ping) ping->taken = taken(i);
+    return ping;
+  };
+  const PingReach reach = reach_round(ping_index, command, ground.limits);
+  auto propagation =
+      command.mode == GrowMode::paper
+          ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper, ground.on_step)
+          : propagate_tracked(provider, *ground.sector, ping_index, selection, reach, command.tracked, ground.on_step);
+  if (!propagation) return pass_on(propagation);
+  ManualSchool made;
+  made.reached = reached_by(command, ping_index, *propagation);
+  made.school = school_of(*propagation);
+  made.note_backward = propagation->note_backward;
+  made.note_forward = propagation->note_forward;
+  mark_ends(made, ping_index, ground.limits);
+  return made;
+}
+
+std::vector<SchoolMasks> replay(Engine& engine, std::span<const JournalLine> lines, PingReach limits,
+                                Diagnostics& diagnostics) {
+  const JournalState state = fold(lines, {}, ground_of(engine, limits));
+  diagnostics.insert(diagnostics.end(), state.notes.begin(), state.notes.end());
+  return masks_of(state);
+}
+
+std::optional<std::int64_t> ping_at(const SurveyFiles& survey, const ObservationFiles& observation, TimeNs time) {
+  const auto found =
+      std::lower_bound(observation.pings.begin(), observation.pings.end(), time,
+                       [&](const SurveyPing& ping, TimeNs wanted) { return survey.entry(ping).time < wanted; });
+  if (found == observation.pings.end() || survey.entry(*found).time != time) return std::nullopt;
+  return found - observation.pings.begin();
+}
+
+}  // namespace sonar

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "pipeline/commands/state.h"
+#include "pipeline/stages/engine.h"
+#include "pipeline/stages/measure_schools.h"
+
+namespace sonar {
+
+struct StateProductOptions {
+  std::span<const JournalLine> journal;  ///< effective lines of the whole survey
+  std::string program_version;
+  bool background = false;  ///< with the background levels of all pings: what a file must hold, a window need not
+  MeasuredPings* before = nullptr;  ///< of the same engine; null = everything is measured
+  std::span<const RefusedEcho> refused =
+      {};  ///< as detection told them: those that are no school in this state are kept
+};
+
+/// What a state's schools measure: a product that is known before it is a file. School numbers are the state's, so that what a
+/// window calls school 3 is school 3 in the tables.
+/// engine   the background of the state's pings is estimated
+/// errors   cancelled
+[[nodiscard]] Result<ObservationProduct> state_product(Engine& engine, const JournalState& state,
+                                                       const StateProductOptions& options, Work& work);
+
+/// The schools that a product found: where the journal of its observation begins.
+[[nodiscard]] std::vector<SchoolMasks> detected_schools(const ObservationProduct& product);
+
+}  // namespace sonar

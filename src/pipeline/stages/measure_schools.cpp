@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/stages/measure_schools.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/hash.h"
+#include "pipeline/survey/beam_figures.h"
+#include "school/measure/correct_sizes.h"
+#include "school/measure/measure.h"
+#include "school/measure/summarise.h"
+#include "school/measure/total_echo.h"
+#include "school/measure/two_way_beam.h"
+
+namespace sonar {
+namespace {
+
+/// Sorting key of a school: ping, channel and sample of its first voxel by channel.
+auto first_voxel(const SchoolMasks& school, const std::vector<int>& channel_of_row) {
+  const PingMask& mask = school.pings.front().mask;
+  std::pair<int, int> first{channel_of_row[static_cast<std::size_t>(mask.runs.front().row)],
+                            mask.runs.front().first_sample};
+  for (const Run& run : mask.runs) {
+    first = std::min(first, {channel_of_row[static_cast<std::size_t>(run.row)], run.first_sample});
+  }
+  return std::tuple(school.pings.front().ping_index, first.first, first.second);
+}
+
+struct InPingRef {
+  const SchoolMasks* school;
+  const SchoolMasks::InPing* in_ping;
+};
+
+PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
+  PingMask others;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i != index) others = unite(others, all[i].in_ping->mask);
+  }
+  return others;
+}
+
+/// A row, and which members of its mask are faulty.
+struct Measured {
+  MeasuredSchool school;
+  std::vector<bool> fault;
+};
+
+/// What measuring needs to know of a ping, whatever the school.
+MeasureInput input_of(const Engine& engine, const StagedPing& ping, double area) {
+  const ObservationFiles& observation = engine.observation();
+  MeasureInput input;
+  input.sv = ping.sv.counts.view();
+  input.filtered = ping.filtered->counts.view();
+  input.flags = ping.sv.flags.view();
+  input.sector = &engine.sector();
+  input.grid = &engine.grid();
+  input.background = ping.background();
+  input.placement = engine.placement(ping.ping_index);
+  input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
+  input.two_way_area = area;
+  input.psi_error_db = engine.beam_figures().psi_error_db;
+  input.calibration_se_db = engine.beam_figures().calibration_se_db;
+  input.seabed = ping.seabed.found ? &ping.seabed : nullptr;
+  return input;
+}
+
+Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
+                     MeasureInput input) {
+  const ObservationFiles& observation = engine.observation();
+  const PingMask others = others_than(all, index);
+  input.others = &others;
+  input.threshold_db = all[index].in_ping->threshold_db;
+  MeasuredSchool school = measure(input, all[index].in_ping->mask, engine.recipe().measure);
+  SchoolPingRow& row = school.row;
+  const PingNavigation& at = observation.navigation[static_cast<std::size_t>(ping.ping_index)];
+  // Whoever does not know which way the ship lay knows neither bearing nor place.
+  if (std::isnan(at.heading_deg)) row.latitude = row.longitude = row.bearing_deg = row.axis_deg = kUnknown;
+  row.observation = observation.name;
+  row.school_id = all[index].school->decided.school_id;
+  row.ping_index = ping.ping_index;
+  row.time_utc = at.time;
+  return {std::move(school), faulty_members(input, all[index].in_ping->mask)};
+}
+
+/// Everything that a ping's rows depend on; without the ping itself where the engine keeps no keys, being the same then.
+Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<InPingRef>& schools) {
+  Hasher hasher;
+  if (engine.known() != nullptr) hasher.add(std::as_bytes(std::span(&engine.keys().placed(ping_index), 1)));
+  for (const InPingRef& one : schools) {
+    const PingMask& mask = one.in_ping->mask;
+    hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
+    hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));
+    hasher.add(std::as_bytes(std::span(mask.runs)));
+    hasher.add(std::as_bytes(std::span(mask.confidence)));
+  }
+  return hasher.value();
+}
+
+std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine, const std::vector<InPingRef>& schools,
+                                   double area) {
+  MeasureInput input = input_of(engine, ping, area);
+  std::optional<EchoClaims> claims;
+  if (schools.size() > 1) {
+    std::vector<const PingMask*> masks;
+    for (const InPingRef& school : schools) masks.push_back(&school.in_ping->mask);
+    claims = echo_claims(input, masks);
+    input.claims = &*claims;
+  }
+  std::vector<Measured> rows;
+  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, input));
+  return rows;
+}
+
+std::vector<SchoolPingRow> rows_of(const ObservationProduct& product, std::int64_t school_id) {
+  std::vector<SchoolPingRow> rows;
+  for (const SchoolPingRow& row : product.school_pings) {
+    if (row.school_id == school_id) rows.push_back(row);
+  }
+  return rows;
+}
+
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
+  for (const SchoolMasks& school : schools) {
+    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
+    if (rows.empty()) continue;
+    SchoolRow row = summarise(rows, recipe.summarise);
+    row.observation = product.observation;
+    row.school_id = school.decided.school_id;
+    row.origin = school.decided.origin;
+    row.status = school.decided.status;
+    row.operator_name = school.decided.operator_name;
+    row.decided_utc = school.decided.decided_utc;
+    row.species = school.decided.species;
+    row.comment = school.decided.comment;
+    row.name = school.decided.name;
+    row.continues = school.decided.continues;
+    row.ended_at_reach = school.decided.ended_at_reach;
+    product.schools.push_back(std::move(row));
+  }
+}
+
+using MeasuredPing = std::pair<std::int64_t, std::vector<InPingRef>>;
+
+std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
+  std::map<std::int64_t, std::vector<InPingRef>> pings;
+  for (const SchoolMasks& school : schools) {
+    for (const SchoolMasks::InPing& in_ping : school.pings) pings[in_ping.ping_index].push_back({&school, &in_ping});
+  }
+  return {pings.begin(), pings.end()};
+}
+
+void note_unreadable(std::int64_t ping_index, const std::string& why, ObservationProduct& product) {
+  product.pings[static_cast<std::size_t>(ping_index)].bad = true;
+  product.diagnostics.push_back({DiagnosticCode::ping_unreadable, "", -1, ping_index, why});
+}
+
+/// By school and ping.
+using Faults = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<bool>>;
+
+void take_masks(std::vector<SchoolMasks>& schools, Faults& faults, ObservationProduct& product) {
+  for (SchoolMasks& school : schools) {
+    for (SchoolMasks::InPing& in_ping : school.pings) {
+      if (product.pings[static_cast<std::size_t>(in_ping.ping_index)].bad) continue;
+      const std::int64_t id = school.decided.school_id;
+      product.masks.push_back(
+          {id, in_ping.ping_index, std::move(in_ping.mask), std::move(faults[{id, in_ping.ping_index}])});
+    }
+  }
+}
+
+}  // namespace
+
+std::string ended_at_reach(const SchoolMasks& school) {
+  if (school.pings.empty()) return {};
+  const bool first = school.reach.first == school.pings.front().ping_index;
+  const bool last = school.reach.last == school.pings.back().ping_index;
+  return std::string(kEndNames[static_cast<std::size_t>(first) + 2 * static_cast<std::size_t>(last)]);
+}
+
+std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid) {
+  std::erase_if(schools, [](const SchoolMasks& school) { return school.pings.empty(); });
+  std::stable_sort(schools.begin(), schools.end(), [&](const SchoolMasks& a, const SchoolMasks& b) {
+    return first_voxel(a, grid.channel) < first_voxel(b, grid.channel);
+  });
+  for (std::size_t i = 0; i < schools.size(); ++i) schools[i].decided.school_id = static_cast<std::int64_t>(i) + 1;
+  return schools;
+}
+
+struct MeasuredPings::Kept {
+  std::map<std::int64_t, std::pair<Hash128, std::vector<Measured>>> pings;
+};
+
+MeasuredPings::MeasuredPings() : kept_(std::make_unique<Kept>()) {}
+MeasuredPings::~MeasuredPings() = default;
+
+namespace {
+
+const std::vector<Measured>* kept_rows(MeasuredPings* before, const Engine& engine, std::int64_t ping_index,
+                                       const std::vector<InPingRef>& schools) {
+  if (before == nullptr) return nullptr;
+  const auto found = before->kept().pings.find(ping_index);
+  if (found == before->kept().pings.end() || found->second.first != key_of(engine, ping_index, schools)) return nullptr;
+  return &found->second.second;
+}
+
+void keep_rows(MeasuredPings& before, const Engine& engine, const std::vector<MeasuredPing>& pings,
+               const std::vector<std::vector<Measured>>& rows, const std::vector<std::string>& problems) {
+  before.kept().pings.clear();
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (problems[i].empty())
+      before.kept().pings[pings[i].first] = {key_of(engine, pings[i].first, pings[i].second), rows[i]};
+  }
+}
+
+/// All rows, by school and ping, their corrected columns filled.
+std::vector<SchoolPingRow> corrected_rows(const std::vector<std::vector<Measured>>& pings,
+                                          const MeasureParams& params) {
+  std::map<std::int64_t, SchoolThroughPings> by_number;
+  for (const std::vector<Measured>& ping : pings) {
+    for (const Measured& one : ping) by_number[one.school.row.school_id].push_back(&one.school);
+  }
+  std::vector<SchoolThroughPings> schools;
+  for (auto& [number, school] : by_number) schools.push_back(std::move(school));
+  return correct_sizes(schools, params);
+}
+
+}  // namespace
+
+Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, ObservationProduct& product, Work& work,
+                             MeasuredPings* before) {
+  std::sort(schools.begin(), schools.end(),
+            [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
+  const std::vector<MeasuredPing> pings = by_ping(schools);
+  std::vector<std::vector<Measured>> rows(pings.size());
+  std::vector<std::string> problems(pings.size());
+  std::atomic<std::int64_t> done{0};
+  const double area = two_way_area(engine.grid(), engine.beam_figures().psi_used_db, engine.recipe().measure);
+  work.for_each(static_cast<std::int64_t>(pings.size()), [&](std::int64_t i) {
+    const auto& [ping_index, refs] = pings[static_cast<std::size_t>(i)];
+    if (const auto* kept = kept_rows(before, engine, ping_index, refs)) {
+      rows[static_cast<std::size_t>(i)] = *kept;
+    } else if (const auto ping = engine.kept_or_staged(ping_index)) {
+      rows[static_cast<std::size_t>(i)] = measure_ping(**ping, engine, refs, area);
+    } else {
+      problems[static_cast<std::size_t>(i)] = ping.error().text;
+    }
+    work.progress("measuring", ++done, static_cast<std::int64_t>(pings.size()));
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  if (before != nullptr && engine.refusal()) keep_rows(*before, engine, pings, rows, problems);
+  Faults faults;
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);
+    for (Measured& one : rows[i]) {
+      faults[{one.school.row.school_id, one.school.row.ping_index}] = std::move(one.fault);
+    }
+  }
+  product.grid = grid_record(engine.observation(), engine.recipe().calibration);
+  product.school_pings = corrected_rows(rows, engine.recipe().measure);
+  summarise_schools(schools, engine.recipe(), product);
+  take_masks(schools, faults, product);
+  return {};
+}
+
+}  // namespace sonar

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "model/product.h"
+#include "pipeline/stages/engine.h"
+
+namespace sonar {
+
+/// Pings at which a propagation by hand ended only because it was asked no farther; empty = no such end.
+struct ReachEnds {
+  std::optional<std::int64_t> first;
+  std::optional<std::int64_t> last;
+};
+
+/// A school as its masks through time; what a human decided about it comes along.
+struct SchoolMasks {
+  struct InPing {
+    std::int64_t ping_index = 0;
+    PingMask mask;
+    double threshold_db = kUnknown;
+  };
+  std::vector<InPing> pings;  ///< rising
+  std::int64_t track_id = 0;  ///< number among the tracked schools; 0 = a human's
+  /// Origin, status, operator, decided_utc, species, comment, name, continues, ended_at_reach; the rest is measured.
+  SchoolRow decided;
+  ReachEnds reach;
+  /// The masks that detection found, where humans took voxels of them; null = it has them all, or was not found.
+  std::shared_ptr<const std::vector<InPing>> found = {};
+};
+
+/// SchoolRow::ended_at_reach: what is known of the ends holds while the school begins, or ends, there.
+[[nodiscard]] std::string ended_at_reach(const SchoolMasks& school);
+
+/// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.
+[[nodiscard]] std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid);
+
+/// Rows of pings, kept from one measuring to the next: a ping whose masks and numbers are the same is not measured again.
+/// threads  one measuring at a time
+class MeasuredPings {
+ public:
+  MeasuredPings();
+  ~MeasuredPings();
+  MeasuredPings(const MeasuredPings&) = delete;
+  MeasuredPings& operator=(const MeasuredPings&) = delete;
+
+  struct Kept;
+  [[nodiscard]] Kept& kept() { return *kept_; }
+
+ private:
+  std::unique_ptr<Kept> kept_;
+};
+
+/// Measures every ping of numbered schools and summarises. Rows and masks are put into the product, sorted.
+/// before  of the same engine, or of one that keeps keys of its pings; null = everything is measured
+/// errors  cancelled. A ping that cannot be read any more loses its masks; it is noted and marked bad.
+[[nodiscard]] Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools,
+                                           ObservationProduct& product, Work& work, MeasuredPings* before = nullptr);
+
+}  // namespace sonar

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/work.h"
+#include "pipeline/tasks/plan.h"
+
+namespace sonar {
+
+/// What `run` is asked for, beside the plan.
+struct RunOptions {
+  std::filesystem::path out;
+  std::optional<std::string> only;     ///< one observation
+  std::optional<std::size_t> task;     ///< one task of the plan
+  std::optional<PingSelection> pings;  ///< empty = all
+  bool remeasure = false;              ///< keep the masks of the products that are there
+  std::string program_version;
+};
+
+struct RunFailure {
+  std::optional<std::string> observation;  ///< none: a file that gave nothing, named by the error
+  Error error;
+};
+
+struct RunReport {
+  std::vector<std::string> done;
+  std::vector<std::string> skipped;  ///< their products were right already
+  std::vector<RunFailure> failures;
+};
+
+/// Where the product of an observation lies below OUT.
+[[nodiscard]] std::filesystem::path product_path(const std::filesystem::path& out, const std::string& observation);
+
+/// Whether the plan has what is asked for: to be known before anything is written.
+/// errors   usage: no such observation or task, or no such ping in it
+[[nodiscard]] Result<void> require_possible(const Plan& plan, const RunOptions& options);
+
+/// Works through the plan's tasks (or the chosen one): makes each product that is not there or not right, atomically.
+/// A failed observation does not stop the others.
+/// survey   opened from plan.survey with plan.recipe
+/// errors   usage: no such observation or task; no_space; cancelled (what was finished stays)
+[[nodiscard]] Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey,
+                                         std::span<const JournalLine> journal, const RunOptions& options, Work& work);
+
+}  // namespace sonar

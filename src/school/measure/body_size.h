@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "model/school.h"
+#include "school/measure/body_echo.h"
+#include "school/measure/density_profile.h"
+#include "school/measure/measure_params.h"
+#include "school/measure/two_way_beam.h"
+
+namespace sonar {
+
+/// A school's body by the echo of one ping, the sonar's blur taken out, before it is known how its density changes.
+struct BodySight {
+  double length_variance = 0.0;  ///< of the body, m^2
+  double width_variance = 0.0;
+  double height_variance = kUnknown;
+  double blur_variance = 0.0;  ///< of beam and pulse, level
+  AxisSight length;            ///< how its density changes
+  AxisSight width;
+  AxisSight sight;  ///< along the line of sight, where the sonar sees most sharply: so it is taken to change upright
+};
+
+/// The echo's second and fourth moments less those of beam and pulse.
+/// heights  how likely which height is, by this ping alone or with its neighbours
+/// beam     the shape for which the heights are that likely
+/// out      none where there is no echo
+[[nodiscard]] std::optional<BodySight> body_sight(const BodyEcho& echo, const HeightLikelihood& heights,
+                                                  const BeamShape& beam, const MeasureParams& params);
+
+/// Extents; NaN = the blur is all that is seen.
+struct BodySize {
+  double length_m = kUnknown;
+  double width_m = kUnknown;
+  double height_m = kUnknown;
+};
+
+/// Squares of half axes over the variances along them, by density_profile.h.
+struct BodyShape {
+  double length = 5.0;
+  double width = 5.0;
+  double height = 5.0;
+};
+
+[[nodiscard]] BodySize body_size(const BodySight& body, const BodyShape& shape, const MeasureParams& params);
+
+}  // namespace sonar

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/measure/line_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "base/check.h"
+
+namespace sonar {
+namespace {
+
+/// Correlation times that are tried, in median intervals; 0 = none, the others half an octave apart.
+constexpr std::array<double, 17> kIntervals = {0.0, 0.3, 0.5,  0.7,  1.0,  1.4,  2.0,  2.8, 4.0,
+                                               5.6, 8.0, 11.0, 16.0, 22.0, 32.0, 45.0, 64.0};
+
+struct Centred {
+  std::vector<double> t;  ///< less its mean; so x and y
+  std::vector<double> x;
+  std::vector<double> y;
+  double tt = 0.0;
+};
+
+std::vector<double> centred(std::vector<double> values) {
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  for (double& v : values) v -= mean;
+  return values;
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+double median_interval(const std::vector<double>& t) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < t.size(); ++i) intervals.push_back(t[i] - t[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+/// Correlation of each deviation with the one before; none of the first.
+std::vector<double> correlations(const std::vector<double>& t, double tau) {
+  constexpr double kMost = 1.0 - 1e-9;  // two instants that are one
+  std::vector<double> phi(t.size(), 0.0);
+  for (std::size_t i = 1; i < t.size() && tau > 0.0; ++i) phi[i] = std::min(std::exp((t[i - 1] - t[i]) / tau), kMost);
+  return phi;
+}
+
+/// What is new in each value, in units of the process's deviation.
+std::vector<double> whitened(const std::vector<double>& values, const std::vector<double>& phi) {
+  std::vector<double> out = values;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    out[i] = (values[i] - phi[i] * values[i - 1]) / std::sqrt(1.0 - phi[i] * phi[i]);
+  }
+  return out;
+}
+
+/// Generalised least squares under one correlation.
+struct Judged {
+  double likelihood = -std::numeric_limits<double>::infinity();
+  double xx = 0.0;  ///< variances of the deviations
+  double xy = 0.0;
+  double yy = 0.0;
+};
+
+Judged judge(const Centred& in, const std::vector<double>& phi) {
+  const std::size_t n = in.t.size();
+  const std::vector<double> one = whitened(std::vector<double>(n, 1.0), phi);
+  const std::vector<double> t = whitened(in.t, phi);
+  const double aa = dot(one, one);
+  const double at = dot(one, t);
+  const double tt = dot(t, t);
+  const double determinant = aa * tt - at * at;
+  const auto residual = [&](const std::vector<double>& values) {
+    std::vector<double> w = whitened(values, phi);
+    const double av = dot(one, w);
+    const double tv = dot(t, w);
+    const double level = (tt * av - at * tv) / determinant;
+    const double slope = (aa * tv - at * av) / determinant;
+    for (std::size_t i = 0; i < n; ++i) w[i] -= level * one[i] + slope * t[i];
+    return w;
+  };
+  const std::vector<double> x = residual(in.x);
+  const std::vector<double> y = residual(in.y);
+  const double freedom = static_cast<double>(n) - 2.0;
+  Judged out{0.0, dot(x, x) / freedom, dot(x, y) / freedom, dot(y, y) / freedom};
+  double log_variances = 0.0;
+  for (const double p : phi) log_variances += std::log(1.0 - p * p);
+  out.likelihood = -log_variances - std::log(determinant) - freedom * std::log(out.xx + out.yy);
+  return out;
+}
+
+/// Variance of the plain line's slope for deviations of variance 1.
+double slope_variance(const Centred& in, const std::vector<double>& phi) {
+  double sum = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < in.t.size(); ++i) {
+    if (i > 0) before = phi[i] * (before + in.t[i - 1]);
+    sum += in.t[i] * in.t[i] + 2.0 * in.t[i] * before;
+  }
+  return sum / (in.tt * in.tt);
+}
+
+}  // namespace
+
+LineFit fit_line(const std::vector<double>& t, const std::vector<double>& x, const std::vector<double>& y) {
+  SONAR_CHECK(t.size() >= 3 && x.size() == t.size() && y.size() == t.size());
+  Centred in{centred(t), centred(x), centred(y), 0.0};
+  in.tt = dot(in.t, in.t);
+  SONAR_CHECK(in.tt > 0.0);
+  LineFit line;
+  line.slope_x = dot(in.t, in.x) / in.tt;
+  line.slope_y = dot(in.t, in.y) / in.tt;
+  const double interval = median_interval(t);
+  Judged best;
+  for (const double intervals : kIntervals) {
+    const std::vector<double> phi = correlations(t, intervals * interval);
+    const Judged judged = judge(in, phi);
+    // Places that lie on the line to the last digit have no likelihood, and no error.
+    if (intervals > 0.0 && !(judged.likelihood > best.likelihood)) continue;
+    best = judged;
+    const double variance = slope_variance(in, phi);
+    line.variance_xx = judged.xx * variance;
+    line.variance_xy = judged.xy * variance;
+    line.variance_yy = judged.yy * variance;
+  }
+  return line;
+}
+
+}  // namespace sonar

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/array.h"
+#include "base/sample_flags.h"
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "model/beam_grid.h"
+#include "model/mask.h"
+#include "model/school.h"
+#include "school/bottom/seabed.h"
+#include "school/detect/background.h"
+
+namespace sonar {
+
+struct EchoClaims;
+
+/// What one ping offers for measuring; borrowed.
+struct MeasureInput {
+  View3<const std::int16_t> sv;        ///< unfiltered Sv counts
+  View3<const std::int16_t> filtered;  ///< median-filtered Sv counts: stands in at faulty samples for sizes only
+  View3<const SampleFlags> flags;      ///< seabed included
+  const Sector* sector = nullptr;
+  const BeamGrid* grid = nullptr;
+  Background background;
+  Placement placement;
+  double pulse_m = 0.0;       ///< extent of the pulse along range, c tau / 2
+  double two_way_area = 1.0;  ///< of the beams: two_way_beam.h
+  /// [fan][beam] dB: echo as calibrated over what another equivalent beam angle would make of it, and standard error of
+  /// the calibration; empty = not known.
+  std::span<const double> psi_error_db;
+  std::span<const double> calibration_se_db;
+  const Seabed* seabed = nullptr;      ///< null = none seen
+  const PingMask* others = nullptr;    ///< voxels of all other schools of the ping; null = none
+  const EchoClaims* claims = nullptr;  ///< what each school of the ping reaches for; null = there is no other
+  double threshold_db = kUnknown;      ///< the mask's, for the record
+
+  /// From where a beam hears the seabed, by its flank first: what lies beyond is a school's where it is a member, else not.
+  /// The record's end where none is heard.
+  [[nodiscard]] int seabed_heard(int row) const {
+    return seabed == nullptr || seabed->heard_sample.empty() ? sv.shape().samples
+                                                             : seabed->heard_sample[static_cast<std::size_t>(row)];
+  }
+};
+
+}  // namespace sonar

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/depth_grid.h"
+#include "view/maps/depth_layer.h"
+#include "view/maps/map_frame.h"
+#include "view/maps/survey_map.h"
+#include "view/school_look.h"
+
+namespace sonar {
+
+/// What the parts of a survey map draw with; borrows all of it.
+struct SurveyMapDrawing {
+  FrameDescription& frame;
+  const MapFrame& map;
+  const Theme& theme;
+  const SchoolLook& look;
+  double em;
+};
+
+inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
+
+/// Colour bars, symbols, circles and notes beside the map, as far as there is room for them.
+/// schools  there are some
+/// notes    more lines; empty ones are passed over
+void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const DepthBands& bands,
+                       const SurveyMapStyle& style, const DepthGrid* depths, bool schools,
+                       const std::vector<std::string>& notes);
+
+}  // namespace sonar

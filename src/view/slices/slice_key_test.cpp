@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/slices/slice_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "view/slices/slice_example.h"
+
+namespace sonar {
+namespace {
+
+using slice_example::hand_sector;
+using slice_example::LitVolume;
+using slice_example::texts_of;
+
+const Voxel kLit{4, 3, 20};
+const SliceView kTop{TopSlice{4}};
+
+// What is not drawn as recorded is said below the slice, in the flags' own words; a plain slice has no key.
+TEST(SlicePicture, AKeySaysWhatIsNotDrawnAsRecorded) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  const auto words = [&](const SliceStyle& style, PixelSize size) {
+    const auto picture = slice_picture(sector, volume.data(), {}, kTop, style, light_theme(size), size);
+    for (const auto& item : picture->frame.items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) {
+        EXPECT_LE(
+            text->at.x + (text->anchor == TextAnchor::left ? text_width_px(text->text.c_str(), text->size_px) : 0),
+            size.width)
+            << text->text;
+        EXPECT_LE(text->at.y + 0.5 * text->size_px, size.height) << text->text;
+      }
+    }
+    return std::pair(texts_of(*picture), picture->plot.place);
+  };
+  const auto said = [](const auto& picture, const std::string& text) {
+    return std::ranges::count(picture.first, text) == 1;
+  };
+  for (const PixelSize size : {PixelSize{800, 600}, PixelSize{320, 240}}) {
+    SliceStyle style;
+    const auto bare = words(style, size);
+    style.key = SliceKey{};
+    const auto plain = words(style, size);
+    EXPECT_EQ(plain, bare) << "nothing to explain";
+    style.flags = {.hidden = SampleFlags::seabed,
+                   .hatched = SampleFlags::wall | SampleFlags::seabed,
+                   .faded = SampleFlags::near_field | SampleFlags::low_snr};
+    style.key->weak_below_db = 3.0;
+    style.key->schools.push_back({{255, 0, 0, 255}, OutlineLine::dashed, "school 7, unreviewed"});
+    const auto explained = words(style, size);
+    for (const char* expected : {"hatched: wall", "faded: near field", "faded: below 3 dB signal-to-noise",
+                                 "not drawn: seabed", "school 7, unreviewed"}) {
+      EXPECT_TRUE(said(explained, expected)) << expected << " at " << size.width;
+    }
+    EXPECT_LT(explained.second.height, plain.second.height) << "the key takes its own room";
+  }
+}
+
+// A school that the slice does not cut is not in its key; one that it cuts is, with what core and fuzzy area are.
+TEST(SlicePicture, AKeyNamesTheSchoolsThatTheSliceCuts) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  SliceData data = volume.data();
+  for (const int fan : {2, 5}) {
+    auto mask = std::make_shared<PingMask>();
+    mask->runs = {{fan * sector.beams() + 3, 10, 6}};
+    mask->confidence.assign(6, 200);
+    data.masks.push_back({mask, {1.0F, 0.0F, 0.0F}});
+  }
+  SliceStyle style;
+  style.key = SliceKey{};
+  style.key->schools = {{{255, 0, 0, 255}, OutlineLine::solid, "school 7", 0},
+                        {{0, 255, 0, 255}, OutlineLine::solid, "school 8", 1}};
+  const PixelSize size{800, 600};
+  const auto words = [&](int fan) {
+    return texts_of(*slice_picture(sector, data, {}, {TopSlice{fan}}, style, light_theme(size), size));
+  };
+  const auto said = [](const auto& all, const std::string& text) { return std::ranges::count(all, text) == 1; };
+  EXPECT_TRUE(said(words(2), "school 7"));
+  EXPECT_FALSE(said(words(2), "school 8"));
+  EXPECT_TRUE(said(words(5), "school 8"));
+  EXPECT_FALSE(said(words(5), "school 7"));
+  EXPECT_TRUE(said(words(5), "core, confidence 0.64 and more"));
+  EXPECT_TRUE(said(words(5), "fuzzy area, below that"));
+  EXPECT_FALSE(said(words(0), "fuzzy area, below that"));
+}
+
+// The key begins where the slice begins.
+TEST(SlicePicture, AKeyStandsBelowItsSlice) {
+  const Layout layout = lay_out({800, 600}, light_theme({800, 600}), {.foot_lines = 2});
+  EXPECT_EQ(layout.foot.x, layout.plot.x);
+  EXPECT_LE(layout.foot.x + layout.foot.width, 800.0);
+}
+
+TEST(SlicePicture, AKeySaysThatTheSeabedWasTakenOut) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  SliceStyle style;
+  style.key = SliceKey{.filtered = true};
+  style.flags.hidden = kNotFiltered;
+  const PixelSize size{800, 600};
+  const auto words = texts_of(*slice_picture(sector, volume.data(), {}, kTop, style, light_theme(size), size));
+  EXPECT_EQ(std::ranges::count(words, std::string("taken out: noise, near field, surface, seabed")), 1);
+  EXPECT_TRUE(std::ranges::none_of(words, [](const std::string& w) { return w.starts_with("not drawn"); }));
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/timelines/echogram_pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/check.h"
+
+namespace sonar {
+
+std::int16_t EchogramCell::mean_count() const {
+  if (empty()) return kNoData;
+  const double sv = static_cast<double>(sv_volume) / static_cast<double>(volume_m3);
+  if (!(sv > 0.0)) return kMinCount;
+  const double count = std::round(counts_from_db(db_from_linear(sv)));
+  return static_cast<std::int16_t>(std::clamp(count, static_cast<double>(kMinCount), static_cast<double>(kMaxCount)));
+}
+
+void EchogramCell::add(const EchogramCell& other) {
+  if (other.empty()) return;
+  sv_volume += other.sv_volume;
+  volume_m3 += other.volume_m3;
+  low = std::min(low, other.low);
+  high = std::max(high, other.high);
+}
+
+EchogramRange echogram_range(const RangeAxis& axis, int most) {
+  EchogramRange r;
+  const double last_m = std::max(axis.spacing_m, axis.range_m(axis.count - 0.5));
+  const int samples = std::max(1, static_cast<int>(std::ceil(last_m / axis.spacing_m)));
+  r.bins = std::clamp(samples, 1, std::max(1, most));
+  r.bin_m = std::max(axis.spacing_m, last_m / r.bins);
+  return r;
+}
+
+std::vector<EchogramCell> echogram_column(const Sector& sector, const Volume& volume, SampleFlags hidden,
+                                          const EchogramRange& range) {
+  const Shape3& shape = volume.counts.shape();
+  SONAR_CHECK(shape == volume.flags.shape() && shape.fans == sector.fans() && shape.beams == sector.beams());
+  const int samples = std::min(shape.samples, sector.range().count);
+  // Doubles, in a fixed order of beams: the same sum on every machine.
+  std::vector<double> sums(static_cast<std::size_t>(range.bins), 0.0);
+  std::vector<double> volumes(static_cast<std::size_t>(range.bins), 0.0);
+  std::vector<EchogramCell> column(static_cast<std::size_t>(range.bins));
+  std::vector<int> bin_of(static_cast<std::size_t>(std::max(0, samples)));
+  for (int s = 0; s < samples; ++s) {
+    const double bin = std::floor((sector.range().range_m(s) - range.first_m) / range.bin_m);
+    bin_of[static_cast<std::size_t>(s)] = bin >= 0.0 && bin < range.bins ? static_cast<int>(bin) : -1;
+  }
+  for (int fan = 0; fan < shape.fans; ++fan) {
+    for (int beam = 0; beam < shape.beams; ++beam) {
+      const auto counts = volume.counts.row(fan, beam);
+      const auto flags = volume.flags.row(fan, beam);
+      for (int s = 0; s < samples; ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        if (bin_of[i] < 0 || counts[i] == kNoData || any(flags[i] & hidden)) continue;
+        const double v = sector.volume_m3(fan, beam, s);
+        if (!(v > 0.0)) continue;
+        const auto b = static_cast<std::size_t>(bin_of[i]);
+        sums[b] += linear_from_count(counts[i]) * v;
+        volumes[b] += v;
+        column[b].low = std::min(column[b].low, counts[i]);
+        column[b].high = std::max(column[b].high, counts[i]);
+      }
+    }
+  }
+  for (std::size_t b = 0; b < column.size(); ++b) {
+    column[b].sv_volume = static_cast<float>(sums[b]);
+    column[b].volume_m3 = static_cast<float>(volumes[b]);
+  }
+  return column;
+}
+
+namespace {
+
+/// Of the level above one.
+int bins_above(int bins) {
+  const int half = (bins + 1) / 2;
+  return half >= EchogramPyramid::kLeastBins ? half : bins;
+}
+
+}  // namespace
+
+EchogramPyramid EchogramPyramid::coarser(int level) const {
+  const int first = std::clamp(level, 0, levels() - 1);
+  EchogramPyramid out(range_.coarser(bins(first)), pings_per_column_ << first);
+  out.times_ = times_;
+  out.distances_ = distances_;
+  out.levels_.assign(levels_.begin() + first, levels_.end());
+  return out;
+}
+
+std::optional<EchogramPyramid> EchogramPyramid::of_parts(const EchogramRange& range, int pings_per_column,
+                                                         std::vector<TimeNs> times, std::vector<double> distances_nmi,
+                                                         std::vector<EchogramLevel> levels) {
+  constexpr int kMostPings = 1 << 30;
+  if (range.bins < 1 || pings_per_column < 1 || pings_per_column > kMostPings || times.size() > kMostPings ||
+      levels.empty() || times.size() != distances_nmi.size() || !std::is_sorted(times.begin(), times.end())) {
+    return std::nullopt;
+  }
+  const auto per_column = static_cast<std::size_t>(pings_per_column);
+  std::size_t columns = times.size() / per_column + (times.size() % per_column != 0 ? 1 : 0);
+  int bins = range.bins;
+  for (const EchogramLevel& level : levels) {
+    const bool last = &level == &levels.back();
+    if (level.columns != columns || level.bins != bins || last != (columns <= 1)) return std::nullopt;
+    const auto cells = static_cast<std::size_t>(bins);
+    if (level.cells.size() % cells != 0 || level.cells.size() / cells != columns) return std::nullopt;
+    columns = (columns + 1) / 2;
+    bins = bins_above(bins);
+  }
+  EchogramPyramid out(range, pings_per_column);
+  out.times_ = std::move(times);
+  out.distances_ = std::move(distances_nmi);
+  out.levels_ = std::move(levels);
+  return out;
+}
+
+EchogramPyramid::EchogramPyramid(const EchogramRange& range, int pings_per_column)
+    : range_(range), pings_per_column_(std::max(1, pings_per_column)) {
+  levels_.push_back({range_.bins, 0, {}});
+}
+
+const EchogramCell& EchogramPyramid::cell(int level, std::size_t column, int bin) const {
+  const EchogramLevel& l = levels_[static_cast<std::size_t>(level)];
+  return l.cells[column * static_cast<std::size_t>(l.bins) + static_cast<std::size_t>(bin)];
+}
+
+void EchogramPyramid::renew(std::size_t level, std::size_t column) {
+  const EchogramLevel& below = levels_[level - 1];
+  EchogramLevel& l = levels_[level];
+  const int factor = l.bins < below.bins ? 2 : 1;
+  if (column >= l.columns) {
+    l.columns = column + 1;
+    l.cells.resize(l.columns * static_cast<std::size_t>(l.bins));
+  }
+  for (int bin = 0; bin < l.bins; ++bin) {
+    EchogramCell cell;
+    for (std::size_t c = 2 * column; c < std::min(below.columns, 2 * column + 2); ++c) {
+      for (int b = factor * bin; b < std::min(below.bins, factor * (bin + 1)); ++b) {
+        cell.add(below.cells[c * static_cast<std::size_t>(below.bins) + static_cast<std::size_t>(b)]);
+      }
+    }
+    l.cells[column * static_cast<std::size_t>(l.bins) + static_cast<std::size_t>(bin)] = cell;
+  }
+}
+
+void EchogramPyramid::add_ping(TimeNs time, std::span<const EchogramCell> column, double distance_nmi) {
+  SONAR_CHECK(column.empty() || column.size() == static_cast<std::size_t>(range_.bins));
+  SONAR_CHECK(times_.empty() || time >= times_.back());
+  times_.push_back(time);
+  distances_.push_back(distance_nmi);
+  const std::size_t at = (times_.size() - 1) / static_cast<std::size_t>(pings_per_column_);
+  {
+    EchogramLevel& base = levels_.front();
+    if (at >= base.columns) {
+      base.columns = at + 1;
+      base.cells.resize(base.columns * static_cast<std::size_t>(base.bins));
+    }
+    for (std::size_t b = 0; b < column.size(); ++b) {
+      base.cells[at * static_cast<std::size_t>(base.bins) + b].add(column[b]);
+    }
+  }
+  // A level more where the last one has several columns; then every level's last column is made again.
+  while (levels_.back().columns > 1) {
+    const std::size_t below = levels_.size() - 1;
+    const std::size_t columns = (levels_[below].columns + 1) / 2;
+    levels_.push_back({bins_above(levels_[below].bins), 0, {}});
+    for (std::size_t c = 0; c < columns; ++c) renew(below + 1, c);
+  }
+  std::size_t last = at;
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    last /= 2;
+    renew(level, last);
+  }
+}
+
+}  // namespace sonar

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "view/label_room.h"
+#include "view/volume/context_layout.h"
+#include "view/volume/context_scene.h"
+
+namespace sonar {
+namespace {
+
+/// A place to be labelled: it lies on a line through itself and `along`, and its label stands on the side of `out`.
+struct Labelled {
+  Point<Sonar> at;
+  Point<Sonar> along;
+  Point<Sonar> out;
+};
+
+/// Unit vector in the picture, square to the line, on the side of `out`; where the line is seen end on, towards `out`.
+PixelPoint away(PixelPoint at, PixelPoint along, PixelPoint out) {
+  const PixelPoint line{along.x - at.x, along.y - at.y};
+  const PixelPoint side{out.x - at.x, out.y - at.y};
+  const double length = std::hypot(line.x, line.y);
+  if (length > 1e-6) {
+    const PixelPoint normal{-line.y / length, line.x / length};
+    return normal.x * side.x + normal.y * side.y < 0.0 ? PixelPoint{-normal.x, -normal.y} : normal;
+  }
+  const double reach = std::hypot(side.x, side.y);
+  return reach > 1e-6 ? PixelPoint{side.x / reach, side.y / reach} : PixelPoint{0.0, -1.0};
+}
+
+constexpr double kSmall_em = 40.0;  ///< width of a picture that has room for every second label
+
+/// Puts labels into a frame, each beside its place.
+class ContextLabels {
+ public:
+  ContextLabels(FrameDescription& frame, const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque)
+      : frame_(&frame),
+        camera_(&camera),
+        theme_(&theme),
+        opaque_(&opaque),
+        room_({0.0, 0.0, static_cast<double>(frame.size.width), static_cast<double>(frame.size.height)}) {}
+
+  void keep_off(const std::vector<SceneLine>& lines) {
+    for (const SceneLine& line : lines) {
+      const auto a = camera_->project(line.from);
+      const auto b = camera_->project(line.to);
+      if (a && b) room_.add_line(a->pixel, b->pixel);
+    }
+  }
+
+  /// Whether the picture is so small that labels would cover what they name.
+  [[nodiscard]] bool small() const { return frame_->size.width < kSmall_em * theme_->text_px; }
+  /// Whether there was room.
+  bool add(const Labelled& place, std::string text) {
+    const auto at = camera_->project(place.at);
+    const auto along = camera_->project(place.along);
+    const auto out = camera_->project(place.out);
+    if (!at || !along || !out) return false;
+    if (!seen(at->pixel) || hidden(place.at, at->pixel)) return false;
+    const double em = theme_->text_px;
+    TextItem label{at->pixel, std::move(text), em, theme_->text, TextAnchor::centre, 0.0, false, theme_->halo};
+    const PixelRect box = LabelRoom::box_of(label);
+    const PixelPoint d = away(at->pixel, along->pixel, out->pixel);
+    const double half = std::abs(d.x) * box.width / 2 + std::abs(d.y) * box.height / 2;
+    std::array<PixelPoint, 4> places;
+    // Near, a little farther, and the same on the other side.
+    constexpr std::array<double, 4> kGaps{0.35, 1.4, -0.35, -1.4};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double reach = kGaps[i] * em + std::copysign(half, kGaps[i]);
+      places[i] = {at->pixel.x + d.x * reach, at->pixel.y + d.y * reach};
+    }
+    auto placed = room_.place(std::move(label), places, !small());
+    if (!placed) return false;
+    frame_->items.emplace_back(std::move(*placed));
+    return true;
+  }
+
+ private:
+  [[nodiscard]] bool seen(PixelPoint p) const {
+    return p.x >= 0 && p.y >= 0 && p.x <= frame_->size.width && p.y <= frame_->size.height;
+  }
+
+  /// Behind something opaque; what stands on it is not.
+  [[nodiscard]] bool hidden(const Point<Sonar>& p, PixelPoint pixel) const {
+    const auto [size, metres] = *opaque_;
+    if (metres.empty()) return false;
+    const auto of = [](double at, int shown, int known) {
+      return static_cast<std::size_t>(std::clamp(static_cast<int>(at * known / shown), 0, known - 1));
+    };
+    const std::size_t row = of(pixel.y, frame_->size.height, size.height);
+    const std::size_t column = of(pixel.x, frame_->size.width, size.width);
+    const auto ends = static_cast<double>(metres[row * static_cast<std::size_t>(size.width) + column]);
+    return 1.02 * ends < norm(p - camera_->eye);
+  }
+
+  FrameDescription* frame_;
+  const CameraBasis* camera_;
+  const Theme* theme_;
+  const OpaqueView* opaque_;
+  LabelRoom room_;
+};
+
+void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z) {
+  const double edge = grid.first_azimuth_rad;
+  // Every second one in a small picture, the farthest among them.
+  const std::size_t step = labels.small() ? 2 : 1;
+  for (std::size_t i = (grid.radii_m.size() - 1) % step; i < grid.radii_m.size(); i += step) {
+    const double radius = grid.radii_m[i];
+    labels.add({on_surface(radius, edge, z), on_surface(0.9 * radius, edge, z), on_surface(radius, edge - 0.05, z)},
+               fmt::format("{:g} m", radius));
+  }
+}
+
+void label_depths(ContextLabels& labels, const DepthAxis& axis, double far_m, double z) {
+  bool named = false;
+  for (const double depth : axis.depths_m) {
+    const Point<Sonar> tick = Point<Sonar>{axis.top.x, axis.top.y, depth + z} + axis.outwards * (0.015 * far_m);
+    // One says what the figures are: those of the rings are metres too.
+    const std::string text = fmt::format("{}{:g} m", named ? "" : "depth ", depth);
+    if (labels.add({tick, tick + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, tick + axis.outwards * (0.05 * far_m)}, text))
+      named = true;
+  }
+}
+
+void label_bearings(ContextLabels& labels, const SurfaceGrid& grid, const ContextParams& params, double z) {
+  const double edge = grid.edge_m;
+  const std::size_t step = labels.small() ? 2 : 1;
+  for (std::size_t i = 0; i < grid.azimuths_rad.size(); i += step) {
+    const double azimuth = grid.azimuths_rad[i];
+    labels.add({on_surface(edge, azimuth, z), on_surface(edge, azimuth + 0.02, z), on_surface(1.05 * edge, azimuth, z)},
+               bearing_text(azimuth, params));
+  }
+}
+
+}  // namespace
+
+void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,
+                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque) {
+  ContextParams lines = params;
+  lines.ship = lines.sea_surface = false;
+  ContextLabels labels(frame, camera, theme, opaque);
+  labels.keep_off(context_scene(sector, lines, theme).lines);
+  const double z = -params.transducer_depth_m;
+  const SurfaceGrid grid = surface_grid(sector, params);
+  if (params.range_rings) label_rings(labels, grid, z);
+  if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z);
+  if (params.range_rings) label_bearings(labels, grid, params, z);
+}
+
+}  // namespace sonar

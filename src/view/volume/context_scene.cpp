@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/volume/context_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "view/volume/context_layout.h"
+
+namespace sonar {
+namespace {
+
+Point<Sonar> cross(const Point<Sonar>& a, const Point<Sonar>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+void add_polyline(ContextScene& scene, const std::vector<Point<Sonar>>& points, Rgba8 colour, double width_px) {
+  for (std::size_t i = 1; i < points.size(); ++i) scene.lines.push_back({points[i - 1], points[i], colour, width_px});
+}
+
+/// Along one fan's or one beam's edge of the sector.
+void add_sector_frame(ContextScene& scene, const Sector& sector, const Theme& theme) {
+  const double far_m = far_range_m(sector);
+  const double near_m = std::max(0.0, sector.range().range_m(0));
+  for (const int fan : {0, sector.fans() - 1}) {
+    for (const double range : {near_m, far_m}) {
+      std::vector<Point<Sonar>> arc;
+      for (const double azimuth : even_angles(sector.azimuth_rad(0), sector.azimuth_rad(sector.beams() - 1))) {
+        arc.push_back(Sector::direction(sector.elevation_rad(fan), azimuth) * range);
+      }
+      add_polyline(scene, arc, theme.outline, 1.5 * theme.line_px);
+    }
+  }
+  for (const int beam : {0, sector.beams() - 1}) {
+    std::vector<Point<Sonar>> arc;
+    for (const double elevation : even_angles(sector.elevation_rad(0), sector.elevation_rad(sector.fans() - 1))) {
+      arc.push_back(Sector::direction(elevation, sector.azimuth_rad(beam)) * far_m);
+    }
+    add_polyline(scene, arc, theme.outline, 1.5 * theme.line_px);
+    for (const int fan : {0, sector.fans() - 1}) {
+      const Point<Sonar> edge = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
+      scene.lines.push_back({edge * near_m, edge * far_m, theme.outline, 1.5 * theme.line_px});
+    }
+  }
+}
+
+void add_rings(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme) {
+  const double z = -params.transducer_depth_m;
+  const SurfaceGrid grid = surface_grid(sector, params);
+  for (const double radius : grid.radii_m) {
+    std::vector<Point<Sonar>> arc;
+    for (const double azimuth : even_angles(grid.first_azimuth_rad, grid.last_azimuth_rad)) {
+      arc.push_back(on_surface(radius, azimuth, z));
+    }
+    add_polyline(scene, arc, theme.ring, theme.line_px);
+  }
+  for (const double azimuth : grid.azimuths_rad) {
+    scene.lines.push_back(
+        {on_surface(0.0, azimuth, z), on_surface(grid.edge_m, azimuth, z), theme.ring, theme.line_px});
+  }
+}
+
+void add_sea(ContextScene& scene, const Sector& sector, const ContextParams& params) {
+  const double z = -params.transducer_depth_m;
+  const SurfaceGrid grid = surface_grid(sector, params);
+  const std::vector<double> azimuths = even_angles(grid.first_azimuth_rad, grid.last_azimuth_rad);
+  for (std::size_t i = 1; i < azimuths.size(); ++i) {
+    scene.translucent.push_back({{on_surface(0.0, 0.0, z), on_surface(grid.edge_m, azimuths[i - 1], z),
+                                  on_surface(grid.edge_m, azimuths[i], z)},
+                                 {70, 130, 180, 34}});
+  }
+}
+
+void add_depth_axis(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme) {
+  const DepthAxis axis = depth_axis(sector, params);
+  scene.lines.push_back({axis.top, axis.bottom, theme.axis, 1.5 * theme.line_px});
+  for (const double depth : axis.depths_m) {
+    const Point<Sonar> at{axis.top.x, axis.top.y, depth - params.transducer_depth_m};
+    scene.lines.push_back({at, at + axis.outwards * (0.015 * far_range_m(sector)), theme.axis, theme.line_px});
+  }
+}
+
+void add_ship(ContextScene& scene, const ContextParams& params) {
+  // The transducer sits in the hull, a little ahead of amidships on most ships; amidships is near enough here.
+  for (SceneTriangle triangle : ship_mesh(params.ship_length_m)) {
+    for (Point<Sonar>& corner : triangle.corners) corner.z -= params.transducer_depth_m;
+    triangle.colour = lit(triangle.colour, triangle.corners);
+    scene.opaque.push_back(triangle);
+  }
+}
+
+}  // namespace
+
+Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& c) {
+  const Point<Sonar> normal = cross(c[1] - c[0], c[2] - c[0]);
+  const double length = norm(normal);
+  if (length <= 0.0) return colour;
+  const double cosine = std::abs(normal.x * 0.4 - normal.y * 0.35 - normal.z * 0.85) / length;
+  const double k = 0.45 + 0.55 * std::min(1.0, cosine);
+  const auto scaled = [k](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v * k)); };
+  return {scaled(colour.r), scaled(colour.g), scaled(colour.b), colour.a};
+}
+
+ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
+                           const std::optional<SeabedPatch>& seabed) {
+  ContextScene scene;
+  if (params.sea_surface) add_sea(scene, sector, params);
+  if (params.range_rings) add_rings(scene, sector, params, theme);
+  if (params.sector_frame) add_sector_frame(scene, sector, theme);
+  if (params.depth_axis) add_depth_axis(scene, sector, params, theme);
+  if (params.ship) add_ship(scene, params);
+  if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
+  return scene;
+}
+
+}  // namespace sonar
