@@ -17,7 +17,7 @@
 #include "latency_clock.h"
 #include "pipeline/stages/observe.h"
 #include "publish/painted.h"
-#include "session/desk.h"
+#include "session/app_model.h"
 #include "session/playback.h"
 #include "session/slices/slice_build.h"
 #include "session/slices/slice_model.h"
@@ -35,7 +35,7 @@ constexpr int kPings = 40;
 
 class Bench {
  public:
-  explicit Bench(const std::filesystem::path& folder) : desk_(queue_, options(folder / "journal")) {
+  explicit Bench(const std::filesystem::path& folder) : app_(queue_, options(folder / "journal")) {
     document().open({folder / "raw"});
     for (SliceModel* slice : {&top(), &side()}) {
       slice->resize(kSize, 1.0);
@@ -45,7 +45,7 @@ class Bench {
     must(document().shown() != nullptr, "no survey");
     find_school();
     document().look_at(ping_);
-    desk_.workspace.slices.set({voxel_.fan, voxel_.beam});
+    app_.workspace.slices.set({voxel_.fan, voxel_.beam});
     settle();
   }
 
@@ -55,26 +55,26 @@ class Bench {
     for (int i = 0; i < repetitions; ++i) {
       const Voxel voxel{voxel_.fan, voxel_.beam, voxel_.sample + i % 3};
       const auto pointed = [&] { return hovered(voxel); };
-      ms.push_back(timed([&] { desk_.seed_tool->hover(voxel, false, false); }, pointed, true));
+      ms.push_back(timed([&] { app_.seed_tool->hover(voxel, false, false); }, pointed, true));
       if (i == 0) verify_preview(voxel);
     }
     report("hover: growth, text, both slices", ms);
-    fmt::print("    {}\n", desk_.workspace.preview().text);
+    fmt::print("    {}\n", app_.workspace.preview().text);
   }
 
   void tolerance(int repetitions) {
     std::vector<double> ms;
-    desk_.seed_tool->hover(voxel_, false, false);
+    app_.seed_tool->hover(voxel_, false, false);
     settle();
     for (int i = 0; i < repetitions; ++i) {
       const double db = 6.0 + 0.25 * (i % 24);
-      ms.push_back(timed([&] { must(!!desk_.workspace.select.set("tolerance_db", db), "tolerance"); },
+      ms.push_back(timed([&] { must(!!app_.workspace.select.set("tolerance_db", db), "tolerance"); },
                          [&] { return preview_moved(); }, true));
       if (i == 0) verify_preview(voxel_);
     }
     report("tolerance: growth, text, both slices", ms);
-    must(!!desk_.workspace.select.reset("tolerance_db"), "tolerance");
-    desk_.seed_tool->leave();
+    must(!!app_.workspace.select.reset("tolerance_db"), "tolerance");
+    app_.seed_tool->leave();
     settle();
   }
 
@@ -92,10 +92,10 @@ class Bench {
 
   /// The same with the volume seen: the event until both slices and a first, coarse volume show the ping.
   void step_with_volume(int repetitions) {
-    LivePicture& volume = *desk_.picture("volume");
+    LivePicture& volume = *app_.picture("volume");
     VolumeParams params;
     params.renderer = VolumeRendererName::cpu;
-    desk_.workspace.volume.assign(params);
+    app_.workspace.volume.assign(params);
     volume.resize(kVolumeSize, 1.0);
     volume.set_seen(true);
     std::vector<double> all;
@@ -129,13 +129,13 @@ class Bench {
     options.journal_folders = [journal](const auto&) { return std::vector{journal}; };
     return options;
   }
-  Document& document() { return desk_.workspace.document; }
-  SliceModel& top() { return dynamic_cast<SliceModel&>(*desk_.picture("top_slice")); }
-  SliceModel& side() { return dynamic_cast<SliceModel&>(*desk_.picture("side_slice")); }
+  Document& document() { return app_.workspace.document; }
+  SliceModel& top() { return dynamic_cast<SliceModel&>(*app_.picture("top_slice")); }
+  SliceModel& side() { return dynamic_cast<SliceModel&>(*app_.picture("side_slice")); }
   void settle() {
     do {
       document().settle();
-      desk_.seed_tool->wait();
+      app_.seed_tool->wait();
       top().wait();
       side().wait();
     } while (queue_.drain() > 0);
@@ -145,7 +145,7 @@ class Bench {
   double timed(const std::function<void()>& event, const std::function<bool()>& answered, bool both,
                bool settled_first = true) {
     if (settled_first) settle();
-    before_ = desk_.workspace.preview().mask;
+    before_ = app_.workspace.preview().mask;
     const double begin = now_ms();
     event();
     while (!answered()) {
@@ -161,9 +161,9 @@ class Bench {
     }
     return now_ms() - begin;
   }
-  bool preview_moved() { return desk_.workspace.preview().mask && desk_.workspace.preview().mask != before_; }
+  bool preview_moved() { return app_.workspace.preview().mask && app_.workspace.preview().mask != before_; }
   bool hovered(const Voxel& voxel) {
-    const auto& mask = desk_.workspace.preview().mask;
+    const auto& mask = app_.workspace.preview().mask;
     return preview_moved() &&
            confidence_at(*mask, voxel.fan * document().shown()->sector().beams() + voxel.beam, voxel.sample) == 255;
   }
@@ -172,9 +172,9 @@ class Bench {
     FilteredPing ping;
     ping.volume = document().staged()->filtered;
     const SeedKey seed = seed_key(*document().shown(), voxel);
-    const auto fresh = grow_seeds(document().shown()->ground(), ping, std::span(&seed, 1),
-                                  desk_.workspace.growth_curve(), grow_params(desk_.workspace.select.values()));
-    must(fresh && *fresh == *desk_.workspace.preview().mask, "the preview is not what grows");
+    const auto fresh = grow_seeds(document().shown()->context(), ping, std::span(&seed, 1),
+                                  app_.workspace.growth_curve(), grow_params(app_.workspace.select.values()));
+    must(fresh && *fresh == *app_.workspace.preview().mask, "the preview is not what grows");
     verify_slices();
   }
 
@@ -185,9 +185,9 @@ class Bench {
       wish.observation = document().shown();
       wish.ping = document().staged();
       wish.view = slice->picture()->map->view();
-      wish.display = desk_.workspace.display.values();
-      wish.colours = std::make_shared<const SvColours>(slice_colours(desk_.workspace));
-      wish.layers = school_layers(desk_.workspace, wish.ping->ping_index, light_theme(kSize));
+      wish.display = app_.workspace.display.values();
+      wish.colours = std::make_shared<const SvColours>(slice_colours(app_.workspace));
+      wish.layers = school_layers(app_.workspace, wish.ping->ping_index, light_theme(kSize));
       wish.flags = std::make_shared<Array3<SampleFlags>>();
       const auto fresh = slice_of(wish, kSize);
       must(fresh.has_value(), "no slice");
@@ -227,7 +227,7 @@ class Bench {
   }
 
   ChangeQueue queue_;
-  Desk desk_;
+  AppModel app_;
   std::int64_t ping_ = 0;
   Voxel voxel_;
   std::shared_ptr<const PingMask> before_;
@@ -259,7 +259,7 @@ void fill_journal(const std::filesystem::path& survey, const std::filesystem::pa
     command.seeds = {seed};
     document.act(command);
     const auto ping = static_cast<std::size_t>(document.ping());
-    document.act(DeleteCommand{{document.shown()->ground().times[ping], seed.channel, seed.sample}});
+    document.act(DeleteCommand{{document.shown()->context().times[ping], seed.channel, seed.sample}});
     document.settle();
   }
   fmt::print("  a journal of {} acts\n", document.choices().lines->size());
@@ -277,19 +277,19 @@ void opening(const std::filesystem::path& survey, const std::filesystem::path& f
     options.program_version = "bench";
     options.cache = {folder / "cache"};
     options.journal_folders = [&](const auto&) { return std::vector{folder / "journal"}; };
-    Desk desk(queue, options);
-    LivePicture& slice = *desk.picture("top_slice");
+    AppModel app(queue, options);
+    LivePicture& slice = *app.picture("top_slice");
     slice.resize(kSize, 1.0);
     slice.set_seen(true);
     const double begin = now_ms();
-    desk.workspace.document.open({survey});
-    while (slice.image().size.width == 0 || !desk.workspace.document.staged()) {
+    app.workspace.document.open({survey});
+    while (slice.image().size.width == 0 || !app.workspace.document.staged()) {
       queue.wait();
       queue.drain();
     }
     (i > 0 ? ms : not_indexed).push_back(now_ms() - begin);
     must(slice.image().size == kSize, "the first picture");
-    desk.workspace.document.settle();
+    app.workspace.document.settle();
   }
   std::sort(ms.begin(), ms.end());
   double bytes = 0.0;

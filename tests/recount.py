@@ -23,6 +23,7 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
 - bottom_depth_m: not recounted. It is a plane through echoes of the seabed, no sample of which is a member.
 - schools.csv: origin, status, operator, decided_utc, species, comment, name, continues and ended_at_reach are
   no measures; the table only has to say what the product says (continues excepted, which the merge may fill in).
+- survey_school rises with the rows, as in a survey that was merged at once.
 """
 import argparse
 import datetime
@@ -297,7 +298,7 @@ def summary(o, rows):
     speed = o.recipe.get("summarise", {})
     if len(moving) < speed.get("min_speed_pings", 4):
         return out
-    time = np.array([int(o.pings["time"][r["ping_index"]]) for r in moving])
+    time = np.array([int(o.pings["time_ns"][r["ping_index"]]) for r in moving])
     t = (time - time[0]) / 1e9
     if t[-1] < speed.get("min_speed_span_s", 15):
         return out
@@ -317,7 +318,7 @@ def summary(o, rows):
 
 
 def check_time(o, told, ping, where, deviations):
-    time = int(o.pings["time"][ping])
+    time = int(o.pings["time_ns"][ping])
     whole = datetime.datetime.fromtimestamp(time // 10**9, datetime.timezone.utc)
     text = f"{whole:%Y-%m-%dT%H:%M:%S}.{time % 10**9 // 10**6:03d}Z"
     if (told != text) if isinstance(told, str) else (int(told) != time):
@@ -347,7 +348,7 @@ def recount_observation(o, survey, every, deviations):
         if abs(row["valid_fraction"] - 1) > 1e-9 and not o.faults:
             skipped += 1
         elif i % every == 0:
-            wanted.setdefault(int(o.pings["time"][row["ping_index"]]), []).append((row, where))
+            wanted.setdefault(int(o.pings["time_ns"][row["ping_index"]]), []).append((row, where))
     if o.recipe["calibration"]["absorption"] != "file" or o.recipe["navigation"]["time_offset_s"] != 0:
         print(f"{o.name}: sv not recounted: absorption by formula, or shifted times")
         wanted = {}

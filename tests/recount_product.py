@@ -50,7 +50,8 @@ class Observation:
 
     @staticmethod
     def table(group):
-        columns = {k: v[:] for k, v in group.variables.items()}
+        # Times stand there as numbers too: `first_time` beside the column `first_time_utc`.
+        columns = {k: v[:] for k, v in group.variables.items() if not k.endswith("time")}
         return [dict(zip(columns, values)) for values in zip(*columns.values())]
 
     def voxels(self, school, ping):

@@ -1,16 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian 12 packages that the project needs; does nothing, quickly, where they are there.
-#   tools/setup.sh [build | test | full | bench]...     (default: build)
+#   tools/setup.sh [build | test | full | bench | readers | cluster]...     (default: build)
 # build  to build and run sonarx      test   build + unit, data and command-line tests, format check
 # full   test + clang, clang-tidy, sanitizers, fuzzing      bench  build + the rivals that the benchmarks measure
+# readers  test + other people's programs that read our files: xarray, OGR, R, QGIS      cluster  test + Slurm
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config ca-certificates
        libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libsleef-dev libproj-dev proj-data libhwy-dev
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
-test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-numpy python3-netcdf4 xvfb xauth)
+test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-numpy python3-netcdf4
+      netcdf-bin udunits-bin xvfb xauth)
+readers=(python3-xarray gdal-bin r-base-core r-cran-ncdf4 r-cran-sf python3-qgis)
+cluster=(munge slurmctld slurmd slurm-client)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 
@@ -21,7 +25,9 @@ for group in "${@:-build}"; do
     test) wanted+=("${test[@]}") ;;
     full) wanted+=("${test[@]}" "${full[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "setup.sh: '$group' is none of build, test, full, bench" >&2; exit 2 ;;
+    readers) wanted+=("${test[@]}" "${readers[@]}") ;;
+    cluster) wanted+=("${test[@]}" "${cluster[@]}") ;;
+    *) echo "setup.sh: '$group' is none of build, test, full, bench, readers, cluster" >&2; exit 2 ;;
   esac
 done
 

@@ -92,8 +92,8 @@ TEST(Array3, EmptyShapesAreEmpty) {
 TEST(SampleFlags, EachIsOneBitOfAByte) {
   std::set<int> bits;
   for (const SampleFlags flag :
-       {SampleFlags::near_field, SampleFlags::surface, SampleFlags::hot_beam, SampleFlags::lost, SampleFlags::wall,
-        SampleFlags::impulse, SampleFlags::seabed, SampleFlags::low_snr}) {
+       {SampleFlags::near_field, SampleFlags::surface, SampleFlags::corrupted, SampleFlags::dropout,
+        SampleFlags::interference, SampleFlags::impulse, SampleFlags::seabed, SampleFlags::low_snr}) {
     bits.insert(static_cast<int>(flag));
   }
   EXPECT_EQ(bits, (std::set<int>{1, 2, 4, 8, 16, 32, 64, 128}));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -24,11 +25,23 @@ namespace sonar {
 //   }
 // JSON, command-line flags, panels, hashes and docs are visitors of it. Fields are bool, int, double or std::string.
 
+/// Who sets a parameter: every user, or an expert who knows what it does.
+enum class Tier : std::uint8_t { expert, basic };
+
 struct FieldInfo {
   std::string_view unit = {};
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::string_view text = {};
+  std::string_view text = {};  ///< a sentence that can be read alone and says when one would change it
+  Tier tier = Tier::expert;
+};
+
+/// Of a choice: as FieldInfo.
+struct ChoiceInfo {
+  constexpr ChoiceInfo(const char* sentence, Tier whose = Tier::expert)  // NOLINT(google-explicit-constructor)
+      : text(sentence), tier(whose) {}
+  std::string_view text;
+  Tier tier;
 };
 
 using ChoiceNames = std::span<const std::string_view>;
@@ -41,7 +54,7 @@ class RangeCheck {
   void field(std::string_view name, int& value, const FieldInfo& info) { check(name, value, info); }
   void field(std::string_view name, double& value, const FieldInfo& info) { check(name, value, info); }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo&) {
     const auto index = static_cast<std::size_t>(value);
     if (index >= names.size()) note(fmt::format("{}{}: value {} is none of its choices", prefix_, name, index));
   }

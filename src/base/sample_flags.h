@@ -8,14 +8,14 @@ namespace sonar {
 /// Why a sample is not to be trusted; several reasons may hold at once. 0 = sound.
 enum class SampleFlags : std::uint8_t {
   none = 0,
-  near_field = 1,  ///< transducer ringing and self noise
-  surface = 2,     ///< sea surface, or above it
-  hot_beam = 4,    ///< lost packets: a beam's stretch at a high level
-  lost = 8,        ///< the channel or the sample was not recorded
-  wall = 16,       ///< high level over all beams at constant range
-  impulse = 32,    ///< a few samples of one beam in one ping
-  seabed = 64,     ///< behind the seabed's first echo, margin included
-  low_snr = 128,   ///< below the background's margin
+  near_field = 1,     ///< transducer ringing and self noise
+  surface = 2,        ///< sea surface, or above it
+  corrupted = 4,      ///< corrupted packets: a beam's stretch at a high level
+  dropout = 8,        ///< the channel or the sample was not recorded
+  interference = 16,  ///< high level over all beams at constant range
+  impulse = 32,       ///< a few samples of one beam in one ping
+  seabed = 64,        ///< behind the seabed's first echo, margin included
+  low_snr = 128,      ///< below the background's margin
 };
 
 [[nodiscard]] constexpr SampleFlags operator|(SampleFlags a, SampleFlags b) {
@@ -31,7 +31,7 @@ constexpr SampleFlags& operator|=(SampleFlags& a, SampleFlags b) { return a = a 
 inline constexpr SampleFlags kNeverMember = SampleFlags::near_field | SampleFlags::surface | SampleFlags::seabed;
 /// Members here are kept in the mask but not measured.
 inline constexpr SampleFlags kFault =
-    SampleFlags::hot_beam | SampleFlags::wall | SampleFlags::lost | SampleFlags::impulse;
+    SampleFlags::corrupted | SampleFlags::interference | SampleFlags::dropout | SampleFlags::impulse;
 /// What the masked median leaves out.
 inline constexpr SampleFlags kNotFiltered = kNeverMember | kFault;
 

@@ -13,20 +13,20 @@ namespace sonar {
 struct TaskThread::State {
   struct Waiting {
     Job job;
-    Wanted wanted;
+    CancelToken token;
   };
   std::mutex mutex;
   std::condition_variable came;
   std::condition_variable idle;
   std::deque<Waiting> jobs;
-  std::optional<Wanted> running;
+  std::optional<CancelToken> running;
   bool ending = false;
   std::thread thread;
 
   /// Under the lock.
   void give_up_all() {
-    for (const Waiting& waiting : jobs) waiting.wanted.give_up();
-    if (running) running->give_up();
+    for (const Waiting& waiting : jobs) waiting.token.cancel();
+    if (running) running->cancel();
     jobs.clear();
   }
 
@@ -37,9 +37,9 @@ struct TaskThread::State {
       if (ending) return;
       Waiting next = std::move(jobs.front());
       jobs.pop_front();
-      running = next.wanted;
+      running = next.token;
       lock.unlock();
-      next.job(next.wanted);
+      next.job(next.token);
       next.job = {};  // what it holds is let go before anybody is told that it is done
       lock.lock();
       running.reset();
@@ -62,25 +62,25 @@ TaskThread::~TaskThread() {
   state_->thread.join();
 }
 
-Wanted TaskThread::post(Job job) {
-  Wanted wanted;
+CancelToken TaskThread::post(Job job) {
+  CancelToken token;
   {
     const std::scoped_lock lock(state_->mutex);
-    state_->jobs.push_back({std::move(job), wanted});
+    state_->jobs.push_back({std::move(job), token});
   }
   state_->came.notify_one();
-  return wanted;
+  return token;
 }
 
-Wanted TaskThread::post_latest(Job job) {
-  Wanted wanted;
+CancelToken TaskThread::post_latest(Job job) {
+  CancelToken token;
   {
     const std::scoped_lock lock(state_->mutex);
     state_->give_up_all();
-    state_->jobs.push_back({std::move(job), wanted});
+    state_->jobs.push_back({std::move(job), token});
   }
   state_->came.notify_one();
-  return wanted;
+  return token;
 }
 
 void TaskThread::wait() {

@@ -8,32 +8,32 @@
 
 namespace sonar {
 
-/// Whether whoever asked for a job still wants it.
-class Wanted {
+/// Whether a job is still asked for; copies speak of the same job.
+class CancelToken {
  public:
-  [[nodiscard]] bool operator()() const { return flag_->load(std::memory_order_relaxed); }
-  void give_up() const { flag_->store(false, std::memory_order_relaxed); }
+  [[nodiscard]] bool cancelled() const { return flag_->load(std::memory_order_relaxed); }
+  void cancel() const { flag_->store(true, std::memory_order_relaxed); }
 
  private:
-  std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(true);
+  std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
 };
 
 /// One thread that works through jobs in the order in which they came: what must not hold up a window.
 /// threads  all members may be called from any thread, but not from a job of its own after destruction began
 class TaskThread {
  public:
-  /// Looks at `wanted` from time to time and returns early when it is not.
-  using Job = std::function<void(const Wanted& wanted)>;
+  /// Looks at the token from time to time and returns early once it is cancelled.
+  using Job = std::function<void(const CancelToken& token)>;
 
   TaskThread();
-  /// Gives up all jobs and waits for the one that runs.
+  /// Cancels all jobs and waits for the one that runs.
   ~TaskThread();
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
 
-  Wanted post(Job job);
-  /// Latest wins: every earlier job, running or waiting, is given up; those that had not begun never run.
-  Wanted post_latest(Job job);
+  CancelToken post(Job job);
+  /// Latest wins: every earlier job, running or waiting, is cancelled; those that had not begun never run.
+  CancelToken post_latest(Job job);
   /// Returns when nothing runs or waits.
   void wait();
 

@@ -36,7 +36,7 @@ struct Gate {
 TEST(TaskThread, JobsRunInTheOrderInWhichTheyCame) {
   std::vector<int> ran;
   TaskThread background;
-  for (int i = 0; i < 100; ++i) background.post([&ran, i](const Wanted&) { ran.push_back(i); });
+  for (int i = 0; i < 100; ++i) background.post([&ran, i](const CancelToken&) { ran.push_back(i); });
   background.wait();
   ASSERT_EQ(ran.size(), 100U);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(ran[static_cast<std::size_t>(i)], i);
@@ -47,12 +47,12 @@ TEST(TaskThread, LatestWins) {
   std::vector<int> ran;
   bool first_was_given_up = false;
   TaskThread background;
-  background.post_latest([&](const Wanted& wanted) {
+  background.post_latest([&](const CancelToken& token) {
     gate.pass();
-    first_was_given_up = !wanted();
+    first_was_given_up = token.cancelled();
   });
   gate.wait_reached();
-  for (int i = 0; i < 1000; ++i) background.post_latest([&ran, i](const Wanted&) { ran.push_back(i); });
+  for (int i = 0; i < 1000; ++i) background.post_latest([&ran, i](const CancelToken&) { ran.push_back(i); });
   gate.release();
   background.wait();
   EXPECT_TRUE(first_was_given_up);
@@ -62,20 +62,20 @@ TEST(TaskThread, LatestWins) {
 TEST(TaskThread, EndingGivesUpWhatWaits) {
   Gate gate;
   bool ran = false;
-  Wanted waiting;
+  CancelToken waiting;
   {
     TaskThread background;
-    background.post([&](const Wanted& wanted) {
+    background.post([&](const CancelToken& token) {
       gate.pass();
-      while (wanted()) {
+      while (!token.cancelled()) {
       }
     });
-    waiting = background.post([&](const Wanted&) { ran = true; });
+    waiting = background.post([&](const CancelToken&) { ran = true; });
     gate.wait_reached();
     gate.release();
   }
   EXPECT_FALSE(ran);
-  EXPECT_FALSE(waiting());
+  EXPECT_TRUE(waiting.cancelled());
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <utility>
+
+#include "cli/log.h"
 
 namespace sonar {
 namespace {
@@ -25,9 +26,7 @@ void add_measured_options(CLI::App& verb, Measured& measured) {
 Result<Recipe> chosen_recipe(const std::string& recipe, const Measured& measured) {
   auto chosen = named_recipe(recipe);
   if (!chosen) return tl::unexpected(of_file(std::move(chosen.error())));
-  for (const std::string& name : chosen->gone) {
-    fmt::print(stderr, "note parameter-gone: {}: {} has no effect any more\n", recipe, name);
-  }
+  for (const std::string& note : chosen->notes) print_note(fmt::format("earlier-parameter: {}: {}", recipe, note));
   return with_measured(std::move(*chosen), measured);
 }
 

@@ -274,15 +274,17 @@ void add_follow(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<FollowArguments>();
   CLI::App* verb = app.add_subcommand("follow", "Like run, on files that are still being written; Ctrl-C ends it");
   verb->add_option("SURVEY", arguments->run.survey, "Folder in which raw files appear, or raw files")->required();
-  verb->add_option("--out", arguments->run.out, "Work folder for products and tables")->required()->check(named_path());
+  verb->add_option("-o,--out", arguments->run.out, "Work folder for products and tables")
+      ->required()
+      ->check(named_path());
   verb->add_option("--idle-exit", arguments->idle_exit_s,
                    "End when nothing was written for so many seconds: then all is over; 0 = never")
       ->check(CLI::Range(0.0, 1e9));
   verb->add_option("--recipe", arguments->run.recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->run.measured);
   verb->add_option("--session", arguments->run.session,
-                   "Journal of human choices to replay, or the folder of several people's; read again when it grows");
-  verb->add_option("--jobs", arguments->run.jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+                   "Journal of decisions to replay, or the folder of several people's; read again when it grows");
+  verb->add_option("-j,--jobs", arguments->run.jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
   verb->add_option(
           "--alarm", arguments->alarms,
           "Tell when a school's row of school_pings.csv begins to be so: \"volume_m3 > 20000, range_m < 150\"; "
@@ -290,7 +292,7 @@ void add_follow(CLI::App& app, VerbRunner& run) {
       ->allow_extra_args(false);
   verb->add_option("--nmea", arguments->nmea, "HOST:PORT: schools as NMEA 0183 TLL and TTM by UDP, for the chart")
       ->check(some_name());
-  verb->add_flag("--json", arguments->json, "What is told, a JSON object a line");
+  verb->add_flag("--json", arguments->json, "Print reports as JSON, one object per line");
   verb->callback([arguments, &run] { run = [arguments] { return follow_survey(*arguments); }; });
 }
 

@@ -49,7 +49,7 @@ json status_json(const LiveStatus& status) {
           {"position_age_s", number(status.position_age_s)},
           {"heading_age_s", number(status.heading_age_s)},
           {"gps_minus_clock_s", number(status.gps_minus_clock_s)},
-          {"lost_channels", status.lost_channels},
+          {"lost_channels", status.missing_channels},
           {"disk_left_gb", number(status.disk_left_gb)}};
 }
 

@@ -46,14 +46,14 @@ int run_info(const InfoOptions& options) {
 
 void add_info(CLI::App& app, VerbRunner& run) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* verb = app.add_subcommand("info", "Tell what files hold: format, pings, beams, times, places, damage");
+  CLI::App* verb = app.add_subcommand("info", "Show what files hold: format, pings, beams, times, places, damage");
   verb->add_option("PATH", options->paths, "Raw files, or folders of them")->required();
   verb->add_flag("--json", options->json, "Print one JSON object");
   CLI::Option* checksum =
       verb->add_flag("--checksum", options->checksum, "Read every sample and give the sum of all power counts");
-  verb->add_flag("--quick", options->quick, "Read the first and last bytes of each file alone: nothing is counted")
+  verb->add_flag("--quick", options->quick, "Read only the first and last bytes of each file; nothing is counted")
       ->excludes(checksum);
-  verb->add_option("--jobs", options->jobs, "Threads; 0 = as many as the machine has")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", options->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
   verb->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 

@@ -8,8 +8,12 @@
 #include <new>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cli/exit_codes.h"
+#include "cli/help.h"
+#include "cli/log.h"
+#include "cli/suggestion.h"
 #include "cli/verb.h"
 
 namespace sonar {
@@ -42,12 +46,41 @@ std::string conversion_text(const CLI::App& app, const std::string& told) {
                                                               : ": out of range, or no whole number");
 }
 
+/// "; did you mean --out?", or nothing.
+std::string meant_text(const std::string& word, const std::vector<std::string>& known) {
+  const std::string meant = suggestion(word, known);
+  return meant.empty() ? "" : "; did you mean " + meant + "?";
+}
+
+/// "there is no option --ouf; did you mean --out?"; empty where no option was too many.
+std::string unknown_option_text(const CLI::App& app) {
+  const auto verbs = app.get_subcommands();
+  if (verbs.empty()) return {};
+  const CLI::App& verb = *verbs.front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& word : verb.remaining()) {
+    if (!word.starts_with("-")) continue;
+    const std::string name = word.substr(0, word.find('='));
+    return "there is no option " + name + meant_text(name, known);
+  }
+  return {};
+}
+
 /// What was wrong with a call. The parser misses a verb before it looks at what stands in its place.
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::span<char*> words) {
   const std::string first = words.size() > 1 ? words[1] : "";
   if (!first.empty() && first[0] != '-' &&
       app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; }).empty()) {
-    return "there is no verb '" + first + "'";
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+      verbs.push_back(verb->get_name());
+    return "there is no verb '" + first + "'" + meant_text(first, verbs);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    if (const std::string text = unknown_option_text(app); !text.empty()) return text;
   }
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return conversion_text(app, error.what());
   return dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()
@@ -56,8 +89,8 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::s
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("Explores fishery-sonar surveys: raw files in, schools, masks and maps out", "sonarx");
-  app.set_version_flag("--version", "sonarx " SONAR_VERSION);
+  CLI::App app("Detects fish schools in fishery-sonar surveys; writes masks, tables and maps from raw files", "sonarx");
+  app.set_version_flag("-V,--version", "sonarx " SONAR_VERSION);
   app.require_subcommand(1);
   VerbRunner run;
   add_info(app, run);
@@ -66,12 +99,15 @@ int run_program(int argc, char** argv) {
   add_plan(app, run);
   add_follow(app, run);
   add_merge(app, run);
+  add_submit(app, run);
+  add_status(app, run);
   add_propagate(app, run);
   add_export(app, run);
   add_score(app, run);
   add_compare(app, run);
   add_recipe(app, run);
   add_render(app, run);
+  add_help(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -81,8 +117,7 @@ int run_program(int argc, char** argv) {
       return kExitDone;
     }
     const std::string verb = app.get_subcommands().empty() ? "" : " " + app.get_subcommands().front()->get_name();
-    std::fprintf(stderr, "sonarx: %s; see sonarx%s --help\n",
-                 usage_text(app, error, {argv, static_cast<std::size_t>(argc)}).c_str(), verb.c_str());
+    print_error(usage_text(app, error, {argv, static_cast<std::size_t>(argc)}) + "; see sonarx" + verb + " --help");
     return kExitUsage;
   }
   for (const int signal : kStops) std::signal(signal, on_interrupt);
@@ -113,7 +148,7 @@ CancelOnInterrupt::~CancelOnInterrupt() {
 bool interrupted() { return was_interrupted.load(); }
 
 int report(const Error& error) {
-  std::fprintf(stderr, "sonarx: %s\n", to_line(error).c_str());
+  print_error(to_line(error));
   return exit_code_of(error.code);
 }
 

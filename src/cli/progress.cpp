@@ -8,33 +8,94 @@
 #include <cstdio>
 #include <string>
 
+#include "cli/log.h"
+#include "pipeline/tasks/run.h"
+
 namespace sonar {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int kBarWidth = 30;
+constexpr std::chrono::milliseconds kBetween{100};
+constexpr double kLeastShare = 0.02;  ///< from which on the time left is told
 
 std::string bar(std::int64_t done, std::int64_t total) {
   const auto filled = total > 0 ? static_cast<std::size_t>(done * kBarWidth / total) : 0U;
   return std::string(filled, '#') + std::string(kBarWidth - filled, '.');
 }
 
+std::string span_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+  if (whole < 100) return fmt::format("{} s", whole);
+  return whole < 6000 ? fmt::format("{} min", (whole + 30) / 60) : fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// One line that is drawn over itself.
+class ProgressLine {
+ public:
+  void tell(std::string_view stage, std::int64_t done, std::int64_t total) {
+    const auto now = Clock::now();
+    if (stage == kObservations) return begin_observation(done, total, now);
+    if (stage != stage_) {
+      stage_ = stage;
+      stage_begun_ = now;
+    }
+    if (done < total && now - drawn_ < kBetween) return;
+    drawn_ = now;
+    fmt::print(stderr, "\r{}{:<20} [{}] {}/{}{}\x1b[K", observation_, stage, bar(done, total), done, total,
+               left_text(done, total, now));
+    std::fflush(stderr);
+  }
+
+ private:
+  void begin_observation(std::int64_t done, std::int64_t total, Clock::time_point now) {
+    observation_ = fmt::format("observation {} of {}: ", done + 1, total);
+    if (done == 0) begun_ = now;
+    observations_done_ = done;
+    observations_ = total;
+  }
+  /// Of all observations once one is done, of the stage before; empty while nobody can know.
+  [[nodiscard]] std::string left_text(std::int64_t done, std::int64_t total, Clock::time_point now) const {
+    const bool by_observations = observations_done_ > 0;
+    const double share = by_observations ? static_cast<double>(observations_done_) / static_cast<double>(observations_)
+                         : total > 0     ? static_cast<double>(done) / static_cast<double>(total)
+                                         : 0.0;
+    if (share < kLeastShare || share >= 1.0) return {};
+    const double took_s = std::chrono::duration<double>(now - (by_observations ? begun_ : stage_begun_)).count();
+    return fmt::format(", {} left{}", span_text(took_s * (1.0 - share) / share), by_observations ? "" : " of this");
+  }
+
+  std::string stage_;
+  std::string observation_;
+  std::int64_t observations_done_ = 0;
+  std::int64_t observations_ = 0;
+  Clock::time_point drawn_;
+  Clock::time_point begun_;
+  Clock::time_point stage_begun_;
+};
+
+bool is_shown() { return isatty(STDERR_FILENO) != 0 && log_level() != LogLevel::quiet; }
+
 }  // namespace
 
 void show_progress(Work& work) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  using Clock = std::chrono::steady_clock;
-  work.set_progress(
-      [last = Clock::time_point{}](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
-        const auto now = Clock::now();
-        if (done < total && now - last < std::chrono::milliseconds(100)) return;
-        last = now;
-        fmt::print(stderr, "\r{:<28} [{}] {}/{}\x1b[K", stage, bar(done, total), done, total);
-        std::fflush(stderr);
-      });
+  if (is_shown()) {
+    work.set_progress([line = ProgressLine()](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
+      line.tell(stage, done, total);
+    });
+  } else if (log_level() == LogLevel::verbose) {
+    work.set_progress([last = std::string()](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
+      const std::string now = stage == kObservations ? fmt::format("observation {} of {}", done + 1, total)
+                                                     : fmt::format("{}: {}", stage, total);
+      if (now != last) print_detail(now);
+      last = now;
+    });
+  }
 }
 
 void clear_progress() {
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\x1b[K");
+  if (is_shown()) fmt::print(stderr, "\r\x1b[K");
 }
 
 }  // namespace sonar

@@ -18,7 +18,7 @@
 #include "cli/verb.h"
 #include "cli/whole_numbers.h"
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "model/school_totals.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/transfer_function_json.h"
@@ -277,7 +277,7 @@ int propagate_verb(const PropagateArguments& arguments) {
 
 void add_propagate(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<PropagateArguments>();
-  CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and carry it through time both ways");
+  CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and propagate it through time both ways");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
   verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
   verb->add_option("--seed", arguments->seeds,
@@ -299,9 +299,9 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--operator", arguments->operator_name, "Who selects");
-  verb->add_option("--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
-  verb->add_option("--jobs", arguments->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb->add_option("--operator", arguments->operator_name, "Name of the operator");
+  verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
+  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return propagate_verb(*arguments); }; });
 }
 

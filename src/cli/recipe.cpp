@@ -30,7 +30,7 @@ int check(const RecipeOptions& o) {
     report(recipe.error());
     return kExitFailed;  // whatever is wrong with it, the verb was used rightly
   }
-  fmt::print("{}: a sound recipe, hash {}\n", o.validate, recipe_hash(*recipe));
+  fmt::print("{}: valid recipe, hash {}\n", o.validate, recipe_hash(*recipe));
   return kExitDone;
 }
 
@@ -49,6 +49,14 @@ int print(const RecipeOptions& o) {
   return kExitDone;
 }
 
+/// What help says of parameters; the rest is for --describe.
+std::string set_by_users() {
+  ParameterTable table("");
+  Recipe recipe;
+  describe(table, recipe);
+  return "Common parameters (--describe also lists the expert ones):\n" + table.basic_text();
+}
+
 }  // namespace
 
 void add_recipe(CLI::App& app, VerbRunner& run) {
@@ -60,6 +68,7 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
   add_measured_options(*verb, o->measured);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);
+  verb->footer(set_by_users());
   verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });
 }
 

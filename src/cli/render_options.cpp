@@ -129,7 +129,8 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--ping", a.picture.ping, "Ping index; default: the first with a school, else the middle one");
   verb.add_option("--schools", a.schools, "School ids between commas; default: all");
   verb.add_flag("--no-masks{false}", a.picture.masks, "Leave schools out");
-  verb.add_flag("--refused", a.picture.refused, "Mark the echoes that stood out and are no schools (/rejected)");
+  verb.add_flag("--refused", a.picture.refused,
+                "Mark the echoes above the background that were judged no schools (/rejected)");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");
   verb.add_flag("--unfiltered", a.unfiltered, "As recorded; default of slices")->excludes(filtered);
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
@@ -137,7 +138,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--scale", a.scale, "Pixels per unit of --size: 2 for print or high-density screens")
       ->check(between(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
-  verb.add_option("--jobs", a.jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
 }
 
 void add_colours(CLI::App& verb, RenderArguments& a) {
@@ -277,7 +278,7 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("KIND", a.kind, kinds)->required()->check(CLI::IsMember(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
-  verb.add_option("--out", a.out, "Picture: .png, .svg or .pdf");
+  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf");
   verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")
       ->group("Comparing");
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")

@@ -26,6 +26,7 @@ struct RunArguments {
   bool has_task = false;
   bool remeasure = false;
   bool why = false;
+  bool json = false;
   int jobs = 0;
 };
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/exit_codes.h"
+#include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/progress.h"
@@ -62,6 +63,7 @@ Result<void> take_file(const std::string& path, Params& params) {
   describe(reader, params);
   reader.finish();
   if (!reader.problem().empty()) return fail(ErrorCode::bad_parameter, reader.problem(), {path});
+  for (const std::string& note : reader.notes()) print_note(fmt::format("earlier-parameter: {}: {}", path, note));
   return {};
 }
 
@@ -178,7 +180,7 @@ int simulate_standard(const SimulateOptions& o) {
     return synth::simulate_survey(o.out, *params, beams, o.force, SONAR_VERSION, work);
   });
   if (code == kExitDone && demo && o.observations) {
-    fmt::print(stderr, "note: the demo has its own observations; --observations was not used\n");
+    print_note("demo-observations: the demo has its own observations; --observations was not used");
   }
   return code;
 }
@@ -205,7 +207,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "array elements and single fish)")
       ->check(CLI::IsMember({"standard", "array"}))
       ->capture_default_str();
-  verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo; standard if not said")
+  verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo; standard by default")
       ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}));
   verb->add_option("--seed", o->seed, "Every random number follows from it");
   verb->add_option("--observations", o->observations, "Number of observations (the demo has three)");
@@ -231,7 +233,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
   verb->add_flag("--force", o->force,
                  "Write into a folder that already holds raw files; a simulated survey there is replaced");
-  verb->add_option("--jobs", o->jobs, "Threads; 0 = what the machine has")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", o->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
   verb->callback(
       [o, &run] { run = [o] { return o->physics == "array" ? simulate_array(*o) : simulate_standard(*o); }; });
 }

@@ -19,6 +19,8 @@ void add_run(CLI::App& app, VerbRunner& run);
 void add_plan(CLI::App& app, VerbRunner& run);
 void add_follow(CLI::App& app, VerbRunner& run);
 void add_merge(CLI::App& app, VerbRunner& run);
+void add_submit(CLI::App& app, VerbRunner& run);
+void add_status(CLI::App& app, VerbRunner& run);
 void add_propagate(CLI::App& app, VerbRunner& run);
 void add_export(CLI::App& app, VerbRunner& run);
 void add_score(CLI::App& app, VerbRunner& run);

@@ -8,7 +8,7 @@
 
 namespace sonar {
 
-void add_live_strip(QMainWindow& window, Desk& desk) {
+void add_live_strip(QMainWindow& window, AppModel& app) {
   auto* strip = new QToolBar("Recording", &window);
   strip->setObjectName("live");
   strip->setMovable(false);
@@ -17,7 +17,7 @@ void add_live_strip(QMainWindow& window, Desk& desk) {
   text->setTextFormat(Qt::RichText);
   strip->addWidget(text);
   window.addToolBar(Qt::BottomToolBarArea, strip);
-  const auto show = [strip, text, live = desk.live] {
+  const auto show = [strip, text, live = app.live] {
     strip->setVisible(live->on());
     if (!live->on()) return;
     const QString line = QString::fromStdString(live->text()).toHtmlEscaped();
@@ -25,9 +25,9 @@ void add_live_strip(QMainWindow& window, Desk& desk) {
     text->setText(head + "&nbsp;&nbsp; " + line);
   };
   show();
-  desk.live->changed().add(show);
+  app.live->changed().add(show);
   // A layout that is put back knows nothing of what is followed now.
-  QObject::connect(strip, &QToolBar::visibilityChanged, strip, [strip, live = desk.live] {
+  QObject::connect(strip, &QToolBar::visibilityChanged, strip, [strip, live = app.live] {
     if (strip->isHidden() == live->on()) strip->setVisible(live->on());
   });
 }

@@ -3,11 +3,11 @@
 
 #include <QMainWindow>
 
-#include "session/desk.h"
+#include "session/app_model.h"
 
 namespace sonar {
 
 /// A strip along the window's foot while a recording is followed: how it goes, and whether its newest ping is on show.
-void add_live_strip(QMainWindow& window, Desk& desk);
+void add_live_strip(QMainWindow& window, AppModel& app);
 
 }  // namespace sonar

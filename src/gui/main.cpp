@@ -12,8 +12,8 @@
 
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
-#include "session/demo.h"
 #include "session/live_watch.h"
+#include "session/open_demo.h"
 
 namespace sonar {
 namespace {
@@ -75,21 +75,21 @@ int run_program(int argc, char** argv) {
 
   const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());
   QueuePump pump;
-  Desk desk(pump.queue(), document_options(loaded.preferences));
-  desk.preferences = loaded.preferences;
-  desk.preferences.apply(desk.workspace);
-  if (parser.isSet(dark)) desk.workspace.dark.set(true);
-  MainWindow window(desk);
-  window.take_layout(desk.preferences.window_layout);
+  AppModel app(pump.queue(), document_options(loaded.preferences));
+  app.preferences = loaded.preferences;
+  app.preferences.apply(app.workspace);
+  if (parser.isSet(dark)) app.workspace.dark.set(true);
+  MainWindow window(app);
+  window.take_layout(app.preferences.window_layout);
   window.show();
-  if (!loaded.notice.empty()) desk.workspace.document.tell(loaded.notice);
+  if (!loaded.notice.empty()) app.workspace.document.tell(loaded.notice);
   std::vector<std::filesystem::path> paths;
   for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());
   if (parser.isSet(demo)) {
-    open_demo(desk);
+    open_demo(app);
   } else if (!paths.empty()) {
-    if (parser.isSet(line.live)) desk.live->follow_next();
-    desk.workspace.document.open(std::move(paths));
+    if (parser.isSet(line.live)) app.live->follow_next();
+    app.workspace.document.open(std::move(paths));
   }
   return QApplication::exec();
 }

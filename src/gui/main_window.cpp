@@ -15,17 +15,17 @@
 #include <QUrl>
 
 #include "gui/action_menus.h"
+#include "gui/animation_timer.h"
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
 #include "gui/key_sheet.h"
+#include "gui/palette.h"
 #include "gui/picture_view.h"
-#include "gui/pulse_timer.h"
 #include "gui/questions.h"
 #include "gui/rows_view.h"
 #include "gui/status_line.h"
-#include "gui/theme.h"
 #include "gui/tool_bar.h"
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 
 namespace sonar {
 namespace {
@@ -64,7 +64,7 @@ View& view_of(const QMainWindow& window, const std::string& id) {
 
 }  // namespace
 
-MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
+MainWindow::MainWindow(AppModel& app) : app_(app), animations_(app.animations) {
   setObjectName("main");
   setWindowTitle("Sonar Explorer");
   setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: each step of the way would be drawn anew
@@ -74,37 +74,37 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
   auto* middle = new QWidget(this);
   middle->setMaximumHeight(0);
   setCentralWidget(middle);
-  for (PictureDock& dock : desk.pictures) {
-    auto* view = new PictureView(*dock.picture, desk.workspace.latencies);
+  for (PictureDock& dock : app.pictures) {
+    auto* view = new PictureView(*dock.picture, app.workspace.latencies);
     QDockWidget* shown = add_dock(*this, dock.id, dock.title, view);
     connect(shown, &QDockWidget::visibilityChanged, view, [view](bool in_front) { view->set_uncovered(in_front); });
     if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
-    view->set_idle_text([&desk, id = dock.id] { return QString::fromStdString(idle_text(desk, id)); });
+    view->set_idle_text([&app, id = dock.id] { return QString::fromStdString(idle_text(app, id)); });
   }
-  for (RowsDock& dock : desk.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
-  add_dock(*this, "controls", "Controls", new ControlPanelView(*desk.transfer, desk.workspace, desk.panel));
-  add_menus(*this, desk.actions);
-  for (const PictureDock& dock : desk.pictures) {
-    view_of<PictureView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
+  for (RowsDock& dock : app.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
+  add_dock(*this, "controls", "Controls", new ControlPanelView(*app.transfer, app.workspace, app.panel));
+  add_menus(*this, app.actions);
+  for (const PictureDock& dock : app.pictures) {
+    view_of<PictureView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, app.actions));
   }
-  for (const RowsDock& dock : desk.lists) {
-    view_of<RowsView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, desk.actions));
+  for (const RowsDock& dock : app.lists) {
+    view_of<RowsView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, app.actions));
   }
-  add_tool_bar(*this, desk);
+  add_tool_bar(*this, app);
   add_panels_menu(*this);
-  add_status_line(*this, desk);
-  add_live_strip(*this, desk);
+  add_status_line(*this, app);
+  add_live_strip(*this, app);
   answer();
-  const auto theme = [this, &desk] {
-    take_theme(desk.workspace.dark());
+  const auto theme = [this, &app] {
+    take_theme(app.workspace.dark());
     tint_tool_bar(*this);
   };
-  desk.workspace.dark.changed().add(theme);
+  app.workspace.dark.changed().add(theme);
   theme();
-  desk.workspace.document.changes().add([this](DocumentChange change) {
+  app.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
     // Where there is no picture yet, the view tells what it waits for.
-    if (change == DocumentChange::progress && desk_.workspace.document.survey() == nullptr) {
+    if (change == DocumentChange::progress && app_.workspace.document.survey() == nullptr) {
       if (auto* first = findChild<QWidget*>("top_slice.view")) first->update();
     }
   });
@@ -127,9 +127,9 @@ MainWindow::MainWindow(Desk& desk) : desk_(desk), pulse_(desk.pulse) {
 void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
   // Tabs hide docks too: only closing and opening is a switch.
   connect(dock.toggleViewAction(), &QAction::triggered, &dock,
-          [this, name](bool on) { (void)desk_.workspace.views.set(name, on); });
-  desk_.workspace.views.on_change([this, name, &dock](const ViewSwitches&) {
-    const auto on = desk_.workspace.views.value(name);
+          [this, name](bool on) { (void)app_.workspace.views.set(name, on); });
+  app_.workspace.views.on_change([this, name, &dock](const ViewSwitches&) {
+    const auto on = app_.workspace.views.value(name);
     if (!on || dock.isHidden() != std::get<bool>(*on)) return;
     dock.setVisible(std::get<bool>(*on));
     dock.raise();  // not behind another tab
@@ -137,18 +137,18 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
 }
 
 void MainWindow::answer() {
-  desk_.asking.show_keys = [this] { show_key_sheet(*this, desk_.actions); };
-  desk_.asking.show_about = [this] {
+  app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
+  app_.dialogs.show_about = [this] {
     QMessageBox::about(
         this, "Sonar Explorer",
         QString("Sonar Explorer %1\nApache License 2.0\n\nWith Qt (LGPL 3), GDAL, PROJ, netCDF, Cairo, Pango, "
                 "oneTBB, Highway, nlohmann-json, fmt, pugixml, xxHash, libepoxy.")
             .arg(QApplication::applicationVersion()));
   };
-  desk_.asking.reset_layout = [this] { lay_out_docks(*this); };
-  desk_.asking.full_screen = [this] { isFullScreen() ? showNormal() : showFullScreen(); };
-  answer_questions(*this, desk_.asking);
-  desk_.asking.copy_rows = [] {
+  app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };
+  app_.dialogs.full_screen = [this] { isFullScreen() ? showNormal() : showFullScreen(); };
+  answer_questions(*this, app_.dialogs);
+  app_.dialogs.copy_rows = [] {
     for (QWidget* at = QApplication::focusWidget(); at != nullptr; at = at->parentWidget()) {
       auto* list = dynamic_cast<RowsView*>(at);
       if (list != nullptr) list->copy();
@@ -159,7 +159,7 @@ void MainWindow::answer() {
 }
 
 void MainWindow::show_title() {
-  const Document& document = desk_.workspace.document;
+  const Document& document = app_.workspace.document;
   QString title = "Sonar Explorer";
   if (document.shown()) {
     title = QString::fromStdString(document.shown()->name() + " - " + document.paths().front().filename().string()) +
@@ -182,8 +182,8 @@ void MainWindow::take_layout(const std::string& layout) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  desk_.preferences.window_layout = layout();
-  keep_preferences(desk_);
+  app_.preferences.window_layout = layout();
+  keep_preferences(app_);
   QMainWindow::closeEvent(event);
 }
 
@@ -196,7 +196,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls()) {
     if (url.isLocalFile()) paths.emplace_back(url.toLocalFile().toStdString());
   }
-  if (!paths.empty()) desk_.workspace.document.open(std::move(paths));
+  if (!paths.empty()) app_.workspace.document.open(std::move(paths));
 }
 
 }  // namespace sonar

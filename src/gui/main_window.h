@@ -4,16 +4,16 @@
 #include <QMainWindow>
 #include <string>
 
-#include "gui/pulse_timer.h"
-#include "session/desk.h"
+#include "gui/animation_timer.h"
+#include "session/app_model.h"
 
 namespace sonar {
 
-/// Composes docks, menus and the status line from a desk; has no behaviour of its own.
+/// Composes docks, menus and the status line from an app; has no behaviour of its own.
 class MainWindow : public QMainWindow {
  public:
-  /// The desk outlives the window.
-  explicit MainWindow(Desk& desk);
+  /// The app outlives the window.
+  explicit MainWindow(AppModel& app);
   ~MainWindow() override;
 
   /// Docks and size as text, for the preferences.
@@ -31,8 +31,8 @@ class MainWindow : public QMainWindow {
   void answer();
   void show_title();
 
-  Desk& desk_;
-  PulseTimer pulse_;
+  AppModel& app_;
+  AnimationTimer animations_;
 };
 
 }  // namespace sonar

@@ -40,14 +40,14 @@ void draw_twice(QPainter& painter, const QPainterPath& path) {
 }
 
 /// A line in the lower left corner, light on dark whatever lies below it.
-void draw_on_ground(QPainter& painter, const QRect& view, const QString& text) {
+void draw_on_seabed(QPainter& painter, const QRect& view, const QString& text) {
   constexpr int kMargin_px = 4;
   const QRect words = painter.fontMetrics().boundingRect(text);
-  const QRect ground(view.left() + kMargin_px, view.bottom() - words.height() - 3 * kMargin_px,
-                     words.width() + 2 * kMargin_px, words.height() + 2 * kMargin_px);
-  painter.fillRect(ground, QColor(0, 0, 0, 200));
+  const QRect box(view.left() + kMargin_px, view.bottom() - words.height() - 3 * kMargin_px,
+                  words.width() + 2 * kMargin_px, words.height() + 2 * kMargin_px);
+  painter.fillRect(box, QColor(0, 0, 0, 200));
   painter.setPen(Qt::white);
-  painter.drawText(ground, Qt::AlignCenter, text);
+  painter.drawText(box, Qt::AlignCenter, text);
 }
 
 /// In the window's units.
@@ -115,7 +115,7 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));
   if (latencies_()) {
-    draw_on_ground(painter, rect(), QString::fromStdString(picture_.timing()));
+    draw_on_seabed(painter, rect(), QString::fromStdString(picture_.timing()));
   }
 }
 

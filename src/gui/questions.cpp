@@ -27,8 +27,8 @@ std::string dock_of(const QWidget* widget) {
 
 }  // namespace
 
-void answer_questions(QWidget& window, Asking& asking) {
-  asking.files_to_open = [&window] {
+void answer_questions(QWidget& window, Dialogs& dialogs) {
+  dialogs.files_to_open = [&window] {
     std::vector<std::string> files;
     for (const QString& file :
          QFileDialog::getOpenFileNames(&window, "Open files", {}, "Raw files (*.raw *.RAW);;All files (*)")) {
@@ -36,42 +36,42 @@ void answer_questions(QWidget& window, Asking& asking) {
     }
     return files;
   };
-  asking.file_to_open = [&window](const std::string& title, const std::string& pattern) {
+  dialogs.file_to_open = [&window](const std::string& title, const std::string& pattern) {
     return QFileDialog::getOpenFileName(&window, text(title), {}, text(pattern)).toStdString();
   };
-  asking.folder_to_open = [&window] {
+  dialogs.folder_to_open = [&window] {
     return QFileDialog::getExistingDirectory(&window, "Open a survey").toStdString();
   };
-  asking.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
+  dialogs.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
     return QFileDialog::getSaveFileName(&window, text(title), text(name), text(pattern)).toStdString();
   };
-  asking.folder_to_save = [&window](const std::string& title) {
+  dialogs.folder_to_save = [&window](const std::string& title) {
     return QFileDialog::getExistingDirectory(&window, text(title)).toStdString();
   };
-  asking.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
+  dialogs.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
     bool given = false;
     const QString answer =
         QInputDialog::getText(&window, text(title), text(label), QLineEdit::Normal, text(now), &given);
     return given ? std::optional(answer.toStdString()) : std::nullopt;
   };
-  asking.yes = [&window](const std::string& question) {
+  dialogs.yes = [&window](const std::string& question) {
     return QMessageBox::question(&window, "Sonar Explorer", text(question)) == QMessageBox::Yes;
   };
-  asking.parameters = [&window](const std::string& title, const PanelSection& section) {
+  dialogs.parameters = [&window](const std::string& title, const PanelSection& section) {
     return change_parameters(window, title, section);
   };
-  asking.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
-  asking.copy_image = [](const Image& image) {
+  dialogs.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
+  dialogs.copy_image = [](const Image& image) {
     // The clipboard's own copy: the image may be gone when it is pasted.
     const QImage shown(reinterpret_cast<const uchar*>(image.pixels.data()), image.size.width, image.size.height,
                        QImage::Format_RGBA8888);
     QGuiApplication::clipboard()->setImage(shown.copy());
   };
-  asking.view_in_use = [] {
+  dialogs.view_in_use = [] {
     const auto id = dock_of(QApplication::focusWidget());
     return id.empty() ? dock_of(QApplication::widgetAt(QCursor::pos())) : id;
   };
-  asking.quit = [&window] { window.close(); };
+  dialogs.quit = [&window] { window.close(); };
 }
 
 }  // namespace sonar

@@ -7,7 +7,7 @@
 
 namespace sonar {
 
-/// Answers what the desk asks by dialogs over a window.
-void answer_questions(QWidget& window, Asking& asking);
+/// Answers what the app asks by dialogs over a window.
+void answer_questions(QWidget& window, Dialogs& dialogs);
 
 }  // namespace sonar

@@ -30,8 +30,8 @@ QString text_at_cursor(const Workspace& workspace) {
   return QString::fromStdString(line);
 }
 
-/// The status bar's own ground: a style sheet would keep the colours of the theme it was set under.
-void clear_ground(QLineEdit& line) {
+/// The status bar's own background: a style sheet would keep the colours of the theme it was set under.
+void clear_seabed(QLineEdit& line) {
   QPalette palette;
   palette.setColor(QPalette::Base, QApplication::palette().color(QPalette::Window));
   palette.setColor(QPalette::Text, QApplication::palette().color(QPalette::WindowText));
@@ -50,8 +50,8 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
 }
 
 /// A school that was carried as far as its reach waits for a human to go on: a button beside the notice that says so.
-void add_continue_button(QStatusBar& status, Desk& desk) {
-  const Action action = *desk.actions.find(kContinueAction);
+void add_continue_button(QStatusBar& status, AppModel& app) {
+  const Action action = *app.actions.find(kContinueAction);
   auto* button = new QPushButton(QString::fromStdString(action.text), &status);
   button->setObjectName("continue");
   button->setToolTip(QString::fromStdString(action.tip));
@@ -62,8 +62,8 @@ void add_continue_button(QStatusBar& status, Desk& desk) {
   QObject::connect(button, &QPushButton::clicked, &status, [action] {
     if (action.enabled()) action.run();
   });
-  desk.workspace.school.changed().add(show);
-  desk.workspace.document.changes().add([show](DocumentChange change) {
+  app.workspace.school.changed().add(show);
+  app.workspace.document.changes().add([show](DocumentChange change) {
     const bool may_matter =
         change == DocumentChange::state || change == DocumentChange::observation || change == DocumentChange::progress;
     if (may_matter) show();
@@ -72,8 +72,8 @@ void add_continue_button(QStatusBar& status, Desk& desk) {
 
 }  // namespace
 
-void add_status_line(QMainWindow& window, Desk& desk) {
-  Workspace& workspace = desk.workspace;
+void add_status_line(QMainWindow& window, AppModel& app) {
+  Workspace& workspace = app.workspace;
   QStatusBar* status = window.statusBar();
   // A line of text, not a label: a label's new text has the whole window laid out anew.
   auto* cursor = new QLineEdit(status);
@@ -81,14 +81,14 @@ void add_status_line(QMainWindow& window, Desk& desk) {
   cursor->setReadOnly(true);
   cursor->setFrame(false);
   cursor->setFocusPolicy(Qt::ClickFocus);
-  clear_ground(*cursor);
+  clear_seabed(*cursor);
   auto* bar = new QProgressBar(status);
   bar->setFixedWidth(kProgressWidth_px);
   auto* cancel = new QPushButton("Cancel", status);
   cancel->setFlat(true);
   keep_own_keys(*cancel);
   status->addWidget(cursor, 1);
-  add_continue_button(*status, desk);
+  add_continue_button(*status, app);
   status->addPermanentWidget(bar);
   status->addPermanentWidget(cancel);
   // What comes and goes must not push the views about.
@@ -113,7 +113,7 @@ void add_status_line(QMainWindow& window, Desk& desk) {
   };
   workspace.cursor.changed().add(read);
   // After the window has taken the theme.
-  workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_ground(*cursor); }); });
+  workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_seabed(*cursor); }); });
   workspace.preview.changed().add(read);
   workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();

@@ -79,22 +79,22 @@ void grey_buttons(const QMainWindow& window, QToolBar& bar, const Actions& actio
   }
 }
 
-void follow(QMainWindow& window, QToolBar& bar, Desk& desk) {
+void follow(QMainWindow& window, QToolBar& bar, AppModel& app) {
   auto* soon = new QTimer(&bar);  // once for all changes of a turn
   soon->setSingleShot(true);
-  QObject::connect(soon, &QTimer::timeout, &bar, [&window, &bar, &desk] { grey_buttons(window, bar, desk.actions); });
+  QObject::connect(soon, &QTimer::timeout, &bar, [&window, &bar, &app] { grey_buttons(window, bar, app.actions); });
   const auto later = [guarded = QPointer<QTimer>(soon)] {
     if (!guarded.isNull()) guarded->start(0);
   };
-  desk.workspace.document.changes().add([later](DocumentChange) { later(); });
-  desk.workspace.school.changed().add(later);
-  desk.workspace.mark.changed().add(later);
+  app.workspace.document.changes().add([later](DocumentChange) { later(); });
+  app.workspace.school.changed().add(later);
+  app.workspace.mark.changed().add(later);
   for (const Button& button : kButtons) {
     QAction* shown = *button.id == '\0' ? nullptr : find_action(window, button.id);
     // A button takes over what its action tells of itself, also that it can act.
     if (shown != nullptr) QObject::connect(shown, &QAction::changed, &bar, later);
   }
-  grey_buttons(window, bar, desk.actions);
+  grey_buttons(window, bar, app.actions);
 }
 
 /// How fast it plays, beside the buttons that play.
@@ -117,7 +117,7 @@ void add_rate(QToolBar& bar, Playback& playback) {
 
 }  // namespace
 
-void add_tool_bar(QMainWindow& window, Desk& desk) {
+void add_tool_bar(QMainWindow& window, AppModel& app) {
   auto* bar = window.addToolBar("Tools");
   bar->setObjectName("tools");
   bar->setIconSize({kIcon_px, kIcon_px});
@@ -129,10 +129,10 @@ void add_tool_bar(QMainWindow& window, Desk& desk) {
     QAction* action = find_action(window, button.id);
     if (action == nullptr) continue;
     bar->addAction(action);
-    if (std::string_view(button.id) == "ping.last") add_rate(*bar, *desk.playback);
+    if (std::string_view(button.id) == "ping.last") add_rate(*bar, *app.playback);
   }
   tint_tool_bar(window);
-  follow(window, *bar, desk);
+  follow(window, *bar, app);
 }
 
 void tint_tool_bar(QMainWindow& window) {

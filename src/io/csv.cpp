@@ -23,6 +23,7 @@ void CsvRowReader::operator()(std::string_view name, std::string_view, std::stri
 }
 
 void CsvRowReader::operator()(std::string_view name, std::string_view, std::int64_t& v) {
+  if (is_later_column(name) && !table_.column(name)) return;
   if (field(name) == nullptr) return;
   const auto value = table_.whole(record_, *table_.column(name));
   if (value) {

@@ -18,8 +18,8 @@
 #include "io/atomic_file.h"
 #include "io/fuzz_choices.h"
 #include "io/netcdf_model.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "io/product_seal.h"
 
 namespace sonar::fuzz {

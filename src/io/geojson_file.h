@@ -11,7 +11,7 @@
 
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "io/columns.h"
+#include "io/table_columns.h"
 
 namespace sonar {
 

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "base/library_gate.h"
+#include "io/column_words.h"
 #include "io/gdal_drivers.h"
+#include "io/layer_styles.h"
 #include "io/map_geometry.h"
 
 namespace sonar {
@@ -63,6 +65,13 @@ void set(OGRFeature& feature, int field, const TableColumn& column, std::size_t 
     const std::string& text = std::get<std::vector<std::string>>(column.values)[row];
     if (!is_time(column) || text.size() == kTimeTextSize) feature.SetField(field, text.c_str());
   }
+}
+
+/// A text of SQL.
+std::string sql_text(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
 }
 
 }  // namespace
@@ -129,7 +138,79 @@ Result<void> MapLayers::add_layer(const std::string& name, OGRwkbGeometryType ty
     if (layer->CreateField(&field) != OGRERR_NONE) return refused("cannot create field " + column.name);
   }
   layers_[name] = layer;
+  columns_[name] = columns;
   return {};
+}
+
+Result<void> MapLayers::execute(const std::string& sql) {
+  failure_.clear();
+  if (OGRLayer* answer = dataset_->ExecuteSQL(sql.c_str(), nullptr, nullptr)) dataset_->ReleaseResultSet(answer);
+  return failure_.empty() ? Result<void>{} : refused("cannot describe the map");
+}
+
+/// The schema extension of GeoPackage: what each column is, with its unit.
+Result<void> MapLayers::describe_columns() {
+  auto done = execute(
+      "CREATE TABLE IF NOT EXISTS gpkg_data_columns (table_name TEXT NOT NULL, column_name TEXT NOT NULL, name TEXT, "
+      "title TEXT, description TEXT, mime_type TEXT, constraint_name TEXT, CONSTRAINT pk_gdc PRIMARY KEY "
+      "(table_name, column_name), CONSTRAINT gdc_tn UNIQUE (table_name, name))");
+  if (done) {
+    done = execute(
+        "CREATE TABLE IF NOT EXISTS gpkg_data_column_constraints (constraint_name TEXT NOT NULL, constraint_type TEXT "
+        "NOT NULL, value TEXT, min NUMERIC, min_is_inclusive BOOLEAN, max NUMERIC, max_is_inclusive BOOLEAN, "
+        "description "
+        "TEXT, CONSTRAINT gdcc_ntv UNIQUE (constraint_name, constraint_type, value))");
+  }
+  if (done) {
+    done = execute(
+        "CREATE TABLE IF NOT EXISTS gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, "
+        "definition TEXT NOT NULL, scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, "
+        "extension_name))");
+  }
+  for (const auto* table : {"gpkg_data_columns", "gpkg_data_column_constraints"}) {
+    if (!done) return done;
+    done =
+        execute(fmt::format("INSERT INTO gpkg_extensions VALUES ('{}', NULL, 'gpkg_schema', "
+                            "'http://www.geopackage.org/spec121/#extension_schema', 'read-write')",
+                            table));
+  }
+  for (const auto& [layer, columns] : columns_) {
+    for (const TableColumn& column : columns) {
+      const ColumnWords* words = words_of(column.name);
+      if (words == nullptr || !done) continue;
+      const bool has_unit = !column.unit.empty() && column.unit != "1";
+      const std::string unit = has_unit ? fmt::format(" [{}]", column.unit) : "";
+      done = execute(fmt::format("INSERT INTO gpkg_data_columns VALUES ({}, {}, NULL, {}, {}, NULL, NULL)",
+                                 sql_text(layer), sql_text(column.name), sql_text(column.name + unit),
+                                 sql_text(std::string(words->long_name) + unit)));
+    }
+  }
+  return done;
+}
+
+/// The table in which QGIS looks for a layer's style.
+Result<void> MapLayers::add_styles() {
+  auto done = execute(
+      "CREATE TABLE layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, f_table_catalog TEXT(256), "
+      "f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), "
+      "styleQML TEXT, styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), "
+      "update_time DATETIME)");
+  if (done) {
+    done =
+        execute(fmt::format("INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, "
+                            "srs_id) VALUES ('layer_styles', 'attributes', 'layer_styles', '', {}, 0)",
+                            sql_text(date_)));
+  }
+  for (const auto& [layer, columns] : columns_) {
+    const std::string qml = layer_style_qml(layer);
+    if (qml.empty() || !done) continue;
+    done =
+        execute(fmt::format("INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name, "
+                            "f_geometry_column, styleName, styleQML, styleSLD, useAsDefault, description, owner, ui, "
+                            "update_time) VALUES ('', '', {0}, 'geom', {0}, {1}, '', 1, '', '', NULL, {2})",
+                            sql_text(layer), sql_text(qml), sql_text(date_)));
+  }
+  return done;
 }
 
 Result<void> MapLayers::add(const std::string& layer_name, const OGRGeometry* geometry,
@@ -156,6 +237,8 @@ Result<void> MapLayers::commit() {
   if (!geopackage_) return {};
   {
     const QuietGdal quiet(date_, failure_);
+    if (auto described = describe_columns(); !described) return described;
+    if (auto styled = add_styles(); !styled) return styled;
     CPLErrorReset();
     if (dataset_->CommitTransaction() != OGRERR_NONE) return refused("SQLite");
     layers_.clear();

@@ -12,9 +12,9 @@
 
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "io/columns.h"
 #include "io/geojson_file.h"
-#include "io/survey_map.h"
+#include "io/survey_layers.h"
+#include "io/table_columns.h"
 
 namespace sonar {
 
@@ -42,6 +42,9 @@ class MapLayers {
   using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
   MapLayers(std::filesystem::path target, MapFormat format, TimeNs last_ping_time);
   Result<void> open_geopackage();
+  Result<void> execute(const std::string& sql);
+  Result<void> describe_columns();
+  Result<void> add_styles();
   [[nodiscard]] tl::unexpected<Error> refused(std::string_view what) const;
 
   std::filesystem::path target_;
@@ -50,8 +53,9 @@ class MapLayers {
   std::string failure_;  ///< the first that GDAL told
   std::optional<AtomicFile> geopackage_;
   Dataset dataset_;
-  std::map<std::string, OGRLayer*> layers_;        ///< of the GeoPackage
-  std::map<std::string, GeoJsonFile> json_files_;  ///< by layer
+  std::map<std::string, OGRLayer*> layers_;                  ///< of the GeoPackage
+  std::map<std::string, std::vector<TableColumn>> columns_;  ///< names and units, by layer of the GeoPackage
+  std::map<std::string, GeoJsonFile> json_files_;            ///< by layer
 };
 
 }  // namespace sonar

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "io/cf_attributes.h"
 #include "io/netcdf_file.h"
 
 namespace sonar {
@@ -47,10 +48,16 @@ void write_coordinates(Writer& out, const ObservationProduct& product, const Dim
     longitude.push_back(n.transducer.longitude_deg);
     heading.push_back(n.heading_deg);
   }
-  out.variable(out.root(), "time", "nanoseconds since 1970-01-01T00:00:00Z", {ping}, time);
-  out.variable(out.root(), "latitude", "degrees_north", {ping}, latitude);
-  out.variable(out.root(), "longitude", "degrees_east", {ping}, longitude);
-  out.variable(out.root(), "heading", "degrees", {ping}, heading);
+  const int root = out.root();
+  cf::ping_times(out, root, ping, time);
+  const auto put = [&](const char* name, const char* unit, const std::vector<double>& values,
+                       std::string_view long_name, std::string_view standard_name) {
+    cf::name(out, root, out.variable(root, name, unit, {ping}, values, netcdf::Storage::plain, &kUnknown), long_name,
+             standard_name);
+  };
+  put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84", "latitude");
+  put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84", "longitude");
+  put("heading", "degrees", heading, "heading, clockwise from true north", "platform_orientation");
 }
 
 void write_arrays(Writer& out, const ObservationProduct& product, const Dimension& ping, const Work& work) {
@@ -61,18 +68,30 @@ void write_arrays(Writer& out, const ObservationProduct& product, const Dimensio
                                         out.dimension(out.root(), "sample", samples)};
   std::vector<double> range_m;
   for (int i = 0; i < record.range.count; ++i) range_m.push_back(record.range.range_m(i));
-  out.variable(out.root(), "elevation", "degrees", {shape[1]}, record.grid.elevation_deg);
-  out.variable(out.root(), "azimuth", "degrees", {shape[2]}, record.grid.azimuth_deg);
-  out.variable(out.root(), "frequency", "Hz", {shape[1]}, record.grid.frequency_hz);
-  out.variable(out.root(), "range", "m", {shape[3]}, range_m);
+  const auto axis = [&](const char* name, const char* unit, const Dimension& along, const std::vector<double>& values,
+                        std::string_view long_name, std::string_view standard_name = {}) {
+    cf::name(out, out.root(), out.variable(out.root(), name, unit, {along}, values), long_name, standard_name);
+  };
+  axis("elevation", "degrees", shape[1], record.grid.elevation_deg, "elevation of the fan, positive up");
+  axis("azimuth", "degrees", shape[2], record.grid.azimuth_deg, "azimuth of the beam, clockwise from the bow");
+  axis("frequency", "Hz", shape[1], record.grid.frequency_hz, "centre frequency of the fan", "sound_frequency");
+  axis("range", "m", shape[3], range_m, "slant range of the sample from the transducer");
+  const std::string_view where = "time latitude longitude elevation azimuth range";
   const int school_id = out.sliced_variable<std::int32_t>(out.root(), "school_id", "1", shape);
-  out.attribute(out.root(), school_id, "long_name", "school that the voxel belongs to; 0 = none");
+  cf::name(out, out.root(), school_id, "school that the voxel belongs to; 0 = none");
+  cf::place(out, out.root(), school_id, where);
   const int confidence = out.sliced_variable<std::uint8_t>(out.root(), "confidence", "1", shape);
+  cf::name(out, out.root(), confidence, "how surely the voxel belongs to its school");
+  cf::place(out, out.root(), confidence, where);
   out.attribute(out.root(), confidence, "scale_factor", 1.0 / 255.0);
   std::vector<std::int32_t> ids(shape[1].length * shape[2].length * samples);
   std::vector<std::uint8_t> values(ids.size());
-  for (const auto& [index, masks] : masks_by_ping(product)) {
+  const auto by_ping = masks_by_ping(product);
+  for (std::size_t index = 0; index < ping.length; ++index) {
     if (work.cancelled()) return;
+    const auto found = by_ping.find(index);
+    const std::vector<const SchoolMask*> masks =
+        found != by_ping.end() ? found->second : std::vector<const SchoolMask*>{};
     std::fill(ids.begin(), ids.end(), 0);
     std::fill(values.begin(), values.end(), std::uint8_t{0});
     for (const SchoolMask* m : masks) {
@@ -103,7 +122,7 @@ Result<void> write_mask_volume(const ObservationProduct& product, const std::fil
   auto file = AtomicFile::create(path);
   if (!file) return pass_on(file);
   Writer out(path.string());
-  out.attribute(out.root(), Writer::kGlobal, "Conventions", std::string_view("CF-1.8"));
+  out.attribute(out.root(), Writer::kGlobal, "Conventions", cf::kConventions);
   out.attribute(out.root(), Writer::kGlobal, "title", std::string_view(product.title));
   out.attribute(out.root(), Writer::kGlobal, "observation", std::string_view(product.observation));
   out.attribute(out.root(), Writer::kGlobal, "recipe_hash", std::string_view(product.recipe_hash));

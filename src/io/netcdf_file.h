@@ -49,17 +49,21 @@ class Writer {
   void attribute(int group, int variable, const std::string& name, double value);
   void attribute(int group, int variable, const std::string& name, std::int64_t value);
   void attribute(int group, int variable, const std::string& name, const std::vector<std::string>& texts);
+  /// Numbers of one kind, as flags of a variable of that kind.
+  template <class T>
+  void numbers(int group, int variable, const std::string& name, const std::vector<T>& values);
 
   /// Defines a variable, writes it, and returns its id. Values lie in row-major order; `unit` "" = no attribute.
+  /// missing  the number that stands where nothing is known; null = there is none
   template <class T>
   int variable(int group, const std::string& name, std::string_view unit, const std::vector<Dimension>& dimensions,
-               const std::vector<T>& values, Storage storage = Storage::plain);
+               const std::vector<T>& values, Storage storage = Storage::plain, const T* missing = nullptr);
 
-  /// Defines a variable of whole arrays that are written one by one along its first dimension; what is never written
-  /// reads as 0 and takes no room.
+  /// Defines a variable of whole arrays that are written one by one along its first dimension.
+  /// missing  what stands where nothing is known, and in slices that are never written; null = every slice is written
   template <class T>
   int sliced_variable(int group, const std::string& name, std::string_view unit,
-                      const std::vector<Dimension>& dimensions);
+                      const std::vector<Dimension>& dimensions, const T* missing = nullptr);
   /// Writes slice `index` of a sliced_variable().
   template <class T>
   void slice(int group, int variable, std::size_t index, const std::vector<Dimension>& dimensions,

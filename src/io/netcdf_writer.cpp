@@ -24,6 +24,7 @@ constexpr int nc_type_of() {
   if constexpr (std::is_same_v<T, float>) return NC_FLOAT;
   if constexpr (std::is_same_v<T, std::int64_t>) return NC_INT64;
   if constexpr (std::is_same_v<T, std::int32_t>) return NC_INT;
+  if constexpr (std::is_same_v<T, std::int16_t>) return NC_SHORT;
   if constexpr (std::is_same_v<T, std::uint8_t>) return NC_UBYTE;
   return NC_STRING;
 }
@@ -134,9 +135,19 @@ int Writer::define(int group, const std::string& name, std::string_view unit, co
 }
 
 template <class T>
+void Writer::numbers(int group, int variable, const std::string& name, const std::vector<T>& values) {
+  if (status_) check(nc_put_att(group, variable, name.c_str(), nc_type_of<T>(), values.size(), values.data()), name);
+}
+
+template void Writer::numbers(int, int, const std::string&, const std::vector<std::int64_t>&);
+template void Writer::numbers(int, int, const std::string&, const std::vector<std::uint8_t>&);
+
+template <class T>
 int Writer::variable(int group, const std::string& name, std::string_view unit,
-                     const std::vector<Dimension>& dimensions, const std::vector<T>& values, Storage storage) {
+                     const std::vector<Dimension>& dimensions, const std::vector<T>& values, Storage storage,
+                     const T* missing) {
   const int id = define(group, name, unit, dimensions, nc_type_of<T>(), sizeof(T), storage);
+  if (status_ && missing != nullptr) check(nc_def_var_fill(group, id, NC_FILL, missing), name);
   if (!status_ || values.empty()) return id;
   const std::vector<std::size_t> start(dimensions.size(), 0);
   std::vector<std::size_t> count;
@@ -153,30 +164,31 @@ int Writer::variable(int group, const std::string& name, std::string_view unit,
 }
 
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<double>&, Storage);
+                              const std::vector<double>&, Storage, const double*);
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<float>&, Storage);
+                              const std::vector<float>&, Storage, const float*);
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<std::int64_t>&, Storage);
+                              const std::vector<std::int64_t>&, Storage, const std::int64_t*);
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<std::int32_t>&, Storage);
+                              const std::vector<std::int32_t>&, Storage, const std::int32_t*);
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<std::uint8_t>&, Storage);
+                              const std::vector<std::int16_t>&, Storage, const std::int16_t*);
 template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
-                              const std::vector<std::string>&, Storage);
+                              const std::vector<std::uint8_t>&, Storage, const std::uint8_t*);
+template int Writer::variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
+                              const std::vector<std::string>&, Storage, const std::string*);
 
 template <class T>
 int Writer::sliced_variable(int group, const std::string& name, std::string_view unit,
-                            const std::vector<Dimension>& dimensions) {
+                            const std::vector<Dimension>& dimensions, const T* missing) {
   const int id = define(group, name, unit, dimensions, nc_type_of<T>(), sizeof(T), Storage::plain);
   if (!status_) return id;
   std::vector<std::size_t> chunk;
   for (const Dimension& d : dimensions) chunk.push_back(std::max<std::size_t>(1, d.length));
   chunk.front() = 1;
-  const T zero{};
   check(nc_def_var_chunking(group, id, NC_CHUNKED, chunk.data()), name);
   check(nc_def_var_deflate(group, id, sizeof(T) > 1 ? 1 : 0, 1, 1), name);
-  check(nc_def_var_fill(group, id, NC_FILL, &zero), name);
+  if (missing != nullptr) check(nc_def_var_fill(group, id, NC_FILL, missing), name);
   return id;
 }
 
@@ -192,11 +204,14 @@ void Writer::slice(int group, int variable, std::size_t index, const std::vector
   check(nc_put_vara(group, variable, start.data(), count.data(), values.data()), "slice");
 }
 
-template int Writer::sliced_variable<std::int32_t>(int, const std::string&, std::string_view,
-                                                   const std::vector<Dimension>&);
-template int Writer::sliced_variable<std::uint8_t>(int, const std::string&, std::string_view,
-                                                   const std::vector<Dimension>&);
+template int Writer::sliced_variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
+                                     const std::int32_t*);
 template void Writer::slice(int, int, std::size_t, const std::vector<Dimension>&, const std::vector<std::int32_t>&);
+template int Writer::sliced_variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
+                                     const std::int16_t*);
+template void Writer::slice(int, int, std::size_t, const std::vector<Dimension>&, const std::vector<std::int16_t>&);
+template int Writer::sliced_variable(int, const std::string&, std::string_view, const std::vector<Dimension>&,
+                                     const std::uint8_t*);
 template void Writer::slice(int, int, std::size_t, const std::vector<Dimension>&, const std::vector<std::uint8_t>&);
 
 /// The bytes of the one file that HDF5 has open while we hold the lock.

@@ -13,8 +13,8 @@
 
 #include "base/test_paths.h"
 #include "io/netcdf_model.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "io/product_seal.h"
 
 namespace sonar {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "io/netcdf_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "io/product_mask_reader.h"
 #include "io/product_seal.h"
 
@@ -34,9 +34,10 @@ bool check_version(Reader& in) {
   if (version > kProductVersion) {
     in.refuse(ErrorCode::newer_version,
               fmt::format("product_version {} is newer than this program's {}", version, kProductVersion));
-  } else if (version < kProductVersion) {
+  } else if (version < kOldestProductVersion) {
     in.refuse(ErrorCode::older_version,
-              fmt::format("product_version {} is older than this program's {}: run again", version, kProductVersion));
+              fmt::format("product_version {} is older than {}, the oldest that is read: run again", version,
+                          kOldestProductVersion));
   }
   return in.ok();
 }
@@ -111,10 +112,13 @@ void read_background(Reader& in, int group, ObservationProduct& product) {
   }
 }
 
+/// Version 1 had nanoseconds in `time`.
+const char* time_name(Reader& in, int pings) { return in.has_variable(pings, "time_ns") ? "time_ns" : "time"; }
+
 void read_pings(Reader& in, ObservationProduct& product) {
   const int group = in.group(in.root(), "pings");
   const std::size_t n = in.dimension(group, "ping");
-  const auto time = in.values<std::int64_t>(group, "time", n);
+  const auto time = in.values<std::int64_t>(group, time_name(in, group), n);
   if (!in.ok() || !in.can_hold(n, kPingColumns * sizeof(double))) return;
   product.pings.resize(n);
   for (std::size_t i = 0; i < n; ++i) product.pings[i].time = time[i];
@@ -365,7 +369,7 @@ Result<ProductKey> read_key(const std::filesystem::path& path) {
            in.text(root, "source"),      in.text(root, "recipe")};
     const int group = in.group(root, "pings");
     key.pings = in.dimension(group, "ping");
-    const auto time = in.values<std::int64_t>(group, "time", key.pings);
+    const auto time = in.values<std::int64_t>(group, time_name(in, group), key.pings);
     if (!time.empty()) {
       key.first_time = time.front();
       key.last_time = time.back();

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "io/netcdf_model.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "io/product_seal.h"
 
 namespace sonar {
@@ -80,7 +80,7 @@ TEST_F(ProductSpoilt, small_files_do_not_pretend_to_hold_large_tables) {
 }
 
 TEST_F(ProductSpoilt, times_may_be_as_far_apart_as_they_like) {
-  variable("pings", "time").wholes.front() = 9'223'372'036'854'775'807LL;
+  variable("pings", "time_ns").wholes.front() = 9'223'372'036'854'775'807LL;
   variable("school_pings", "time_utc").texts.front() = "1700-01-01T00:00:00.000Z";
   EXPECT_TRUE(read());
 }

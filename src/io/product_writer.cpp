@@ -8,10 +8,12 @@
 
 #include "base/number_text.h"
 #include "io/atomic_file.h"
-#include "io/columns.h"
+#include "io/cf_attributes.h"
+#include "io/column_words.h"
 #include "io/netcdf_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "io/product_seal.h"
+#include "io/table_columns.h"
 #include "model/beam_angles.h"
 
 namespace sonar {
@@ -34,7 +36,7 @@ void write_attributes(Writer& out, const ObservationProduct& product) {
   const auto text = [&](const char* name, const std::string& value) {
     out.attribute(root, Writer::kGlobal, name, std::string_view(value));
   };
-  text("Conventions", "CF-1.8");
+  text("Conventions", std::string(cf::kConventions));
   text("title", product.title);
   text("source", product.source);
   text("history", product.history);
@@ -66,45 +68,51 @@ void write_background(Writer& out, int group, const Dimension& ping, const Obser
     }
   }
   const Dimension width = out.dimension(group, "channel", channels);
-  const int id = out.variable(group, "background_db", "dB re 1 W", {ping, width}, levels, Storage::packed);
-  out.attribute(group, id, "long_name", "received background level that was subtracted, by 0-based channel");
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const int id = out.variable(group, "background_db", "dB re 1 W", {ping, width}, levels, Storage::packed, &unknown);
+  cf::name(out, group, id, "received background level that was subtracted, by channel");
+  cf::place(out, group, id, "time latitude longitude");
 }
 
 void write_pings(Writer& out, const ObservationProduct& product) {
   const int group = out.group(out.root(), "pings");
   const Dimension ping = out.dimension(group, "ping", product.pings.size());
-  const int time = out.variable(group, "time", "nanoseconds since 1970-01-01T00:00:00Z", {ping},
-                                per_ping(product, &PingNavigation::time));
-  out.attribute(group, time, "standard_name", "time");
-  out.attribute(group, time, "calendar", "proleptic_gregorian");
+  cf::ping_times(out, group, ping, per_ping(product, &PingNavigation::time));
   std::vector<double> latitude;
   std::vector<double> longitude;
   for (const PingNavigation& p : product.pings) {
     latitude.push_back(p.transducer.latitude_deg);
     longitude.push_back(p.transducer.longitude_deg);
   }
-  const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name) {
-    const int id = out.variable(group, name, unit, {ping}, values);
-    out.attribute(group, id, "long_name", long_name);
+  const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name,
+                       std::string_view standard_name = {}) {
+    const int id = out.variable(group, name, unit, {ping}, values, Storage::plain, &kUnknown);
+    cf::name(out, group, id, long_name, standard_name);
     return id;
   };
+  put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84", "latitude");
+  put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84", "longitude");
+  const auto placed = [&](const char* name, const char* unit, double PingNavigation::*member, const char* long_name,
+                          std::string_view standard_name = {}) {
+    cf::place(out, group, put(name, unit, per_ping(product, member), long_name, standard_name),
+              "time latitude longitude");
+  };
   using N = PingNavigation;
-  out.attribute(group, put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84"),
-                "standard_name", "latitude");
-  out.attribute(group, put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84"),
-                "standard_name", "longitude");
-  put("heading", "degrees", per_ping(product, &N::heading_deg), "heading, clockwise from true north");
-  put("speed", "m s-1", per_ping(product, &N::speed_mps), "speed over ground");
-  put("course", "degrees", per_ping(product, &N::course_deg), "course over ground, clockwise from true north");
-  put("distance", "nmi", per_ping(product, &N::distance_nmi), "vessel's log");
-  put("pitch", "degrees", per_ping(product, &N::pitch_deg), "pitch, positive bow up");
-  put("roll", "degrees", per_ping(product, &N::roll_deg), "roll, positive port up");
-  put("heave", "m", per_ping(product, &N::heave_m), "heave, positive down");
-  put("transducer_depth", "m", per_ping(product, &N::transducer_depth_m), "depth of the transducer");
-  put("gps_minus_clock", "s", per_ping(product, &N::gps_minus_clock_s), "GPS time minus the datagrams' clock");
+  placed("heading", "degrees", &N::heading_deg, "heading, clockwise from true north", "platform_orientation");
+  placed("speed", "m s-1", &N::speed_mps, "speed over ground", "platform_speed_wrt_ground");
+  placed("course", "degrees", &N::course_deg, "course over ground, clockwise from true north", "platform_course");
+  placed("distance", "nautical_mile", &N::distance_nmi, "distance by the vessel's log");
+  placed("pitch", "degrees", &N::pitch_deg, "pitch, positive with the bow up", "platform_pitch_fore_up");
+  placed("roll", "degrees", &N::roll_deg, "roll, positive with the port side up", "platform_roll_starboard_down");
+  placed("heave", "m", &N::heave_m, "heave, positive down", "platform_heave_down");
+  placed("transducer_depth", "m", &N::transducer_depth_m, "depth of the transducer below the sea surface", "depth");
+  placed("gps_minus_clock", "s", &N::gps_minus_clock_s, "GPS time minus the datagrams' clock");
   std::vector<std::uint8_t> bad;
   for (const PingNavigation& p : product.pings) bad.push_back(p.bad ? 1 : 0);
-  out.attribute(group, out.variable(group, "bad", "1", {ping}, bad), "long_name", "1 = the ping was not used");
+  const int id = out.variable(group, "bad", "1", {ping}, bad);
+  cf::name(out, group, id, "whether the ping was left out");
+  cf::flags(out, group, id, "used left_out");
+  cf::place(out, group, id, "time latitude longitude");
   write_background(out, group, ping, product);
 }
 
@@ -112,13 +120,13 @@ void write_pings(Writer& out, const ObservationProduct& product) {
 void write_beam_angles(Writer& out, int group, const std::vector<Dimension>& beams, const GridRecord& record) {
   const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name) {
     if (values.size() != record.grid.channel.size()) return;
-    out.attribute(group, out.variable(group, name, unit, beams, values), "long_name", long_name);
+    cf::name(out, group, out.variable(group, name, unit, beams, values), long_name);
   };
   if (!record.grid.psi_stated_db.empty()) {
     put("psi_stated", "dB re 1 sr", record.grid.psi_stated_db,
         "equivalent two-way beam angle as the raw files state it");
     put("psi_from_widths", "dB re 1 sr", psi_from_widths_db(record.grid),
-        "the same of the square of a beam of these widths");
+        "equivalent two-way beam angle of the square of a beam of these widths");
     put("psi_excess", "dB", psi_excess_db(record.grid), "psi_stated minus psi_from_widths");
   }
   put("psi_used", "dB re 1 sr", record.psi_used_db, "equivalent two-way beam angle that Sv was worked out with");
@@ -134,34 +142,90 @@ void write_grid(Writer& out, const ObservationProduct& product) {
   const auto scalar = [&](const char* name, const char* unit, double value) {
     return out.variable(group, name, unit, {}, std::vector<double>{value});
   };
-  const auto named = [&](int id, const char* long_name) { out.attribute(group, id, "long_name", long_name); };
+  const auto named = [&](int id, const char* long_name, std::string_view standard_name = {}) {
+    cf::name(out, group, id, long_name, standard_name);
+  };
   named(out.variable(group, "elevation", "degrees", {fan}, grid.elevation_deg), "elevation of the fan, positive up");
   named(out.variable(group, "azimuth", "degrees", {beam}, grid.azimuth_deg), "azimuth, clockwise from the bow");
   named(scalar("mounting_azimuth", "degrees", grid.mounting_azimuth_deg), "where the sonar looks, from the bow");
-  out.variable(group, "frequency", "Hz", {fan}, grid.frequency_hz);
+  named(out.variable(group, "frequency", "Hz", {fan}, grid.frequency_hz), "centre frequency of the fan",
+        "sound_frequency");
   named(out.variable(group, "channel", "1", {fan, beam},
                      std::vector<std::int32_t>(grid.channel.begin(), grid.channel.end())),
-        "0-based channel of each beam");
-  named(out.variable(group, "vertical_width", "degrees", {fan, beam}, grid.vertical_width_deg), "one-way -3 dB width");
+        "channel of each beam, from 0");
+  named(out.variable(group, "vertical_width", "degrees", {fan, beam}, grid.vertical_width_deg),
+        "vertical one-way -3 dB width of the beam");
   named(out.variable(group, "horizontal_width", "degrees", {fan, beam}, grid.horizontal_width_deg),
-        "one-way -3 dB width");
+        "horizontal one-way -3 dB width of the beam");
   write_beam_angles(out, group, {fan, beam}, record);
   named(out.variable(group, "sample_count", "1", {fan}, record.sample_count), "samples of the fan's longest beam");
   named(out.variable(group, "sample_count_of_grid", "1", {}, std::vector<std::int32_t>{record.range.count}),
         "samples of the longest fan");
-  scalar("sample_spacing", "m", record.range.spacing_m);
+  named(scalar("sample_spacing", "m", record.range.spacing_m), "distance between samples along range");
   named(scalar("range_of_first_sample", "m", record.range.first_m), "slant range of sample 0; may be negative");
-  scalar("sound_speed", "m s-1", record.sound_speed_mps);
+  named(scalar("sound_speed", "m s-1", record.sound_speed_mps), "speed of sound", "speed_of_sound_in_sea_water");
 }
 
+/// Doubles may be unknown; whole numbers and texts never are.
+int write_values(Writer& out, int group, const TableColumn& column, const Dimension& row) {
+  if (const auto* numbers = std::get_if<std::vector<double>>(&column.values)) {
+    return out.variable(group, column.name, column.unit, {row}, *numbers, Storage::plain, &kUnknown);
+  }
+  return std::visit([&](const auto& values) { return out.variable(group, column.name, column.unit, {row}, values); },
+                    column.values);
+}
+
+void write_column(Writer& out, int group, const TableColumn& column, const Dimension& row,
+                  const std::string& coordinates) {
+  const int id = write_values(out, group, column, row);
+  const ColumnWords* words = words_of(column.name);
+  if (words == nullptr) return;
+  cf::name(out, group, id, words->long_name, words->standard_name);
+  if (const auto flags = words->flags(); !flags.empty()) {
+    out.numbers(group, id, words->bits ? "flag_masks" : "flag_values", flags);
+    out.attribute(group, id, "flag_meanings", words->meanings);
+  }
+  const std::string place = coordinates + " ";
+  if ((" " + place).find(" " + column.name + " ") == std::string::npos) cf::place(out, group, id, coordinates);
+}
+
+/// Visitor: the time columns of a row, as numbers beside their texts: `first_time` of `first_time_utc`.
+struct TimesOfRows {
+  std::vector<std::pair<std::string, std::vector<TimeNs>>> columns;
+  std::size_t at = 0;
+  void operator()(std::string_view name, std::string_view, TimeColumn column) {
+    if (at == columns.size()) columns.push_back({std::string(name), {}});
+    columns[at++].second.push_back(column.value);
+  }
+  template <class T>
+  void operator()(std::string_view, std::string_view, const T&) {}
+};
+
 template <class Row>
-void write_rows(Writer& out, const char* group_name, const char* dimension, const std::vector<Row>& rows) {
+void write_times(Writer& out, int group, const Dimension& row, const std::vector<Row>& rows) {
+  TimesOfRows times;
+  Row blank;
+  columns(times, blank);
+  for (auto& [name, values] : times.columns) values.clear();
+  for (Row one : rows) {
+    times.at = 0;
+    columns(times, one);
+  }
+  for (const auto& [name, values] : times.columns) {
+    std::string number = name.substr(0, name.size() - std::string_view("_utc").size());
+    if (!number.ends_with("time")) number += "_time";
+    cf::times(out, group, number, words_of(name)->long_name, row, values, true);
+  }
+}
+
+/// coordinates  where and when the rows are, names of their columns
+template <class Row>
+void write_rows(Writer& out, const char* group_name, const char* dimension, const std::string& coordinates,
+                const std::vector<Row>& rows) {
   const int group = out.group(out.root(), group_name);
   const Dimension row = out.dimension(group, dimension, rows.size());
-  for (const TableColumn& column : columns_of(rows)) {
-    std::visit([&](const auto& values) { out.variable(group, column.name, column.unit, {row}, values); },
-               column.values);
-  }
+  write_times(out, group, row, rows);
+  for (const TableColumn& column : columns_of(rows)) write_column(out, group, column, row, coordinates);
 }
 
 /// A run as it stands in the file.
@@ -219,7 +283,8 @@ void write_faults(Writer& out, int group, const Dimension& voxel, const std::vec
     fault.insert(fault.end(), first, first + run.count);
   }
   const int id = out.variable(group, "fault", "1", {voxel}, fault, Storage::packed);
-  out.attribute(group, id, "long_name", "1 = a faulty sample, which takes no part in Sv; in run order");
+  cf::name(out, group, id, "whether the sample is faulty and takes no part in Sv, in run order");
+  cf::flags(out, group, id, "sound faulty");
 }
 
 void write_mask(Writer& out, const std::vector<ChannelRun>& runs) {
@@ -242,10 +307,13 @@ void write_mask(Writer& out, const std::vector<ChannelRun>& runs) {
   const Dimension voxel = out.dimension(group, "voxel", confidence.size());
   const auto named = [&](int id, const char* long_name) { out.attribute(group, id, "long_name", long_name); };
   named(out.variable(group, "school_id", "1", {run}, school_id, Storage::packed), "school of the run");
-  named(out.variable(group, "ping_index", "1", {run}, ping_index, Storage::packed), "0-based ping of the run");
-  named(out.variable(group, "channel", "1", {run}, channel, Storage::packed), "0-based channel of the run");
-  named(out.variable(group, "first_sample", "1", {run}, first_sample, Storage::packed), "0-based first sample");
-  named(out.variable(group, "sample_count", "1", {run}, sample_count, Storage::packed), "length of the run");
+  named(out.variable(group, "ping_index", "1", {run}, ping_index, Storage::packed), "number of the run's ping, from 0");
+  named(out.variable(group, "channel", "1", {run}, channel, Storage::packed), "number of the run's channel, from 0");
+  named(out.variable(group, "first_sample", "1", {run}, first_sample, Storage::packed),
+        "number of the run's first sample, from 0");
+  const int count = out.variable(group, "sample_count", "1", {run}, sample_count, Storage::packed);
+  named(count, "length of the run");
+  out.attribute(group, count, "sample_dimension", std::string_view("voxel"));  // the voxels are a ragged array
   const int id = out.variable(group, "confidence", "1", {voxel}, confidence, Storage::packed);
   out.attribute(group, id, "scale_factor", 1.0 / 255.0);
   named(id, "confidence of each voxel, in run order");
@@ -267,11 +335,14 @@ void write_diagnostics(Writer& out, const Diagnostics& notes) {
     text.push_back(note.text);
   }
   const Dimension n = out.dimension(group, "note", notes.size());
-  out.variable(group, "code", "", {n}, code);
-  out.variable(group, "file", "", {n}, file);
-  out.attribute(group, out.variable(group, "offset", "byte", {n}, offset), "long_name", "byte offset; -1 = none");
-  out.attribute(group, out.variable(group, "ping_index", "1", {n}, ping_index), "long_name", "0-based; -1 = none");
-  out.variable(group, "text", "", {n}, text);
+  const std::int64_t none = -1;
+  cf::name(out, group, out.variable(group, "code", "", {n}, code), "code of the note");
+  cf::name(out, group, out.variable(group, "file", "", {n}, file), "file that the note is about");
+  cf::name(out, group, out.variable(group, "offset", "1", {n}, offset, Storage::plain, &none),
+           "place in the file, bytes from its beginning");
+  cf::name(out, group, out.variable(group, "ping_index", "1", {n}, ping_index, Storage::plain, &none),
+           "number of the ping, from 0");
+  cf::name(out, group, out.variable(group, "text", "", {n}, text), "what the note says");
 }
 
 Result<void> check_shapes(const ObservationProduct& product, const Where& where) {
@@ -313,10 +384,10 @@ Result<void> write_product(const ObservationProduct& product, const std::filesys
   write_attributes(out, product);
   write_pings(out, product);
   write_grid(out, product);
-  write_rows(out, "schools", "school", product.schools);
-  write_rows(out, "school_pings", "row", product.school_pings);
+  write_rows(out, "schools", "school", "first_time latitude longitude depth_m", product.schools);
+  write_rows(out, "school_pings", "row", "time latitude longitude depth_m", product.school_pings);
   write_mask(out, *runs);
-  write_rows(out, "rejected", "echo", product.rejected);
+  write_rows(out, "rejected", "echo", "latitude longitude depth_m", product.rejected);
   write_diagnostics(out, product.diagnostics);
   const auto hash = out.close_into(*file);
   if (!hash) return pass_on(hash);

@@ -96,17 +96,17 @@ void put_reduced_row(RawBytes& out, const ReducedRow& row) {
 }
 
 /// What reduced files hold behind a channel's samples.
-void put_reduced(RawBytes& out, const ChannelPing& p) {
+void put_reduced(RawBytes& out, const ReducedRecord& record) {
   put_mark(out, simrad::kReducedMark);
-  put_reduced_row(out, *p.reduced);
-  if (p.reduced_seabed) {
+  put_reduced_row(out, record.row);
+  if (record.seabed) {
     put_mark(out, simrad::kReducedSeabedMark);
-    const ReducedSeabed& s = *p.reduced_seabed;
+    const ReducedSeabed& s = *record.seabed;
     for (const double value : {s.offset_m, s.slope_x, s.slope_y, s.min_x, s.max_x, s.min_y, s.max_y}) put(out, value);
   }
-  if (p.reduced_water) {
+  if (record.water) {
     put_mark(out, simrad::kReducedWaterMark);
-    const WaterLevels& water = *p.reduced_water;
+    const WaterLevels& water = *record.water;
     put(out, water.block_samples);
     put(out, water.blocks);
     put(out, water.places);
@@ -123,10 +123,10 @@ void put_reduced(RawBytes& out, const ChannelPing& p) {
     }
     for (const std::int8_t steps : water.patch) out.push_back(std::bit_cast<std::byte>(steps));
   }
-  if (p.reduced_short.empty()) return;
+  if (record.short_beams.empty()) return;
   put_mark(out, simrad::kReducedShortMark);
-  put(out, static_cast<std::int32_t>(p.reduced_short.size()));
-  for (const ReducedChannel& beam : p.reduced_short) {
+  put(out, static_cast<std::int32_t>(record.short_beams.size()));
+  for (const ReducedChannel& beam : record.short_beams) {
     put(out, static_cast<std::int32_t>(beam.channel + 1));
     put_reduced_row(out, beam.row);
   }
@@ -194,7 +194,7 @@ Result<void> append_raw0(RawBytes& out, TimeNs time, const ChannelPing& p) {
     out.resize(samples);
     for (const std::int16_t count : p.power_count) put(out, count);
   }
-  if (p.reduced) put_reduced(out, p);
+  if (p.reduced) put_reduced(out, *p.reduced);
   close(out, start);
   return {};
 }

@@ -15,7 +15,8 @@
 
 namespace sonar {
 
-inline constexpr int kProductVersion = 1;
+inline constexpr int kProductVersion = 2;
+inline constexpr int kOldestProductVersion = 1;  ///< that is read
 
 /// A raw file that a product came from.
 struct InputFile {

@@ -10,7 +10,7 @@
 
 namespace sonar {
 
-/// An echo that stood out clearly in one ping and was judged no school: a row of /rejected. NaN = unknown.
+/// An echo that lay clearly above the background in one ping and was judged no school: a row of /rejected. NaN = unknown.
 struct RefusedEcho {
   std::int64_t ping_index = 0;
   std::int64_t echo_id = 0;  ///< 1..; the same in all pings in which it was followed

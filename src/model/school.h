@@ -72,6 +72,7 @@ struct SchoolPingRow {
   double backscatter_calibration_se_db = kUnknown;
   double backscatter_total_m2 = kUnknown;
   double backscatter_total_se_m2 = kUnknown;
+  std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -117,6 +118,7 @@ struct SchoolRow {
   double backscatter_total_se_m2 = kUnknown;
   /// kEndNames: ends of the track that a propagation by hand left only because it was asked no farther.
   std::string ended_at_reach;
+  std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -133,8 +135,8 @@ struct DegreesColumn {
 template <class Visitor>
 void columns(Visitor& v, SchoolPingRow& r) {
   v("observation", "", r.observation);
-  v("school_id", "", r.school_id);
-  v("ping_index", "", r.ping_index);
+  v("school_id", "1", r.school_id);
+  v("ping_index", "1", r.ping_index);
   v("time_utc", "", TimeColumn{r.time_utc});
   v("latitude", "degrees_north", DegreesColumn{r.latitude});
   v("longitude", "degrees_east", DegreesColumn{r.longitude});
@@ -172,12 +174,13 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("backscatter_calibration_se_db", "dB", r.backscatter_calibration_se_db);
   v("backscatter_total_m2", "m2", r.backscatter_total_m2);
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
+  v("survey_school", "1", r.survey_school);
 }
 
 template <class Visitor>
 void columns(Visitor& v, SchoolRow& r) {
   v("observation", "", r.observation);
-  v("school_id", "", r.school_id);
+  v("school_id", "1", r.school_id);
   v("continues", "", r.continues);
   v("first_time_utc", "", TimeColumn{r.first_time_utc});
   v("last_time_utc", "", TimeColumn{r.last_time_utc});
@@ -211,12 +214,14 @@ void columns(Visitor& v, SchoolRow& r) {
   v("backscatter_total_m2", "m2", r.backscatter_total_m2);
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
   v("ended_at_reach", "", r.ended_at_reach);
+  v("survey_school", "1", r.survey_school);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
   return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db" ||
-         column == "backscatter_total_m2" || column == "backscatter_total_se_m2" || column == "ended_at_reach";
+         column == "backscatter_total_m2" || column == "backscatter_total_se_m2" || column == "ended_at_reach" ||
+         column == "survey_school";
 }
 
 }  // namespace sonar

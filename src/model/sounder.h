@@ -11,7 +11,7 @@ namespace sonar {
 /// Family of sounder, told from CON0's sounder name.
 enum class SounderKind { ek60, me70, ms70, omni, unknown };
 
-/// One transceiver block of CON0 (formats.md 2.2). Angles in degrees, dB as stored.
+/// One transceiver block of CON0. Angles in degrees, dB as stored.
 struct BeamConfig {
   std::string channel_id;
   std::int32_t beam_type = 0;

@@ -12,15 +12,15 @@ namespace sonar {
 /// WaterLevels::patch counts in such steps, 0.19 dB.
 inline constexpr int kPatchStep = 16;
 
-/// A block of one beam that stands out of its water.
+/// A block of one beam that lies above its background.
 struct EchoCell {
   std::int32_t row = 0;    ///< fan * beams + beam
   std::int32_t block = 0;  ///< of WaterLevels
-  float evidence = 0.0F;   ///< how far it stands out, in spreads of the water itself
+  float evidence = 0.0F;   ///< how far it lies above it, in spreads of the water itself
   friend bool operator==(const EchoCell&, const EchoCell&) = default;
 };
 
-/// What a ping's water shows where there is no school, and what stands out of it. Blocks lie at equal ranges. The water's
+/// What a ping's water shows where there is no school, and what lies above it. Blocks lie at equal ranges. The water's
 /// levels are told for places of a fan, which all its beams share: blocks too, but counted by the share of each beam's way to
 /// the seabed, where one is found: place = sample x stretch / block_samples.
 struct WaterLevels {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/depth_raster.h"
-#include "io/map_outlines.h"
+#include "io/mask_outlines.h"
 
 namespace sonar {
 namespace {

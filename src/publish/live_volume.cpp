@@ -93,22 +93,22 @@ struct LiveVolume::State {
     context = {};
   }
 
-  Result<void> begin(RendererChoice wanted);
+  Result<void> begin(RendererChoice asked_for);
   Result<void> set(const LiveVolumeInput& input, bool outlined);
-  Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const Wanted& wanted, Work& better,
+  Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token, Work& better,
                     const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
                     const Camera& camera);
 };
 
 /// A back-end as it is wished for, or the processor.
-Result<void> LiveVolume::State::begin(RendererChoice wanted) {
-  if (offscreen && choice == wanted) return {};
+Result<void> LiveVolume::State::begin(RendererChoice asked_for) {
+  if (offscreen && choice == asked_for) return {};
   let_go();
-  choice = wanted;
+  choice = asked_for;
   notice.clear();
-  auto made = make(wanted);
-  if (!made && wanted != RendererChoice::cpu) {
+  auto made = make(asked_for);
+  if (!made && asked_for != RendererChoice::cpu) {
     notice = "the processor draws the volume: " + to_line(made.error());
     made = make(RendererChoice::cpu);
   }
@@ -167,7 +167,7 @@ void LiveVolume::State::draw_context(const VolumeFigure& figure, const LiveVolum
   context_key = key;
 }
 
-Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const Wanted& wanted,
+Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,
                                      Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
   if (other_sector) context_key.reset();
@@ -215,7 +215,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
                           frame->averaged, frame->done, offscreen->renderer->name(), notice});
       show({volume_figure_frame(figure, labelled, place, view, context, frame->image, first), std::move(shown)});
     }
-    if (frame->done || !wanted()) return {};
+    if (frame->done || token.cancelled()) return {};
   }
 }
 
@@ -225,11 +225,11 @@ LiveVolume::LiveVolume(MakeRenderer make) : state_(std::make_unique<State>()) {
 
 LiveVolume::~LiveVolume() { state_->let_go(); }
 
-Result<void> LiveVolume::draw(const LiveVolumeInput& input, const Wanted& wanted, Work& better, const Show& show) {
+Result<void> LiveVolume::draw(const LiveVolumeInput& input, const CancelToken& token, Work& better, const Show& show) {
   const auto place = volume_place(input.options, input.scale);
   if (!place) return pass_on(place);
   if (auto begun = state_->begin(input.options.renderer); !begun) return begun;
-  auto done = state_->draw(input, *place, wanted, better, show);
+  auto done = state_->draw(input, *place, token, better, show);
   if (done || done.error().code == ErrorCode::cancelled || done.error().code == ErrorCode::bad_parameter) return done;
   if (state_->offscreen->context == nullptr) return done;
   // A driver that gives up in the middle is not asked again.
@@ -238,7 +238,7 @@ Result<void> LiveVolume::draw(const LiveVolumeInput& input, const Wanted& wanted
   if (!processor) return pass_on(processor);
   state_->offscreen = std::move(*processor);
   state_->notice = "the processor draws the volume: " + to_line(done.error());
-  return state_->draw(input, *place, wanted, better, show);
+  return state_->draw(input, *place, token, better, show);
 }
 
 void LiveVolume::let_go() { state_->let_go(); }

@@ -83,7 +83,8 @@ class LiveVolume {
   /// is shown in any case. Where OpenGL fails the processor draws, and the pictures' notice says so.
   /// better  draws all pictures but the first; cancelled, they end at once
   /// errors  bad_parameter: no room, a volume that cannot be drawn; cancelled
-  [[nodiscard]] Result<void> draw(const LiveVolumeInput& input, const Wanted& wanted, Work& better, const Show& show);
+  [[nodiscard]] Result<void> draw(const LiveVolumeInput& input, const CancelToken& token, Work& better,
+                                  const Show& show);
   /// Gives back all memory and the OpenGL context; draw() makes everything anew.
   void let_go();
 

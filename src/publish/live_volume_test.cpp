@@ -48,7 +48,7 @@ LiveVolumeInput block_of_echo() {
 Image settled(LiveVolume& live, const LiveVolumeInput& input) {
   Work work(1);
   Image out;
-  const auto done = live.draw(input, Wanted{}, work, [&](const LiveVolume::Picture& picture) {
+  const auto done = live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& picture) {
     for (const auto& item : picture.frame.items) {
       if (const auto* image = std::get_if<ImageItem>(&item)) {
         out = *image->image;
@@ -112,7 +112,7 @@ TEST(LiveVolume, OutlinesAFewSchoolsWhileSomethingMoves) {
   const auto drawn = [&] {
     std::vector<std::pair<int, Image>> out;
     Work work(1);
-    EXPECT_TRUE(live.draw(input, Wanted{}, work, [&](const LiveVolume::Picture& picture) {
+    EXPECT_TRUE(live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& picture) {
       for (const auto& item : picture.frame.items) {
         const auto* image = std::get_if<ImageItem>(&item);
         if (image == nullptr) continue;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/depth_raster.h"
-#include "io/map_outlines.h"
+#include "io/mask_outlines.h"
 #include "model/school_totals.h"
 #include "publish/drawn_schools.h"
 #include "view/maps/observation_map.h"

@@ -26,7 +26,7 @@ Theme theme_of(const PictureOptions& options) {
 
 Result<TransferFunction> view_curve(const PictureOptions& options) {
   if (options.transfer) return *options.transfer;
-  // Strong enough that a school some tens of metres thick is opaque at its heart.
+  // Strong enough that a school some tens of metres thick is opaque at its core.
   return transfer_function(options.scale, 0.9);
 }
 

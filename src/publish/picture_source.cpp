@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/product.h"
+#include "io/product_file.h"
 #include "io/recordings.h"
 #include "pipeline/stages/observe.h"
 #include "pipeline/tasks/join_tracks.h"

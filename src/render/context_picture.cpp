@@ -182,14 +182,14 @@ void draw_over(const std::vector<Piece>& drawn, const Band& depths, Band& band) 
   }
 }
 
-/// ground  what the band was filled with
-Rgba8 pixel_of(const Band& band, int x, int y, Rgba8 ground, const Premultiplied& filled) {
+/// filled_with  of the band, before
+Rgba8 pixel_of(const Band& band, int x, int y, Rgba8 filled_with, const Premultiplied& filled) {
   static_assert(kSubPixels == 2);
   const std::size_t top = band.index(x * kSubPixels, y * kSubPixels);
   const std::size_t low = band.index(x * kSubPixels, y * kSubPixels + 1);
   if (band.rgba[top] == filled && band.rgba[top + 1] == filled && band.rgba[low] == filled &&
       band.rgba[low + 1] == filled) {
-    return ground;
+    return filled_with;
   }
   std::array<float, 4> sum{};
   for (int sy = 0; sy < kSubPixels; ++sy) {

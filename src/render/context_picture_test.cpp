@@ -67,7 +67,7 @@ TEST(ContextPicture, TheSeaLiesOnTheEyesSide) {
 
 TEST(ContextPicture, WhatIsBehindTheEyeIsCutOff) {
   ContextScene scene;
-  // A floor that passes under the eye and goes on behind it.
+  // A plane that passes under the eye and goes on behind it.
   scene.opaque.push_back({{Point<Sonar>{-500.0, -300.0, 10.0}, {500.0, 0.0, 10.0}, {-500.0, 300.0, 10.0}}, kGreen});
   Work work(1);
   const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);

@@ -14,7 +14,7 @@ std::vector<int> recorded_ends(View3<const SampleFlags> flags) {
     for (int beam = 0; beam < shape.beams; ++beam) {
       const auto row = flags.row(fan, beam);
       int own = shape.samples;
-      while (own > end && any(row[static_cast<std::size_t>(own - 1)] & SampleFlags::lost)) --own;
+      while (own > end && any(row[static_cast<std::size_t>(own - 1)] & SampleFlags::dropout)) --own;
       end = std::max(end, own);
     }
   }

@@ -16,7 +16,7 @@ namespace {
 
 void lose(View3<SampleFlags> flags, int fan, int beam, int first) {
   const auto row = flags.row(fan, beam);
-  for (auto s = static_cast<std::size_t>(first); s < row.size(); ++s) row[s] |= SampleFlags::lost;
+  for (auto s = static_cast<std::size_t>(first); s < row.size(); ++s) row[s] |= SampleFlags::dropout;
 }
 
 /// Two fans of two beams and 10 samples. Of the upper one 8 were recorded, and one beam is lost.
@@ -29,7 +29,7 @@ Array3<SampleFlags> unequal_fans() {
 
 TEST(RecordedEnds, AreTheLongestBeamsOfEachFan) {
   Array3<SampleFlags> flags(Shape3{4, 3, 10});
-  flags(0, 0, 4) = SampleFlags::lost;  // a gap is no end
+  flags(0, 0, 4) = SampleFlags::dropout;  // a gap is no end
   flags(0, 1, 9) = SampleFlags::seabed;
   for (int beam = 0; beam < 3; ++beam) lose(flags.view(), 1, beam, 5 + beam);
   for (int beam = 0; beam < 3; ++beam) lose(flags.view(), 2, beam, 0);  // nothing tells how far

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "school/bottom/seabed.h"
 #include "school/detect/detect.h"
 #include "school/evidence/block_means.h"
 #include "school/evidence/null_model.h"
+#include "school/seabed/seabed.h"
 #include "school/test_water.h"
 
 namespace sonar::test {
@@ -45,7 +45,7 @@ struct Scene {
     const Background background{flat.power_db, flat.calibration.view()};
     const Seabed seabed = find_seabed(std::as_const(sv).view(), std::as_const(flags).view(), background, sector,
                                       test::grid().vertical_width_deg, {});
-    flag_ground(seabed, flags.view());
+    flag_seabed_itself(seabed, flags.view());
     std::vector<Array3<std::int16_t>> means;
     for (std::uint64_t k = 0; k < 5; ++k) {
       Array3<std::int16_t> other = counts;

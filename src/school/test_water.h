@@ -101,7 +101,7 @@ struct Ellipsoid {
   double sv = 1e-4;
   Beams beams = Beams::gaussian;
   double ripple_db = 0.0;               ///< of the transmit fan; beam_angle_db() goes with it
-  double (*density)(double) = nullptr;  ///< of the distance from heart (0) to rim (1), times sv; none = 1
+  double (*density)(double) = nullptr;  ///< of the distance from core (0) to margin (1), times sv; none = 1
 };
 
 /// Equivalent beam angle of each beam of the grid where the transmit fan ripples.

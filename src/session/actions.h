@@ -43,7 +43,7 @@ class Actions {
 
 /// What only a window can ask a human for. Each answers at once or not at all (empty = the human declined; an answer that is
 /// an empty text is one).
-struct Asking {
+struct Dialogs {
   std::function<std::vector<std::string>()> files_to_open;
   /// pattern  "Pictures (*.png *.svg);;All files (*)"
   std::function<std::string(const std::string& title, const std::string& pattern)> file_to_open;

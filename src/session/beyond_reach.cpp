@@ -33,7 +33,7 @@ void carry_on_from(Workspace& workspace, const SurveySchool& school, bool forwar
   SchoolMasks end;
   end.pings = {forwards ? pings.back() : pings.front()};
   PropagateCommand command = propagation_as_set(workspace);
-  command.school = key_of(end, school.observation->ground());
+  command.school = key_of(end, school.observation->context());
   (forwards ? command.reach_backward : command.reach_forward) = 0;
   workspace.document.act(school.name.observation, end.pings.front().ping_index, std::move(command), step);
 }
@@ -49,16 +49,16 @@ void continue_beyond_reach(Workspace& workspace) {
   if (ends_last(ends)) carry_on_from(workspace, *school, true, step);
 }
 
-void add_continuing(Desk& desk) {
-  Workspace& workspace = desk.workspace;
-  desk.actions.add({.id = std::string(kContinueAction),
-                    .menu = "&Schools",
-                    .text = "Continue beyond the reach",
-                    .keys = {"Ctrl+Shift+P"},
-                    .tip = "Follow the selected school on from where its propagation had its reach, as far again",
-                    .run = [&workspace] { continue_beyond_reach(workspace); },
-                    .enabled = [&workspace] { return open_school(workspace).has_value(); },
-                    .of_school = true});
+void add_continuing(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.actions.add({.id = std::string(kContinueAction),
+                   .menu = "&Schools",
+                   .text = "Continue beyond the reach",
+                   .keys = {"Ctrl+Shift+P"},
+                   .tip = "Follow the selected school on from where its propagation had its reach, as far again",
+                   .run = [&workspace] { continue_beyond_reach(workspace); },
+                   .enabled = [&workspace] { return open_school(workspace).has_value(); },
+                   .of_school = true});
 }
 
 }  // namespace sonar

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "session/desk.h"
+#include "session/app_model.h"
 
 // A school that was carried by hand as far as the panel's reach, and goes on: one action follows it on from there.
 namespace sonar {
@@ -15,6 +15,6 @@ inline constexpr std::string_view kContinueAction = "school.continue";
 void continue_beyond_reach(Workspace& workspace);
 
 /// Adds school.continue, which is enabled while the selected school has such an end and no other part of it is known beyond.
-void add_continuing(Desk& desk);
+void add_continuing(AppModel& app);
 
 }  // namespace sonar

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
 
 using testing::HasSubstr;
 
-class BeyondReach : public TestDesk, public testing::Test {
+class BeyondReach : public TestApp, public testing::Test {
  protected:
   void SetUp() override {
     begin();
@@ -40,7 +40,7 @@ class BeyondReach : public TestDesk, public testing::Test {
   /// A click on the middle ping of the longest school that was found, followed so many pings to each side.
   void click(std::int64_t reach, std::optional<std::int64_t> forward = {}) {
     const auto& middle = found_.pings[found_.pings.size() / 2];
-    const SchoolKey key = key_of(found_, document().shown()->ground());
+    const SchoolKey key = key_of(found_, document().shown()->context());
     PropagateCommand command;
     command.seeds = {{key.channel, key.sample}};
     command.reach = reach;
@@ -50,7 +50,7 @@ class BeyondReach : public TestDesk, public testing::Test {
     select(document().state().schools.back()->number);
   }
   [[nodiscard]] const StateSchool& clicked() { return *document().state().schools.back(); }
-  [[nodiscard]] bool offered() { return desk_->actions.find(kContinueAction)->enabled(); }
+  [[nodiscard]] bool offered() { return app_->actions.find(kContinueAction)->enabled(); }
   [[nodiscard]] std::int64_t counted() { return school_count(document().state(), document().product(0)); }
 
   SchoolMasks found_;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 /// A factor that lies over every channel, and what it does to Sv: exactly so many dB, to a step of 0.012 dB.
 constexpr double kFactor_db = 1.5;
 
-class ChosenCalibration : public testing::Test, protected TestDesk {
+class ChosenCalibration : public testing::Test, protected TestApp {
  protected:
   void SetUp() override {
     begin();
@@ -26,7 +26,7 @@ class ChosenCalibration : public testing::Test, protected TestDesk {
     out << "channel,extra_factor_db\n";
     const auto channels = document().shown()->grid().channel.size();
     for (std::size_t channel = 0; channel < channels; ++channel) out << channel << "," << kFactor_db << "\n";
-    desk_->asking.file_to_open = [this](const auto&, const auto&) { return table_.string(); };
+    app_->dialogs.file_to_open = [this](const auto&, const auto&) { return table_.string(); };
   }
   void ask(const std::string& id) {
     press(id);

@@ -45,7 +45,7 @@ TEST(ChangeQueue, TakesChangesFromOtherThreads) {
   ChangeQueue queue;
   TaskThread background;
   for (int i = 1; i <= 100; ++i) {
-    background.post([&queue, &sum, i](const Wanted&) { queue.post([&sum, i] { sum += i; }); });
+    background.post([&queue, &sum, i](const CancelToken&) { queue.post([&sum, i] { sum += i; }); });
   }
   background.wait();
   queue.wait();

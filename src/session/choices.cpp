@@ -48,7 +48,7 @@ TimeNs Choices::now() const {
 
 void Choices::run(std::function<Result<std::int64_t>()> job) {
   ++waiting_;
-  thread_.post([this, job = std::move(job)](const Wanted&) {
+  thread_.post([this, job = std::move(job)](const CancelToken&) {
     const auto line = within_memory(job);
     let_go_but_looked_at();
     publish(line ? std::string{} : to_line(line.error()), line ? *line : 0);
@@ -77,10 +77,10 @@ void Choices::publish(std::string failure, std::int64_t line) {
   });
 }
 
-CommandGround Choices::OnObservation::ground() const {
-  CommandGround ground = observation->ground();
-  ground.earlier = earlier.get();
-  return ground;
+CommandContext Choices::OnObservation::context() const {
+  CommandContext context = observation->context();
+  context.earlier = earlier.get();
+  return context;
 }
 
 void Choices::open(OpenObservationPtr observation, std::optional<std::vector<SchoolMasks>> detected,
@@ -96,7 +96,7 @@ void Choices::open(OpenObservationPtr observation, std::optional<std::vector<Sch
 }
 
 void Choices::grow(OpenObservationPtr observation) {
-  thread_.post([this, observation = std::move(observation)](const Wanted&) {
+  thread_.post([this, observation = std::move(observation)](const CancelToken&) {
     const auto of = open_.find(observation->index());
     if (of != open_.end()) of->second.observation = observation;
   });
@@ -131,7 +131,7 @@ void Choices::turn_back(bool undo) {
 }
 
 JournalStatePtr Choices::base_of(const OnObservation& of, const std::vector<JournalLine>& lines) {
-  const bool asked = asks_for_detection(lines, of.observation->ground().times);
+  const bool asked = asks_for_detection(lines, of.observation->context().times);
   return std::make_shared<const JournalState>(asked ? of.detected : JournalState{});
 }
 
@@ -158,7 +158,7 @@ void Choices::rebuild() {
     Turn turn{line.n, line.step, line.command, {}, {}};
     for (auto& [index, of] : open_) {
       turn.before[index] = of.state;
-      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.ground()));
+      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.context()));
       turn.after[index] = of.state;
     }
     if (const auto act = act_of(line)) turn.name = name_of(*act, turn);
@@ -182,7 +182,7 @@ void Choices::rebuild(std::size_t index) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     tell_replayed(i, lines.size());
     done_[i].before[index] = of.state;
-    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.ground()));
+    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.context()));
     done_[i].after[index] = of.state;
     if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
     names_[done_[i].n] = done_[i].name;
@@ -192,9 +192,9 @@ void Choices::rebuild(std::size_t index) {
 
 std::string Choices::name_of(const JournalAct& act, const Turn& turn) const {
   for (const auto& [index, of] : open_) {
-    const CommandGround& ground = of.observation->ground();
-    if (!ping_at(ground, act.ping_time)) continue;
-    return act_name(act, ground, turn.before.at(index).get(), turn.after.at(index).get());
+    const CommandContext& context = of.observation->context();
+    if (!ping_at(context, act.ping_time)) continue;
+    return act_name(act, context, turn.before.at(index).get(), turn.after.at(index).get());
   }
   return act_name(act, {}, nullptr, nullptr);
 }
@@ -208,27 +208,27 @@ Result<void> Choices::write(const JournalLine& line) {
   return {};
 }
 
-CommandGround Choices::watched(std::size_t observation) {
-  CommandGround ground = open_.at(observation).ground();
-  ground.on_step = [this, observation](std::int64_t ping_index, const PingMask& mask) {
+CommandContext Choices::watched(std::size_t observation) {
+  CommandContext context = open_.at(observation).context();
+  context.on_step = [this, observation](std::int64_t ping_index, const PingMask& mask) {
     queue_.post([this, alive = std::weak_ptr<bool>(alive_), observation, ping_index, mask] {
       if (!alive.expired()) step_(observation, ping_index, mask);
     });
     return !stopping_.load();
   };
-  return ground;
+  return context;
 }
 
 Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t ping_index, Command command,
                                         JournalStep* step) {
   const auto at = open_.find(observation);
   if (at == open_.end()) return fail(ErrorCode::usage, "the observation is not open");
-  const CommandGround& ground = at->second.observation->ground();
+  const CommandContext& context = at->second.observation->context();
   if (ping_index < 0 || ping_index >= at->second.observation->pings()) {
     return fail(ErrorCode::usage, "there is no such ping");
   }
   if (auto held = hold(at->second.observation->survey(), observation); !held) return pass_on(held);
-  JournalAct act{history_.next(), now(), options_.operator_name, ground.times[static_cast<std::size_t>(ping_index)],
+  JournalAct act{history_.next(), now(), options_.operator_name, context.times[static_cast<std::size_t>(ping_index)],
                  std::move(command)};
   Turn turn{act.n, 0, {}, {}, {}};
   for (const auto& [index, of] : open_) turn.before[index] = turn.after[index] = of.state;
@@ -239,7 +239,7 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   for (const auto& [index, of] : open_) {
     if (index == observation) continue;
     // One that cannot be done there says nothing of that observation.
-    auto other = apply(act, *of.state, of.ground());
+    auto other = apply(act, *of.state, of.context());
     if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
   }
   JournalLine line = line_of(act);

@@ -104,7 +104,7 @@ class Choices {
     JournalStatePtr state;
     std::shared_ptr<const EarlierSchools> earlier;
     /// What the observation's choices stand on.
-    [[nodiscard]] CommandGround ground() const;
+    [[nodiscard]] CommandContext context() const;
   };
   /// One act, and the states round it.
   struct Turn {
@@ -137,7 +137,7 @@ class Choices {
   void tell_unsearched();
   bool read_all();
   Result<void> write(const JournalLine& line);
-  [[nodiscard]] CommandGround watched(std::size_t observation);
+  [[nodiscard]] CommandContext watched(std::size_t observation);
   [[nodiscard]] TimeNs now() const;
   void turn_back(bool undo);
 

@@ -38,7 +38,7 @@ std::vector<std::int64_t> lines_on(const std::vector<JournalLine>& lines, const 
 }  // namespace
 
 void Choices::look_at(std::size_t observation) {
-  thread_.post([this, observation](const Wanted&) {
+  thread_.post([this, observation](const CancelToken&) {
     looked_at_ = observation;
     let_go_but_looked_at();
     if (!read_all()) return;
@@ -53,9 +53,9 @@ void Choices::look_at(std::size_t observation) {
 void Choices::tell_unsearched() {
   const std::vector<JournalLine> lines = effective_lines(place_.lines);
   for (const auto& [index, of] : open_) {
-    if (of.searched || !asks_for_detection(lines, of.observation->ground().times)) continue;
+    if (of.searched || !asks_for_detection(lines, of.observation->context().times)) continue;
     if (!unsearched_told_.insert(index).second) continue;
-    notices_.push_back(fmt::format("others have looked for schools in {}: look for them there to see theirs",
+    notices_.push_back(fmt::format("others have detected schools in {}: detect them there to see theirs",
                                    of.observation->files().name));
   }
 }

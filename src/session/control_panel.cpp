@@ -53,7 +53,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
         {"scale.threshold_db", "none", {-100.0, 0.0}}}},
       {"Noise",
        display,
-       {"filtered", "take_out.near_field", "take_out.surface", "take_out.hot_beams", "take_out.walls",
+       {"filtered", "take_out.near_field", "take_out.surface", "take_out.corrupted_packets", "take_out.interference",
         "take_out.impulses", "take_out.seabed", "removed", "weak", "weak_below_db"}},
       {"Slices", display, {"grid_lines", "north_up"}, {}, false},
       {"Volume", volume, {}, {}, false},

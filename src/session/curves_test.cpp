@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -27,12 +27,12 @@ bool white(const TransferFunction& curve) {
   return true;
 }
 
-class LinkedCurves : public testing::Test, protected TestDesk {
+class LinkedCurves : public testing::Test, protected TestApp {
  protected:
   void SetUp() override { begin(); }
   void expect_same_opacity() {
     for (double sv = -90.0; sv <= -10.0; sv += 2.5) {
-      EXPECT_NEAR(opacity_at(desk_->workspace.view_curve(), sv), opacity_at(desk_->workspace.growth_curve(), sv), 1e-9)
+      EXPECT_NEAR(opacity_at(app_->workspace.view_curve(), sv), opacity_at(app_->workspace.growth_curve(), sv), 1e-9)
           << sv;
     }
   }

@@ -48,46 +48,46 @@ const Image* raster_of(const FrameDescription& frame) {
 }
 
 TEST(Density, ASliceHasAVoxelForEveryPixelOfTheScreenAndTextTwiceAsLarge) {
-  SlicesDesk desk;
-  desk.look_at_bright();
-  const auto at_one = desk.top().picture();
-  desk.top().resize(kUnits, 2.0);
-  desk.settle();
-  const auto at_two = desk.top().picture();
-  EXPECT_EQ(desk.top().image().size, (PixelSize{2 * kUnits.width, 2 * kUnits.height}));
-  EXPECT_EQ(at_two->frame.size, desk.top().image().size);
+  SlicesApp app;
+  app.look_at_bright();
+  const auto at_one = app.top().picture();
+  app.top().resize(kUnits, 2.0);
+  app.settle();
+  const auto at_two = app.top().picture();
+  EXPECT_EQ(app.top().image().size, (PixelSize{2 * kUnits.width, 2 * kUnits.height}));
+  EXPECT_EQ(at_two->frame.size, app.top().image().size);
   EXPECT_EQ(raster_of(at_two->frame)->size, at_two->map->size()) << "a voxel a pixel";
   EXPECT_NEAR(at_two->map->size().width, 2.0 * at_one->map->size().width, 2.0);
-  EXPECT_FALSE(enlarged(desk.top().image(), at_two->plot.place));
+  EXPECT_FALSE(enlarged(app.top().image(), at_two->plot.place));
   const double largest_one = text_sizes(at_one->frame).at(0);
   EXPECT_EQ(text_sizes(at_two->frame).at(0), 2.0 * largest_one);
   // The same voxel lies at the same place of the screen, in pixels of half the
   // size.
-  const Voxel& voxel = SlicesDesk::bright().voxel;
+  const Voxel& voxel = SlicesApp::bright().voxel;
   const PixelPoint one = *at_one->place_of(voxel);
   const PixelPoint two = *at_two->place_of(voxel);
   EXPECT_NEAR(two.x, 2.0 * one.x, 3.0);
   EXPECT_NEAR(two.y, 2.0 * one.y, 3.0);
-  desk.top().pointer(desk.at(desk.top(), voxel, PointerAction::move));
-  ASSERT_TRUE(desk.workspace().cursor());
-  EXPECT_EQ(desk.workspace().cursor()->beam, voxel.beam);
-  EXPECT_NEAR(desk.workspace().cursor()->sample, voxel.sample, 4);
+  app.top().pointer(app.at(app.top(), voxel, PointerAction::move));
+  ASSERT_TRUE(app.workspace().cursor());
+  EXPECT_EQ(app.workspace().cursor()->beam, voxel.beam);
+  EXPECT_NEAR(app.workspace().cursor()->sample, voxel.sample, 4);
 }
 
 TEST(Density, TheBrushIsAsLargeOnTheScreenAsEver) {
-  SlicesDesk desk;
-  desk.look_at_bright();
-  desk.workspace().tool.set(ToolName::brush);
+  SlicesApp app;
+  app.look_at_bright();
+  app.workspace().tool.set(ToolName::brush);
   const auto painted = [&](double scale) {
-    desk.top().resize(kUnits, scale);
-    desk.settle();
+    app.top().resize(kUnits, scale);
+    app.settle();
     for (const PointerAction action : {PointerAction::press, PointerAction::release}) {
-      desk.top().pointer(desk.at(desk.top(), SlicesDesk::bright().voxel, action, PointerButton::left));
+      app.top().pointer(app.at(app.top(), SlicesApp::bright().voxel, action, PointerButton::left));
     }
-    desk.settle();
-    const auto voxels = static_cast<double>(desk.document().state().schools.at(0)->masks.pings.at(0).mask.voxels());
-    desk.document().undo();
-    desk.settle();
+    app.settle();
+    const auto voxels = static_cast<double>(app.document().state().schools.at(0)->masks.pings.at(0).mask.voxels());
+    app.document().undo();
+    app.settle();
     return voxels;
   };
   const double at_one = painted(1.0);

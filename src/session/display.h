@@ -17,8 +17,8 @@ inline constexpr std::array<std::string_view, 3> kNoiseLookNames{"shown", "hatch
 struct TakenOut {
   bool near_field = true;
   bool surface = true;
-  bool hot_beams = true;
-  bool walls = true;
+  bool corrupted_packets = true;
+  bool interference = true;
   bool impulses = true;
   bool seabed = true;
 };
@@ -27,9 +27,10 @@ template <class Visitor>
 void describe(Visitor& v, TakenOut& p) {
   v.field("near_field", p.near_field, {.text = "take ringing near the transducer out of the pictures"});
   v.field("surface", p.surface, {.text = "take the sea surface out of the pictures"});
-  v.field("hot_beams", p.hot_beams, {.text = "take stretches of lost packets out of the pictures"});
-  v.field("walls", p.walls, {.text = "take walls at one range out of the pictures"});
-  v.field("impulses", p.impulses, {.text = "take impulses of other devices out of the pictures"});
+  v.field("corrupted_packets", p.corrupted_packets,
+          {.text = "take stretches of corrupted packets out of the pictures"});
+  v.field("interference", p.interference, {.text = "take interference at constant range out of the pictures"});
+  v.field("impulses", p.impulses, {.text = "take impulse noise out of the pictures"});
   v.field("seabed", p.seabed, {.text = "take the seabed and what lies behind out of the pictures"});
 }
 
@@ -66,7 +67,7 @@ void describe(Visitor& v, DisplayParams& p) {
           {.unit = "1", .min = 0, .max = 0.99, .text = "confidence above which a voxel belongs to the fuzzy area"});
   v.field("rejected", p.rejected, {.text = "show rejected schools too, in grey"});
   v.field("refused_echoes", p.refused_echoes,
-          {.text = "mark the echoes that stood out where schools were looked for and are none; hover says why"});
+          {.text = "mark the echoes above the background that were judged no schools; hover says why"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices"});
   v.field("north_up", p.north_up, {.text = "north points up in slices from above; off = the bow does"});
 }
@@ -90,12 +91,12 @@ void describe(Visitor& v, SelectParams& p) {
   v.field("tolerance_db", p.tolerance_db,
           {.unit = "dB", .min = 3, .max = 25, .text = "how far below the reference level members may lie"});
   v.field("tolerance_opacity", p.tolerance_opacity,
-          {.unit = "1", .min = 0, .max = 1, .text = "mode paper: members differ no more in opacity"});
+          {.unit = "1", .min = 0, .max = 1, .text = "mode paper: largest difference in opacity from the seed"});
   v.field("margin_db", p.margin_db,
           {.unit = "dB",
            .min = 0,
            .max = 30,
-           .text = "mode tracked: members stand so far above the beam's noise; 0 = whatever the noise is"});
+           .text = "mode tracked: how far above the beam's noise members must lie; 0 = ignore the noise"});
   v.field("reach_pings", p.reach_pings,
           {.unit = "pings", .min = 1, .max = 100000, .text = "how far a school is followed to each side"});
   v.field("backwards", p.backwards, {.text = "follow a school to earlier pings"});

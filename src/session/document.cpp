@@ -22,7 +22,7 @@ Document::Document(ChangeQueue& queue, DocumentOptions options) : queue_(queue),
 
 Document::~Document() {
   cancel();
-  for (const auto& [index, job] : measuring_) job.give_up();
+  for (const auto& [index, job] : measuring_) job.cancel();
 }
 
 void Document::tell(std::string notice) {
@@ -30,31 +30,30 @@ void Document::tell(std::string notice) {
   changes_.tell(DocumentChange::notice);
 }
 
-void Document::post(const Wanted& wanted, std::function<void()> change) {
-  queue_.post([alive = std::weak_ptr<bool>(alive_), wanted, change = std::move(change)] {
-    if (!alive.expired() && wanted()) change();
+void Document::post(const CancelToken& token, std::function<void()> change) {
+  queue_.post([alive = std::weak_ptr<bool>(alive_), token, change = std::move(change)] {
+    if (!alive.expired() && !token.cancelled()) change();
   });
 }
 
-void Document::run(std::function<void(Work&, const Wanted&)> job) {
+void Document::run(std::function<void(Work&, const CancelToken&)> job) {
   cancel();
   work_ = std::make_shared<Work>(options_.threads);
-  background_.post_latest([this, work = work_, job = std::move(job)](const Wanted& wanted) {
-    const auto show = [this, wanted](Progress now) {
-      queue_.post_latest("document progress",
-                         [this, alive = std::weak_ptr<bool>(alive_), wanted, now = std::move(now)] {
-                           if (alive.expired() || !wanted()) return;
-                           progress_ = now;
-                           changes_.tell(DocumentChange::progress);
-                         });
+  background_.post_latest([this, work = work_, job = std::move(job)](const CancelToken& token) {
+    const auto show = [this, token](Progress now) {
+      queue_.post_latest("document progress", [this, alive = std::weak_ptr<bool>(alive_), token, now = std::move(now)] {
+        if (alive.expired() || token.cancelled()) return;
+        progress_ = now;
+        changes_.tell(DocumentChange::progress);
+      });
     };
     work->set_progress(
         [show, give_way = GivesWay(way_)](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
           show({std::string(stage), done, total});
           give_way();
         });
-    if (const auto done = within_memory([&] { job(*work, wanted); }); !done) {
-      post(wanted, [this, line = to_line(done.error())] { tell(line); });
+    if (const auto done = within_memory([&] { job(*work, token); }); !done) {
+      post(token, [this, line = to_line(done.error())] { tell(line); });
     }
     show({});
   });
@@ -137,10 +136,10 @@ void Document::look_at(std::int64_t ping_index) {
   const auto way = std::make_shared<std::shared_ptr<const void>>(way_.take());
   // Weak: what runs on the cache's own thread must not be the last to hold the observation.
   const auto arrived = [this, way, alive = std::weak_ptr<bool>(alive_), of = std::weak_ptr(shown_),
-                        wanted = ping_](const Result<StagedPingPtr>& staged) {
+                        asked = ping_](const Result<StagedPingPtr>& staged) {
     way->reset();  // its neighbours are made next, and nobody waits for them
-    queue_.post_latest("document ping", [this, alive, of, wanted, staged] {
-      if (alive.expired() || of.lock() != shown_ || wanted != ping_) return;
+    queue_.post_latest("document ping", [this, alive, of, asked, staged] {
+      if (alive.expired() || of.lock() != shown_ || asked != ping_) return;
       if (staged) {
         staged_ = *staged;
         changes_.tell(DocumentChange::ping);
@@ -180,7 +179,7 @@ void Document::act(std::size_t observation, std::int64_t ping_index, Command com
     const std::int64_t after = std::min(propagate->reach_forward.value_or(reach), later);
     following_ = {"propagating", 0, std::max<std::int64_t>(1, before + after)};
     const OpenObservationPtr on = open_observation(observation);
-    const auto known = propagate->school && on ? school_at(state(observation), on->ground(), *propagate->school)
+    const auto known = propagate->school && on ? school_at(state(observation), on->context(), *propagate->school)
                                                : std::optional<std::size_t>{};
     followed_ = known ? std::optional(state(observation).schools[*known]->number) : std::nullopt;
   }
@@ -252,10 +251,10 @@ void Document::take_step(std::size_t observation, std::int64_t ping_index, const
 void Document::detect(std::vector<std::size_t> observations) {
   if (!survey_) return;
   const auto step = observations.size() > 1 ? std::make_shared<JournalStep>() : nullptr;
-  run([this, survey = survey_, observations = std::move(observations), step](Work& work, const Wanted& wanted) {
+  run([this, survey = survey_, observations = std::move(observations), step](Work& work, const CancelToken& token) {
     for (const std::size_t index : observations) {
-      if (work.cancelled() || !wanted() || index >= survey->observations.size()) break;
-      detect_one(survey, index, step, work, wanted);
+      if (work.cancelled() || token.cancelled() || index >= survey->observations.size()) break;
+      detect_one(survey, index, step, work, token);
     }
     if (!work.cancelled()) return;
     queue_.post([this, alive = std::weak_ptr<bool>(alive_), survey, observations] {
@@ -285,11 +284,11 @@ void Document::tell_lacking(const std::vector<std::size_t>& observations) {
 }
 
 void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
-                          const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted) {
+                          const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
   if (const auto room = room_for(observation, options_.memory_bytes); !room) {
-    return post(wanted, [this, line = to_line(room.error())] { tell(line); });
+    return post(token, [this, line = to_line(room.error())] { tell(line); });
   }
   Recipe recipe = options_.recipe;
   recipe.automatic = true;
@@ -297,7 +296,7 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   const auto file = detected_file(options_.cache, *survey, observation);
   const std::string key = observation_key(*survey, observation, recipe, observe_options);
   const auto take = [&, earlier = earlier_found(file, *survey, observation)](const ObservationProduct& product) {
-    post(wanted, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
+    post(token, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
       if (survey == survey_) take_detected(index, found, step);
     });
   };
@@ -305,7 +304,7 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;
-    return post(wanted, [this, line = to_line(product.error())] { tell(line); });
+    return post(token, [this, line = to_line(product.error())] { tell(line); });
   }
   take(*product);
   keep_detected(file, *product);
@@ -318,7 +317,7 @@ void Document::take_detected(std::size_t index, Found found, const std::shared_p
   choices_thread_->open(chosen_on_[index], std::move(found.schools), std::move(found.earlier));
   detected_.insert(index);
   found_refused_[index] = std::move(found.refused);
-  if (!asks_for_detection(effective_lines(*choices_.lines), observation->ground().times)) {
+  if (!asks_for_detection(effective_lines(*choices_.lines), observation->context().times)) {
     act(index, 0, DetectCommand{number}, step);
   }
 }

@@ -111,13 +111,13 @@ class Document {
   /// Whatever a user waits for: that, else a propagation, else the journal's lines, else measures.
   [[nodiscard]] Progress activity() const;
   /// Runs a job behind the window, with progress; one that runs is ended first. It must not touch the document.
-  void run(std::function<void(Work&, const Wanted&)> job);
+  void run(std::function<void(Work&, const CancelToken&)> job);
   /// Runs something short behind the window, beside what else runs there. It must not touch the document.
-  void run_beside(std::function<void(const Wanted&)> job) { (void)beside_.post(std::move(job)); }
+  void run_beside(std::function<void(const CancelToken&)> job) { (void)beside_.post(std::move(job)); }
   /// Taken by what a user waits for; what else runs behind the window gives way.
   [[nodiscard]] RightOfWay& right_of_way() { return way_; }
   /// Brings a change from such a job into the window's turn, unless another job has followed it.
-  void post(const Wanted& wanted, std::function<void()> change);
+  void post(const CancelToken& token, std::function<void()> change);
 
   // --- what is looked at
   /// ping    that is looked at first; out of range = the nearest end
@@ -167,7 +167,7 @@ class Document {
   [[nodiscard]] bool asks_for_schools(std::size_t observation) const;
   /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
   [[nodiscard]] bool lacks_detected(std::size_t observation) const;
-  /// What stood out where schools were looked for and is no school now: rows of /rejected. Never null.
+  /// What lay above the background where schools were looked for and is no school now: rows of /rejected. Never null.
   [[nodiscard]] RefusedPtr refused(std::size_t observation) const;
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
@@ -185,13 +185,13 @@ class Document {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
   };
-  void glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const Wanted& wanted);
+  void glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const CancelToken& token);
   void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
   OpenObservationPtr opened(std::size_t index);
   void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
-                  const std::shared_ptr<JournalStep>& step, Work& work, const Wanted& wanted);
+                  const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token);
   void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
   void follow_refused(const ChoicesShown& before);
   void look_at_others();
@@ -203,7 +203,7 @@ class Document {
   void measure(std::size_t index);
   void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                       const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
-                      const Wanted& wanted, Work& work);
+                      const CancelToken& token, Work& work);
   void take_measured();
   void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
@@ -240,10 +240,10 @@ class Document {
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   struct Measuring {
-    Wanted wanted;
+    CancelToken token;
     std::shared_ptr<Work> work;
-    void give_up() const {
-      wanted.give_up();
+    void cancel() const {
+      token.cancel();
       work->cancel();
     }
   };

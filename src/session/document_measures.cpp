@@ -23,29 +23,29 @@ void Document::measure(std::size_t index) {
   const OpenObservationPtr observation = open_observation(index);
   const JournalStatePtr state = choices_.states[index];
   if (!observation || !state) return;
-  if (const auto running = measuring_.find(index); running != measuring_.end()) running->second.give_up();
+  if (const auto running = measuring_.find(index); running != measuring_.end()) running->second.cancel();
   if (++measures_begun_ > 1) changes_.tell(DocumentChange::progress);
   const auto lines = choices_.lines;
   const auto work = std::make_shared<Work>(1);
   work->set_progress([give_way = GivesWay(way_)](std::string_view, std::int64_t, std::int64_t) mutable { give_way(); });
-  const Wanted posted = measures_.post(
-      [this, observation, state, lines, work, kept = measured_[index], refused = refused(index)](const Wanted& wanted) {
-        if (wanted()) measure_behind(observation, *state, *lines, refused, *kept, wanted, *work);
-        queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
-          if (!alive.expired()) take_measured();
-        });
-      });
+  const CancelToken posted = measures_.post([this, observation, state, lines, work, kept = measured_[index],
+                                             refused = refused(index)](const CancelToken& token) {
+    if (!token.cancelled()) measure_behind(observation, *state, *lines, refused, *kept, token, *work);
+    queue_.post([this, alive = std::weak_ptr<bool>(alive_)] {
+      if (!alive.expired()) take_measured();
+    });
+  });
   measuring_[index] = {posted, work};
 }
 
 void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                               const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
-                              const Wanted& wanted, Work& work) {
+                              const CancelToken& token, Work& work) {
   GivesWay give_way(way_);
   for (const auto& school : state.schools) {
     for (const auto& there : school->masks.pings) {
       give_way();
-      if (!wanted()) return;
+      if (token.cancelled()) return;
       observation->estimate_background(there.ping_index);
     }
   }
@@ -56,10 +56,10 @@ void Document::measure_behind(const OpenObservationPtr& observation, const Journ
   });
   if (!product) {
     if (product.error().code != ErrorCode::no_space) return;
-    return post(wanted, [this, line = to_line(product.error())] { tell(line); });
+    return post(token, [this, line = to_line(product.error())] { tell(line); });
   }
   auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
-  post(wanted, [this, index = observation->index(), shared] { take_product(index, shared); });
+  post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
 }
 
 void Document::take_measured() {

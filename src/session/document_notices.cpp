@@ -48,10 +48,10 @@ bool same_choices(const JournalState& a, const JournalState& b) {
 
 /// The school that a propagation made, or carried on; null where there is none.
 /// n  of its line
-const StateSchool* followed_school(const JournalState& state, const CommandGround& ground, std::int64_t n,
+const StateSchool* followed_school(const JournalState& state, const CommandContext& context, std::int64_t n,
                                    const PropagateCommand& command) {
   if (command.school) {
-    const auto known = school_at(state, ground, *command.school);
+    const auto known = school_at(state, context, *command.school);
     return known ? state.schools[*known].get() : nullptr;
   }
   const auto made =
@@ -102,8 +102,8 @@ void Document::tell_beyond_reach() {
   const auto& command = std::get<PropagateCommand>(act->command);
   for (const auto& [index, state] : choices_.states) {
     const OpenObservationPtr observation = open_observation(index);
-    if (!observation || !state || !ping_at(observation->ground(), line->ping_time)) continue;
-    const StateSchool* school = followed_school(*state, observation->ground(), line->n, command);
+    if (!observation || !state || !ping_at(observation->context(), line->ping_time)) continue;
+    const StateSchool* school = followed_school(*state, observation->context(), line->n, command);
     const std::string ends = school == nullptr ? std::string{} : open_ends(*state, *school);
     // Of the sides that it was just followed to.
     std::int64_t backward = 0;

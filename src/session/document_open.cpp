@@ -12,14 +12,14 @@ namespace sonar {
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
   run([this, paths = std::move(paths), first = std::move(first), none = survey_ == nullptr](Work& work,
-                                                                                            const Wanted& wanted) {
+                                                                                            const CancelToken& token) {
     if (const auto done = first ? first(work) : Result<void>{}; !done) {
-      return post(wanted, [this, line = to_line(done.error())] { tell(line); });
+      return post(token, [this, line = to_line(done.error())] { tell(line); });
     }
-    if (none) glance_at(paths, work, wanted);
+    if (none) glance_at(paths, work, token);
     auto survey = open_survey(paths, options_.recipe.survey, options_.recipe.navigation, options_.cache, work);
     if (!survey) {
-      return post(wanted, [this, line = to_line(survey.error())] { tell(line); });
+      return post(token, [this, line = to_line(survey.error())] { tell(line); });
     }
     auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
     Journal head;
@@ -31,7 +31,7 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
     const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
                                                                     : std::vector<std::filesystem::path>{};
     auto place = place_journal(folders, head, options_.operator_name);
-    post(wanted, [this, files, paths, place = std::move(place)] {
+    post(token, [this, files, paths, place = std::move(place)] {
       paths_ = paths;
       take_survey(files, place);
     });
@@ -39,10 +39,10 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
 }
 
 /// What ends in an error ends in the same when all is read.
-void Document::glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const Wanted& wanted) {
+void Document::glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const CancelToken& token) {
   auto glance = glance_at_survey(paths, options_.recipe.survey, options_.recipe.navigation, work);
   if (!glance) return;
-  post(wanted, [this, seen = std::make_shared<const SurveyFiles>(std::move(*glance))] {
+  post(token, [this, seen = std::make_shared<const SurveyFiles>(std::move(*glance))] {
     if (survey_) return;  // it stays until the other is there
     glance_ = seen;
     changes_.tell(DocumentChange::glance);

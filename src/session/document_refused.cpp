@@ -21,10 +21,10 @@ void Document::follow_refused(const ChoicesShown& before) {
     const auto old = before.states.find(index);
     if (state == choices_.states.end() || !state->second) continue;
     if (old != before.states.end() && old->second == state->second) continue;
-    const CommandGround& ground = chosen_on_.at(index)->ground();
-    const bool asked = asks_for_detection(lines, ground.times);
+    const CommandContext& context = chosen_on_.at(index)->context();
+    const bool asked = asks_for_detection(lines, context.times);
     refused_[index] = std::make_shared<const std::vector<RefusedEcho>>(
-        still_refused(asked ? found : std::vector<RefusedEcho>{}, *state->second, *ground.grid));
+        still_refused(asked ? found : std::vector<RefusedEcho>{}, *state->second, *context.grid));
   }
 }
 

@@ -218,7 +218,7 @@ TEST_F(DocumentAtWork, WhatCannotBeDoneIsToldAndChangesNothing) {
 }
 
 TEST_F(DocumentAtWork, WhatAJournalCouldNotGiveBackIsRefused) {
-  document_->act(EventCommand{"picnic", document_->shown()->ground().times[2], "ashore"});
+  document_->act(EventCommand{"picnic", document_->shown()->context().times[2], "ashore"});
   document_->settle();
   EXPECT_TRUE(document_->state().events.empty());
   EXPECT_THAT(document_->notices().back(), testing::HasSubstr("kind: expected one of trawl"));
@@ -294,7 +294,7 @@ TEST_F(DocumentAtWork, AFolderWithoutPingsSaysSo) {
 
 TEST_F(DocumentAtWork, TheFirstPictureDoesNotWaitForTheJournal) {
   grow(bright());
-  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
+  document_->act(EventCommand{"trawl", document_->shown()->context().times[2], "haul 1"});
   document_->detect({0});
   document_->settle();
   const auto schools = document_->state().schools.size();
@@ -313,7 +313,7 @@ TEST_F(DocumentAtWork, TheFirstPictureDoesNotWaitForTheJournal) {
 }
 
 TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
-  document_->act(EventCommand{"trawl", document_->shown()->ground().times[2], "haul 1"});
+  document_->act(EventCommand{"trawl", document_->shown()->context().times[2], "haul 1"});
   document_->settle();
   document_.reset();
   document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
@@ -322,7 +322,7 @@ TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
     if (change != DocumentChange::observation || acted) return;
     acted = true;
     EXPECT_FALSE(document_->staged());
-    document_->act(EventCommand{"station", document_->shown()->ground().times[4], ""});
+    document_->act(EventCommand{"station", document_->shown()->context().times[4], ""});
   });
   document_->open({TestSurvey::easy().folder()});
   document_->settle();
@@ -331,7 +331,7 @@ TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
 }
 
 TEST_F(DocumentAtWork, MemoryThatRunsOutBehindTheWindowIsOneLine) {
-  document_->run([](Work&, const Wanted&) { throw std::bad_alloc(); });
+  document_->run([](Work&, const CancelToken&) { throw std::bad_alloc(); });
   document_->settle();
   EXPECT_THAT(document_->notices().back(), testing::HasSubstr("not enough memory"));
   EXPECT_EQ(document_->progress().stage, "");
@@ -341,7 +341,7 @@ TEST_F(DocumentAtWork, MemoryThatRunsOutBehindTheWindowIsOneLine) {
 }
 
 TEST_F(DocumentAtWork, AFullDiskRefusesTheActAndTheWindowGoesOn) {
-  const TimeNs time = document_->shown()->ground().times[2];
+  const TimeNs time = document_->shown()->context().times[2];
   document_->act(EventCommand{"trawl", time, "haul 1"});
   document_->settle();
   const std::string journal = document_->journal_path().string();

@@ -86,7 +86,7 @@ TEST_F(EarlierFind, PlacesDecisionsAtEachOpening) {
   }
   const std::int64_t first = older->schools[0].school_id;
   const SchoolKey rim = beyond(first, *older, 0);
-  EXPECT_FALSE(school_at(document_->state(0), document_->open_observation(0)->ground(), rim)) << "nobody's now";
+  EXPECT_FALSE(school_at(document_->state(0), document_->open_observation(0)->context(), rim)) << "nobody's now";
   say(rim, "herring");
   say(beyond(first, *older, 150), "water");
   const fs::path file = find();

@@ -131,13 +131,14 @@ void run_job(Workspace& workspace, std::function<Result<std::string>(const Snaps
   if (!document.progress().stage.empty()) {
     return document.tell(fmt::format("wait until {} is done, or cancel it", document.progress().stage));
   }
-  document.run([&document, snapshot = snapshot_of(workspace), job = std::move(job)](Work& work, const Wanted& wanted) {
-    work.progress("writing", 0, 1);
-    const auto done = job(snapshot, work);
-    std::string line = done ? *done : to_line(done.error());
-    if (!done && done.error().code == ErrorCode::cancelled) line = "stopped: not everything was written";
-    document.post(wanted, [&document, line = std::move(line)] { document.tell(line); });
-  });
+  document.run(
+      [&document, snapshot = snapshot_of(workspace), job = std::move(job)](Work& work, const CancelToken& token) {
+        work.progress("writing", 0, 1);
+        const auto done = job(snapshot, work);
+        std::string line = done ? *done : to_line(done.error());
+        if (!done && done.error().code == ErrorCode::cancelled) line = "stopped: not everything was written";
+        document.post(token, [&document, line = std::move(line)] { document.tell(line); });
+      });
 }
 
 std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {

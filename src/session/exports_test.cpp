@@ -13,7 +13,7 @@
 #include "pipeline/journal/journal.h"
 #include "pipeline/tasks/run.h"
 #include "publish/picture_source.h"
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -63,7 +63,7 @@ Masks masks_of(const Document& document) {
   return all;
 }
 
-class Exports : public testing::Test, protected TestDesk {
+class Exports : public testing::Test, protected TestApp {
  protected:
   void SetUp() override { begin(); }
   [[nodiscard]] const std::string& told() { return document().notices().back(); }
@@ -125,7 +125,7 @@ TEST_F(Exports, WithTheSearchAtOpeningCancelledTheSchoolsAreStillThere) {
   paint(2, 3, 5, 5, 200);
   document().settle();
   const std::size_t all = document().state(0).schools.size() + document().state(1).schools.size();
-  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
   document().open({TestSurvey::easy().folder()});
   while (!document().staged()) queue_.drain();  // the search begins with the first picture
   document().cancel();
@@ -151,7 +151,7 @@ TEST_F(Exports, WhatWasFoundIsThereAtTheNextOpeningWithoutASearch) {
   DocumentOptions options = TestSurvey::options(journal_);
   options.cache.folder = out_ / "cache";
   const auto open = [&] {
-    desk_ = std::make_unique<Desk>(queue_, options);
+    app_ = std::make_unique<AppModel>(queue_, options);
     document().open({TestSurvey::easy().folder()});
     document().settle();
   };
@@ -226,7 +226,7 @@ TEST_F(Exports, EveryFormatIsInTheMenuAndIsWritten) {
   document().settle();
   for (const char* format : {"netcdf-mask", "gpkg", "geojson", "raw-reduced"}) {
     const fs::path folder = out_ / format;
-    desk_->asking.folder_to_save = [&](const auto&) { return folder.string(); };
+    app_->dialogs.folder_to_save = [&](const auto&) { return folder.string(); };
     press(std::string("export.") + format);
     document().settle();
     EXPECT_THAT(told(), HasSubstr("written: ")) << format;
@@ -322,15 +322,15 @@ TEST_F(Exports, AMovieHasOnePictureAPingOfTheSelectedSchool) {
 
 TEST_F(Exports, WithoutASurveyThereIsNothingToWrite) {
   ChangeQueue queue;
-  Desk desk(queue, {});
-  export_results(desk.workspace, out_);
-  EXPECT_THAT(desk.workspace.document.notices().back(), HasSubstr("no survey is open"));
+  AppModel app(queue, {});
+  export_results(app.workspace, out_);
+  EXPECT_THAT(app.workspace.document.notices().back(), HasSubstr("no survey is open"));
 }
 
 TEST_F(Exports, RecentSurveysAreKeptAndOpened) {
-  EXPECT_EQ(desk_->actions.find("file.recent.1")->text_now(), TestSurvey::easy().folder().string());
-  EXPECT_TRUE(desk_->actions.find("file.recent.1")->enabled());
-  EXPECT_FALSE(desk_->actions.find("file.recent.2")->enabled());
+  EXPECT_EQ(app_->actions.find("file.recent.1")->text_now(), TestSurvey::easy().folder().string());
+  EXPECT_TRUE(app_->actions.find("file.recent.1")->enabled());
+  EXPECT_FALSE(app_->actions.find("file.recent.2")->enabled());
   ASSERT_TRUE(document().show(1));
   press("file.recent.1");
   document().settle();

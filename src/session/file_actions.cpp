@@ -8,7 +8,7 @@
 
 #include "pipeline/exports/export.h"
 #include "pipeline/survey/calibration_json.h"
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 #include "session/exports.h"
 
 namespace sonar {
@@ -20,101 +20,101 @@ constexpr const char* kFile = "&File";
 constexpr const char* kCalibrations = "Calibrations and recipes (*.csv *.json *.CSV *.JSON);;All files (*)";
 constexpr const char* kExport = "&File/&Export";
 
-std::function<bool()> with_survey(const Desk& desk) {
-  return [&desk] { return desk.workspace.document.survey() != nullptr; };
+std::function<bool()> with_survey(const AppModel& app) {
+  return [&app] { return app.workspace.document.survey() != nullptr; };
 }
 
-void open_folder(Desk& desk) {
-  if (!desk.asking.folder_to_open) return;
-  if (const std::string folder = desk.asking.folder_to_open(); !folder.empty()) desk.workspace.document.open({folder});
+void open_folder(AppModel& app) {
+  if (!app.dialogs.folder_to_open) return;
+  if (const std::string folder = app.dialogs.folder_to_open(); !folder.empty()) app.workspace.document.open({folder});
 }
 
-void open_files(Desk& desk) {
-  if (!desk.asking.files_to_open) return;
-  const auto names = desk.asking.files_to_open();
-  if (!names.empty()) desk.workspace.document.open({names.begin(), names.end()});
+void open_files(AppModel& app) {
+  if (!app.dialogs.files_to_open) return;
+  const auto names = app.dialogs.files_to_open();
+  if (!names.empty()) app.workspace.document.open({names.begin(), names.end()});
 }
 
-std::string recent_text(const Desk& desk, std::size_t at) {
-  if (at >= desk.preferences.recent.size()) return {};
-  const auto& paths = desk.preferences.recent[at];
+std::string recent_text(const AppModel& app, std::size_t at) {
+  if (at >= app.preferences.recent.size()) return {};
+  const auto& paths = app.preferences.recent[at];
   const std::string first = paths.front().string();
   return paths.size() == 1 ? first : fmt::format("{} and {} more", first, paths.size() - 1);
 }
 
-void add_opening(Desk& desk) {
-  desk.actions.add({.id = "file.open_folder",
-                    .menu = kFile,
-                    .text = "Open folder...",
-                    .keys = {"Ctrl+O"},
-                    .tip = "Open a folder of raw files as a survey",
-                    .run = [&desk] { open_folder(desk); }});
-  desk.actions.add({.id = "file.open_files",
-                    .menu = kFile,
-                    .text = "Open files...",
-                    .keys = {"Ctrl+Shift+O"},
-                    .tip = "Open some raw files as a survey",
-                    .run = [&desk] { open_files(desk); }});
+void add_opening(AppModel& app) {
+  app.actions.add({.id = "file.open_folder",
+                   .menu = kFile,
+                   .text = "Open folder...",
+                   .keys = {"Ctrl+O"},
+                   .tip = "Open a folder of raw files as a survey",
+                   .run = [&app] { open_folder(app); }});
+  app.actions.add({.id = "file.open_files",
+                   .menu = kFile,
+                   .text = "Open files...",
+                   .keys = {"Ctrl+Shift+O"},
+                   .tip = "Open some raw files as a survey",
+                   .run = [&app] { open_files(app); }});
   for (std::size_t i = 0; i < Preferences::kMostRecent; ++i) {
-    desk.actions.add({.id = fmt::format("file.recent.{}", i + 1),
-                      .menu = "&File/Open &recent",
-                      .text = "(none)",
-                      .keys = {},
-                      .tip = "Open this survey again",
-                      .run =
-                          [&desk, i] {
-                            if (i < desk.preferences.recent.size()) {
-                              desk.workspace.document.open(desk.preferences.recent[i]);
-                            }
-                          },
-                      .enabled = [&desk, i] { return i < desk.preferences.recent.size(); },
-                      .text_now = [&desk, i] { return recent_text(desk, i); }});
+    app.actions.add({.id = fmt::format("file.recent.{}", i + 1),
+                     .menu = "&File/Open &recent",
+                     .text = "(none)",
+                     .keys = {},
+                     .tip = "Open this survey again",
+                     .run =
+                         [&app, i] {
+                           if (i < app.preferences.recent.size()) {
+                             app.workspace.document.open(app.preferences.recent[i]);
+                           }
+                         },
+                     .enabled = [&app, i] { return i < app.preferences.recent.size(); },
+                     .text_now = [&app, i] { return recent_text(app, i); }});
   }
 }
 
-void choose_calibration(Desk& desk) {
-  if (!desk.asking.file_to_open) return;
-  const std::string file = desk.asking.file_to_open("Calibration", kCalibrations);
+void choose_calibration(AppModel& app) {
+  if (!app.dialogs.file_to_open) return;
+  const std::string file = app.dialogs.file_to_open("Calibration", kCalibrations);
   if (file.empty()) return;
-  Document& document = desk.workspace.document;
-  document.run_beside([&document, file, recipe = document.recipe()](const Wanted& wanted) {
+  Document& document = app.workspace.document;
+  document.run_beside([&document, file, recipe = document.recipe()](const CancelToken& token) {
     auto calibration = read_calibration(file, recipe);
-    document.post(wanted, [&document, file, read = std::move(calibration)] {
+    document.post(token, [&document, file, read = std::move(calibration)] {
       if (!read) return document.tell(to_line(read.error()));
       document.act(CalibrateCommand{*read, fs::path(file).filename().string()});
     });
   });
 }
 
-void add_calibration(Desk& desk) {
-  const auto with_ping = [&desk] { return desk.workspace.document.shown() != nullptr; };
-  desk.actions.add(
+void add_calibration(AppModel& app) {
+  const auto with_ping = [&app] { return app.workspace.document.shown() != nullptr; };
+  app.actions.add(
       {.id = "file.calibration",
        .menu = kFile,
        .text = "Calibration...",
        .keys = {},
-       .tip = "Measure under another calibration (a table channel,gain_db,..., or a recipe): masks and decisions "
+       .tip = "Measure with another calibration (a table channel,gain_db,..., or a recipe): masks and decisions "
               "stay",
-       .run = [&desk] { choose_calibration(desk); },
+       .run = [&app] { choose_calibration(app); },
        .enabled = with_ping});
-  desk.actions.add({.id = "file.own_calibration",
-                    .menu = kFile,
-                    .text = "Calibration of the recipe",
-                    .keys = {},
-                    .tip = "Measure again as the journal began: masks and decisions stay",
-                    .run =
-                        [&desk] {
-                          Document& document = desk.workspace.document;
-                          document.act(CalibrateCommand{document.recipe().calibration, "of the recipe"});
-                        },
-                    .enabled = with_ping});
+  app.actions.add({.id = "file.own_calibration",
+                   .menu = kFile,
+                   .text = "Calibration of the recipe",
+                   .keys = {},
+                   .tip = "Go back to the calibration with which the journal began: masks and decisions stay",
+                   .run =
+                       [&app] {
+                         Document& document = app.workspace.document;
+                         document.act(CalibrateCommand{document.recipe().calibration, "of the recipe"});
+                       },
+                   .enabled = with_ping});
 }
 
 /// Asks for a folder and hands it on.
-std::function<void()> into_folder(Desk& desk, std::string title, std::function<void(const fs::path&)> write) {
-  return [&desk, title = std::move(title), write = std::move(write)] {
-    if (!desk.asking.folder_to_save) return;
-    if (const std::string folder = desk.asking.folder_to_save(title); !folder.empty()) write(folder);
+std::function<void()> into_folder(AppModel& app, std::string title, std::function<void(const fs::path&)> write) {
+  return [&app, title = std::move(title), write = std::move(write)] {
+    if (!app.dialogs.folder_to_save) return;
+    if (const std::string folder = app.dialogs.folder_to_save(title); !folder.empty()) write(folder);
   };
 }
 
@@ -127,64 +127,64 @@ std::string menu_text(std::string_view format) {
   return std::string(format) + "...";
 }
 
-void add_formats(Desk& desk) {
-  Workspace& workspace = desk.workspace;
-  desk.actions.add({.id = "export.results",
-                    .menu = kExport,
-                    .text = "Results...",
-                    .keys = {"Ctrl+E"},
-                    .tip = "Products, tables and map of the whole survey, as a run writes them",
-                    .run = into_folder(desk, "Folder for the results",
-                                       [&workspace](const fs::path& folder) { export_results(workspace, folder); }),
-                    .enabled = with_survey(desk)});
+void add_formats(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.actions.add({.id = "export.results",
+                   .menu = kExport,
+                   .text = "Results...",
+                   .keys = {"Ctrl+E"},
+                   .tip = "Products, tables and map of the whole survey, as a run writes them",
+                   .run = into_folder(app, "Folder for the results",
+                                      [&workspace](const fs::path& folder) { export_results(workspace, folder); }),
+                   .enabled = with_survey(app)});
   for (const ExportFormat& format : export_formats()) {
     const std::string name(format.name);
-    desk.actions.add(
+    app.actions.add(
         {.id = "export." + name,
          .menu = kExport,
          .text = menu_text(name),
          .keys = {},
          .tip = std::string(format.text),
          .run =
-             [&desk, name,
-              into = into_folder(desk, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
+             [&app, name,
+              into = into_folder(app, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
                                  [&workspace, name](const fs::path& folder) { export_as(workspace, name, folder); })] {
-               if (name != "raw-reduced" || asked(desk, "Reduced raw files", desk.workspace.reduce)) into();
+               if (name != "raw-reduced" || asked(app, "Reduced raw files", app.workspace.reduce)) into();
              },
-         .enabled = with_survey(desk)});
+         .enabled = with_survey(app)});
   }
 }
 
 }  // namespace
 
-void add_exports(Desk& desk) {
-  add_opening(desk);
-  add_calibration(desk);
-  add_formats(desk);
-  add_pictures(desk);
-  desk.actions.add({.id = "file.quit",
-                    .menu = kFile,
-                    .text = "Quit",
-                    .keys = {"Ctrl+Q"},
-                    .tip = "Everything that was decided is in the journal already",
-                    .run = [&desk] {
-                      if (desk.asking.quit) desk.asking.quit();
-                    }});
-  desk.workspace.document.changes().add([&desk](DocumentChange change) {
-    if (change != DocumentChange::survey || desk.workspace.document.survey() == nullptr) return;
-    desk.preferences.remember(desk.workspace.document.paths());
-    keep_preferences(desk);
+void add_exports(AppModel& app) {
+  add_opening(app);
+  add_calibration(app);
+  add_formats(app);
+  add_pictures(app);
+  app.actions.add({.id = "file.quit",
+                   .menu = kFile,
+                   .text = "Quit",
+                   .keys = {"Ctrl+Q"},
+                   .tip = "Everything that was decided is in the journal already",
+                   .run = [&app] {
+                     if (app.dialogs.quit) app.dialogs.quit();
+                   }});
+  app.workspace.document.changes().add([&app](DocumentChange change) {
+    if (change != DocumentChange::survey || app.workspace.document.survey() == nullptr) return;
+    app.preferences.remember(app.workspace.document.paths());
+    keep_preferences(app);
   });
 }
 
-void keep_preferences(Desk& desk) {
-  if (desk.preferences.path.empty()) return;
-  desk.preferences.take(desk.workspace);
-  const auto kept = desk.preferences.save();
+void keep_preferences(AppModel& app) {
+  if (app.preferences.path.empty()) return;
+  app.preferences.take(app.workspace);
+  const auto kept = app.preferences.save();
   if (kept) return;
   const std::string line = "preferences cannot be kept: " + to_line(kept.error());
-  const auto& told = desk.workspace.document.notices();
-  if (std::find(told.begin(), told.end(), line) == told.end()) desk.workspace.document.tell(line);
+  const auto& told = app.workspace.document.notices();
+  if (std::find(told.begin(), told.end(), line) == told.end()) app.workspace.document.tell(line);
 }
 
 }  // namespace sonar

@@ -25,9 +25,9 @@ void move_over(std::int64_t n, std::vector<std::int64_t>& from, std::vector<std:
 }
 
 /// " school 3", or nothing where the number is not known.
-std::string school_text(const JournalState* state, const CommandGround& ground, const SchoolKey& key) {
+std::string school_text(const JournalState* state, const CommandContext& context, const SchoolKey& key) {
   if (state == nullptr) return " school";
-  const auto at = school_at(*state, ground, key);
+  const auto at = school_at(*state, context, key);
   return at ? " " + school_title(*state->schools[*at]) : " school";
 }
 
@@ -76,9 +76,9 @@ std::vector<std::int64_t> History::step_at_end(const std::vector<std::int64_t>& 
   return lines;
 }
 
-std::string act_name(const JournalAct& act, const CommandGround& ground, const JournalState* before,
+std::string act_name(const JournalAct& act, const CommandContext& context, const JournalState* before,
                      const JournalState* after) {
-  const auto named = [&](const SchoolKey& key) { return school_text(before, ground, key); };
+  const auto named = [&](const SchoolKey& key) { return school_text(before, context, key); };
   const auto made_or = [&](const std::optional<SchoolKey>& key) { return key ? named(*key) : made_text(after, act.n); };
   if (const auto* c = std::get_if<PropagateCommand>(&act.command)) return "propagate" + made_or(c->school);
   if (const auto* c = std::get_if<GrowCommand>(&act.command)) {

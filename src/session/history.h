@@ -36,7 +36,7 @@ class History {
 };
 
 /// What an act did, for people: "grow school 3". before, after: the observation's states round it; null = not known.
-[[nodiscard]] std::string act_name(const JournalAct& act, const CommandGround& ground, const JournalState* before,
+[[nodiscard]] std::string act_name(const JournalAct& act, const CommandContext& context, const JournalState* before,
                                    const JournalState* after);
 
 }  // namespace sonar

@@ -4,7 +4,7 @@
 
 #include <future>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -14,9 +14,9 @@ using testing::HasSubstr;
 // Until something can be shown, the first view says what goes on, how far it is, and what ends it.
 TEST(IdleText, TellsHowFarTheFirstSurveyIsAndEscapeEndsIt) {
   ChangeQueue queue;
-  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
-  Document& document = desk.workspace.document;
-  EXPECT_THAT(idle_text(desk, "top_slice"), HasSubstr("Open a survey"));
+  AppModel app(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  Document& document = app.workspace.document;
+  EXPECT_THAT(idle_text(app, "top_slice"), HasSubstr("Open a survey"));
   std::promise<void> seen;
   std::promise<bool> ended;
   document.open({TestSurvey::easy().folder()}, [&](Work& work) -> Result<void> {
@@ -29,24 +29,24 @@ TEST(IdleText, TellsHowFarTheFirstSurveyIsAndEscapeEndsIt) {
     queue.wait();
     queue.drain();
   }
-  EXPECT_EQ(idle_text(desk, "top_slice"), "Making the simulated survey, 25 %.\nEsc, or Cancel below, stops it.");
-  EXPECT_EQ(idle_text(desk, "side_slice"), "");
-  desk.actions.find("tool.cancel")->run();
+  EXPECT_EQ(idle_text(app, "top_slice"), "Making the simulated survey, 25 %.\nEsc, or Cancel below, stops it.");
+  EXPECT_EQ(idle_text(app, "side_slice"), "");
+  app.actions.find("tool.cancel")->run();
   seen.set_value();
   EXPECT_TRUE(ended.get_future().get());
   document.settle();
-  EXPECT_THAT(idle_text(desk, "top_slice"), HasSubstr("Open a survey"));
+  EXPECT_THAT(idle_text(app, "top_slice"), HasSubstr("Open a survey"));
   EXPECT_THAT(document.notices().back(), HasSubstr("stopped"));
 }
 
 TEST(IdleText, NamesTheFolderInWhichThereAreNoPings) {
   ChangeQueue queue;
-  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  AppModel app(queue, TestSurvey::options(TestSurvey::easy().fresh()));
   const auto empty = TestSurvey::easy().fresh();
-  desk.workspace.document.open({empty});
-  desk.workspace.document.settle();
-  const std::string text = desk.workspace.document.survey() == nullptr ? desk.workspace.document.notices().back()
-                                                                       : idle_text(desk, "top_slice");
+  app.workspace.document.open({empty});
+  app.workspace.document.settle();
+  const std::string text = app.workspace.document.survey() == nullptr ? app.workspace.document.notices().back()
+                                                                      : idle_text(app, "top_slice");
   EXPECT_THAT(text, HasSubstr(empty.string()));
 }
 
@@ -68,7 +68,7 @@ TEST(IdleText, AJournalThatIsReadAtOpeningShowsHowFarItIs) {
     }
     EXPECT_EQ(document.activity().stage, "") << "and then it is done";
     for (int i = 0; i < 3 && !again; ++i) {
-      document.act(EventCommand{"trawl", document.shown()->ground().times[static_cast<std::size_t>(i)], ""});
+      document.act(EventCommand{"trawl", document.shown()->context().times[static_cast<std::size_t>(i)], ""});
     }
     document.settle();
   }

@@ -22,7 +22,7 @@ double seconds_now() {
 LivePicture::LivePicture(ChangeQueue& queue) : queue_(queue) {}
 
 LivePicture::~LivePicture() {
-  if (wish_) wish_->give_up();
+  if (wish_) wish_->cancel();
 }
 
 void LivePicture::resize(PixelSize units, double scale) {
@@ -38,7 +38,7 @@ void LivePicture::set_seen(bool seen) {
   seen_ = seen;
   if (!seen_ && wish_) {
     // What was under way is begun anew when the picture is seen again.
-    wish_->give_up();
+    wish_->cancel();
     stale_ = true;
   }
   if (!seen_) hidden();
@@ -46,11 +46,11 @@ void LivePicture::set_seen(bool seen) {
 }
 
 void LivePicture::behind(std::function<void()> job) {
-  background_.post([job = std::move(job)](const Wanted& /*wanted*/) { job(); });
+  background_.post([job = std::move(job)](const CancelToken& /*token*/) { job(); });
 }
 
 void LivePicture::end_behind(const std::function<void()>& last) {
-  background_.post_latest([&last](const Wanted& /*wanted*/) { last(); });
+  background_.post_latest([&last](const CancelToken& /*token*/) { last(); });
   background_.wait();
 }
 
@@ -60,7 +60,7 @@ void LivePicture::update() {
   stale_ = false;
   Build build_now = build();
   if (!build_now) {
-    if (wish_) wish_->give_up();
+    if (wish_) wish_->cancel();
     image_ = {};
     problem_.clear();
     changed_.tell();
@@ -68,7 +68,7 @@ void LivePicture::update() {
   }
   const double asked_s = seconds_now();
   wish_ = background_.post_latest([this, build_now = std::move(build_now), size = size_, asked_s,
-                                   alive = std::weak_ptr<bool>(alive_)](const Wanted& wanted) {
+                                   alive = std::weak_ptr<bool>(alive_)](const CancelToken& token) {
     const auto post = [&](std::function<void()> change) {
       queue_.post([alive, change = std::move(change)] {
         if (!alive.expired()) change();
@@ -82,7 +82,7 @@ void LivePicture::update() {
         put(built, std::move(image), asked_s);
       });
     };
-    if (auto done = within_memory([&] { return build_now(size, wanted, show); });
+    if (auto done = within_memory([&] { return build_now(size, token, show); });
         !done && done.error().code != ErrorCode::cancelled) {
       post([this, line = to_line(done.error())] { fail_with(line); });
     }

@@ -83,9 +83,9 @@ class LivePicture {
     double scale = 1.0;                  ///< pixels a unit of the frame
   };
   using Show = std::function<void(Built)>;
-  /// Runs behind the window on copies of everything it needs. `wanted` is false once a later wish came: a build goes on to
+  /// Runs behind the window on copies of everything it needs. The token is cancelled once a later wish came: a build goes on to
   /// its first picture all the same, so that something is seen while wishes come faster than pictures, and ends then.
-  using Build = std::function<Result<void>(PixelSize size, const Wanted& wanted, const Show& show)>;
+  using Build = std::function<Result<void>(PixelSize size, const CancelToken& token, const Show& show)>;
 
   /// What is to be built now; empty = there is nothing to show. Called in the window's thread.
   [[nodiscard]] virtual Build build() = 0;
@@ -119,7 +119,7 @@ class LivePicture {
   std::int64_t pictures_ = 0;
   Listeners<> changed_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
-  std::optional<Wanted> wish_;
+  std::optional<CancelToken> wish_;
   TaskThread background_;  // the last member: it ends first
 };
 

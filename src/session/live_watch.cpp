@@ -18,8 +18,10 @@ constexpr double kPoll_s = 0.2;
 
 }  // namespace
 
-LiveWatch::LiveWatch(Workspace& workspace, Pulse& pulse)
-    : workspace_(workspace), pulse_(pulse), listening_(workspace.document.changes().add([this](DocumentChange change) {
+LiveWatch::LiveWatch(Workspace& workspace, AnimationDriver& animations)
+    : workspace_(workspace),
+      animations_(animations),
+      listening_(workspace.document.changes().add([this](DocumentChange change) {
         if (change == DocumentChange::survey) {
           set_on(false);
           // When the document has shown what it opens with.
@@ -43,7 +45,7 @@ LiveWatch::~LiveWatch() {
 void LiveWatch::set_on(bool on) {
   if (on == this->on()) return;
   if (!on) {
-    pulse_.stop(kName);
+    animations_.stop(kName);
     work_->cancel();
     survey_.reset();
     watched_.reset();
@@ -67,7 +69,7 @@ void LiveWatch::set_on(bool on) {
   left_out_ = 0;
   looked_at_ = LiveClock::now();
   text_ = "waiting for pings";
-  pulse_.run(kName, [this](double now_s) { return tick(now_s); });
+  animations_.run(kName, [this](double now_s) { return tick(now_s); });
   look_at_newest();
   changed_.tell();
 }
@@ -133,7 +135,7 @@ bool LiveWatch::tick(double now_s) {
   looked_s_ = now_s;
   const auto written_since = std::exchange(looked_at_, LiveClock::now());
   (void)looks_.post([this, survey = survey_, written_since, watched = std::weak_ptr<bool>(watched_), work = work_,
-                     out = workspace_.document.journal_path().parent_path()](const Wanted&) {
+                     out = workspace_.document.journal_path().parent_path()](const CancelToken&) {
     const auto begun = LiveClock::now();
     Seen seen;
     const auto news = survey->look(begun, *work);
@@ -211,7 +213,7 @@ void LiveWatch::find_schools() {
                                                                      std::int64_t) mutable { give_way(); });
   (void)finds_.post([this, survey, index, memory, work = work_, watched = std::weak_ptr<bool>(watched_),
                      before = last_found_[index], recipe = document.recipe(),
-                     version = document.options().program_version](const Wanted&) mutable {
+                     version = document.options().program_version](const CancelToken&) mutable {
     recipe.automatic = true;
     ObserveOptions options{{}, {}, version};
     options.memory = memory.get();

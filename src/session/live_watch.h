@@ -13,8 +13,8 @@
 #include "pipeline/live/live_status.h"
 #include "pipeline/live/live_survey.h"
 #include "pipeline/stages/observe_memory.h"
+#include "session/animation_driver.h"
 #include "session/listeners.h"
-#include "session/pulse.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -26,7 +26,7 @@ namespace sonar {
 class LiveWatch {
  public:
   /// Both outlive the watch.
-  LiveWatch(Workspace& workspace, Pulse& pulse);
+  LiveWatch(Workspace& workspace, AnimationDriver& animations);
   ~LiveWatch();
   LiveWatch(const LiveWatch&) = delete;
   LiveWatch& operator=(const LiveWatch&) = delete;
@@ -69,7 +69,7 @@ class LiveWatch {
   void take_found(std::size_t observation, const std::shared_ptr<const ObservationProduct>& found);
 
   Workspace& workspace_;
-  Pulse& pulse_;
+  AnimationDriver& animations_;
   std::shared_ptr<LiveSurvey> survey_;  ///< touched by the thread of the looks alone; null = off
   std::shared_ptr<bool> watched_;       ///< changes that come after the end are dropped
   bool looking_ = false;                ///< a look is on its way

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A desk on a folder into which the small survey's files are written piece by piece.
-class LiveDesk : public testing::Test, protected TestDesk {
+/// An app on a folder into which the small survey's files are written piece by piece.
+class LiveApp : public testing::Test, protected TestApp {
  protected:
-  LiveDesk() {
+  LiveApp() {
     fs::create_directories(live_);
     for (const auto& entry : fs::directory_iterator(TestSurvey::easy().folder())) {
       if (entry.path().extension() == ".raw") raw_.push_back(entry.path());
@@ -28,11 +28,11 @@ class LiveDesk : public testing::Test, protected TestDesk {
   }
 
   void begin() {
-    desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+    app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
     document().open({live_});
     document().settle();
   }
-  [[nodiscard]] LiveWatch& live() { return *desk_->live; }
+  [[nodiscard]] LiveWatch& live() { return *app_->live; }
 
   /// Writes on until so much of a file is there.
   void record(std::size_t file, double share) const {
@@ -48,7 +48,7 @@ class LiveDesk : public testing::Test, protected TestDesk {
   /// The window's turns until all that was written has been taken in.
   void turns() {
     for (int i = 0; i < 12; ++i) {
-      desk_->pulse.tick(now_s_ += 0.3);
+      app_->animations.tick(now_s_ += 0.3);
       live().settle();
       document().settle();
     }
@@ -65,22 +65,22 @@ class LiveDesk : public testing::Test, protected TestDesk {
 };
 
 // What the files' ends tell comes first, and is not yet the survey that is to be followed.
-TEST_F(LiveDesk, TheSurveyThatIsOpenedNextIsFollowed) {
+TEST_F(LiveApp, TheSurveyThatIsOpenedNextIsFollowed) {
   record(0, 0.5);
-  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
   live().follow_next();
   document().open({live_});
   document().settle();
   EXPECT_TRUE(live().on());
 }
 
-TEST_F(LiveDesk, ShowsTheNewestPingAndTellsOfSchools) {
+TEST_F(LiveApp, ShowsTheNewestPingAndTellsOfSchools) {
   record(0, 0.3);
   begin();
   const std::int64_t before = document().shown()->pings();
   document().look_at(before - 1);
   std::string rule = "big > 3";
-  desk_->asking.text = [&](const auto&, const auto&, const auto&) { return std::optional(rule); };
+  app_->dialogs.text = [&](const auto&, const auto&, const auto&) { return std::optional(rule); };
   press("file.alarm");
   EXPECT_TRUE(told("'big > 3'"));
   rule = "range_m < 1000";
@@ -112,7 +112,7 @@ TEST_F(LiveDesk, ShowsTheNewestPingAndTellsOfSchools) {
   EXPECT_EQ(live().text(), "");
 }
 
-TEST_F(LiveDesk, WhoLooksBackIsNotDisturbedAndLGoesToTheNewest) {
+TEST_F(LiveApp, WhoLooksBackIsNotDisturbedAndLGoesToTheNewest) {
   record(0, 0.5);
   begin();
   document().look_at(document().shown()->pings() - 1);
@@ -133,7 +133,7 @@ TEST_F(LiveDesk, WhoLooksBackIsNotDisturbedAndLGoesToTheNewest) {
   EXPECT_EQ(document().staged()->ping_index, document().shown()->pings() - 1);
 }
 
-TEST_F(LiveDesk, WhatAHumanDecidedStays) {
+TEST_F(LiveApp, WhatAHumanDecidedStays) {
   record(0, 0.6);
   begin();
   press("file.live");
@@ -162,7 +162,7 @@ TEST_F(LiveDesk, WhatAHumanDecidedStays) {
   EXPECT_EQ(document().state().schools.size(), schools - 1);
 }
 
-TEST_F(LiveDesk, WaitsForAFolderThatIsGone) {
+TEST_F(LiveApp, WaitsForAFolderThatIsGone) {
   record(0, 0.4);
   begin();
   document().look_at(document().shown()->pings() - 1);
@@ -180,7 +180,7 @@ TEST_F(LiveDesk, WaitsForAFolderThatIsGone) {
   EXPECT_GT(document().shown()->pings(), before);
 }
 
-TEST_F(LiveDesk, BeginsInAFolderThatHoldsNothingYet) {
+TEST_F(LiveApp, BeginsInAFolderThatHoldsNothingYet) {
   begin();
   ASSERT_EQ(document().shown(), nullptr);
   press("file.live");

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "session/desk.h"
+#include "session/app_model.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -27,12 +27,12 @@ class WithoutAGrid : public testing::Test {
 };
 
 TEST_F(WithoutAGrid, EveryViewSaysWhyAndTheSurveyMapShowsItsTrack) {
-  Desk desk(queue_, TestSurvey::options(TestSurvey::easy().fresh()));
-  EXPECT_THAT(idle_text(desk, "top_slice"), testing::HasSubstr("Open a survey"));
-  LivePicture& map = *desk.picture("survey_map");
+  AppModel app(queue_, TestSurvey::options(TestSurvey::easy().fresh()));
+  EXPECT_THAT(idle_text(app, "top_slice"), testing::HasSubstr("Open a survey"));
+  LivePicture& map = *app.picture("survey_map");
   map.resize({480, 360}, 1.0);
   map.set_seen(true);
-  Document& document = desk.workspace.document;
+  Document& document = app.workspace.document;
   document.open({folder_});
   do {
     document.settle();
@@ -45,7 +45,7 @@ TEST_F(WithoutAGrid, EveryViewSaysWhyAndTheSurveyMapShowsItsTrack) {
   EXPECT_THAT(why, testing::HasSubstr("499 beams, but 20 elevations x 25 azimuths"));
   ASSERT_FALSE(document.notices().empty());
   EXPECT_EQ(document.notices().back(), why);
-  for (const PictureDock& dock : desk.pictures) EXPECT_EQ(idle_text(desk, dock.id), why) << dock.id;
+  for (const PictureDock& dock : app.pictures) EXPECT_EQ(idle_text(app, dock.id), why) << dock.id;
   EXPECT_GT(map.image().size.width, 0) << map.problem();
   const auto asked = document.show(0);
   ASSERT_FALSE(asked);

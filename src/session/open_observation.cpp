@@ -27,8 +27,8 @@ OpenObservation::OpenObservation(std::shared_ptr<const SurveyFiles> survey, std:
       known_(std::move(known)),
       engine_(*survey_, survey_->observations[index], recipe, known_.get()) {
   cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
-  ground_ = ground_of(engine_, {0, engine_.pings() - 1});
-  ground_.ping = [this](std::int64_t i) -> Result<FilteredPing> {
+  context_ = context_of(engine_, {0, engine_.pings() - 1});
+  context_.ping = [this](std::int64_t i) -> Result<FilteredPing> {
     auto staged = ping(i);
     if (!staged) return pass_on(staged);
     return engine_.filtered(**staged);
@@ -50,7 +50,7 @@ OpenObservation::OpenObservation(std::shared_ptr<OpenObservation> chosen_on, con
       identity_(chosen_on_->identity_),
       known_(chosen_on_->known_),
       engine_(*survey_, survey_->observations[index_], measuring, known_.get()),
-      ground_(chosen_on_->ground_) {
+      context_(chosen_on_->context_) {
   cache_ = std::make_unique<PingCache>([this](std::int64_t i) { return made(i); }, engine_.pings(), reach_.value_or(0));
 }
 

@@ -21,7 +21,7 @@ namespace sonar {
 
 /// An observation at work: everything that pictures and choices stand on. Opening one reads nothing; each ping is read
 /// when it is asked for, with the background levels of its neighbours. Under another calibration pictures and measures are
-/// of that one, while choices stand on the ground that they always stood on.
+/// of that one, while choices keep the context that they always had.
 /// threads  all members may be called from any thread
 class OpenObservation {
  public:
@@ -51,7 +51,7 @@ class OpenObservation {
   [[nodiscard]] const BeamGrid& grid() const { return engine_.grid(); }
   [[nodiscard]] Engine& engine() { return engine_; }
   /// What commands need; its pings come through a cache.
-  [[nodiscard]] const CommandGround& ground() const { return ground_; }
+  [[nodiscard]] const CommandContext& context() const { return context_; }
   /// Whether pictures and measures follow another calibration than choices.
   [[nodiscard]] bool recalibrated() const { return chosen_on_ != nullptr; }
   /// The same object for the same observation, whatever its calibration and however many pings it has by now.
@@ -82,7 +82,7 @@ class OpenObservation {
   std::shared_ptr<KnownPings> known_;  ///< goes on with the observation as it grows
   Engine engine_;
   std::mutex estimating_;
-  CommandGround ground_;
+  CommandContext context_;
   std::unique_ptr<PingCache> cache_;  // the last member: its thread ends first
 };
 

@@ -61,11 +61,11 @@ class PropertyLister {
                      {}});
   }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view text) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo& info) {
     list_.push_back({prefix_ + std::string(name),
                      label_of(name, {}),
                      {},
-                     std::string(text),
+                     std::string(info.text),
                      0.0,
                      0.0,
                      {names.begin(), names.end()},
@@ -103,7 +103,7 @@ class PropertyAccess {
     value_ = value;
   }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo&) {
     if (prefix_ + std::string(name) != path_) return;
     found_ = true;
     if (to_ != nullptr && std::holds_alternative<Choice>(*to_) && std::get<Choice>(*to_).index < names.size()) {

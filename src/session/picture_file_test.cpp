@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "session/exports.h"
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -31,15 +31,15 @@ std::optional<PixelSize> size_of_png(const fs::path& file) {
   return PixelSize{at(16), at(20)};
 }
 
-class PictureFile : public testing::Test, protected TestDesk {
+class PictureFile : public testing::Test, protected TestApp {
  protected:
   void SetUp() override {
     begin();
-    desk_->asking.file_to_save = [this](const auto&, const auto&, const std::string& name) {
+    app_->dialogs.file_to_save = [this](const auto&, const auto&, const std::string& name) {
       saved_ = out_ / name;
       return saved_.string();
     };
-    desk_->asking.parameters = [this](const std::string&, const PanelSection& section) {
+    app_->dialogs.parameters = [this](const std::string&, const PanelSection& section) {
       asked_ = section.names;
       answer_(*section.source);
       return accept_;
@@ -164,7 +164,7 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
   paint(4, 6, 5, 5, 200);
   document().settle();
   select(1);
-  desk_->asking.folder_to_save = [this](const auto&) { return out_.string(); };
+  app_->dialogs.folder_to_save = [this](const auto&) { return out_.string(); };
   answer([](ParameterSource& source) {
     (void)source.set("frame_s", 0.5);
     (void)source.set("width_px", 400);
@@ -182,7 +182,7 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
 TEST_F(PictureFile, ReducedRawFilesAreAskedForTheirMargins) {
   paint(4, 6, 5, 5, 200);
   document().settle();
-  desk_->asking.folder_to_save = [this](const auto&) { return (out_ / "reduced").string(); };
+  app_->dialogs.folder_to_save = [this](const auto&) { return (out_ / "reduced").string(); };
   const auto size = [&] {
     press("export.raw-reduced");
     document().settle();

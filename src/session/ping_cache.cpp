@@ -32,7 +32,7 @@ void PingCache::put(std::int64_t ping_index, const StagedPingPtr& ping) {
 }
 
 void PingCache::rest() {
-  (void)background_.post_latest([](const Wanted&) {});  // what was to be made ahead is given up
+  (void)background_.post_latest([](const CancelToken&) {});  // what was to be made ahead is given up
   const std::scoped_lock lock(mutex_);
   centre_.reset();
   kept_.clear();
@@ -49,13 +49,13 @@ void PingCache::look_at(std::int64_t ping_index, std::function<void(const Result
     centre_ = ping_index;
     std::erase_if(kept_, [&](const auto& entry) { return std::abs(entry.first - ping_index) > reach_; });
   }
-  background_.post_latest([this, ping_index, arrived = std::move(arrived)](const Wanted& wanted) {
+  background_.post_latest([this, ping_index, arrived = std::move(arrived)](const CancelToken& token) {
     const auto looked_at = ping(ping_index);
-    if (wanted() && arrived) arrived(looked_at);
-    for (std::int64_t away = 1; away <= reach_ && wanted(); ++away) {
+    if (!token.cancelled() && arrived) arrived(looked_at);
+    for (std::int64_t away = 1; away <= reach_ && !token.cancelled(); ++away) {
       // Ahead first: most look at pings in their order.
       for (const std::int64_t i : {ping_index + away, ping_index - away}) {
-        if (i >= 0 && i < pings_ && wanted()) (void)ping(i);
+        if (i >= 0 && i < pings_ && !token.cancelled()) (void)ping(i);
       }
     }
   });

@@ -122,7 +122,7 @@ TEST(DocumentMemory, WhereNotEvenOnePingFitsItIsSaidAndNothingDies) {
   EXPECT_THAT(document.choices().failure + document.notices().back(), HasSubstr("memory_gb"));
   EXPECT_TRUE(document.choices().lines->empty());
   // What needs no ping goes on.
-  document.act(EventCommand{"trawl", document.shown()->ground().times[0], ""});
+  document.act(EventCommand{"trawl", document.shown()->context().times[0], ""});
   document.settle();
   EXPECT_EQ(document.state().events.size(), 1U);
 }

@@ -16,8 +16,10 @@ constexpr std::array<const char*, 4> kTexts{"1x", "2x", "5x", "as fast as possib
 
 }  // namespace
 
-Playback::Playback(Workspace& workspace, Pulse& pulse)
-    : workspace_(workspace), pulse_(pulse), listening_(workspace.document.changes().add([this](DocumentChange change) {
+Playback::Playback(Workspace& workspace, AnimationDriver& animations)
+    : workspace_(workspace),
+      animations_(animations),
+      listening_(workspace.document.changes().add([this](DocumentChange change) {
         const auto& document = workspace_.document;
         const bool arrived = document.staged() && document.staged()->ping_index == document.ping();
         if (change == DocumentChange::notice && playing_ && !arrived) unreadable_ = true;
@@ -25,7 +27,7 @@ Playback::Playback(Workspace& workspace, Pulse& pulse)
       })) {}
 
 Playback::~Playback() {
-  pulse_.stop(kName);
+  animations_.stop(kName);
   workspace_.document.changes().remove(listening_);
 }
 
@@ -38,20 +40,20 @@ void Playback::play() {
   ping_ = -1;
   unreadable_ = false;
   came_s_.clear();
-  pulse_.run(kName, [this](double now_s) { return step(now_s); });
+  animations_.run(kName, [this](double now_s) { return step(now_s); });
   changed_.tell();
 }
 
 void Playback::pause() {
   if (!playing_) return;
   playing_ = false;
-  pulse_.stop(kName);
+  animations_.stop(kName);
   changed_.tell();
 }
 
 double Playback::wait_s(std::int64_t ping) const {
   if (speed_ == PlaySpeed::fastest) return 0.0;
-  const auto& times = workspace_.document.shown()->ground().times;
+  const auto& times = workspace_.document.shown()->context().times;
   const auto i = static_cast<std::size_t>(ping);
   const double between_s = static_cast<double>(times[i + 1] - times[i]) / static_cast<double>(kSecondNs);
   return std::clamp(between_s, 0.0, kLongestWait_s) / kTimes[static_cast<std::size_t>(speed_)];

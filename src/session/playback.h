@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "session/pulse.h"
+#include "session/animation_driver.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -20,7 +20,7 @@ enum class PlaySpeed : std::uint8_t { real_time, twice, five_times, fastest };
 class Playback {
  public:
   /// Both outlive the playback.
-  Playback(Workspace& workspace, Pulse& pulse);
+  Playback(Workspace& workspace, AnimationDriver& animations);
   ~Playback();
   Playback(const Playback&) = delete;
   Playback& operator=(const Playback&) = delete;
@@ -51,7 +51,7 @@ class Playback {
   void set_speed(PlaySpeed speed);
 
   Workspace& workspace_;
-  Pulse& pulse_;
+  AnimationDriver& animations_;
   bool playing_ = false;
   PlaySpeed speed_ = PlaySpeed::real_time;
   std::shared_ptr<const int> identity_;  ///< of what is played

@@ -41,7 +41,7 @@ class LenientReader {
     }
   }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo&) {
     const json* found = member(name);
     if (found == nullptr || !found->is_string()) return;
     const auto at = std::find(names.begin(), names.end(), found->get<std::string>());

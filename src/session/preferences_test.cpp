@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "pipeline/journal/journal_place.h"
+#include "session/app_parts.h"
 #include "session/curves.h"
-#include "session/desk_parts.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -35,7 +35,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.select.tolerance_db = 12.5;
   out.volume.frames = 3;
   out.views.volume = false;
-  out.display.take_out.walls = false;
+  out.display.take_out.interference = false;
   out.picture_file.width_px = 777;
   out.reduce.margin_beams = 3;
   out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
@@ -72,7 +72,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   EXPECT_EQ(taken.display.removed, NoiseLook::transparent);
   EXPECT_EQ(taken.select.tolerance_db, 12.5);
   EXPECT_EQ(taken.volume.frames, 3);
-  EXPECT_FALSE(taken.display.take_out.walls);
+  EXPECT_FALSE(taken.display.take_out.interference);
   EXPECT_EQ(taken.picture_file.width_px, 777);
   EXPECT_EQ(taken.reduce.margin_beams, 3);
   EXPECT_EQ(taken.view_curve, out.view_curve);
@@ -120,33 +120,33 @@ TEST(Preferences, WhatHindersTheirKeepingIsToldOnce) {
   const fs::path folder = TestSurvey::easy().fresh();
   write(folder / "file", "");
   ChangeQueue queue;
-  Desk desk(queue, {});
-  desk.preferences.path = folder / "file" / "preferences.json";
-  keep_preferences(desk);
-  keep_preferences(desk);
-  ASSERT_EQ(desk.workspace.document.notices().size(), 1U);
-  EXPECT_THAT(desk.workspace.document.notices().front(), HasSubstr("preferences cannot be kept"));
+  AppModel app(queue, {});
+  app.preferences.path = folder / "file" / "preferences.json";
+  keep_preferences(app);
+  keep_preferences(app);
+  ASSERT_EQ(app.workspace.document.notices().size(), 1U);
+  EXPECT_THAT(app.workspace.document.notices().front(), HasSubstr("preferences cannot be kept"));
 }
 
 TEST(Preferences, EachSurveyHasItsOwnDepthChart) {
   const fs::path folder = TestSurvey::easy().fresh();
   ChangeQueue queue;
-  Desk desk(queue, TestSurvey::options(folder));
-  desk.preferences.path = folder / "preferences.json";
-  Document& document = desk.workspace.document;
+  AppModel app(queue, TestSurvey::options(folder));
+  app.preferences.path = folder / "preferences.json";
+  Document& document = app.workspace.document;
   document.open({TestSurvey::easy().folder()});
   document.settle();
-  desk.workspace.depth_raster.set(TestSurvey::easy().folder() / "truth" / "depth.tif");
+  app.workspace.depth_raster.set(TestSurvey::easy().folder() / "truth" / "depth.tif");
   const fs::directory_iterator files(TestSurvey::easy().folder());
   const auto raw = std::find_if(fs::begin(files), fs::end(files),
                                 [](const auto& entry) { return entry.path().extension() == ".raw"; });
   document.open({raw->path()});
   document.settle();
-  EXPECT_EQ(desk.workspace.depth_raster(), "");
+  EXPECT_EQ(app.workspace.depth_raster(), "");
   document.open({TestSurvey::easy().folder()});
   document.settle();
-  EXPECT_EQ(desk.workspace.depth_raster(), TestSurvey::easy().folder() / "truth" / "depth.tif");
-  EXPECT_EQ(Preferences::load(desk.preferences.path).preferences.charts.size(), 1U);
+  EXPECT_EQ(app.workspace.depth_raster(), TestSurvey::easy().folder() / "truth" / "depth.tif");
+  EXPECT_EQ(Preferences::load(app.preferences.path).preferences.charts.size(), 1U);
 }
 
 TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {

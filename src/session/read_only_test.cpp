@@ -32,7 +32,7 @@ TEST(ReadOnlyFolder, TheJournalGoesElsewhereAndSaysSo) {
     EXPECT_THAT(document.notices(),
                 testing::Contains(testing::AllOf(testing::HasSubstr(locked.string() + " cannot be written to"),
                                                  testing::HasSubstr(own.string()))));
-    document.act(EventCommand{"trawl", document.shown()->ground().times[1], "kept"});
+    document.act(EventCommand{"trawl", document.shown()->context().times[1], "kept"});
     document.settle();
     EXPECT_EQ(document.state().events.size(), 1U);
   }
@@ -52,7 +52,7 @@ TEST(ReadOnlyFolder, WhereNothingCanBeWrittenTheSurveyIsShownAndActsAreRefused) 
   document.settle();
   ASSERT_TRUE(document.shown());
   EXPECT_THAT(document.notices(), testing::Contains(testing::HasSubstr("no folder can be written to")));
-  document.act(EventCommand{"trawl", document.shown()->ground().times[1], "lost"});
+  document.act(EventCommand{"trawl", document.shown()->context().times[1], "lost"});
   document.settle();
   EXPECT_TRUE(document.state().events.empty()) << "what cannot be kept is not shown";
   EXPECT_FALSE(document.choices().failure.empty());

@@ -15,7 +15,7 @@ namespace sonar {
 [[nodiscard]] RefusedPtr refused_layer(const Workspace& workspace, std::size_t observation);
 /// Of a ping of the observation on show.
 [[nodiscard]] std::vector<RefusedMark> refused_layer_in(const Workspace& workspace, std::int64_t ping_index);
-/// Id of the echo that stands out in an observation; 0 = none.
+/// Id of the echo that is highlighted in an observation; 0 = none.
 [[nodiscard]] std::int64_t chosen_echo(const Workspace& workspace, std::size_t observation);
 
 /// "no school: 3.8 m along range, 5 at least (judge size)", of its loudest sight; empty where there is no such echo.

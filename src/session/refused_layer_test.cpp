@@ -26,17 +26,17 @@ Recipe tall() {
 class Refused : public testing::Test {
  protected:
   void detect() {
-    desk_.ask("schools.detect");
-    desk_.settle();
+    app_.ask("schools.detect");
+    app_.settle();
   }
-  Workspace& workspace() { return desk_.workspace(); }
-  Document& document() { return desk_.document(); }
+  Workspace& workspace() { return app_.workspace(); }
+  Document& document() { return app_.document(); }
   const std::vector<JournalLine>& lines() { return *document().choices().lines; }
-  Rows& list() { return *desk_.desk.rows("refused"); }
+  Rows& list() { return *app_.app.rows("refused"); }
   /// Looks at an echo's loudest sight, as a click on its row does.
   RefusedEcho choose(std::size_t row = 0) {
     list().select(row);
-    desk_.settle();
+    app_.settle();
     const RefusedPtr rows = document().refused(0);
     const std::vector<RefusedSights> sights = refused_sights(*rows);
     return *sights.at(row).loudest;
@@ -48,17 +48,17 @@ class Refused : public testing::Test {
     return found == marks.end() ? PixelPoint{} : found->at;
   }
 
-  SlicesDesk desk_{tall()};
+  SlicesApp app_{tall()};
 };
 
 TEST_F(Refused, NothingIsRefusedBeforeAnybodyLooked) {
   EXPECT_TRUE(document().refused(0)->empty());
   EXPECT_TRUE(document().refused(17)->empty());
   EXPECT_EQ(list().rows(), 0U);
-  EXPECT_TRUE(desk_.top().picture()->refused.empty());
-  EXPECT_FALSE(desk_.desk.actions.find("school.take_in")->enabled());
-  desk_.ask("school.take_in");
-  desk_.settle();
+  EXPECT_TRUE(app_.top().picture()->refused.empty());
+  EXPECT_FALSE(app_.app.actions.find("school.take_in")->enabled());
+  app_.ask("school.take_in");
+  app_.settle();
   EXPECT_TRUE(lines().empty());
 }
 
@@ -83,8 +83,8 @@ TEST_F(Refused, SlicesMarkIt_HoverSaysWhy_AndTheLayerCanBeSwitchedOff) {
   detect();
   const RefusedEcho loudest = choose();
   workspace().echo.set(std::nullopt);
-  desk_.settle();
-  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+  app_.settle();
+  for (SliceModel* slice : {&app_.top(), &app_.side()}) {
     const PixelPoint at = mark_in(*slice, loudest.echo_id);
     EXPECT_EQ(at, slice->picture()->place_of(*loudest_on_show(workspace(), {0, loudest.echo_id})));
     EXPECT_THAT(slice->hint(at), HasSubstr(why_no_school(loudest)));
@@ -93,16 +93,16 @@ TEST_F(Refused, SlicesMarkIt_HoverSaysWhy_AndTheLayerCanBeSwitchedOff) {
     slice->pointer({PointerAction::move, PointerButton::none, at});
     EXPECT_EQ(workspace().echo(), (EchoName{0, loudest.echo_id})) << "what is pointed at is what the key is about";
     workspace().echo.set(std::nullopt);
-    desk_.settle();
+    app_.settle();
   }
-  desk_.ask("display.refused");
-  desk_.settle();
-  EXPECT_TRUE(desk_.top().picture()->refused.empty());
+  app_.ask("display.refused");
+  app_.settle();
+  EXPECT_TRUE(app_.top().picture()->refused.empty());
   EXPECT_GE(list().rows(), 1U) << "the list stays";
   workspace().echo.set(EchoName{0, loudest.echo_id});
-  EXPECT_FALSE(desk_.desk.actions.find("school.take_in")->enabled()) << "what nobody sees is not taken in";
-  desk_.ask("display.refused");
-  EXPECT_TRUE(desk_.desk.actions.find("school.take_in")->enabled());
+  EXPECT_FALSE(app_.app.actions.find("school.take_in")->enabled()) << "what nobody sees is not taken in";
+  app_.ask("display.refused");
+  EXPECT_TRUE(app_.app.actions.find("school.take_in")->enabled());
 }
 
 TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
@@ -110,8 +110,8 @@ TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
   const std::size_t echoes = list().rows();
   const RefusedEcho loudest = choose();
   const std::size_t before = lines().size();
-  desk_.ask("school.take_in");
-  desk_.settle();
+  app_.ask("school.take_in");
+  app_.settle();
   ASSERT_EQ(document().state().schools.size(), 1U);
   const StateSchool& school = *document().state().schools[0];
   EXPECT_TRUE(school.by_hand);
@@ -132,14 +132,14 @@ TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
   EXPECT_EQ(workspace().echo(), std::nullopt);
   ASSERT_TRUE(workspace().school());
   EXPECT_EQ(workspace().school()->number, school.number);
-  for (const PlacedMark& mark : desk_.top().picture()->refused) EXPECT_NE(mark.echo_id, loudest.echo_id);
+  for (const PlacedMark& mark : app_.top().picture()->refused) EXPECT_NE(mark.echo_id, loudest.echo_id);
 
-  desk_.ask("edit.undo");
-  desk_.settle();
+  app_.ask("edit.undo");
+  app_.settle();
   EXPECT_EQ(document().state().schools.size(), 0U);
   EXPECT_EQ(list().rows(), echoes) << "one undo, and it is refused again";
-  desk_.ask("edit.redo");
-  desk_.settle();
+  app_.ask("edit.redo");
+  app_.settle();
   EXPECT_EQ(document().state().schools.size(), 1U);
   EXPECT_LT(list().rows(), echoes);
 }
@@ -148,8 +148,8 @@ TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
 TEST_F(Refused, WhatWasTakenInGrowsAnewWithAnotherTolerance) {
   detect();
   const RefusedEcho loudest = choose();
-  desk_.ask("school.take_in");
-  desk_.settle();
+  app_.ask("school.take_in");
+  app_.settle();
   const auto voxels = [&] {
     const auto& schools = document().state().schools;
     const auto* there = schools.size() == 1 ? in_ping(schools[0]->masks, loudest.ping_index) : nullptr;
@@ -159,14 +159,14 @@ TEST_F(Refused, WhatWasTakenInGrowsAnewWithAnotherTolerance) {
   SelectParams select = workspace().select.values();
   select.tolerance_db = 5.0;
   workspace().select.assign(select);
-  desk_.settle();
+  app_.settle();
   document().look_at(document().ping());  // anything else that is done ends the wait
-  desk_.settle();
+  app_.settle();
   EXPECT_GT(voxels(), 0U);
   EXPECT_LT(voxels(), before);
   EXPECT_GT(document().state().schools[0]->masks.pings.size(), 1U) << "and is followed again";
-  desk_.ask("edit.undo");
-  desk_.settle();
+  app_.ask("edit.undo");
+  app_.settle();
   EXPECT_EQ(document().state().schools.size(), 0U) << "undo knows one growth";
 }
 
@@ -175,11 +175,11 @@ TEST_F(Refused, WhereNothingGrowsOneLineSaysWhy) {
   choose();
   // No fish is as loud as -5 dB, below which this curve is 0.
   workspace().growth_curve.set(*growth_curve_of({{-5.0, 0.0}, {0.0, 0.8}}));
-  desk_.settle();
+  app_.settle();
   const std::size_t before = lines().size();
   const std::size_t told = document().notices().size();
-  desk_.ask("school.take_in");
-  desk_.settle();
+  app_.ask("school.take_in");
+  app_.settle();
   EXPECT_EQ(lines().size(), before);
   ASSERT_EQ(document().notices().size(), told + 1);
   EXPECT_THAT(document().notices().back(), HasSubstr("too weak to grow from"));
@@ -198,45 +198,45 @@ TEST_F(Refused, FromAnotherPingTheKeyGoesThereFirst) {
   while (seen(elsewhere)) ++elsewhere;
   ASSERT_LT(elsewhere, TestSurvey::kPings);
   document().look_at(elsewhere);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(list().selected(), std::nullopt);
   const std::size_t before = lines().size();
-  desk_.ask("school.take_in");
-  desk_.settle();
+  app_.ask("school.take_in");
+  app_.settle();
   EXPECT_EQ(document().ping(), loudest.ping_index);
   EXPECT_EQ(lines().size(), before);
-  EXPECT_THAT(document().notices().back(), HasSubstr("once more takes it in"));
-  desk_.ask("school.take_in");
-  desk_.settle();
+  EXPECT_THAT(document().notices().back(), HasSubstr("press again to accept it"));
+  app_.ask("school.take_in");
+  app_.settle();
   EXPECT_EQ(lines().size(), before + 2);
 }
 
 TEST_F(Refused, UndoingTheSearchTakesTheLayerAwayAndAnotherRunBringsItBack) {
   detect();
   const std::size_t echoes = list().rows();
-  desk_.ask("edit.undo");
-  desk_.settle();
+  app_.ask("edit.undo");
+  app_.settle();
   EXPECT_EQ(list().rows(), 0U);
-  desk_.ask("edit.redo");
-  desk_.settle();
+  app_.ask("edit.redo");
+  app_.settle();
   EXPECT_EQ(list().rows(), echoes);
   document().open({TestSurvey::easy().folder()});
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(list().rows(), echoes) << "the journal asks for the search";
 }
 
 TEST_F(Refused, MapsAndTimelinesMarkItToo) {
-  auto& map = dynamic_cast<ObservationMapModel&>(*desk_.desk.picture("observation_map"));
-  auto& timeline = dynamic_cast<TimelineModel&>(*desk_.desk.picture("observation_timeline"));
+  auto& map = dynamic_cast<ObservationMapModel&>(*app_.app.picture("observation_map"));
+  auto& timeline = dynamic_cast<TimelineModel&>(*app_.app.picture("observation_timeline"));
   map.resize({480, 360}, 1.0);
   timeline.resize({640, 360}, 1.0);
   map.set_seen(true);
   timeline.set_seen(true);
   const auto settle = [&] {
-    desk_.settle();
+    app_.settle();
     map.wait();
     timeline.wait();
-    desk_.settle();
+    app_.settle();
   };
   detect();
   settle();
@@ -261,7 +261,7 @@ TEST_F(Refused, MapsAndTimelinesMarkItToo) {
   timeline.pointer({PointerAction::press, PointerButton::left, there});
   settle();
   EXPECT_EQ(workspace().echo(), (EchoName{0, loudest.echo_id}));
-  desk_.ask("display.refused");
+  app_.ask("display.refused");
   settle();
   EXPECT_TRUE(map.places()->refused.empty());
   EXPECT_THAT(timeline.hint(there), Not(HasSubstr("no school")));
@@ -272,13 +272,13 @@ TEST_F(Refused, TheVolumeMarksItWhateverStandsBeforeIt) {
   quick.renderer = VolumeRendererName::cpu;
   quick.frames = 0;
   workspace().volume.assign(quick);
-  auto& volume = dynamic_cast<VolumeModel&>(*desk_.desk.picture("volume"));
+  auto& volume = dynamic_cast<VolumeModel&>(*app_.app.picture("volume"));
   volume.resize({340, 260}, 1.0);
   volume.set_seen(true);
   detect();
   const RefusedEcho loudest = choose();
   volume.wait();
-  desk_.settle();
+  app_.settle();
   const EchoName echo{0, loudest.echo_id};
   const Voxel at = *loudest_on_show(workspace(), echo);
   const auto place = volume.shown()->place_of(document().shown()->sector().centre(at.fan, at.beam, at.sample));
@@ -288,7 +288,7 @@ TEST_F(Refused, TheVolumeMarksItWhateverStandsBeforeIt) {
   volume.pointer({PointerAction::move, PointerButton::none, *place});
   EXPECT_EQ(workspace().echo(), echo);
   volume.wait();
-  desk_.settle();
+  app_.settle();
 }
 
 // What a window measures and exports tells refusals as `run` does.
@@ -311,8 +311,8 @@ TEST_F(Refused, TheWindowsProductsTellThem) {
   EXPECT_FALSE(of_run->rejected.empty());
   EXPECT_EQ(rows(before->rejected), rows(of_run->rejected));
   choose();
-  desk_.ask("school.take_in");
-  desk_.settle();
+  app_.ask("school.take_in");
+  app_.settle();
   const auto with_journal =
       observe(*document().survey(), document().shown()->files(), recipe, {{}, effective_lines(lines()), "test"}, work);
   ASSERT_TRUE(with_journal.has_value());

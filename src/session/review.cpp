@@ -78,7 +78,7 @@ void Review::next() {
     break;
   }
   goes_on_ = waits_for_figures();
-  if (goes_on_) return document.tell("wait: measuring; the school that scatters most is shown when all are measured");
+  if (goes_on_) return document.tell("measuring; the strongest school is shown when all are measured");
   const auto at = selected();
   const std::size_t count = schools().size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -90,8 +90,8 @@ void Review::next() {
   if (!document.progress().stage.empty() && unreviewed() == 0) {
     return document.tell(fmt::format("wait: {}", document.progress().stage));
   }
-  if (schools().empty()) return document.tell("there are no schools yet: Ctrl+D looks for them, a click selects one");
-  if (!here && unreviewed() > 0) return document.tell("the filter leaves no school that is not reviewed");
+  if (schools().empty()) return document.tell("no schools yet: press Ctrl+D to detect them, or click to select one");
+  if (!here && unreviewed() > 0) return document.tell("no unreviewed school passes the filter");
   document.tell(here ? "this is the last school that is not reviewed" : "every school is reviewed");
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 #include "session/lists/diagnostics_list.h"
 #include "session/lists/journal_list.h"
 #include "session/lists/refused_table.h"
@@ -22,17 +22,17 @@ namespace {
 
 constexpr const char* kMenu = "&Review";
 
-void decide_all(Desk& desk, Review& review) {
+void decide_all(AppModel& app, Review& review) {
   std::string rule(kDefaultBulkRule);
   for (;;) {
-    if (!desk.asking.text) return;
-    rule = desk.asking.text("Review by a rule", "Of all schools that are not reviewed, those with", rule).value_or("");
+    if (!app.dialogs.text) return;
+    rule = app.dialogs.text("Review by a rule", "Of all schools that are not reviewed, those with", rule).value_or("");
     if (rule.empty()) return;
     const auto done = review.decide_all(rule);
     if (done) return;
     // The human mends the line; a test's window answers once.
-    desk.workspace.document.tell(to_line(done.error()));
-    if (!desk.asking.yes || !desk.asking.yes(to_line(done.error()) + "\nTry again?")) return;
+    app.workspace.document.tell(to_line(done.error()));
+    if (!app.dialogs.yes || !app.dialogs.yes(to_line(done.error()) + "\nTry again?")) return;
   }
 }
 
@@ -42,50 +42,50 @@ bool any_school(const Document& document) {
                      [](const auto& one) { return one.second && !one.second->schools.empty(); });
 }
 
-void add_decisions(Desk& desk, Review& review) {
-  const auto with_school = [&desk] { return desk.workspace.school().has_value(); };
-  desk.actions.add({.id = "review.next",
-                    .menu = kMenu,
-                    .text = "Next unreviewed school",
-                    .keys = {"N"},
-                    .tip = "Show the next school of the whole survey that nobody has decided about",
-                    .run = [&review] { review.next(); },
-                    .enabled = [&desk] { return any_school(desk.workspace.document); }});
+void add_decisions(AppModel& app, Review& review) {
+  const auto with_school = [&app] { return app.workspace.school().has_value(); };
+  app.actions.add({.id = "review.next",
+                   .menu = kMenu,
+                   .text = "Next unreviewed school",
+                   .keys = {"N"},
+                   .tip = "Show the next school of the whole survey that nobody has decided about",
+                   .run = [&review] { review.next(); },
+                   .enabled = [&app] { return any_school(app.workspace.document); }});
   const auto add = [&](const char* id, const char* text, std::vector<std::string> keys, const char* tip,
                        const char* status) {
-    desk.actions.add({.id = id,
-                      .menu = kMenu,
-                      .text = text,
-                      .keys = std::move(keys),
-                      .tip = tip,
-                      .run = [&review, status] { review.decide(status); },
-                      .enabled = with_school,
-                      .of_school = true});
+    app.actions.add({.id = id,
+                     .menu = kMenu,
+                     .text = text,
+                     .keys = std::move(keys),
+                     .tip = tip,
+                     .run = [&review, status] { review.decide(status); },
+                     .enabled = with_school,
+                     .of_school = true});
   };
-  add("review.accept", "Accept", {"A", "Return", "Enter"}, "The selected school is one", "accepted");
-  add("review.reject", "Reject", {"R"}, "The selected school is none: it stays in the tables, marked", "rejected");
-  add("review.unreview", "Not reviewed", {"U"}, "Takes the decision about the selected school back", "unreviewed");
+  add("review.accept", "Accept", {"A", "Return", "Enter"}, "Confirm that this is a school", "accepted");
+  add("review.reject", "Reject", {"R"}, "Mark as not a school; it stays in the tables as rejected", "rejected");
+  add("review.unreview", "Not reviewed", {"U"}, "Withdraw the decision on the selected school", "unreviewed");
 }
 
-void add_species(Desk& desk, Review& review) {
+void add_species(AppModel& app, Review& review) {
   for (int digit = 0; digit <= 9; ++digit) {
-    desk.actions.add({.id = fmt::format("review.species.{}", digit),
-                      .menu = kMenu,
-                      .text = digit == 0 ? "No species" : fmt::format("Species {}", digit),
-                      .keys = {std::to_string(digit)},
-                      .tip = "Species of the selected school; the list stands in the preferences",
-                      .run = [&review, digit] { review.set_species(digit); },
-                      .enabled = [&desk] { return desk.workspace.school().has_value(); },
-                      .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); },
-                      .of_school = true});
+    app.actions.add({.id = fmt::format("review.species.{}", digit),
+                     .menu = kMenu,
+                     .text = digit == 0 ? "No species" : fmt::format("Species {}", digit),
+                     .keys = {std::to_string(digit)},
+                     .tip = "Species of the selected school; the list stands in the preferences",
+                     .run = [&review, digit] { review.set_species(digit); },
+                     .enabled = [&app] { return app.workspace.school().has_value(); },
+                     .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); },
+                     .of_school = true});
   }
 }
 
 /// "herring, sprat" -> one a digit.
-void name_all_species(Desk& desk) {
-  if (!desk.asking.text) return;
-  const auto answer = desk.asking.text("Species", "One for each digit from 1, with commas between",
-                                       fmt::format("{}", fmt::join(desk.preferences.species, ", ")));
+void name_all_species(AppModel& app) {
+  if (!app.dialogs.text) return;
+  const auto answer = app.dialogs.text("Species", "One for each digit from 1, with commas between",
+                                       fmt::format("{}", fmt::join(app.preferences.species, ", ")));
   if (!answer) return;
   std::vector<std::string> species;
   std::string line = *answer;
@@ -99,67 +99,67 @@ void name_all_species(Desk& desk) {
     at = end + 1;
   }
   if (species.empty() || species.size() > Preferences::kMostSpecies) {
-    return desk.workspace.document.tell(
+    return app.workspace.document.tell(
         fmt::format("species: expected 1 to {} names with commas between", Preferences::kMostSpecies));
   }
-  desk.preferences.species = std::move(species);
-  keep_preferences(desk);
+  app.preferences.species = std::move(species);
+  keep_preferences(app);
 }
 
 }  // namespace
 
-void add_lists(Desk& desk) {
-  Workspace& workspace = desk.workspace;
-  desk.lists.push_back({"survey_tree", "Survey", DockPlace::left, std::make_unique<SurveyTree>(workspace), true});
-  desk.lists.push_back({"schools", "Schools", DockPlace::bottom, std::make_unique<SchoolTable>(workspace)});
+void add_lists(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.lists.push_back({"survey_tree", "Survey", DockPlace::left, std::make_unique<SurveyTree>(workspace), true});
+  app.lists.push_back({"schools", "Schools", DockPlace::bottom, std::make_unique<SchoolTable>(workspace)});
   auto pings = std::make_unique<SchoolPingTable>(workspace);
   SchoolPingTable& ping_table = *pings;
-  desk.lists.push_back({"school_pings", "Schools in pings", DockPlace::bottom, std::move(pings)});
-  auto queue = std::make_unique<Review>(workspace, desk.preferences);
+  app.lists.push_back({"school_pings", "Schools in pings", DockPlace::bottom, std::move(pings)});
+  auto queue = std::make_unique<Review>(workspace, app.preferences);
   Review& review = *queue;
-  desk.lists.push_back({"review", "Review", DockPlace::bottom, std::move(queue)});
-  desk.lists.push_back({"refused", "Refused echoes", DockPlace::bottom, std::make_unique<RefusedTable>(workspace)});
-  desk.lists.push_back({"journal", "Journal", DockPlace::bottom, std::make_unique<JournalList>(workspace)});
-  desk.lists.push_back({"diagnostics", "Diagnostics", DockPlace::bottom, std::make_unique<DiagnosticsList>(workspace)});
+  app.lists.push_back({"review", "Review", DockPlace::bottom, std::move(queue)});
+  app.lists.push_back({"refused", "Refused echoes", DockPlace::bottom, std::make_unique<RefusedTable>(workspace)});
+  app.lists.push_back({"journal", "Journal", DockPlace::bottom, std::make_unique<JournalList>(workspace)});
+  app.lists.push_back({"diagnostics", "Diagnostics", DockPlace::bottom, std::make_unique<DiagnosticsList>(workspace)});
 
-  add_decisions(desk, review);
-  add_species(desk, review);
-  desk.actions.add({.id = "review.species_names",
-                    .menu = kMenu,
-                    .text = "Species of the digits...",
-                    .keys = {},
-                    .tip = "Which species the digits 1 to 9 mean",
-                    .run = [&desk] { name_all_species(desk); }});
-  desk.actions.add({.id = "review.rule",
-                    .menu = kMenu,
-                    .text = "Decide by a rule...",
-                    .keys = {"Ctrl+B"},
-                    .tip = "Accept or reject every unreviewed school of the survey that meets a rule: one step to undo",
-                    .run = [&desk, &review] { decide_all(desk, review); },
-                    .enabled = [&workspace] { return any_school(workspace.document); }});
-  desk.actions.add({.id = "review.advance",
-                    .menu = kMenu,
-                    .text = "Go on after a decision",
-                    .keys = {},
-                    .tip = "Show the next unreviewed school after each decision",
-                    .run = [&desk] { desk.preferences.advance = !desk.preferences.advance; },
-                    .checked = [&desk] { return desk.preferences.advance; }});
-  desk.actions.add({.id = "list.pings_of_all",
-                    .menu = "&View",
-                    .text = "List pings of all schools",
-                    .keys = {},
-                    .tip = "Off: of the selected school alone",
-                    .run = [&ping_table] { ping_table.show_all(!ping_table.all()); },
-                    .checked = [&ping_table] { return ping_table.all(); }});
-  desk.actions.add({.id = "list.copy",
-                    .menu = "&Edit",
-                    .text = "Copy rows",
-                    .keys = {"Ctrl+C"},
-                    .tip = "The marked rows of the list in use, with their titles, for a spreadsheet",
-                    .run = [&desk] {
-                      if (desk.asking.copy_rows && desk.asking.copy_rows()) return;
-                      desk.workspace.document.tell("click into the list whose rows are wanted");
-                    }});
+  add_decisions(app, review);
+  add_species(app, review);
+  app.actions.add({.id = "review.species_names",
+                   .menu = kMenu,
+                   .text = "Species keys...",
+                   .keys = {},
+                   .tip = "Which species the digits 1 to 9 mean",
+                   .run = [&app] { name_all_species(app); }});
+  app.actions.add({.id = "review.rule",
+                   .menu = kMenu,
+                   .text = "Decide by a rule...",
+                   .keys = {"Ctrl+B"},
+                   .tip = "Accept or reject every unreviewed school of the survey that meets a rule: one step to undo",
+                   .run = [&app, &review] { decide_all(app, review); },
+                   .enabled = [&workspace] { return any_school(workspace.document); }});
+  app.actions.add({.id = "review.advance",
+                   .menu = kMenu,
+                   .text = "Advance after a decision",
+                   .keys = {},
+                   .tip = "Show the next unreviewed school after each decision",
+                   .run = [&app] { app.preferences.advance = !app.preferences.advance; },
+                   .checked = [&app] { return app.preferences.advance; }});
+  app.actions.add({.id = "list.pings_of_all",
+                   .menu = "&View",
+                   .text = "List pings of all schools",
+                   .keys = {},
+                   .tip = "When off, only the selected school",
+                   .run = [&ping_table] { ping_table.show_all(!ping_table.all()); },
+                   .checked = [&ping_table] { return ping_table.all(); }});
+  app.actions.add({.id = "list.copy",
+                   .menu = "&Edit",
+                   .text = "Copy rows",
+                   .keys = {"Ctrl+C"},
+                   .tip = "The marked rows of the list in use, with their titles, for a spreadsheet",
+                   .run = [&app] {
+                     if (app.dialogs.copy_rows && app.dialogs.copy_rows()) return;
+                     app.workspace.document.tell("click the list whose rows you want to copy");
+                   }});
   // What was decided in earlier runs is seen at once, wherever in the survey it lies.
   workspace.document.changes().add(
       [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {

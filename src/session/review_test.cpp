@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -43,7 +43,7 @@ TEST(BulkRules, WhatIsNotUnderstoodIsNamed) {
   }
 }
 
-class ReviewAtWork : public testing::Test, protected TestDesk {
+class ReviewAtWork : public testing::Test, protected TestApp {
  protected:
   void SetUp() override { begin(); }
   /// Small schools all over two pings, none touching another.
@@ -53,7 +53,7 @@ class ReviewAtWork : public testing::Test, protected TestDesk {
     document().settle();
     ASSERT_EQ(document().state().schools.size(), static_cast<std::size_t>(count));
   }
-  [[nodiscard]] Review& review() { return dynamic_cast<Review&>(*desk_->rows("review")); }
+  [[nodiscard]] Review& review() { return dynamic_cast<Review&>(*app_->rows("review")); }
   [[nodiscard]] int with_status(const std::string& status) {
     int count = 0;
     for (const SurveySchool& school : survey_schools(document())) count += school.decided().status == status ? 1 : 0;
@@ -96,7 +96,7 @@ TEST_F(ReviewAtWork, WhatCannotBeWrittenDownIsShownAgainInsteadOfTheNext) {
   other_window.open({TestSurvey::easy().folder()});
   other_window.settle();
   ASSERT_TRUE(other_window.show(school->observation));
-  other_window.act(EventCommand{"trawl", other_window.shown()->ground().times[2], ""});
+  other_window.act(EventCommand{"trawl", other_window.shown()->context().times[2], ""});
   other_window.settle();
   press("review.reject");
   EXPECT_NE(workspace().school(), school) << "it goes on at once";
@@ -169,18 +169,18 @@ TEST_F(ReviewAtWork, WithoutAdvanceTheSchoolStays) {
 TEST_F(ReviewAtWork, TheDigitsMeanWhatTheUserSays) {
   paint_schools(1);
   press("review.next");
-  desk_->asking.text = [](const auto&, const auto&, const std::string& now) {
+  app_->dialogs.text = [](const auto&, const auto&, const std::string& now) {
     EXPECT_TRUE(now.starts_with("herring, mackerel, "));
     return std::optional<std::string>(" lodde ,  snow crab,,torsk ");
   };
   press("review.species_names");
-  EXPECT_EQ(desk_->preferences.species, (std::vector<std::string>{"lodde", "snow crab", "torsk"}));
+  EXPECT_EQ(app_->preferences.species, (std::vector<std::string>{"lodde", "snow crab", "torsk"}));
   press("review.species.2");
   document().settle();
   EXPECT_EQ(survey_schools(document()).front().decided().species, "snow crab");
-  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(" , "); };
+  app_->dialogs.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(" , "); };
   press("review.species_names");
-  EXPECT_EQ(desk_->preferences.species.size(), 3U);
+  EXPECT_EQ(app_->preferences.species.size(), 3U);
 }
 
 TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
@@ -188,7 +188,7 @@ TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
   paint(2, 3, 12, 12, 300);
   document().settle();
   const std::size_t lines = document().choices().lines->size();
-  desk_->asking.text = [](const auto&, const auto&, const std::string& rule) {
+  app_->dialogs.text = [](const auto&, const auto&, const std::string& rule) {
     EXPECT_EQ(rule, kDefaultBulkRule);
     return std::string("pings >= 5 -> accept");
   };

@@ -19,7 +19,7 @@ TEST(RightOfWayJobs, WhoGivesWayGoesOnWhenTheLastOneLetsGo) {
   std::atomic<bool> free{false};
   std::atomic<bool> went_on_free{false};
   TaskThread behind;
-  behind.post([&](const Wanted&) {
+  behind.post([&](const CancelToken&) {
     (void)way.give_way(std::chrono::hours(1));
     went_on_free = free.load();
   });

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "session/app_parts.h"
 #include "session/beyond_reach.h"
-#include "session/desk_parts.h"
 #include "session/refused_layer.h"
 #include "session/survey_schools.h"
 #include "session/timelines/timeline_actions.h"
@@ -27,8 +27,8 @@ std::optional<SurveySchool> school_on_show(const Workspace& workspace) {
   return school && shown && shown->index() == school->name.observation ? std::move(school) : std::nullopt;
 }
 
-std::function<bool()> with_school(const Desk& desk) {
-  return [&desk] { return school_on_show(desk.workspace).has_value(); };
+std::function<bool()> with_school(const AppModel& app) {
+  return [&app] { return school_on_show(app.workspace).has_value(); };
 }
 
 /// A school that waits for the one that is to become part of it.
@@ -45,7 +45,7 @@ void merge_selected(Workspace& workspace, Merging& merging) {
   }
   for (const auto& one : workspace.document.state(first.observation).schools) {
     if (one->number != first.number) continue;
-    const SchoolKey key = key_of(one->masks, second->observation->ground());
+    const SchoolKey key = key_of(one->masks, second->observation->context());
     workspace.document.act(MergeCommand{{key, second->key()}});
     return workspace.school.set(first);
   }
@@ -86,45 +86,45 @@ void carry_on(Workspace& workspace, bool backwards, bool forwards) {
 
 /// A line of text about the selected school; empty where the human declined or left it as it is. An empty answer is one:
 /// it wipes out what was there.
-std::optional<std::string> asked_line(Desk& desk, const SurveySchool& school, const char* label,
+std::optional<std::string> asked_line(AppModel& app, const SurveySchool& school, const char* label,
                                       const std::string& now) {
-  if (!desk.asking.text) return std::nullopt;
-  auto text = desk.asking.text(fmt::format("School {}", school.name.number), label, now);
+  if (!app.dialogs.text) return std::nullopt;
+  auto text = app.dialogs.text(fmt::format("School {}", school.name.number), label, now);
   if (!text || *text == now) return std::nullopt;
   std::replace_if(
       text->begin(), text->end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
   return text;
 }
 
-void comment(Desk& desk) {
-  const auto school = school_on_show(desk.workspace);
+void comment(AppModel& app) {
+  const auto school = school_on_show(app.workspace);
   if (!school) return;
   Decision decision;
   decision.school = school->key();
-  decision.comment = asked_line(desk, *school, "Comment", school->decided().comment);
-  if (decision.comment) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.comment = asked_line(app, *school, "Comment", school->decided().comment);
+  if (decision.comment) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
-void rename(Desk& desk) {
-  const auto school = school_on_show(desk.workspace);
+void rename(AppModel& app) {
+  const auto school = school_on_show(app.workspace);
   if (!school) return;
   Decision decision;
   decision.school = school->key();
-  decision.name = asked_line(desk, *school, "Name", school->decided().name);
-  if (decision.name) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.name = asked_line(app, *school, "Name", school->decided().name);
+  if (decision.name) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
-void name_species(Desk& desk) {
-  const auto school = school_on_show(desk.workspace);
+void name_species(AppModel& app) {
+  const auto school = school_on_show(app.workspace);
   if (!school) return;
   Decision decision;
   decision.school = school->key();
-  decision.species = asked_line(desk, *school, "Species", school->decided().species);
-  if (decision.species) desk.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.species = asked_line(app, *school, "Species", school->decided().species);
+  if (decision.species) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
 }
 
 void detect(Document& document, bool all) {
-  if (!document.shown()) return document.tell("nothing is open in which schools could be looked for");
+  if (!document.shown()) return document.tell("open a survey first to detect schools");
   std::vector<std::size_t> observations{document.shown()->index()};
   if (all) {
     observations.clear();
@@ -147,165 +147,165 @@ void take_in(Workspace& workspace, SeedTool& seed) {
   if (voxel && staged && staged->ping_index == workspace.document.ping()) return seed.take_in(*voxel);
   go_to_echo(workspace, *echo);
   workspace.document.tell(
-      fmt::format("refused echo {} is in ping {}: once more takes it in", echo->id, workspace.document.ping()));
+      fmt::format("refused echo {} is in ping {}: press again to accept it", echo->id, workspace.document.ping()));
 }
 
-void add_undo(Desk& desk) {
-  Document& document = desk.workspace.document;
-  desk.actions.add({.id = "edit.undo",
-                    .menu = "&Edit",
-                    .text = "Undo",
-                    .keys = {"Ctrl+Z"},
-                    .tip = "Take back the last act; there is no limit",
-                    .run = [&document] { document.undo(); },
-                    .enabled = [&document] { return !document.choices().undo_text.empty(); },
-                    .text_now = [&document] { return document.choices().undo_text; }});
-  desk.actions.add({.id = "edit.redo",
-                    .menu = "&Edit",
-                    .text = "Redo",
-                    .keys = {"Ctrl+Shift+Z", "Ctrl+Y"},
-                    .tip = "Do again what was undone",
-                    .run = [&document] { document.redo(); },
-                    .enabled = [&document] { return !document.choices().redo_text.empty(); },
-                    .text_now = [&document] { return document.choices().redo_text; }});
+void add_undo(AppModel& app) {
+  Document& document = app.workspace.document;
+  app.actions.add({.id = "edit.undo",
+                   .menu = "&Edit",
+                   .text = "Undo",
+                   .keys = {"Ctrl+Z"},
+                   .tip = "Undo the last act; there is no limit",
+                   .run = [&document] { document.undo(); },
+                   .enabled = [&document] { return !document.choices().undo_text.empty(); },
+                   .text_now = [&document] { return document.choices().undo_text; }});
+  app.actions.add({.id = "edit.redo",
+                   .menu = "&Edit",
+                   .text = "Redo",
+                   .keys = {"Ctrl+Shift+Z", "Ctrl+Y"},
+                   .tip = "Do again what was undone",
+                   .run = [&document] { document.redo(); },
+                   .enabled = [&document] { return !document.choices().redo_text.empty(); },
+                   .text_now = [&document] { return document.choices().redo_text; }});
 }
 
-void add_search(Desk& desk) {
-  Document& document = desk.workspace.document;
-  desk.actions.add({.id = "schools.detect",
-                    .menu = kMenu,
-                    .text = "Look for schools in this observation",
-                    .keys = {"D"},
-                    .tip = "Detect schools without a human; what humans decided stays",
-                    .run = [&document] { detect(document, false); },
-                    .enabled = [&document] { return document.shown() != nullptr; }});
-  desk.actions.add({.id = "schools.detect_all",
-                    .menu = kMenu,
-                    .text = "Look for schools in the whole survey",
-                    .keys = {"Ctrl+D"},
-                    .tip = "Detect schools in every observation; what humans decided stays",
-                    .run = [&document] { detect(document, true); },
-                    .enabled = [&document] { return document.shown() != nullptr; }});
-  desk.actions.add(
+void add_search(AppModel& app) {
+  Document& document = app.workspace.document;
+  app.actions.add({.id = "schools.detect",
+                   .menu = kMenu,
+                   .text = "Detect schools in this observation",
+                   .keys = {"D"},
+                   .tip = "Detect schools automatically; your decisions are kept",
+                   .run = [&document] { detect(document, false); },
+                   .enabled = [&document] { return document.shown() != nullptr; }});
+  app.actions.add({.id = "schools.detect_all",
+                   .menu = kMenu,
+                   .text = "Detect schools in the whole survey",
+                   .keys = {"Ctrl+D"},
+                   .tip = "Detect schools in every observation; your decisions are kept",
+                   .run = [&document] { detect(document, true); },
+                   .enabled = [&document] { return document.shown() != nullptr; }});
+  app.actions.add(
       {.id = "school.take_in",
        .menu = kMenu,
-       .text = "Take in the refused echo",
+       .text = "Accept the refused echo as a school",
        .keys = {"I"},
        .tip = "The refused echo last pointed at or chosen grows into a school and is followed through time; where "
               "it is in another ping, the first press goes there",
-       .run = [&desk] { take_in(desk.workspace, *desk.seed_tool); },
+       .run = [&app] { take_in(app.workspace, *app.seed_tool); },
        .enabled =
-           [&desk] { return desk.workspace.display.values().refused_echoes && desk.workspace.echo().has_value(); }});
+           [&app] { return app.workspace.display.values().refused_echoes && app.workspace.echo().has_value(); }});
 }
 
-void add_carrying(Desk& desk) {
-  Workspace& workspace = desk.workspace;
+void add_carrying(AppModel& app) {
+  Workspace& workspace = app.workspace;
   const auto add = [&](const char* id, const char* text, const char* key, bool backwards, bool forwards) {
-    desk.actions.add({.id = id,
-                      .menu = kMenu,
-                      .text = text,
-                      .keys = {key},
-                      .tip = "Follow the selected school through time from the mask that it has in this ping",
-                      .run = [&workspace, backwards, forwards] { carry_on(workspace, backwards, forwards); },
-                      .enabled = with_school(desk),
-                      .of_school = true});
+    app.actions.add({.id = id,
+                     .menu = kMenu,
+                     .text = text,
+                     .keys = {key},
+                     .tip = "Follow the selected school through time from the mask that it has in this ping",
+                     .run = [&workspace, backwards, forwards] { carry_on(workspace, backwards, forwards); },
+                     .enabled = with_school(app),
+                     .of_school = true});
   };
   add("school.propagate_forwards", "Propagate forwards from here", "P", false, true);
   add("school.propagate_backwards", "Propagate backwards from here", "Shift+P", true, false);
   add("school.propagate", "Propagate both ways from here", "Ctrl+P", true, true);
-  add_continuing(desk);
+  add_continuing(app);
 }
 
-void add_reshaping(Desk& desk) {
-  Workspace& workspace = desk.workspace;
+void add_reshaping(AppModel& app) {
+  Workspace& workspace = app.workspace;
   const auto add = [&](const char* id, const char* text, const char* key, const char* whole_key, const char* tip,
                        Reshaping what) {
-    desk.actions.add({.id = id,
-                      .menu = kMenu,
-                      .text = text,
-                      .keys = {key},
-                      .tip = fmt::format("{}, in this ping", tip),
-                      .run = [&workspace, what] { reshape(workspace, what, false); },
-                      .enabled = with_school(desk),
-                      .of_school = true});
-    desk.actions.add({.id = std::string(id) + "_all",
-                      .menu = kMenu,
-                      .text = std::string(text) + ", whole track",
-                      .keys = {whole_key},
-                      .tip = fmt::format("{}, in all its pings", tip),
-                      .run = [&workspace, what] { reshape(workspace, what, true); },
-                      .enabled = with_school(desk),
-                      .of_school = true});
+    app.actions.add({.id = id,
+                     .menu = kMenu,
+                     .text = text,
+                     .keys = {key},
+                     .tip = fmt::format("{}, in this ping", tip),
+                     .run = [&workspace, what] { reshape(workspace, what, false); },
+                     .enabled = with_school(app),
+                     .of_school = true});
+    app.actions.add({.id = std::string(id) + "_all",
+                     .menu = kMenu,
+                     .text = std::string(text) + ", whole track",
+                     .keys = {whole_key},
+                     .tip = fmt::format("{}, in all its pings", tip),
+                     .run = [&workspace, what] { reshape(workspace, what, true); },
+                     .enabled = with_school(app),
+                     .of_school = true});
   };
-  add("school.fill_holes", "Fill holes", "H", "Shift+H", "Give the selected school what it encloses",
+  add("school.fill_holes", "Fill holes", "H", "Shift+H", "Fill the holes of the selected school",
       Reshaping::fill_holes);
-  add("school.smooth", "Smooth", "Ctrl+H", "Ctrl+Shift+H", "Take off spikes and close notches of the selected school",
+  add("school.smooth", "Smooth", "Ctrl+H", "Ctrl+Shift+H", "Smooth the outline of the selected school",
       Reshaping::smooth);
   add("school.largest_part", "Keep the largest part", "Y", "Shift+Y", "Drop all but the largest piece",
       Reshaping::largest_part);
 }
 
-void add_parting(Desk& desk, const std::shared_ptr<Merging>& merging) {
-  Workspace& workspace = desk.workspace;
-  desk.actions.add({.id = "school.split",
-                    .menu = kMenu,
-                    .text = "Split from here on",
-                    .keys = {"K"},
-                    .tip = "This ping and all later ones become a new school",
-                    .run =
-                        [&workspace] {
-                          if (const auto school = school_on_show(workspace)) {
-                            workspace.document.act(SplitCommand{school->key(), {}});
-                          }
-                        },
-                    .enabled = with_school(desk),
-                    .of_school = true});
-  desk.actions.add({.id = "school.split_piece",
-                    .menu = kMenu,
-                    .text = "Split off the piece pointed at",
-                    .keys = {"Shift+K"},
-                    .tip = "The piece under the cursor becomes a new school, through all pings",
-                    .run = [&workspace] { split_under_cursor(workspace); },
-                    .enabled = with_school(desk),
-                    .of_school = true});
-  desk.actions.add({.id = "school.merge",
-                    .menu = kMenu,
-                    .text = "Merge with the next selected",
-                    .keys = {"J"},
-                    .tip = "The school that is selected next becomes part of this one",
-                    .run = [&workspace, merging] { begin_merging(workspace, *merging); },
-                    .enabled = with_school(desk),
-                    .of_school = true});
+void add_parting(AppModel& app, const std::shared_ptr<Merging>& merging) {
+  Workspace& workspace = app.workspace;
+  app.actions.add({.id = "school.split",
+                   .menu = kMenu,
+                   .text = "Split from here on",
+                   .keys = {"K"},
+                   .tip = "This ping and all later ones become a new school",
+                   .run =
+                       [&workspace] {
+                         if (const auto school = school_on_show(workspace)) {
+                           workspace.document.act(SplitCommand{school->key(), {}});
+                         }
+                       },
+                   .enabled = with_school(app),
+                   .of_school = true});
+  app.actions.add({.id = "school.split_piece",
+                   .menu = kMenu,
+                   .text = "Split off the piece under the cursor",
+                   .keys = {"Shift+K"},
+                   .tip = "The piece under the cursor becomes a new school, through all pings",
+                   .run = [&workspace] { split_under_cursor(workspace); },
+                   .enabled = with_school(app),
+                   .of_school = true});
+  app.actions.add({.id = "school.merge",
+                   .menu = kMenu,
+                   .text = "Merge with the next school selected",
+                   .keys = {"J"},
+                   .tip = "The school that is selected next becomes part of this one",
+                   .run = [&workspace, merging] { begin_merging(workspace, *merging); },
+                   .enabled = with_school(app),
+                   .of_school = true});
   workspace.school.changed().add([&workspace, merging] { merge_selected(workspace, *merging); });
 }
 
-void add_naming(Desk& desk) {
-  Workspace& workspace = desk.workspace;
-  desk.actions.add({.id = "school.species",
-                    .menu = kMenu,
-                    .text = "Species...",
-                    .keys = {"Ctrl+Shift+K"},
-                    .tip = "Name the species of the selected school; digits set those of the preferences",
-                    .run = [&desk] { name_species(desk); },
-                    .enabled = with_school(desk),
-                    .of_school = true});
-  desk.actions.add({.id = "school.rename",
-                    .menu = kMenu,
-                    .text = "Rename...",
-                    .keys = {"F2"},
-                    .tip = "A name beside the number of the selected school, in views, tables and files",
-                    .run = [&desk] { rename(desk); },
-                    .enabled = with_school(desk),
-                    .of_school = true});
-  desk.actions.add({.id = "school.comment",
-                    .menu = kMenu,
-                    .text = "Comment...",
-                    .keys = {"Ctrl+K"},
-                    .tip = "A line of text about the selected school",
-                    .run = [&desk] { comment(desk); },
-                    .enabled = with_school(desk),
-                    .of_school = true});
-  desk.actions.add(
+void add_naming(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.actions.add({.id = "school.species",
+                   .menu = kMenu,
+                   .text = "Species...",
+                   .keys = {"Ctrl+Shift+K"},
+                   .tip = "Name the species of the selected school; digits set those of the preferences",
+                   .run = [&app] { name_species(app); },
+                   .enabled = with_school(app),
+                   .of_school = true});
+  app.actions.add({.id = "school.rename",
+                   .menu = kMenu,
+                   .text = "Rename...",
+                   .keys = {"F2"},
+                   .tip = "A name beside the number of the selected school, in views, tables and files",
+                   .run = [&app] { rename(app); },
+                   .enabled = with_school(app),
+                   .of_school = true});
+  app.actions.add({.id = "school.comment",
+                   .menu = kMenu,
+                   .text = "Comment...",
+                   .keys = {"Ctrl+K"},
+                   .tip = "A line of text about the selected school",
+                   .run = [&app] { comment(app); },
+                   .enabled = with_school(app),
+                   .of_school = true});
+  app.actions.add(
       {.id = "school.delete",
        .menu = kMenu,
        .text = "Delete",
@@ -325,34 +325,34 @@ void add_naming(Desk& desk) {
 
 }  // namespace
 
-void add_school_acts(Desk& desk) {
+void add_school_acts(AppModel& app) {
   const auto merging = std::make_shared<Merging>();
-  add_undo(desk);
-  add_search(desk);
-  add_carrying(desk);
-  Workspace& workspace = desk.workspace;
-  desk.actions.add(
+  add_undo(app);
+  add_search(app);
+  add_carrying(app);
+  Workspace& workspace = app.workspace;
+  app.actions.add(
       {.id = "school.stop",
        .menu = kMenu,
        .text = "Stop",
        .keys = {},
-       .tip = "End the propagation that runs: what it reached stays (Esc)",
+       .tip = "Stop the propagation and keep what it reached (Esc)",
        .run =
            [&workspace, merging] {
              merging->first.reset();
              workspace.document.stop_propagation();
            },
        .enabled = [&workspace, merging] { return workspace.document.busy() || merging->first.has_value(); }});
-  add_reshaping(desk);
-  add_parting(desk, merging);
-  add_naming(desk);
-  desk.actions.add({.id = "school.none",
-                    .menu = kMenu,
-                    .text = "Select none",
-                    .keys = {"Shift+Esc"},
-                    .tip = "No school is selected any more",
-                    .run = [&workspace] { workspace.school.set(std::nullopt); },
-                    .enabled = with_school(desk)});
+  add_reshaping(app);
+  add_parting(app, merging);
+  add_naming(app);
+  app.actions.add({.id = "school.none",
+                   .menu = kMenu,
+                   .text = "Select none",
+                   .keys = {"Shift+Esc"},
+                   .tip = "Clear the selection",
+                   .run = [&workspace] { workspace.school.set(std::nullopt); },
+                   .enabled = with_school(app)});
 }
 
 }  // namespace sonar

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/commands/command.h"
-#include "session/test_desk.h"
+#include "session/test_app.h"
 #include "session/tools/growth.h"
 
 namespace sonar {
@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class SchoolActs : public testing::Test, protected TestDesk {
+class SchoolActs : public testing::Test, protected TestApp {
  protected:
   void SetUp() override {
     begin();
@@ -48,7 +48,7 @@ TEST_F(SchoolActs, DeleteTakesTheSchoolAndUndoBringsItBack) {
   document().settle();
   EXPECT_EQ(document().state().schools.size(), 1U);
   EXPECT_EQ(document().choices().redo_text, "Redo delete school 1");
-  EXPECT_EQ(desk_->actions.find("edit.redo")->text_now(), "Redo delete school 1");
+  EXPECT_EQ(app_->actions.find("edit.redo")->text_now(), "Redo delete school 1");
   press("edit.redo");
   document().settle();
   EXPECT_TRUE(document().state().schools.empty());
@@ -123,7 +123,7 @@ TEST_F(SchoolActs, ThePieceUnderTheCursorBecomesASchool) {
 }
 
 TEST_F(SchoolActs, CommentsAndSpeciesAreAskedFor) {
-  desk_->asking.text = [](const auto&, const std::string& label, const std::string& now) {
+  app_->dialogs.text = [](const auto&, const std::string& label, const std::string& now) {
     EXPECT_EQ(now, "");
     return label == "Comment" ? std::string("two\nlines") : std::string("herring");
   };
@@ -131,7 +131,7 @@ TEST_F(SchoolActs, CommentsAndSpeciesAreAskedFor) {
   EXPECT_EQ(document().state().schools.front()->masks.decided.comment, "two lines");
   act("school.species", "species", "Undo set species of school 1");
   EXPECT_EQ(document().state().schools.front()->masks.decided.species, "herring");
-  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(); };  // declined
+  app_->dialogs.text = [](const auto&, const auto&, const auto&) { return std::optional<std::string>(); };  // declined
   const auto lines = document().choices().lines->size();
   press("school.comment");
   document().settle();
@@ -139,9 +139,9 @@ TEST_F(SchoolActs, CommentsAndSpeciesAreAskedFor) {
 }
 
 TEST_F(SchoolActs, AnEmptyAnswerWipesACommentAndUndoBringsItBack) {
-  desk_->asking.text = [](const auto&, const auto&, const auto&) { return std::string("a wreck"); };
+  app_->dialogs.text = [](const auto&, const auto&, const auto&) { return std::string("a wreck"); };
   act("school.comment", "comment", "Undo comment on school 1");
-  desk_->asking.text = [](const auto&, const auto&, const std::string& now) {
+  app_->dialogs.text = [](const auto&, const auto&, const std::string& now) {
     EXPECT_EQ(now, "a wreck");
     return std::string();
   };
@@ -155,7 +155,7 @@ TEST_F(SchoolActs, AnEmptyAnswerWipesACommentAndUndoBringsItBack) {
 }
 
 TEST_F(SchoolActs, ASchoolIsRenamedAndCalledSoEverywhere) {
-  desk_->asking.text = [](const auto&, const std::string& label, const std::string& now) {
+  app_->dialogs.text = [](const auto&, const std::string& label, const std::string& now) {
     EXPECT_EQ(label, "Name");
     EXPECT_EQ(now, "");
     return std::string("north wall");
@@ -178,7 +178,7 @@ TEST_F(SchoolActs, ASchoolIsRenamedAndCalledSoEverywhere) {
 }
 
 TEST_F(SchoolActs, DecisionsAreWrittenDown) {
-  desk_->preferences.advance = false;
+  app_->preferences.advance = false;
   act("review.accept", "decide", "Undo accept school 1");
   act("review.reject", "decide", "Undo reject school 1");
   act("review.species.2", "species", "Undo set species of school 1");
@@ -215,7 +215,7 @@ TEST_F(SchoolActs, NothingSelectedNothingDone) {
   const auto lines = document().choices().lines->size();
   for (const char* id : {"school.delete", "school.fill_holes", "school.split", "school.merge", "school.propagate",
                          "school.rename", "school.comment", "review.accept"}) {
-    EXPECT_FALSE(desk_->actions.find(id)->enabled()) << id;
+    EXPECT_FALSE(app_->actions.find(id)->enabled()) << id;
     press(id);
   }
   document().settle();
@@ -224,10 +224,10 @@ TEST_F(SchoolActs, NothingSelectedNothingDone) {
 
 TEST(SchoolSearch, IsRefusedWhileNothingIsOpen) {
   ChangeQueue queue;
-  Desk desk(queue, {});
-  desk.actions.find("schools.detect")->run();
-  ASSERT_EQ(desk.workspace.document.notices().size(), 1U);
-  EXPECT_THAT(desk.workspace.document.notices().front(), HasSubstr("nothing is open"));
+  AppModel app(queue, {});
+  app.actions.find("schools.detect")->run();
+  ASSERT_EQ(app.workspace.document.notices().size(), 1U);
+  EXPECT_THAT(app.workspace.document.notices().front(), HasSubstr("open a survey first"));
 }
 
 TEST_F(SchoolActs, SearchingTheSurveyFindsSchoolsInEveryObservation) {

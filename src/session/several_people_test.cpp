@@ -27,7 +27,7 @@ class SeveralPeople : public testing::Test {
     Document* operator->() const { return document.get(); }
 
     void mark(std::int64_t ping, const std::string& text) const {
-      document->act(EventCommand{"trawl", document->shown()->ground().times[static_cast<std::size_t>(ping)], text});
+      document->act(EventCommand{"trawl", document->shown()->context().times[static_cast<std::size_t>(ping)], text});
       document->settle();
     }
     [[nodiscard]] std::size_t events() const { return document->state().events.size(); }

@@ -27,7 +27,7 @@ struct SurveySchool {
   /// Share of its pings that touch an edge; NaN = unknown.
   [[nodiscard]] double edge_share() const { return row == nullptr ? kUnknown : row->touches_edge_fraction; }
   /// One of its voxels, as commands name it.
-  [[nodiscard]] SchoolKey key() const { return key_of(state->masks, observation->ground()); }
+  [[nodiscard]] SchoolKey key() const { return key_of(state->masks, observation->context()); }
 };
 
 /// Of all observations that are open, by observation and number.

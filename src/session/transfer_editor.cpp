@@ -170,7 +170,7 @@ LivePicture::Build TransferEditor::build() {
              growth_shown_(),
              workspace_.dark()};
   const StagedPingPtr staged = workspace_.document.staged();
-  return [what = std::move(what), staged, units = units(), scale = scale()](PixelSize, const Wanted&,
+  return [what = std::move(what), staged, units = units(), scale = scale()](PixelSize, const CancelToken&,
                                                                             const Show& show) -> Result<void> {
     const auto bins = staged ? sv_histogram(*staged->filtered, kFirst_db, static_cast<int>(kLast_db - kFirst_db))
                              : std::vector<double>{};
@@ -229,18 +229,18 @@ void TransferEditor::press(const PointerEvent& event) {
 }
 
 void TransferEditor::drag(PixelPoint to) {
-  OpacityPoint wanted = point_at(to);
+  OpacityPoint moved = point_at(to);
   if (grip_ == Grip::corner) {
     auto all = points();
     if (held_ >= all.size()) return;
     const double from = held_ == 0 ? kFirst_db : all[held_ - 1].sv_db + kApart_db;
     const double until = held_ + 1 == all.size() ? kLast_db : all[held_ + 1].sv_db - kApart_db;
-    if (from < until) wanted.sv_db = std::clamp(wanted.sv_db, from, until);
-    all[held_] = wanted;
+    if (from < until) moved.sv_db = std::clamp(moved.sv_db, from, until);
+    all[held_] = moved;
     return set_points(all);
   }
   DisplayParams params = workspace_.display.values();
-  const double at_db = std::round(wanted.sv_db);
+  const double at_db = std::round(moved.sv_db);
   if (grip_ == Grip::low_limit) {
     const double high_db = params.scale.high_db();
     params.scale.low_db = std::min(at_db, high_db - kLeastSpan_db);

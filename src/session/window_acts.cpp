@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 
 namespace sonar {
 namespace {
@@ -12,9 +12,9 @@ constexpr const char* kView = "&View";
 constexpr const char* kHelp = "&Help";
 
 /// Calls what the window has hung in, if it has.
-std::function<void()> asked(Desk& desk, std::function<void()> Asking::*what) {
-  return [&desk, what] {
-    if (desk.asking.*what) (desk.asking.*what)();
+std::function<void()> asked(AppModel& app, std::function<void()> Dialogs::*what) {
+  return [&app, what] {
+    if (app.dialogs.*what) (app.dialogs.*what)();
   };
 }
 
@@ -37,9 +37,9 @@ constexpr std::array<ViewName, 7> kViews{{{"top_slice", "Slice from above", "Alt
                                           {"survey_map", "Survey map", "Alt+6"},
                                           {"timeline", "Timeline", "Alt+7"}}};
 
-void add_view_switches(Desk& desk) {
+void add_view_switches(AppModel& app) {
   for (const ViewName& view : kViews) {
-    Workspace& workspace = desk.workspace;
+    Workspace& workspace = app.workspace;
     const auto on = [&workspace, name = view.name] {
       const auto value = workspace.views.value(name);
       return value && std::get<bool>(*value);
@@ -51,31 +51,31 @@ void add_view_switches(Desk& desk) {
                   "Switch the view on or off; one that is off costs nothing",
                   [&workspace, on, name = view.name] { (void)workspace.views.set(name, !on()); }};
     action.checked = on;
-    desk.actions.add(std::move(action));
+    app.actions.add(std::move(action));
   }
 }
 
 }  // namespace
 
-void add_window_acts(Desk& desk) {
-  add_view_switches(desk);
-  desk.actions.add(toggle("view.dark", "Dark", "F9", "Dark colours for night watches", desk.workspace.dark));
-  desk.actions.add({"view.full_screen",
-                    kView,
-                    "Full screen",
-                    {"F11"},
-                    "The whole screen, or a window again",
-                    asked(desk, &Asking::full_screen)});
-  desk.actions.add({"view.reset_layout",
-                    kView,
-                    "Reset layout",
-                    {},
-                    "All docks where they were at first",
-                    asked(desk, &Asking::reset_layout)});
-  desk.actions.add(
-      toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", desk.workspace.latencies));
-  desk.actions.add({"help.keys", kHelp, "Keys", {"F1"}, "Every key and what it does", asked(desk, &Asking::show_keys)});
-  desk.actions.add({"help.about", kHelp, "About", {}, "Version and licences", asked(desk, &Asking::show_about)});
+void add_window_acts(AppModel& app) {
+  add_view_switches(app);
+  app.actions.add(toggle("view.dark", "Dark", "F9", "Dark colours for night watches", app.workspace.dark));
+  app.actions.add({"view.full_screen",
+                   kView,
+                   "Full screen",
+                   {"F11"},
+                   "Switch full screen on or off",
+                   asked(app, &Dialogs::full_screen)});
+  app.actions.add({"view.reset_layout",
+                   kView,
+                   "Reset layout",
+                   {},
+                   "Put all docks back in their original places",
+                   asked(app, &Dialogs::reset_layout)});
+  app.actions.add(
+      toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", app.workspace.latencies));
+  app.actions.add({"help.keys", kHelp, "Keys", {"F1"}, "Every key and what it does", asked(app, &Dialogs::show_keys)});
+  app.actions.add({"help.about", kHelp, "About", {}, "Version and licences", asked(app, &Dialogs::show_about)});
 }
 
 }  // namespace sonar

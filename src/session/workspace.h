@@ -115,7 +115,7 @@ struct Workspace {
   Shared<std::optional<Voxel>> cursor;       ///< the voxel pointed at, in the ping looked at
   Shared<SlicePlaces> slices;                ///< where the slices lie
   Shared<std::optional<SchoolName>> school;  ///< the selected school
-  Shared<std::optional<EchoName>> echo;      ///< the refused echo last pointed at or chosen: its mark stands out
+  Shared<std::optional<EchoName>> echo;      ///< the refused echo last pointed at or chosen: its mark is highlighted
   Shared<Preview> preview;
   Shared<ToolName> tool;
   Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/describe.h"
+
 namespace sonar {
 
 /// The water a sound travels through.
@@ -13,10 +15,25 @@ struct WaterProperties {
 
 template <class Visitor>
 void describe(Visitor& v, WaterProperties& p) {
-  v.field("temperature_c", p.temperature_c, {.unit = "deg C", .min = -2, .max = 40, .text = "water temperature"});
-  v.field("salinity_psu", p.salinity_psu, {.unit = "psu", .min = 0, .max = 45, .text = "salinity"});
-  v.field("depth_m", p.depth_m, {.unit = "m", .min = 0, .max = 8000, .text = "depth for which absorption is computed"});
-  v.field("ph", p.ph, {.unit = "", .min = 7, .max = 9, .text = "acidity"});
+  v.field("temperature_c", p.temperature_c,
+          {.unit = "deg C",
+           .min = -2,
+           .max = 40,
+           .text = "Water temperature for the absorption formulas; set it to the mean of a CTD cast over the depths of "
+                   "the beams.",
+           .tier = Tier::basic});
+  v.field("salinity_psu", p.salinity_psu,
+          {.unit = "psu",
+           .min = 0,
+           .max = 45,
+           .text = "Salinity for the absorption formulas; lower it in brackish water.",
+           .tier = Tier::basic});
+  v.field("depth_m", p.depth_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 8000,
+           .text = "Depth for which absorption is worked out; set it to the middle of the depths of the beams."});
+  v.field("ph", p.ph, {.unit = "", .min = 7, .max = 9, .text = "Acidity of the water for the absorption formulas."});
 }
 
 /// Absorption of sound in sea water, dB/m one way, by boric acid, magnesium sulphate and water.

@@ -28,24 +28,42 @@ struct BackgroundParams {
 template <class Visitor>
 void describe(Visitor& v, BackgroundParams& p) {
   v.choice("method", p.method, kBackgroundMethodNames,
-           "low_quantile: from the weak samples of the far part of a beam; de_robertis: weakest block of range, "
-           "averaged over the window's pings first");
-  v.field("quantile", p.quantile, {.unit = "", .min = 0.01, .max = 0.9, .text = "low_quantile: which quantile"});
+           "How the noise is estimated: low_quantile uses the weak samples of a beam's far part, de_robertis the "
+           "weakest block of range after averaging over pings (De Robertis & Higginbottom 2007).");
+  v.field("quantile", p.quantile,
+          {.unit = "",
+           .min = 0.01,
+           .max = 0.9,
+           .text = "Method low_quantile: quantile of the power samples that the noise is worked out from; lower it "
+                   "where echo fills more of the far part."});
   v.field("far_fraction", p.far_fraction,
-          {.unit = "", .min = 0.05, .max = 1, .text = "share of the beam, counted from its far end, that is used"});
+          {.unit = "",
+           .min = 0.05,
+           .max = 1,
+           .text = "Share of the beam, counted from its far end, that noise is estimated from; lower it where echo "
+                   "reaches far out."});
   v.field(
       "fall_db", p.fall_db,
       {.unit = "dB",
        .min = 0,
        .max = 100,
-       .text = "low_quantile: where most beams are so much weaker in the last half or quarter of that part, that is "
-               "their level: what fades along all beams is water, and noise does not"});
+       .text = "Method low_quantile: where most beams are weaker by this in the last half or quarter of that part, "
+               "their level is taken from there, since echo from the water fades along a beam and noise does not."});
   v.field("minimum_samples", p.minimum_samples,
-          {.unit = "samples", .min = 1, .max = 100000, .text = "fewer sound samples leave the background unknown"});
+          {.unit = "samples",
+           .min = 1,
+           .max = 100000,
+           .text = "A beam with fewer sound samples in that part has no known background."});
   v.field("block_samples", p.block_samples,
-          {.unit = "samples", .min = 1, .max = 10000, .text = "de_robertis: length of a block (26 = 10 m)"});
+          {.unit = "samples",
+           .min = 1,
+           .max = 10000,
+           .text = "Method de_robertis: length of a block of range; 26 samples are 10 m of an MS70."});
   v.field("maximum_db", p.maximum_db,
-          {.unit = "dB re 1 W", .min = -300, .max = 100, .text = "de_robertis: no background above this"});
+          {.unit = "dB re 1 W",
+           .min = -300,
+           .max = 100,
+           .text = "Method de_robertis: highest background believed; lower it where bottom or fish fill whole beams."});
 }
 
 /// What one ping tells of each beam's background, without the flagged samples: with low_quantile the levels of its far
@@ -68,7 +86,7 @@ void describe(Visitor& v, BackgroundParams& p) {
 [[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
                                                      const BackgroundParams& params);
 
-/// Where a ping's own level lies so much below that of the pings round it, these were disturbed (a beam full of lost
+/// Where a ping's own level lies so much below that of the pings round it, these were disturbed (a beam full of corrupted
 /// packets) and its own stands.
 /// in      own_db [row], of the ping alone; NaN tells nothing
 /// out     level_db [row]

@@ -71,7 +71,7 @@ TEST(background, flagged_and_missing_samples_do_not_count) {
   Array3<SampleFlags> flags(ping.shape());
   for (int s = 400; s < 1100; ++s) {
     ping(0, 0, s) = 5000;
-    flags(0, 0, s) = SampleFlags::hot_beam;
+    flags(0, 0, s) = SampleFlags::corrupted;
     ping(0, 1, s) = kNoData;
   }
   for (const double level : estimate(ping, flags, BackgroundMethod::low_quantile)) EXPECT_NEAR(level, -123.0, 1.5);
@@ -163,12 +163,13 @@ TEST(background, sv_of_the_noise_and_low_snr) {
   Array3<std::int16_t> ping({1, 2, 3}, counts_of_power(1e-12));
   ping(0, 0, 1) = counts_of_power(1e-11);
   ping(0, 0, 2) = kNoData;
-  Array3<SampleFlags> flags(ping.shape(), SampleFlags::wall);
+  Array3<SampleFlags> flags(ping.shape(), SampleFlags::interference);
   const std::vector<double> level_db = {-118.0, kNaN};
   flag_low_snr(ping.view(), level_db, 3.0, flags.view());
   EXPECT_THAT(flags.all(),
-              testing::ElementsAre(SampleFlags::wall | SampleFlags::low_snr, SampleFlags::wall, SampleFlags::wall,
-                                   SampleFlags::wall, SampleFlags::wall, SampleFlags::wall));
+              testing::ElementsAre(SampleFlags::interference | SampleFlags::low_snr, SampleFlags::interference,
+                                   SampleFlags::interference, SampleFlags::interference, SampleFlags::interference,
+                                   SampleFlags::interference));
 }
 
 TEST(background, select_rank_is_exact) {

@@ -7,7 +7,8 @@
 
 namespace sonar {
 
-BlockLevels::BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, const HotBeamParams& params) {
+BlockLevels::BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags,
+                         const CorruptedPacketParams& params) {
   const Shape3 shape = power.shape();
   const auto block = static_cast<std::size_t>(std::max(params.block_samples, 1));
   const auto samples = static_cast<std::size_t>(shape.samples);

@@ -12,14 +12,14 @@
 
 namespace sonar {
 
-// Mean count of each beam over blocks of range: what the hot beams and the walls are judged by. A mean of decibels, which
+// Mean count of each beam over blocks of range: what corrupted packets and interference are judged by. A mean of decibels, which
 // a few strong samples hardly move; it only finds faults and reaches no result. Internal to this room.
 class BlockLevels {
  public:
   static constexpr int kUnknown = std::numeric_limits<int>::min();
 
   /// Blocks of which too few samples are sound (kNotFiltered) are unknown.
-  BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, const HotBeamParams& params);
+  BlockLevels(View3<const std::int16_t> power, View3<const SampleFlags> flags, const CorruptedPacketParams& params);
 
   [[nodiscard]] int blocks() const { return blocks_; }
   [[nodiscard]] int block_samples() const { return block_samples_; }
@@ -37,11 +37,12 @@ class BlockLevels {
   std::vector<int> background_;  ///< [row]
 };
 
-/// flag_hot_beams() and flag_walls() with levels that are worked out once for both.
+/// flag_corrupted_packets() and flag_interference() with levels that are worked out once for both.
 /// fan_loss_db  [row] neighbour_loss_db() to the nearest fan; empty = beams that overlap well
-void flag_hot_beams(View3<const std::int16_t> power, const BlockLevels& levels, const HotBeamParams& params,
-                    std::span<const double> fan_loss_db, View3<SampleFlags> flags);
-void flag_walls(View3<const std::int16_t> power, const BlockLevels& levels, const WallParams& params,
-                View3<SampleFlags> flags);
+void flag_corrupted_packets(View3<const std::int16_t> power, const BlockLevels& levels,
+                            const CorruptedPacketParams& params, std::span<const double> fan_loss_db,
+                            View3<SampleFlags> flags);
+void flag_interference(View3<const std::int16_t> power, const BlockLevels& levels, const InterferenceParams& params,
+                       View3<SampleFlags> flags);
 
 }  // namespace sonar

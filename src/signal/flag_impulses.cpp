@@ -35,7 +35,7 @@ bool above_neighbour_beams(View3<const std::int16_t> power, int row, int sample,
 }
 
 /// Whether another ping shows something at the same place. Between two pings a ship moves by more than a sample, so the
-/// place is a few samples wide. A wall, which most beams of the fan show, has no say: it hides what else is there.
+/// place is a few samples wide. Interference, which most beams of the fan show, has no say: it hides what else is there.
 bool shown_by(View3<const std::int16_t> other, Shape3 shape, int row, int sample, int reach, int limit) {
   if (other.shape() != shape || largest(other.row(row), sample, reach) < limit) return false;
   const int fan = row / shape.beams;

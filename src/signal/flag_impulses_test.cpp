@@ -57,7 +57,7 @@ TEST(flag_impulses, a_peak_that_the_next_ping_shows_too_is_no_impulse) {
   EXPECT_FALSE(any(flags(2, 2, 100)));
 }
 
-TEST(flag_impulses, a_wall_of_the_ping_before_hides_none) {
+TEST(flag_impulses, interference_of_the_ping_before_hides_none) {
   auto ping = noise_ping({5, 9, 200}, -125, 62);
   ping(2, 4, 100) = counts_of_power(1e-8);
   auto before = noise_ping({5, 9, 200}, -125, 63);

@@ -35,7 +35,7 @@ void FlagNoData(const std::int16_t* counts, std::uint8_t* flags, std::size_t siz
   const Counts d;
   const hn::Rebind<std::uint8_t, Counts> bytes;
   const auto none = hn::Set(d, kNoData);
-  const auto bit = hn::Set(d, static_cast<std::int16_t>(SampleFlags::lost));
+  const auto bit = hn::Set(d, static_cast<std::int16_t>(SampleFlags::dropout));
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= size; i += hn::Lanes(d)) {
     const auto lost = hn::VecFromMask(d, hn::Eq(hn::LoadU(d, counts + i), none));
@@ -45,7 +45,7 @@ void FlagNoData(const std::int16_t* counts, std::uint8_t* flags, std::size_t siz
   }
   for (; i < size; ++i) {
     if (counts[i] == kNoData)
-      flags[i] = static_cast<std::uint8_t>(flags[i] | static_cast<std::uint8_t>(SampleFlags::lost));
+      flags[i] = static_cast<std::uint8_t>(flags[i] | static_cast<std::uint8_t>(SampleFlags::dropout));
   }
 }
 

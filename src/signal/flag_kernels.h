@@ -16,7 +16,7 @@ namespace sonar {
 void copy_unflagged(std::span<const std::int16_t> counts, std::span<const SampleFlags> flags, SampleFlags mask,
                     std::int16_t offset, std::span<std::int16_t> out);
 
-/// ORs `lost` into the flags of samples that hold no data. Equal lengths.
+/// ORs `dropout` into the flags of samples that hold no data. Equal lengths.
 void flag_no_data(std::span<const std::int16_t> counts, std::span<SampleFlags> flags);
 
 /// Sum and number of the data in each block of a row; the last block may be short.

@@ -113,14 +113,14 @@ void flag_ping(View3<const std::int16_t> power, const PingGeometry& geometry, co
   SONAR_CHECK(power.shape() == flags.shape());
   flag_near_field(geometry, params.near_field, flags);
   flag_surface(geometry, params.surface, flags);
-  flag_lost(power, params.lost, flags);
-  if (params.hot_beam.enabled || params.wall.enabled) {
-    const BlockLevels levels(power, flags, params.hot_beam);
-    flag_hot_beams(power, levels, params.hot_beam, fan_losses_db(geometry.elevation_deg, geometry.vertical_width_deg),
-                   flags);
-    flag_walls(power, levels, params.wall, flags);
+  flag_dropouts(power, params.dropouts, flags);
+  if (params.corrupted_packets.enabled || params.interference.enabled) {
+    const BlockLevels levels(power, flags, params.corrupted_packets);
+    flag_corrupted_packets(power, levels, params.corrupted_packets,
+                           fan_losses_db(geometry.elevation_deg, geometry.vertical_width_deg), flags);
+    flag_interference(power, levels, params.interference, flags);
   }
-  flag_impulses(power, neighbours, params.impulse, flags);
+  flag_impulses(power, neighbours, params.impulse_noise, flags);
 }
 
 }  // namespace sonar

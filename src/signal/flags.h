@@ -33,9 +33,9 @@ struct NeighbourPings {
   View3<const std::int16_t> after;
 };
 
-/// All flags below by their switches, in the order near field, surface, lost, hot beams, walls, impulses.
+/// All flags below by their switches, in the order near field, surface, dropouts, corrupted packets, interference, impulse noise.
 /// in      power [fan][beam][sample], counts (10 log10(2)/256 dB re 1 W), kNoData = not recorded
-/// out     flags, same shape: bits are added, none is cleared. kNoData gets `lost`
+/// out     flags, same shape: bits are added, none is cleared. kNoData gets `dropout`
 /// errors  none; a geometry without elevations (or with NaN) leaves the surface unflagged
 /// threads pure
 /// cost    about 1.5 ms for 20 x 25 x 1320 samples
@@ -50,20 +50,21 @@ void flag_near_field(const PingGeometry& geometry, const NearFieldParams& params
 void flag_surface(const PingGeometry& geometry, const SurfaceParams& params, View3<SampleFlags> flags);
 
 /// Samples that were not recorded: kNoData, long runs of one value, stretches that repeat the beam before bit by bit.
-void flag_lost(View3<const std::int16_t> power, const LostParams& params, View3<SampleFlags> flags);
+void flag_dropouts(View3<const std::int16_t> power, const DropoutParams& params, View3<SampleFlags> flags);
 
-/// Stretches of single beams at a high level with sharp ends (lost packets). A stretch must stand above the median of
+/// Stretches of single beams at a high level with sharp ends (corrupted packets). A stretch must stand above the median of
 /// its up to 8 neighbours and above both neighbours in fan (in beam where there is one fan): overlapping beams show
-/// every true target there. Levels count relative to each beam's own background, so that a noisy beam is no hot beam.
-void flag_hot_beams(View3<const std::int16_t> power, const HotBeamParams& params, View3<SampleFlags> flags);
+/// every true target there. Levels count relative to each beam's own background, so that a noisy beam is no corrupted packets.
+void flag_corrupted_packets(View3<const std::int16_t> power, const CorruptedPacketParams& params,
+                            View3<SampleFlags> flags);
 
 /// Thin high-level shells at constant range, in all fans or in one (each fan has its own frequency). A low quantile
 /// over the beams must rise above its running median along range, and the rise must come at one range in all beams: a
 /// school's or the seabed's does not.
-void flag_walls(View3<const std::int16_t> power, const WallParams& params, View3<SampleFlags> flags);
+void flag_interference(View3<const std::int16_t> power, const InterferenceParams& params, View3<SampleFlags> flags);
 
 /// Peaks of up to 3 samples in one beam, far above the samples before and after, the neighbouring beams, and the same
-/// place in the pings before and after where these are given and show more there than a wall.
+/// place in the pings before and after where these are given and show more there than interference.
 /// source  two-sided comparison as in Ryan et al., ICES J. Mar. Sci. 72 (2015) 2482
 void flag_impulses(View3<const std::int16_t> power, const NeighbourPings& neighbours, const ImpulseParams& params,
                    View3<SampleFlags> flags);

@@ -107,15 +107,15 @@ TEST(flags, unknown_geometry_leaves_the_surface_alone) {
   EXPECT_EQ(count_flag(flags, kNotFiltered), 0U);
 }
 
-TEST(flags, lost_samples_constant_and_repeated_stretches) {
+TEST(flags, dropouts_constant_and_repeated_stretches) {
   auto ping = noise_ping({3, 4, 500}, -120, 1);
   for (int s = 100; s < 200; ++s) ping(1, 2, s) = -9000;
   for (int s = 300; s < 400; ++s) ping(2, 2, s) = ping(2, 1, s);
   for (int s = 250; s < 290; ++s) ping(0, 3, s) = -9000;  // too short
   for (int s = 480; s < 500; ++s) ping(0, 0, s) = kNoData;
   Array3<SampleFlags> flags(ping.shape());
-  flag_lost(ping.view(), {}, flags.view());
-  EXPECT_NEAR(static_cast<double>(count_flag(flags, SampleFlags::lost)), 220.0, 3.0);
+  flag_dropouts(ping.view(), {}, flags.view());
+  EXPECT_NEAR(static_cast<double>(count_flag(flags, SampleFlags::dropout)), 220.0, 3.0);
   EXPECT_TRUE(any(flags(1, 2, 150)) && any(flags(2, 2, 350)) && any(flags(0, 0, 499)));
 }
 
@@ -123,7 +123,7 @@ TEST(flags, noise_of_unequal_beams_holds_no_fault) {
   for (const double level_db : {-160.0, -120.0, -20.0}) {
     auto ping = noise_ping(kMs70, level_db, 2);
     tilt_beams(ping);
-    EXPECT_EQ(faults(ping, SampleFlags::hot_beam | SampleFlags::wall | SampleFlags::lost), 0U);
+    EXPECT_EQ(faults(ping, SampleFlags::corrupted | SampleFlags::interference | SampleFlags::dropout), 0U);
     EXPECT_LE(faults(ping, SampleFlags::impulse), 10U);
   }
 }
@@ -132,7 +132,7 @@ TEST(flags, a_permanently_noisy_beam_is_no_hot_beam) {
   auto ping = noise_ping(kMs70, -130, 3);
   const auto louder = static_cast<std::int16_t>(counts_from_db(14.0));
   for (auto& v : ping.row(9, 9)) v = static_cast<std::int16_t>(v + louder);
-  EXPECT_EQ(faults(ping, SampleFlags::hot_beam), 0U);
+  EXPECT_EQ(faults(ping, SampleFlags::corrupted), 0U);
 }
 
 TEST(flags, hot_stretches_are_found_with_their_ends) {
@@ -148,12 +148,12 @@ TEST(flags, hot_stretches_are_found_with_their_ends) {
        {Hot{3, 4, 300, 500}, {10, 12, 400, 700}, {15, 20, 1100, 1320}, {0, 0, 500, 700}, {5, 9, 0, 1320}}) {
     for (int s = hot.begin; s < hot.end; ++s) add_power(ping(hot.fan, hot.beam, s), -70, random);
     Array3<SampleFlags> flags(kMs70);
-    flag_hot_beams(ping.view(), {}, flags.view());
+    flag_corrupted_packets(ping.view(), {}, flags.view());
     int missed = 0;
     int beyond = 0;
     for (int s = 0; s < kMs70.samples; ++s) {
       const bool is_hot = s >= hot.begin && s < hot.end;
-      const bool flagged = any(flags(hot.fan, hot.beam, s) & SampleFlags::hot_beam);
+      const bool flagged = any(flags(hot.fan, hot.beam, s) & SampleFlags::corrupted);
       missed += is_hot && !flagged ? 1 : 0;
       beyond += !is_hot && flagged ? 1 : 0;
     }
@@ -161,11 +161,11 @@ TEST(flags, hot_stretches_are_found_with_their_ends) {
     EXPECT_LE(beyond, 6) << hot.fan;
   }
   Array3<SampleFlags> flags(kMs70);
-  flag_hot_beams(ping.view(), {}, flags.view());
-  EXPECT_LE(count_flag(flags, SampleFlags::hot_beam), 200U + 300U + 220U + 200U + 1320U + 30U);
+  flag_corrupted_packets(ping.view(), {}, flags.view());
+  EXPECT_LE(count_flag(flags, SampleFlags::corrupted), 200U + 300U + 220U + 200U + 1320U + 30U);
 }
 
-TEST(flags, walls_are_found_in_all_fans_and_in_one) {
+TEST(flags, interference_is_found_in_all_fans_and_in_one) {
   for (const int thickness : {2, 3, 6, 12}) {
     auto ping = noise_ping(kMs70, -125, 7);
     tilt_beams(ping);
@@ -182,7 +182,7 @@ TEST(flags, walls_are_found_in_all_fans_and_in_one) {
       }
     }
     Array3<SampleFlags> flags(kMs70);
-    flag_walls(ping.view(), {}, flags.view());
+    flag_interference(ping.view(), {}, flags.view());
     for (int f = 0; f < kMs70.fans; ++f) {
       for (int n = 0; n < thickness; ++n) {
         EXPECT_TRUE(any(flags(f, 12, 520 + n))) << f << ' ' << thickness;
@@ -191,11 +191,11 @@ TEST(flags, walls_are_found_in_all_fans_and_in_one) {
     }
     EXPECT_TRUE(any(flags(4, 20, 1100)));
     const auto wall = static_cast<std::size_t>(thickness);
-    EXPECT_LE(count_flag(flags, SampleFlags::wall), 2 * 500 * (wall + 3) + 25 * (wall + 3));
+    EXPECT_LE(count_flag(flags, SampleFlags::interference), 2 * 500 * (wall + 3) + 25 * (wall + 3));
   }
 }
 
-// No school is a wall or a hot beam, however big or near: spheres, flat and long ones, some wider than the sector.
+// No school is interference or a beam with corrupted packets, however big or near: spheres, flat and long ones, some wider than the sector.
 TEST(flags, schools_are_no_faults) {
   const Ellipsoid bodies[] = {{30, 0, -20, 25, 5, 15},   {40, 0, -22, 60, 4, 30},   {60, 0, -25, 100, 20, 60},
                               {25, 0, -20, 100, 2, 100}, {150, 10, -10, 12, 80, 6}, {400, -20, -5, 8, 60, 8},
@@ -214,9 +214,9 @@ TEST(flags, schools_are_no_faults) {
       std::size_t members = 0;
       for (std::size_t i = 0; i < ping.all().size(); ++i) members += ping.all()[i] != before.all()[i] ? 1U : 0U;
       const std::size_t lost = count_flag(flags, kFault);
-      EXPECT_LE(lost, 12U + members / 1000)
-          << body.range_m << " m, " << level_db << " dB, of " << members << ", hot "
-          << count_flag(flags, SampleFlags::hot_beam) << ", wall " << count_flag(flags, SampleFlags::wall);
+      EXPECT_LE(lost, 12U + members / 1000) << body.range_m << " m, " << level_db << " dB, of " << members << ", hot "
+                                            << count_flag(flags, SampleFlags::corrupted) << ", interference "
+                                            << count_flag(flags, SampleFlags::interference);
     }
   }
 }
@@ -231,10 +231,10 @@ TEST(flags, margins_round_faults_are_parameters) {
     }
   }
   const auto flagged = [&](int margin_samples) {
-    WallParams params;
+    InterferenceParams params;
     params.margin_samples = margin_samples;
     Array3<SampleFlags> flags(kMs70);
-    flag_walls(ping.view(), params, flags.view());
+    flag_interference(ping.view(), params, flags.view());
     std::vector<int> samples;
     for (int s = 0; s < kMs70.samples; ++s) {
       if (any(flags(7, 12, s))) samples.push_back(s);
@@ -246,7 +246,7 @@ TEST(flags, margins_round_faults_are_parameters) {
   EXPECT_EQ(flagged(2).back(), 907);
 }
 
-TEST(flags, the_seabed_is_no_wall) {
+TEST(flags, the_seabed_is_no_interference) {
   for (const double depth_m : {25.0, 50.0, 100.0, 200.0}) {
     auto ping = noise_ping(kMs70, -125, 40);
     TestRandom random(41);
@@ -261,8 +261,8 @@ TEST(flags, the_seabed_is_no_wall) {
         for (int b = 0; b < kMs70.beams; ++b) add_power(ping(f, b, s), echo_db, random);
       }
     }
-    EXPECT_EQ(faults(ping, SampleFlags::wall), 0U) << depth_m;
-    EXPECT_EQ(faults(ping, SampleFlags::hot_beam), 0U) << depth_m;
+    EXPECT_EQ(faults(ping, SampleFlags::interference), 0U) << depth_m;
+    EXPECT_EQ(faults(ping, SampleFlags::corrupted), 0U) << depth_m;
   }
 }
 
@@ -292,8 +292,8 @@ TEST(flags, any_size_is_taken) {
 
 TEST(flags, each_has_its_switch_and_its_parameters_are_checked) {
   FlagParams off;
-  off.near_field.enabled = off.surface.enabled = off.lost.enabled = false;
-  off.hot_beam.enabled = off.wall.enabled = off.impulse.enabled = false;
+  off.near_field.enabled = off.surface.enabled = off.dropouts.enabled = false;
+  off.corrupted_packets.enabled = off.interference.enabled = off.impulse_noise.enabled = false;
   auto ping = noise_ping({4, 9, 400}, -125, 80);
   for (auto& v : ping.row(2, 3)) v = 0;
   Array3<SampleFlags> flags(ping.shape());
@@ -303,7 +303,7 @@ TEST(flags, each_has_its_switch_and_its_parameters_are_checked) {
   EXPECT_EQ(count_flag(flags, kNotFiltered), 0U);
   EXPECT_TRUE(validate(FlagParams{}).has_value());
   FlagParams bad;
-  bad.wall.beam_fraction = std::numeric_limits<double>::quiet_NaN();
+  bad.interference.beam_fraction = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(validate(bad).has_value());
 }
 

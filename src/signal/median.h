@@ -20,16 +20,31 @@ struct MedianParams {
 
 template <class Visitor>
 void describe(Visitor& v, MedianParams& p) {
-  v.field("enabled", p.enabled, {.text = "filter at all; if not, counts are only masked"});
-  v.field("kernel_fans", p.kernel_fans, {.unit = "fans", .min = 1, .max = 63, .text = "height of the box, odd"});
-  v.field("kernel_beams", p.kernel_beams, {.unit = "beams", .min = 1, .max = 63, .text = "width of the box, odd"});
+  v.field("enabled", p.enabled,
+          {.text = "Filter Sv with a median over neighbouring samples, beams and fans before schools are selected; "
+                   "switch it off to work on unfiltered Sv."});
+  v.field("kernel_fans", p.kernel_fans,
+          {.unit = "fans",
+           .min = 1,
+           .max = 63,
+           .text = "Number of fans in the median's box, odd; raise it for stronger smoothing."});
+  v.field("kernel_beams", p.kernel_beams,
+          {.unit = "beams",
+           .min = 1,
+           .max = 63,
+           .text = "Number of beams in the median's box, odd; raise it for stronger smoothing."});
   v.field("kernel_samples", p.kernel_samples,
-          {.unit = "samples", .min = 1, .max = 63, .text = "length of the box along range, odd"});
+          {.unit = "samples",
+           .min = 1,
+           .max = 63,
+           .text = "Number of samples along range in the median's box, odd; raise it for stronger smoothing, lower it "
+                   "for schools that are thin along range."});
   v.field("separate_beams_db", p.separate_beams_db,
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "along range alone where neighbours see a target on a beam's axis weaker than this, both ways"});
+           .text = "The median runs along range alone where neighbouring beams see a target on a beam's axis weaker by "
+                   "more than this, because such beams lie too far apart to be averaged."});
 }
 
 /// Median of one ping over a box-shaped neighbourhood; flagged samples are left out.

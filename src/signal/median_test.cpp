@@ -49,8 +49,8 @@ Array3<SampleFlags> sprinkled(Array3<std::int16_t>& ping, std::uint64_t seed) {
       for (int s = 0; s < shape.samples; ++s) {
         if (s < shape.samples / 30) flags(f, b, s) |= SampleFlags::near_field;
         if (f == shape.fans - 1 && s > shape.samples / 2) flags(f, b, s) |= SampleFlags::surface;
-        if (b % 4 == 1 && s > hot && s < hot + 40) flags(f, b, s) |= SampleFlags::hot_beam;
-        if (s > shape.samples / 3 && s < shape.samples / 3 + 6) flags(f, b, s) |= SampleFlags::wall;
+        if (b % 4 == 1 && s > hot && s < hot + 40) flags(f, b, s) |= SampleFlags::corrupted;
+        if (s > shape.samples / 3 && s < shape.samples / 3 + 6) flags(f, b, s) |= SampleFlags::interference;
         if (random.below(100) == 0) flags(f, b, s) |= SampleFlags::impulse;
         if (random.below(300) == 0) flags(f, b, s) |= SampleFlags::low_snr;
         if (f == 0 && s > shape.samples - 9) flags(f, b, s) |= SampleFlags::seabed;
@@ -146,7 +146,7 @@ TEST(median, any_number_of_threads_gives_the_same_bits) {
   EXPECT_TRUE(median(ping.view(), flags.view(), {}, three) == alone);
 }
 
-// By hand: in a constant field with a flagged wall of strong samples the median is the constant, also on the wall;
+// By hand: in a constant field with flagged interference of strong samples the median is the constant, also where it lies;
 // the near field is cut away and leaves no data.
 TEST(median, flagged_samples_do_not_count) {
   const Shape3 shape{5, 6, 200};
@@ -155,7 +155,7 @@ TEST(median, flagged_samples_do_not_count) {
   for (int f = 0; f < shape.fans; ++f) {
     for (int b = 0; b < shape.beams; ++b) {
       for (int s = 0; s < 20; ++s) flags(f, b, s) = SampleFlags::near_field, ping(f, b, s) = 30000;
-      for (int s = 100; s < 106; ++s) flags(f, b, s) = SampleFlags::wall, ping(f, b, s) = 20000;
+      for (int s = 100; s < 106; ++s) flags(f, b, s) = SampleFlags::interference, ping(f, b, s) = 20000;
     }
   }
   const auto out = by(MedianMethod::automatic, ping, flags, {});
@@ -169,7 +169,7 @@ TEST(median, more_than_half_left_out_is_no_data) {
   Array3<SampleFlags> flags(shape);
   for (int f = 0; f < 3; ++f) {
     for (int b = 0; b < 3; ++b) {
-      for (int s = 50; s < 100; ++s) flags(f, b, s) = SampleFlags::lost;
+      for (int s = 50; s < 100; ++s) flags(f, b, s) = SampleFlags::dropout;
     }
   }
   const auto out = by(MedianMethod::automatic, ping, flags, {});

@@ -79,7 +79,7 @@ inline void add_echo(Array3<std::int16_t>& ping, const Array3<double>& echo, dou
   }
 }
 
-/// Adds a speckled body of a mean power (dB re 1 W) at its heart.
+/// Adds a speckled body of a mean power (dB re 1 W) at its core.
 inline void add_school(Array3<std::int16_t>& ping, const Ellipsoid& e, double power_db, std::uint64_t seed) {
   add_echo(ping, echo_of(e, ping.shape()), power_db, seed);
 }

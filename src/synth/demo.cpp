@@ -42,7 +42,7 @@ int channel_towards(const Scene& scene, double elevation_deg) {
   return static_cast<int>(best);
 }
 
-/// A hot beam and, a ping later, a wall through a body when it is abeam of a ship that sails north along x = 0.
+/// Corrupted packets and, a ping later, interference through a body when it is abeam of a ship that sails north along x = 0.
 void disturb(Scene& scene, const Body& body) {
   const double abeam_s = (body.centre_m.y - scene.ship.start_m.y) / (scene.ship.speed_mps - body.velocity_mps.y);
   const int ping = static_cast<int>(std::lround(abeam_s / scene.ping_interval_s));
@@ -51,8 +51,8 @@ void disturb(Scene& scene, const Body& body) {
   const double range_m = std::hypot(at.x, down_m);
   const double elevation_deg = -deg_from_rad(std::asin(down_m / range_m));
   const int sample = static_cast<int>(make_layout(scene.beams).range.sample_at(range_m));
-  scene.hot_beams.push_back({ping, channel_towards(scene, elevation_deg), sample - 200, 400, -112.0});
-  scene.walls.push_back({ping + 1, sample - 2, 4, -115.0, -1});
+  scene.corrupted_packets.push_back({ping, channel_towards(scene, elevation_deg), sample - 200, 400, -112.0});
+  scene.interference.push_back({ping + 1, sample - 2, 4, -115.0, -1});
 }
 
 }  // namespace

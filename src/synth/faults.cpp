@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLongestFault_pings = 3;
 constexpr double kHotBeamPower_db = -115.0;
-constexpr double kWallPower_db = -118.0;
+constexpr double kInterferencePower_db = -118.0;
 constexpr double kImpulsePower_db = -122.0;
 constexpr double kPowerSpread_db = 6.0;
 
@@ -26,14 +26,14 @@ void add_stretch(View3<float> power_w, int row, int first, int count, double add
 }
 
 /// Rows of a channel's fan, or all of them.
-bool in_wall(const Layout& layout, int row, int fan) {
+bool in_interference(const Layout& layout, int row, int fan) {
   return fan < 0 || !layout.grid || row / layout.shape.beams == fan;
 }
 
-void add_wall(const Layout& layout, const Wall& wall, double scale, View3<float> power_w) {
+void add_interference(const Layout& layout, const Interference& one, double scale, View3<float> power_w) {
   for (int row = 0; row < static_cast<int>(layout.rows.size()); ++row) {
-    if (!in_wall(layout, row, wall.fan)) continue;
-    add_stretch(power_w, row, wall.first_sample, wall.count, scale * linear_from_db(wall.power_db));
+    if (!in_interference(layout, row, one.fan)) continue;
+    add_stretch(power_w, row, one.first_sample, one.count, scale * linear_from_db(one.power_db));
   }
 }
 
@@ -46,13 +46,13 @@ int row_of_channel(const Layout& layout, int channel) {
 
 void add_hot_beams(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
   const double scale = scene.noise.scale;
-  for (const HotBeam& hot : scene.hot_beams) {
+  for (const CorruptedStretch& hot : scene.corrupted_packets) {
     const int row = hot.ping == ping ? row_of_channel(layout, hot.channel) : -1;
     if (row >= 0) add_stretch(power_w, row, hot.first_sample, hot.count, scale * linear_from_db(hot.power_db));
   }
   for (int start = std::max(0, ping - kLongestFault_pings + 1); start <= ping; ++start) {
-    RandomStream random = stream(scene, Purpose::hot_beam, start);
-    for (int left = random.poisson(scene.noise.hot_beams * scale); left > 0; --left) {
+    RandomStream random = stream(scene, Purpose::corrupted_packets, start);
+    for (int left = random.poisson(scene.noise.corrupted_packets * scale); left > 0; --left) {
       const int row = random.index(static_cast<int>(layout.rows.size()));
       const int first = random.index(layout.shape.samples);
       const int count = 150 + random.index(600);
@@ -63,19 +63,19 @@ void add_hot_beams(const Layout& layout, const Scene& scene, int ping, View3<flo
   }
 }
 
-void add_walls(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
+void add_all_interference(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
   const double scale = scene.noise.scale;
-  for (const Wall& wall : scene.walls) {
-    if (wall.ping == ping) add_wall(layout, wall, scale, power_w);
+  for (const Interference& one : scene.interference) {
+    if (one.ping == ping) add_interference(layout, one, scale, power_w);
   }
-  RandomStream random = stream(scene, Purpose::wall, ping);
-  for (int left = random.poisson(scene.noise.walls * scale); left > 0; --left) {
-    Wall wall;
-    wall.first_sample = random.index(layout.shape.samples);
-    wall.count = 2 + random.index(5);
-    wall.power_db = kWallPower_db + kPowerSpread_db * random.uniform(-1.0, 1.0);
-    if (random.index(4) == 0) wall.fan = random.index(layout.shape.fans);
-    add_wall(layout, wall, scale, power_w);
+  RandomStream random = stream(scene, Purpose::interference, ping);
+  for (int left = random.poisson(scene.noise.interference * scale); left > 0; --left) {
+    Interference one;
+    one.first_sample = random.index(layout.shape.samples);
+    one.count = 2 + random.index(5);
+    one.power_db = kInterferencePower_db + kPowerSpread_db * random.uniform(-1.0, 1.0);
+    if (random.index(4) == 0) one.fan = random.index(layout.shape.fans);
+    add_interference(layout, one, scale, power_w);
   }
 }
 
@@ -94,7 +94,7 @@ void add_impulses(const Layout& layout, const Scene& scene, int ping, View3<floa
 
 void add_faults(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
   add_hot_beams(layout, scene, ping, power_w);
-  add_walls(layout, scene, ping, power_w);
+  add_all_interference(layout, scene, ping, power_w);
   add_impulses(layout, scene, ping, power_w);
 }
 
@@ -103,8 +103,8 @@ std::vector<bool> recorded_rows(const Layout& layout, const Scene& scene, int pi
   const int rows = static_cast<int>(layout.rows.size());
   std::vector<bool> recorded(layout.rows.size(), true);
   for (int start = std::max(0, ping - kLongestFault_pings + 1); start <= ping; ++start) {
-    RandomStream random = stream(scene, Purpose::lost, start);
-    for (int left = random.poisson(scene.noise.lost_channels * scene.noise.scale); left > 0; --left) {
+    RandomStream random = stream(scene, Purpose::dropout, start);
+    for (int left = random.poisson(scene.noise.dropouts * scene.noise.scale); left > 0; --left) {
       const int first = random.index(rows);
       const int last = std::min(rows, first + 1 + random.index(kMostNeighbours));
       const int lasts = 1 + random.index(kLongestFault_pings);

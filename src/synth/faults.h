@@ -11,7 +11,7 @@ namespace sonar::synth {
 
 // The things that go wrong in a ping, drawn by the scene's rates or placed on purpose.
 
-/// Adds the power of hot beams, walls and impulses to the expected power.
+/// Adds the power of corrupted packets, interference and impulse noise to the expected power.
 void add_faults(const Layout& layout, const Scene& scene, int ping, View3<float> power_w);
 
 /// [row]: whether the channel arrived.

@@ -13,8 +13,8 @@ namespace {
 
 TEST(Faults, StandWhereTheyWerePut) {
   Scene scene = empty_scene(3);
-  scene.hot_beams = {{1, 260, 500, 100, -110.0}};
-  scene.walls = {{1, 900, 3, -120.0, -1}, {2, 900, 3, -120.0, 4}};
+  scene.corrupted_packets = {{1, 260, 500, 100, -110.0}};
+  scene.interference = {{1, 900, 3, -120.0, -1}, {2, 900, 3, -120.0, 4}};
   const SyntheticSonar sonar(scene);
   const auto power_db = [&](const Volume& v, int fan, int beam, int sample) {
     return db_from_counts(v.counts(fan, beam, sample));
@@ -34,7 +34,7 @@ TEST(Faults, StandWhereTheyWerePut) {
 
 TEST(Faults, ComeAtTheirRateAndDoubleWithTheNoise) {
   Scene scene = empty_scene(400);
-  scene.noise.lost_channels = 0.5;
+  scene.noise.dropouts = 0.5;
   const Layout layout = make_layout(scene.beams);
   const auto lost_in_all = [&] {
     std::ptrdiff_t lost = 0;
@@ -52,7 +52,7 @@ TEST(Faults, ComeAtTheirRateAndDoubleWithTheNoise) {
 
 TEST(Faults, ALostChannelHasNoDataInItsRow) {
   Scene scene = empty_scene(20);
-  scene.noise.lost_channels = 1.0;
+  scene.noise.dropouts = 1.0;
   const SyntheticSonar sonar(scene);
   int lost = 0;
   for (int ping = 0; ping < scene.pings; ++ping) {
@@ -61,7 +61,7 @@ TEST(Faults, ALostChannelHasNoDataInItsRow) {
       if (made.recorded[static_cast<std::size_t>(row)]) continue;
       ++lost;
       EXPECT_EQ(made.power.counts.view().row(row)[100], kNoData);
-      EXPECT_EQ(made.power.flags.view().row(row)[100], SampleFlags::lost);
+      EXPECT_EQ(made.power.flags.view().row(row)[100], SampleFlags::dropout);
     }
   }
   EXPECT_GT(lost, 0);

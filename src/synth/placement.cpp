@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "base/units.h"
-#include "synth/background.h"
 #include "synth/layout.h"
 #include "synth/random.h"
+#include "synth/scene_background.h"
 #include "synth/terrain.h"
 
 namespace sonar::synth {

@@ -35,10 +35,10 @@ void easy(SurveyParams& p) {
 }
 
 void faults(Noise& n, double much) {
-  n.hot_beams = 0.3 * much;
-  n.walls = 0.15 * much;
+  n.corrupted_packets = 0.3 * much;
+  n.interference = 0.15 * much;
   n.impulses = 150.0 * much;
-  n.lost_channels = 0.05 * much;
+  n.dropouts = 0.05 * much;
 }
 
 void hard(SurveyParams& p) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/describe.h"
 #include "base/result.h"
 #include "synth/scene.h"
 
@@ -31,9 +32,9 @@ struct SurveyParams {
   double range_max_m = 400.0;
   double above_seabed_min_m = 0.0;  ///< of the schools' lower ends where they keep to the seabed ...
   double above_seabed_max_m = 0.0;  ///< ... that is, where this is not 0
-  double sv_min_db = -50.0;         ///< of the heart
+  double sv_min_db = -50.0;         ///< of the core
   double sv_max_db = -35.0;
-  double above_background_db = 10.0;  ///< a school's heart is at least this much above the background
+  double above_background_db = 10.0;  ///< a school's core is at least this much above the background
   double own_speed_min_mps = 0.2;
   double own_speed_max_mps = 1.5;
   double raggedness = 0.15;
@@ -52,45 +53,79 @@ struct SurveyParams {
 
 template <class Visitor>
 void describe(Visitor& v, SurveyParams& p) {
-  v.choice("preset", p.preset, kPresetNames, "what the survey is like");
-  v.field("seed", p.seed, {.min = 0, .max = 2147483647, .text = "every random number follows from it"});
-  v.field("observations", p.observations, {.min = 1, .max = 1000, .text = "number of observations"});
-  v.field("pings", p.pings, {.min = 1, .max = 100000, .text = "pings in each observation"});
-  v.field("schools", p.schools, {.min = 0, .max = 500, .text = "schools in each observation"});
-  v.field("speed_knots", p.speed_knots, {.unit = "kn", .min = 0, .max = 25, .text = "the ship's speed over ground"});
-  v.field("ping_interval_s", p.ping_interval_s, {.unit = "s", .min = 1, .max = 60, .text = "time between pings"});
-  v.field("gap_s", p.gap_s, {.unit = "s", .min = 121, .max = 86400, .text = "time between observations"});
-  v.field("length_min_m", p.length_min_m, {.unit = "m", .min = 5, .max = 300, .text = "shortest school"});
-  v.field("length_max_m", p.length_max_m, {.unit = "m", .min = 5, .max = 300, .text = "longest school"});
-  v.field("height_min_m", p.height_min_m, {.unit = "m", .min = 2, .max = 100, .text = "lowest school"});
-  v.field("height_max_m", p.height_max_m, {.unit = "m", .min = 2, .max = 100, .text = "highest school"});
-  v.field("range_min_m", p.range_min_m, {.unit = "m", .min = 20, .max = 490, .text = "nearest school when abeam"});
-  v.field("range_max_m", p.range_max_m, {.unit = "m", .min = 20, .max = 490, .text = "farthest school when abeam"});
+  v.choice("preset", p.preset, kPresetNames,
+           {"What the survey is like: easy has little noise, hard has schools that cross and split in strong noise, "
+            "demo is the tutorial's.",
+            Tier::basic});
+  v.field("seed", p.seed,
+          {.min = 0,
+           .max = 2147483647,
+           .text = "Seed of every random number; change it for another survey of the same kind.",
+           .tier = Tier::basic});
+  v.field("observations", p.observations,
+          {.min = 1, .max = 1000, .text = "Number of observations.", .tier = Tier::basic});
+  v.field("pings", p.pings,
+          {.min = 1, .max = 100000, .text = "Number of pings in each observation.", .tier = Tier::basic});
+  v.field("schools", p.schools,
+          {.min = 0, .max = 500, .text = "Number of schools in each observation.", .tier = Tier::basic});
+  v.field("speed_knots", p.speed_knots,
+          {.unit = "kn", .min = 0, .max = 25, .text = "The ship's speed over ground.", .tier = Tier::basic});
+  v.field("ping_interval_s", p.ping_interval_s, {.unit = "s", .min = 1, .max = 60, .text = "Time between pings."});
+  v.field("gap_s", p.gap_s, {.unit = "s", .min = 121, .max = 86400, .text = "Time between observations."});
+  v.field("length_min_m", p.length_min_m, {.unit = "m", .min = 5, .max = 300, .text = "Shortest school."});
+  v.field("length_max_m", p.length_max_m, {.unit = "m", .min = 5, .max = 300, .text = "Longest school."});
+  v.field("height_min_m", p.height_min_m, {.unit = "m", .min = 2, .max = 100, .text = "Lowest height of a school."});
+  v.field("height_max_m", p.height_max_m, {.unit = "m", .min = 2, .max = 100, .text = "Greatest height of a school."});
+  v.field("range_min_m", p.range_min_m,
+          {.unit = "m", .min = 20, .max = 490, .text = "Range of the nearest school when it is abeam."});
+  v.field("range_max_m", p.range_max_m,
+          {.unit = "m", .min = 20, .max = 490, .text = "Range of the farthest school when it is abeam."});
   v.field("above_seabed_min_m", p.above_seabed_min_m,
-          {.unit = "m", .min = 0, .max = 200, .text = "schools that keep to the seabed: lower end so far above it"});
+          {.unit = "m",
+           .min = 0,
+           .max = 200,
+           .text = "Least height of a school's lower end above the seabed, for schools that keep to it."});
   v.field("above_seabed_max_m", p.above_seabed_max_m,
-          {.unit = "m", .min = 0, .max = 200, .text = "... to so far; 0 = schools are anywhere in the upper water"});
-  v.field("sv_min_db", p.sv_min_db, {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "weakest heart"});
-  v.field("sv_max_db", p.sv_max_db, {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "strongest heart"});
+          {.unit = "m",
+           .min = 0,
+           .max = 200,
+           .text = "Greatest height of a school's lower end above the seabed, for schools that keep to it; 0 puts "
+                   "schools anywhere in the upper water."});
+  v.field("sv_min_db", p.sv_min_db,
+          {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "Sv of the weakest school's core."});
+  v.field("sv_max_db", p.sv_max_db,
+          {.unit = "dB re 1 m-1", .min = -90, .max = -10, .text = "Sv of the strongest school's core."});
   v.field("above_background_db", p.above_background_db,
-          {.unit = "dB", .min = 0, .max = 60, .text = "hearts are at least this far above the background"});
-  v.field("own_speed_min_mps", p.own_speed_min_mps, {.unit = "m/s", .min = 0, .max = 5, .text = "slowest school"});
-  v.field("own_speed_max_mps", p.own_speed_max_mps, {.unit = "m/s", .min = 0, .max = 5, .text = "fastest school"});
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "The core of every school is at least this much above the background."});
+  v.field("own_speed_min_mps", p.own_speed_min_mps,
+          {.unit = "m/s", .min = 0, .max = 5, .text = "Speed of the slowest school."});
+  v.field("own_speed_max_mps", p.own_speed_max_mps,
+          {.unit = "m/s", .min = 0, .max = 5, .text = "Speed of the fastest school."});
   v.field("raggedness", p.raggedness,
-          {.unit = "1", .min = 0, .max = 0.5, .text = "how far the boundary wanders, as a share of the half axes"});
-  v.field("nuclei", p.nuclei, {.min = 0, .max = 20, .text = "dense nuclei in a school"});
-  v.field("nucleus_db", p.nucleus_db, {.unit = "dB", .min = 0, .max = 20, .text = "a nucleus above its body at most"});
-  v.field("vacuoles", p.vacuoles, {.min = 0, .max = 20, .text = "holes in a school"});
-  v.field("crossings", p.crossings, {.min = 0, .max = 20, .text = "pairs of schools that cross in each observation"});
-  v.field("splits", p.splits, {.min = 0, .max = 20, .text = "schools that split in each observation"});
+          {.unit = "1",
+           .min = 0,
+           .max = 0.5,
+           .text = "How far a school's boundary wanders, as a share of its half axes; 0 makes ellipsoids."});
+  v.field("nuclei", p.nuclei, {.min = 0, .max = 20, .text = "Number of dense nuclei in a school."});
+  v.field("nucleus_db", p.nucleus_db,
+          {.unit = "dB", .min = 0, .max = 20, .text = "Most that a nucleus exceeds the school around it."});
+  v.field("vacuoles", p.vacuoles, {.min = 0, .max = 20, .text = "Number of vacuoles (holes) in a school."});
+  v.field("crossings", p.crossings,
+          {.min = 0, .max = 20, .text = "Number of pairs of schools that cross in each observation."});
+  v.field("splits", p.splits, {.min = 0, .max = 20, .text = "Number of schools that split in each observation."});
   v.field("motion_deg", p.motion_deg,
-          {.unit = "deg", .min = 0, .max = 10, .text = "amplitude of yaw; roll is three times this"});
-  v.choice(
-      "beam_pattern", p.beam_pattern, kBeamPatternNames,
-      "the beams' two-way directivity: a Gaussian, a uniform line array's with its side lobes, and such as send wider "
-      "than they receive, both ways or along the fan");
-  v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "a new file begins after this much"});
-  v.field("new_file_per_observation", p.new_file_per_observation, {.text = "no file holds two observations"});
+          {.unit = "deg",
+           .min = 0,
+           .max = 10,
+           .text = "Amplitude of yaw; roll is three times this. Raise it for a rough sea."});
+  v.choice("beam_pattern", p.beam_pattern, kBeamPatternNames,
+           "Two-way directivity of the beams: a Gaussian, that of a uniform line array with its side lobes, or beams "
+           "that send wider than they receive, both ways or along the fan alone.");
+  v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "A new file begins after this much."});
+  v.field("new_file_per_observation", p.new_file_per_observation, {.text = "Begin a new file with each observation."});
   v.group("water", p.water, "what is in the water besides fish");
   v.group("noise", p.noise, "what the sonar adds");
 }

@@ -28,10 +28,10 @@ enum class Purpose : std::uint32_t {
   body,
   ragged,
   placement,
-  hot_beam,
-  wall,
+  corrupted_packets,
+  interference,
   impulse,
-  lost,
+  dropout,
   beam_noise,
   relief,
   // The array's physics (synth/array).

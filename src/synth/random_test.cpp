@@ -25,7 +25,7 @@ TEST(RandomStream, DiffersByEveryPartOfItsKey) {
   const auto base = first({1, Purpose::body, 2, 3, 4});
   EXPECT_EQ(base, first({1, Purpose::body, 2, 3, 4}));
   EXPECT_NE(base, first({2, Purpose::body, 2, 3, 4}));
-  EXPECT_NE(base, first({1, Purpose::wall, 2, 3, 4}));
+  EXPECT_NE(base, first({1, Purpose::interference, 2, 3, 4}));
   EXPECT_NE(base, first({1, Purpose::body, 3, 3, 4}));
   EXPECT_NE(base, first({1, Purpose::body, 2, 4, 4}));
   EXPECT_NE(base, first({1, Purpose::body, 2, 3, 5}));

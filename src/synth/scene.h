@@ -32,20 +32,24 @@ struct Water {
 template <class Visitor>
 void describe(Visitor& v, Water& p) {
   v.field("reverberation_sv_db", p.reverberation_sv_db,
-          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself"});
+          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself; raise it for plankton."});
   v.field("surface_db", p.surface_db,
-          {.unit = "dB", .min = -400, .max = 0, .text = "backscatter of the sea surface per m2; below -200 none"});
-  v.field("seabed_db", p.seabed_db,
-          {.unit = "dB", .min = -400, .max = 0, .text = "Lambert constant of the seabed; below -200 none"});
-  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 20, .max = 12000, .text = "depth at the start"});
+          {.unit = "dB",
+           .min = -400,
+           .max = 0,
+           .text = "Backscatter of the sea surface per square metre; below -200 there is no surface."});
+  v.field(
+      "seabed_db", p.seabed_db,
+      {.unit = "dB", .min = -400, .max = 0, .text = "Lambert constant of the seabed; below -200 there is no seabed."});
+  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 20, .max = 12000, .text = "Depth at the start."});
   v.field("seabed_slope_east", p.seabed_slope_east,
-          {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the east"});
+          {.unit = "1", .min = -0.5, .max = 0.5, .text = "How much deeper the seabed becomes per metre to the east."});
   v.field("seabed_slope_north", p.seabed_slope_north,
-          {.unit = "1", .min = -0.5, .max = 0.5, .text = "metres deeper per metre to the north"});
+          {.unit = "1", .min = -0.5, .max = 0.5, .text = "How much deeper the seabed becomes per metre to the north."});
   v.field("seabed_relief_m", p.seabed_relief_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "hills and hollows: standard deviation of the depth"});
+          {.unit = "m", .min = 0, .max = 100, .text = "Standard deviation of the depth over hills and hollows."});
   v.field("seabed_relief_length_m", p.seabed_relief_length_m,
-          {.unit = "m", .min = 20, .max = 5000, .text = "the shortest hills from crest to crest"});
+          {.unit = "m", .min = 20, .max = 5000, .text = "Shortest distance from crest to crest of the hills."});
 }
 
 /// What the sonar adds. Levels are powers, rates are mean numbers of events in a ping.
@@ -56,47 +60,62 @@ struct Noise {
   double background_spread_db = 2.0;  ///< standard deviation over the beams
   double ringing_power_db = -80.0;    ///< at range 0; below -200 none
   double ringing_decay_db_per_m = 6.5;
-  double hot_beams = 0.0;
-  double walls = 0.0;
+  double corrupted_packets = 0.0;
+  double interference = 0.0;
   double impulses = 0.0;
-  double lost_channels = 0.0;
+  double dropouts = 0.0;
   double side_lobe_db = -400.0;  ///< energy of the side lobes (four times the main lobe's width); below -200 none
   double scale = 1.0;            ///< multiplies every noise's power and every rate
 };
 
 template <class Visitor>
 void describe(Visitor& v, Noise& p) {
-  v.field("speckle", p.speckle, {.text = "exponential speckle; without it every sample is its expected value"});
+  v.field("speckle", p.speckle, {.text = "Draw exponential speckle; without it every sample is its expected value."});
   v.field("speckle_correlation", p.speckle_correlation,
-          {.unit = "1", .min = 0, .max = 0.95, .text = "amplitude correlation of neighbouring samples"});
+          {.unit = "1", .min = 0, .max = 0.95, .text = "Correlation of the amplitudes of neighbouring samples."});
   v.field("background_power_db", p.background_power_db,
-          {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "noise in every sample"});
+          {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "Noise power in every sample."});
   v.field("background_spread_db", p.background_spread_db,
-          {.unit = "dB", .min = 0, .max = 10, .text = "how much the beams' noise differs"});
+          {.unit = "dB", .min = 0, .max = 10, .text = "Standard deviation of the noise power over the beams."});
   v.field("ringing_power_db", p.ringing_power_db,
-          {.unit = "dB re 1 W", .min = -400, .max = 0, .text = "transducer ringing at range 0; below -200 none"});
+          {.unit = "dB re 1 W",
+           .min = -400,
+           .max = 0,
+           .text = "Power of the transducer's ringing at range 0; below -200 there is none."});
   v.field("ringing_decay_db_per_m", p.ringing_decay_db_per_m,
-          {.unit = "dB/m", .min = 0.1, .max = 100, .text = "decay of the ringing"});
-  v.field("hot_beams", p.hot_beams, {.unit = "1/ping", .min = 0, .max = 100, .text = "beams with lost packets"});
-  v.field("walls", p.walls, {.unit = "1/ping", .min = 0, .max = 20, .text = "walls at constant range"});
+          {.unit = "dB/m", .min = 0.1, .max = 100, .text = "Decay of the ringing with range."});
+  v.field("corrupted_packets", p.corrupted_packets,
+          {.unit = "1/ping", .min = 0, .max = 100, .text = "Stretches of corrupted packets in a ping, on average."});
+  v.field("interference", p.interference,
+          {.unit = "1/ping",
+           .min = 0,
+           .max = 20,
+           .text = "Shells of interference at constant range in a ping, on average."});
   v.field("impulses", p.impulses,
-          {.unit = "1/ping", .min = 0, .max = 600, .text = "impulses of 1 to 3 samples in one beam"});
-  v.field("lost_channels", p.lost_channels,
-          {.unit = "1/ping", .min = 0, .max = 100, .text = "channels that were not recorded"});
+          {.unit = "1/ping",
+           .min = 0,
+           .max = 600,
+           .text = "Peaks of impulse noise, 1 to 3 samples in one beam, in a ping, on average."});
+  v.field("dropouts", p.dropouts,
+          {.unit = "1/ping", .min = 0, .max = 100, .text = "Channels that were not recorded in a ping, on average."});
   v.field("side_lobe_db", p.side_lobe_db,
-          {.unit = "dB", .min = -400, .max = -10, .text = "energy of the side lobes; below -200 none"});
-  v.field("scale", p.scale, {.unit = "1", .min = 0, .max = 10, .text = "multiplies every noise's power and rate"});
+          {.unit = "dB", .min = -400, .max = -10, .text = "Energy of the side lobes; below -200 there are none."});
+  v.field("scale", p.scale,
+          {.unit = "1",
+           .min = 0,
+           .max = 10,
+           .text = "Factor on the power and rate of every kind of noise; 0 gives clean water."});
 }
 
 /// A fault placed on purpose.
-struct HotBeam {
+struct CorruptedStretch {
   int ping = 0;
   int channel = 0;
   int first_sample = 0;
   int count = 0;
   double power_db = -110.0;
 };
-struct Wall {
+struct Interference {
   int ping = 0;
   int first_sample = 0;
   int count = 3;
@@ -118,8 +137,8 @@ struct Scene : Voyage {
   Water water;
   Noise noise;
   std::vector<Body> bodies;
-  std::vector<HotBeam> hot_beams;
-  std::vector<Wall> walls;
+  std::vector<CorruptedStretch> corrupted_packets;
+  std::vector<Interference> interference;
   std::vector<VoxelTarget> voxel_targets;
   std::uint64_t seed = 1;
   std::uint32_t observation = 0;  ///< part of every random stream's key

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "io/csv.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "synth/truth.h"
 
 namespace sonar::synth {
@@ -47,7 +47,7 @@ class Simulate : public testing::Test {
     p.pings = 4;
     p.schools = 1;
     p.file_mb = 4.0;
-    p.noise.lost_channels = 0.5;
+    p.noise.dropouts = 0.5;
     return p;
   }
   std::filesystem::path folder_;
@@ -238,8 +238,8 @@ TEST(SurveyScenes, TheDemoPassesOneSchoolAtTwoRanges) {
   };
   EXPECT_NEAR(closest((*scenes)[0]), 100.0, 2.0);
   EXPECT_NEAR(closest((*scenes)[2]), 300.0, 2.0);
-  EXPECT_EQ((*scenes)[0].hot_beams.size(), 1U);
-  EXPECT_EQ((*scenes)[0].walls.size(), 1U);
+  EXPECT_EQ((*scenes)[0].corrupted_packets.size(), 1U);
+  EXPECT_EQ((*scenes)[0].interference.size(), 1U);
 }
 
 }  // namespace

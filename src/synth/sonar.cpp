@@ -8,11 +8,11 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
-#include "synth/background.h"
 #include "synth/body_truth.h"
 #include "synth/faults.h"
 #include "synth/field.h"
 #include "synth/layout.h"
+#include "synth/scene_background.h"
 #include "synth/seabed.h"
 #include "synth/speckle.h"
 
@@ -156,7 +156,7 @@ Volume make_volume(const Scene& scene, const Layout& layout, const std::vector<b
       expected_counts(expected, counts.first(count));
     }
     const auto missing = v.flags.view().row(r).subspan(count);
-    std::fill(missing.begin(), missing.end(), SampleFlags::lost);
+    std::fill(missing.begin(), missing.end(), SampleFlags::dropout);
   }
   return v;
 }

@@ -15,7 +15,7 @@ namespace sonar::synth {
 
 /// A rendered ping. Rows are those of the grid (fan * beams + beam); without a grid row = channel and there is one fan.
 struct SyntheticPing {
-  Volume power;                      ///< counts re 1 W; flags: lost where nothing was recorded, none else
+  Volume power;                      ///< counts re 1 W; flags: dropout where nothing was recorded, none else
   std::vector<bool> recorded;        ///< [row]; false = the channel is missing from this ping
   std::vector<SchoolTruth> schools;  ///< by school_id; only those with a voxel that counts; empty without a grid
   std::vector<BodyTruth> bodies;     ///< by school_id; every school

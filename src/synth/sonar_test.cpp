@@ -95,7 +95,7 @@ TEST(Sonar, PowerIsTheSonarEquationTheOtherWay) {
     EXPECT_LT(power.counts(channel / 25, channel % 25, 701), count - 1000);
   }
   EXPECT_EQ(power.counts(19, 0, 1320), kNoData);
-  EXPECT_EQ(power.flags(19, 0, 1320), SampleFlags::lost);
+  EXPECT_EQ(power.flags(19, 0, 1320), SampleFlags::dropout);
 }
 
 TEST(Sonar, ABodyIsSeenWhereItWasPlaced) {

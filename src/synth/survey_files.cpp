@@ -12,7 +12,7 @@
 #include "base/check.h"
 #include "io/atomic_file.h"
 #include "io/recordings.h"
-#include "synth/nmea.h"
+#include "synth/nmea_sentences.h"
 
 namespace sonar::synth {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "io/product.h"
+#include "io/product_file.h"
 
 namespace sonar::synth {
 namespace {

@@ -25,12 +25,12 @@ struct RefusedMark {
   int fans = 1;  ///< of its box, with `beams` and `samples`
   int beams = 1;
   int samples = 1;
-  bool chosen = false;  ///< stands out
+  bool chosen = false;  ///< highlighted
 };
 /// Of a ping; those whose loudest voxel the sector has not are left out.
 /// rows    of the observation
 /// sector  that they are drawn on
-/// chosen  echo_id that stands out; 0 = none
+/// chosen  echo_id that is highlighted; 0 = none
 [[nodiscard]] std::vector<RefusedMark> refused_marks(std::span<const RefusedEcho> rows, std::int64_t ping_index,
                                                      const BeamGrid& grid, const Sector& sector,
                                                      std::int64_t chosen = 0);

@@ -25,7 +25,8 @@ def masks(path):
     """{school: {(time of the ping, channel, sample)}}"""
     product = netCDF4.Dataset(path)
     product.set_auto_mask(False)
-    times = product["pings"]["time"][:].tolist()
+    pings = product["pings"]
+    times = pings["time_ns" if "time_ns" in pings.variables else "time"][:].tolist()
     table = product["mask"]
     runs = zip(*(table[k][:].tolist() for k in ("school_id", "ping_index", "channel", "first_sample", "sample_count")))
     found = {}

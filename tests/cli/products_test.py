@@ -139,7 +139,7 @@ class Product(Case):
 
     def test_variables(self):
         wanted = {
-            "pings": ["time", "latitude", "longitude", "heading", "speed", "course", "distance", "pitch", "roll", "heave",
+            "pings": ["time", "time_ns", "latitude", "longitude", "heading", "speed", "course", "distance", "pitch", "roll", "heave",
                       "transducer_depth", "gps_minus_clock", "bad"],
             "grid": ["elevation", "azimuth", "mounting_azimuth", "frequency", "channel", "sample_count",
                      "sample_spacing", "range_of_first_sample", "sound_speed"],

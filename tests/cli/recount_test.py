@@ -149,7 +149,7 @@ class Recount(Case):
         stores Sv in steps of 0.012 dB: hence 0.1 dB for means."""
         files = [p.read_bytes() for p in sorted(SURVEY.glob("*.raw"))]
         chosen = self.rows[::3]
-        wanted = {int(self.observations[r["observation"]].pings["time"][int(r["ping_index"])]) for r in chosen}
+        wanted = {int(self.observations[r["observation"]].pings["time_ns"][int(r["ping_index"])]) for r in chosen}
         found, config = {}, []
         for data in files:
             config, pings = raw_reader.pings(data, wanted)
@@ -165,7 +165,7 @@ class Recount(Case):
             judged += 1
             _, _, channel, sample, _ = observation.voxels(school, ping)
             _, volume = recount(observation, school, ping)
-            raw = found[int(observation.pings["time"][ping])]
+            raw = found[int(observation.pings["time_ns"][ping])]
             tables = {c: raw_reader.sv_db(raw[c], config[c]) for c in set(channel.tolist())}
             sv_db = np.array([tables[c][s - raw[c]["offset"]] for c, s in zip(channel.tolist(), sample.tolist())])
             mean = (10 ** (sv_db / 10) * volume).sum() / volume.sum()
@@ -214,7 +214,7 @@ class Read:
 
 
 def times_of(o):
-    return {int(o.pings["time"][int(r["ping_index"])]) for r in o.rows}
+    return {int(o.pings["time_ns"][int(r["ping_index"])]) for r in o.rows}
 
 
 def deviations_of(o, pings):
@@ -323,7 +323,7 @@ class RecountNotices(Case):
 
 
 class Faults(Case):
-    """A noisy survey: walls, hot beams and impulses lie in the schools, so that members are no valid ones."""
+    """A noisy survey: interference, corrupted packets and impulse noise lie in the schools, so that members are no valid ones."""
 
     @classmethod
     def setUpClass(cls):

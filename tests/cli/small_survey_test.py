@@ -125,7 +125,7 @@ class SmallSurvey(Case):
         (folder / "r.json").write_text(json.dumps(recipe))
         code, _, err = sonarx.run("run", SURVEY, "--out", folder / "out", "--recipe", folder / "r.json", "--only", "obs-0001")
         self.assertEqual(code, 0, err)
-        self.assertIn("no schools were looked for", err)
+        self.assertIn("schools were not detected", err)
 
     def test_geojson_holds_the_tables_values(self):
         folder = self.fresh("geojson")

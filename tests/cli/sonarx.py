@@ -14,20 +14,20 @@ WORK = Path(os.environ.get("SONAR_WORK", PROJECT / "build" / "tests-cli")).resol
 SURVEY, OUT = WORK / "survey", WORK / "out"
 TRUTH = SURVEY / "truth"
 
-VERBS = ["info", "simulate", "run", "plan", "follow", "merge", "propagate", "export", "score", "compare", "recipe", "render"]
+VERBS = ["info", "simulate", "run", "plan", "follow", "merge", "submit", "status", "propagate", "export", "score", "compare", "recipe", "render"]
 SCHOOL_PINGS = (
     "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,n_fans,"
     "volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,sv_max_db,backscatter_m2,"
     "valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,height_corrected_m,sv_corrected_db,snr_db,"
     "threshold_db,edge_flags,edge_fraction,touches_edge,bottom_depth_m,provisional,backscatter_psi_error_db,"
     "backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,survey_school").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
     "comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

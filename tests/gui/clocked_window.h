@@ -3,7 +3,7 @@
 
 #include <QEvent>
 
-#include "gui/pulse_timer.h"
+#include "gui/animation_timer.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -17,7 +17,7 @@ class ClockedWindow : public WindowAtWork {
   }
   void tick(double later_s) {
     now_s_ += later_s;
-    desk_->pulse.tick(now_s_);
+    app_->animations.tick(now_s_);
     settle_jobs();
   }
   void press(Qt::Key key, Qt::KeyboardModifiers with = {}) {
@@ -29,7 +29,7 @@ class ClockedWindow : public WindowAtWork {
   class NoTimer : public QObject {
    protected:
     bool eventFilter(QObject* watched, QEvent* event) override {
-      return event->type() == QEvent::Timer && dynamic_cast<PulseTimer*>(watched) != nullptr;
+      return event->type() == QEvent::Timer && dynamic_cast<AnimationTimer*>(watched) != nullptr;
     }
   };
   NoTimer no_timer_;

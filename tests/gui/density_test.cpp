@@ -22,7 +22,7 @@ TEST_F(Density, DISABLED_OnAScreenTwiceAsDense) {
   settle();
   ASSERT_EQ(window_->devicePixelRatioF(), 2.0);
   int seen_so_far = 0;
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     if (!one.picture->seen() || !one.picture->problem().empty()) continue;  // some are too small here
     ++seen_so_far;
     const QWidget* there = view(one.id);
@@ -62,7 +62,7 @@ TEST_F(Density, DISABLED_OnAScreenOfFewUnits) {
   EXPECT_LE(window_->width(), room.width()) << "nothing of the window lies beyond the screen";
   EXPECT_LE(window_->height(), room.height());
   int drawn = 0;
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     if (!one.picture->seen()) continue;
     EXPECT_EQ(one.picture->problem(), "") << one.id;
     ++drawn;

@@ -30,7 +30,7 @@ std::set<QRgb> colours_of(const QImage& image) {
 
 TEST_F(Desktop, EveryPictureIsFilledAfterOpening) {
   ASSERT_TRUE(document().staged());
-  for (const PictureDock& dock : desk_->pictures) {
+  for (const PictureDock& dock : app_->pictures) {
     if (!dock.picture->seen()) continue;  // a tab behind another
     EXPECT_TRUE(dock.picture->problem().empty()) << dock.id << ": " << dock.picture->problem();
     EXPECT_GT(colours_of(view(dock.id)->grab().toImage()).size(), 8U) << dock.id << " is empty";
@@ -60,16 +60,16 @@ TEST_F(Desktop, HoverShowsWhatAClickThenSelects) {
   move("top_slice", place);
   EXPECT_EQ(view("top_slice")->width(), before.width());
   EXPECT_EQ(view("top_slice")->height(), before.height());
-  const Preview hovered = desk_->workspace.preview();
+  const Preview hovered = app_->workspace.preview();
   ASSERT_TRUE(hovered.mask) << hovered.text;
-  ASSERT_TRUE(desk_->workspace.cursor());
+  ASSERT_TRUE(app_->workspace.cursor());
   EXPECT_THAT(window_->findChild<QLineEdit*>("read_out")->text().toStdString(), testing::HasSubstr("Sv "));
-  const Voxel pointed_at = *desk_->workspace.cursor();
+  const Voxel pointed_at = *app_->workspace.cursor();
   EXPECT_EQ(place_in("top_slice", target.voxel), place) << "hovering must not move the picture";
   click("top_slice", place);
-  EXPECT_EQ(pointed_at, *desk_->workspace.cursor());
+  EXPECT_EQ(pointed_at, *app_->workspace.cursor());
   ASSERT_EQ(document().state().schools.size(), 1U);
-  EXPECT_EQ(document().choices().lines->back().args["seeds"][0]["sample"], desk_->workspace.cursor()->sample);
+  EXPECT_EQ(document().choices().lines->back().args["seeds"][0]["sample"], app_->workspace.cursor()->sample);
   const PingMask& clicked = document().state().schools[0]->masks.pings[0].mask;
   EXPECT_EQ(clicked.voxels(), hovered.mask->voxels());
   EXPECT_EQ(clicked, *hovered.mask);
@@ -100,19 +100,19 @@ TEST_F(Desktop, TheToleranceInThePanelGrowsTheSchoolAnew) {
   ASSERT_NE(box, nullptr);
   box->setValue(5.0);
   settle();
-  EXPECT_EQ(desk_->workspace.select.values().tolerance_db, 5.0);
+  EXPECT_EQ(app_->workspace.select.values().tolerance_db, 5.0);
   std::string all;
   for (const JournalLine& line : *document().choices().lines) all += journal_text(line) + "\n";
-  EXPECT_EQ(document().choices().lines->size(), 3U) << all << "grow, undo, grow; " << desk_->workspace.preview().text;
+  EXPECT_EQ(document().choices().lines->size(), 3U) << all << "grow, undo, grow; " << app_->workspace.preview().text;
   ASSERT_EQ(document().state().schools.size(), 1U);
   EXPECT_LT(document().state().schools[0]->masks.pings[0].mask.voxels(), before);
 }
 
 TEST_F(Desktop, NoTwoActionsShareAKeyAndTheSheetShowsThemAll) {
-  EXPECT_THAT(desk_->actions.clashes(), testing::IsEmpty());
+  EXPECT_THAT(app_->actions.clashes(), testing::IsEmpty());
   // One key may have two names: Esc and Escape.
   std::map<QString, std::string> of_key;
-  for (const Action& action : desk_->actions.list()) {
+  for (const Action& action : app_->actions.list()) {
     for (const QKeySequence& keys : find_action(*window_, action.id)->shortcuts()) {
       EXPECT_FALSE(keys.isEmpty()) << action.id << " has a key that is none";
       const auto [known, fresh] = of_key.emplace(keys.toString(), action.id);
@@ -123,7 +123,7 @@ TEST_F(Desktop, NoTwoActionsShareAKeyAndTheSheetShowsThemAll) {
   auto* sheet = window_->findChild<QTextBrowser*>();
   ASSERT_NE(sheet, nullptr);
   const std::string text = sheet->toPlainText().toStdString();
-  for (const Action& action : desk_->actions.list()) {
+  for (const Action& action : app_->actions.list()) {
     if (action.keys.empty()) continue;
     EXPECT_THAT(text, testing::HasSubstr(action.text));
   }

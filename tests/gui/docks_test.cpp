@@ -21,7 +21,7 @@ class Docks : public WindowAtWork {
   }
   std::map<std::string, std::int64_t> pictures() {
     std::map<std::string, std::int64_t> all;
-    for (const PictureDock& one : desk_->pictures) all[one.id] = one.picture->pictures();
+    for (const PictureDock& one : app_->pictures) all[one.id] = one.picture->pictures();
     return all;
   }
 };
@@ -29,7 +29,7 @@ class Docks : public WindowAtWork {
 TEST_F(Docks, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
   QDockWidget* volume = dock("volume");
   const std::string layout = window_->layout();
-  const Image before = desk_->picture("volume")->image();
+  const Image before = app_->picture("volume")->image();
   const QSize size = view("volume")->size();
   ASSERT_GT(before.size.width, 0);
   const QImage seen = view("volume")->grab().toImage();
@@ -37,27 +37,27 @@ TEST_F(Docks, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
   ASSERT_TRUE(volume->isFloating());
   volume->resize(500, 420);
   settle();
-  EXPECT_EQ(desk_->picture("volume")->image().size.width, view("volume")->width());
-  EXPECT_NE(desk_->picture("volume")->image().size, before.size) << "drawn for the floating dock";
+  EXPECT_EQ(app_->picture("volume")->image().size.width, view("volume")->width());
+  EXPECT_NE(app_->picture("volume")->image().size, before.size) << "drawn for the floating dock";
   double_click_title(*volume);
   ASSERT_FALSE(volume->isFloating());
-  EXPECT_GT(desk_->picture("volume")->image().size.width, 0);
+  EXPECT_GT(app_->picture("volume")->image().size.width, 0);
   window_->take_layout(layout);  // docks share their room a little differently each time
   settle();
   ASSERT_EQ(view("volume")->size(), size);
-  EXPECT_EQ(desk_->picture("volume")->image(), before);
+  EXPECT_EQ(app_->picture("volume")->image(), before);
   EXPECT_EQ(view("volume")->grab().toImage(), seen);
 }
 
 TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
   const Target target = look_at_school();
   std::set<std::string> switches;
-  for (const PictureDock& one : desk_->pictures) switches.insert(one.view_switch);
+  for (const PictureDock& one : app_->pictures) switches.insert(one.view_switch);
   switches.erase("");
   ASSERT_EQ(switches.size(), 7U);
   for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, false));
   settle();
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     if (one.view_switch.empty()) continue;
     EXPECT_FALSE(dock(one.id)->isVisible()) << one.id;
     EXPECT_FALSE(one.picture->seen()) << one.id;
@@ -71,9 +71,9 @@ TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
   EXPECT_EQ(pictures(), before);
   for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, true));
   settle();
-  desk_->asking.reset_layout();  // where all were away, Qt gives them what room it likes
+  app_->dialogs.reset_layout();  // where all were away, Qt gives them what room it likes
   settle();
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     if (one.view_switch.empty()) continue;
     EXPECT_FALSE(dock(one.id)->isHidden()) << one.id;
     raise(one.id);
@@ -102,17 +102,17 @@ TEST_F(Docks, ClosingADockIsSwitchingItsViewOff) {
   dock("side_slice")->toggleViewAction()->trigger();
   settle();
   EXPECT_TRUE(workspace().views.values().side_slice);
-  EXPECT_TRUE(desk_->picture("side_slice")->seen());
+  EXPECT_TRUE(app_->picture("side_slice")->seen());
 }
 
 TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
   for (const QSize size : {QSize(1280, 800), QSize(1366, 768)}) {
     window_->resize(size);
     settle();
-    desk_->asking.reset_layout();
+    app_->dialogs.reset_layout();
     settle();
     ASSERT_EQ(window_->size(), size) << "no dock asks for more";
-    for (const PictureDock& one : desk_->pictures) {
+    for (const PictureDock& one : app_->pictures) {
       raise(one.id);
       EXPECT_EQ(one.picture->problem(), "") << one.id << " at " << size.width();
       EXPECT_EQ(one.picture->image().size.width, view(one.id)->width()) << one.id;
@@ -123,7 +123,7 @@ TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
 TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {
   window_->resize(1400, 900);
   settle();
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     if (!one.picture->seen()) continue;
     EXPECT_EQ(one.picture->image().size.width, view(one.id)->width()) << one.id;
     EXPECT_EQ(one.picture->image().size.height, view(one.id)->height()) << one.id;

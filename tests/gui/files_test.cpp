@@ -33,9 +33,9 @@ class Files : public WindowAtWork {
  protected:
   void SetUp() override {
     WindowAtWork::SetUp();
-    real_parameters_ = std::exchange(desk_->asking.parameters, [](const auto&, const auto&) { return true; });
-    desk_->asking.folder_to_save = [this](const std::string&) { return out_.string(); };
-    desk_->asking.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
+    real_parameters_ = std::exchange(app_->dialogs.parameters, [](const auto&, const auto&) { return true; });
+    app_->dialogs.folder_to_save = [this](const std::string&) { return out_.string(); };
+    app_->dialogs.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
       saved_ = out_ / name;
       return saved_.string();
     };
@@ -64,11 +64,11 @@ class Files : public WindowAtWork {
 
   fs::path saved_;  ///< under the name that was offered
   fs::path out_ = TestSurvey::easy().fresh();
-  decltype(Asking::parameters) real_parameters_;
+  decltype(Dialogs::parameters) real_parameters_;
 };
 
 TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
-  desk_->asking.parameters = real_parameters_;
+  app_->dialogs.parameters = real_parameters_;
   const auto answer = [this](const std::function<void(QDialog&)>& act) {
     QTimer::singleShot(0, window_.get(), [act] {
       auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
@@ -166,10 +166,10 @@ TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
   const auto kept = read_png(saved_);
   ASSERT_TRUE(kept) << told();
   EXPECT_EQ(saved_.filename(), "obs-0001-ping-0000-side_slice.png");
-  EXPECT_EQ(*kept, desk_->picture("side_slice")->image());
+  EXPECT_EQ(*kept, app_->picture("side_slice")->image());
   key(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
   const QImage copied = QApplication::clipboard()->image().convertToFormat(QImage::Format_RGBA8888);
-  const Image& shown = desk_->picture("side_slice")->image();
+  const Image& shown = app_->picture("side_slice")->image();
   ASSERT_EQ(copied.size(), QSize(shown.size.width, shown.size.height));
   for (int y = 0; y < copied.height(); y += 7) {
     for (int x = 0; x < copied.width(); x += 7) {
@@ -191,7 +191,7 @@ TEST_F(Files, APictureOfAnyKindIsMadeFromTheMenu) {
 }
 
 TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
-  desk_->asking.folder_to_open = [this] { return survey_.string(); };
+  app_->dialogs.folder_to_open = [this] { return survey_.string(); };
   int opened = 0;
   document().changes().add([&](DocumentChange change) { opened += change == DocumentChange::survey ? 1 : 0; });
   key(Qt::Key_O, Qt::ControlModifier);
@@ -209,14 +209,14 @@ TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
 }
 
 TEST_F(Files, AFolderWithoutPingsAndOneThatIsNotThereSaySo) {
-  desk_->asking.folder_to_open = [this] { return out_.string(); };
+  app_->dialogs.folder_to_open = [this] { return out_.string(); };
   key(Qt::Key_O, Qt::ControlModifier);
   const std::string empty = told();
   EXPECT_THAT(empty, testing::Not(testing::IsEmpty()));
-  desk_->asking.folder_to_open = [this] { return (out_ / "nowhere").string(); };
+  app_->dialogs.folder_to_open = [this] { return (out_ / "nowhere").string(); };
   key(Qt::Key_O, Qt::ControlModifier);
   EXPECT_THAT(told(), testing::HasSubstr("nowhere"));
-  desk_->asking.folder_to_open = [this] { return survey_.string(); };
+  app_->dialogs.folder_to_open = [this] { return survey_.string(); };
   key(Qt::Key_O, Qt::ControlModifier);
   EXPECT_TRUE(document().staged()) << "and work goes on";
 }

@@ -48,25 +48,25 @@ TEST_F(Guide, Pictures) {
   double_click("top_slice", place);
   raise("propagation");
   keep("guide-propagated.png");
-  desk_->actions.find("schools.detect_all")->run();
+  app_->actions.find("schools.detect_all")->run();
   settle();
   raise("review");
   raise("observation_timeline");
   key(Qt::Key_Escape);  // with nothing selected the review begins with what scatters most
-  desk_->actions.find("review.next")->run();
+  app_->actions.find("review.next")->run();
   keep("guide-review.png");
   workspace().depth_raster.set(survey_ / "truth" / "depth.tif");
   raise("survey_map");
   raise("survey_timeline");
   keep("guide-survey.png");
-  desk_->workspace.dark.set(true);
+  app_->workspace.dark.set(true);
   raise("observation_map");
   keep("guide-dark.png");
   key(Qt::Key_F1);
   auto* sheet = window_->findChild<QWidget*>("key_sheet");
   ASSERT_NE(sheet, nullptr);
   EXPECT_TRUE(sheet->grab().save(QString::fromStdString((out_ / "guide-keys.png").string())));
-  desk_->workspace.dark.set(false);
+  app_->workspace.dark.set(false);
   settle();
 }
 

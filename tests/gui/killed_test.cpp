@@ -66,7 +66,7 @@ class Killed : public WindowAtWork {
 TEST_F(Killed, DISABLED_MarksWithoutEnd) {
   for (int i = 0; i < kMostActs; ++i) {
     const auto ping = static_cast<std::size_t>(i % TestSurvey::kPings);
-    document().act(EventCommand{"other", document().shown()->ground().times[ping], fmt::format("mark {}", i)});
+    document().act(EventCommand{"other", document().shown()->context().times[ping], fmt::format("mark {}", i)});
     settle_jobs();
     tell();
   }
@@ -125,7 +125,7 @@ TEST_F(Killed, DISABLED_Detects) {
 }
 
 TEST_F(Killed, AmidASearchFindsTheSameSchoolsWhenAskedAgain) {
-  document().act(EventCommand{"trawl", document().shown()->ground().times[2], "before"});
+  document().act(EventCommand{"trawl", document().shown()->context().times[2], "before"});
   settle();
   close();
   kill_after("Detects", 1);
@@ -144,7 +144,7 @@ TEST_F(Killed, DISABLED_DecidesWithoutEnd) {
   if (document().state().schools.empty()) key(Qt::Key_D);
   for (int i = 0; i < kMostActs; ++i) {
     Decision decision;
-    decision.school = key_of(document().state().schools.at(0)->masks, document().shown()->ground());
+    decision.school = key_of(document().state().schools.at(0)->masks, document().shown()->context());
     decision.status = i % 2 == 0 ? "accepted" : "rejected";
     document().act(DecideCommand{{decision}, {}});
     settle_jobs();

@@ -19,7 +19,7 @@ class Lists : public WindowAtWork {
  protected:
   QTreeView& list(const std::string& id) { return *view(id)->findChild<QTreeView*>("rows"); }
   QLineEdit& filter(const std::string& id) { return *view(id)->findChild<QLineEdit*>("filter"); }
-  Rows& rows(const std::string& id) { return *desk_->rows(id); }
+  Rows& rows(const std::string& id) { return *app_->rows(id); }
   std::size_t column(const std::string& id, const std::string& title) {
     const auto& all = rows(id).columns();
     const auto found = std::find_if(all.begin(), all.end(), [&](const ListColumn& c) { return c.title == title; });
@@ -138,7 +138,7 @@ TEST_F(Lists, ADoubleClickInTheTreeOpensAnObservation) {
 }
 
 TEST_F(Lists, InANarrowDockSentencesEndWhereTheListEnds) {
-  desk_->workspace.document.tell("a sentence that is much longer than the dock in which the diagnostics stand is wide");
+  app_->workspace.document.tell("a sentence that is much longer than the dock in which the diagnostics stand is wide");
   window_->resize(1366, 768);
   settle();
   raise("diagnostics");
@@ -158,7 +158,7 @@ TEST_F(Lists, InANarrowDockSentencesEndWhereTheListEnds) {
 TEST_F(Lists, TheTreeShowsTimePingsAndSchoolsWithoutBeingMoved) {
   for (const QSize size : {QSize(1366, 768), QSize(1600, 1000), QSize(1920, 1200)}) {
     window_->resize(size);
-    desk_->actions.find("view.reset_layout")->run();
+    app_->actions.find("view.reset_layout")->run();
     key(Qt::Key_D);
     const QHeaderView& header = *list("survey_tree").header();
     const auto schools = static_cast<int>(column("survey_tree", "Schools"));
@@ -175,7 +175,7 @@ TEST_F(Lists, AReviewIsThreeKeysASchool) {
   make_schools();
   const std::size_t all = rows("schools").rows();
   raise("review");
-  desk_->preferences.advance = true;
+  app_->preferences.advance = true;
   key(Qt::Key_N);
   for (std::size_t i = 0; i < all; ++i) {
     ASSERT_TRUE(workspace().school());

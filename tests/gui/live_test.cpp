@@ -16,7 +16,7 @@ class Live : public ClockedWindow {
   void turns() {
     for (int i = 0; i < 6; ++i) {
       tick(0.3);
-      desk_->live->settle();
+      app_->live->settle();
       settle_jobs();
     }
   }

@@ -115,7 +115,7 @@ TEST_F(Menus, EntriesAreGreyedAsInTheMenuBar) {
   int greyed = 0;
   for (const QAction* entry : menu->actions()) {
     if (entry->isSeparator()) continue;
-    const Action* action = desk_->actions.find(entry->objectName().toStdString());
+    const Action* action = app_->actions.find(entry->objectName().toStdString());
     ASSERT_NE(action, nullptr) << entry->text().toStdString() << " stands in no other menu";
     EXPECT_EQ(entry->isEnabled(), !action->enabled || action->enabled()) << action->id;
     greyed += entry->isEnabled() ? 0 : 1;
@@ -126,15 +126,15 @@ TEST_F(Menus, EntriesAreGreyedAsInTheMenuBar) {
 }
 
 TEST_F(Menus, ARightClickOnTheTimelineIsAboutItsPing) {
-  desk_->asking.text = [](const std::string&, const std::string&, const std::string&) { return std::string("haul"); };
-  const auto& timeline = dynamic_cast<TimelineModel&>(*desk_->picture("observation_timeline"));
+  app_->dialogs.text = [](const std::string&, const std::string&, const std::string&) { return std::string("haul"); };
+  const auto& timeline = dynamic_cast<TimelineModel&>(*app_->picture("observation_timeline"));
   const PixelRect& plot = timeline.places()->plot.place;
   const TimeNs time = document().shown()->files().navigation[6].time;
   QMenu* menu = right_click("observation_timeline", {timeline.places()->x_of(time), plot.y + 0.5 * plot.height});
   EXPECT_EQ(document().ping(), 6);
   choose(*menu, "event.trawl");
   ASSERT_EQ(document().state().events.size(), 1U);
-  EXPECT_EQ(document().state().events[0].time, document().shown()->ground().times[6]);
+  EXPECT_EQ(document().state().events[0].time, document().shown()->context().times[6]);
 }
 
 TEST_F(Menus, RowsAndTheTreeHaveMenusToo) {
@@ -142,7 +142,7 @@ TEST_F(Menus, RowsAndTheTreeHaveMenusToo) {
   QMenu* menu = right_click("survey_tree", tree->viewport(), {30.0, 8.0});
   EXPECT_TRUE(offers(*menu, "export.results"));
   choose(*menu, "schools.detect");
-  ASSERT_GE(desk_->rows("schools")->rows(), 1U);
+  ASSERT_GE(app_->rows("schools")->rows(), 1U);
   raise("schools");
   auto* list = view("schools")->findChild<QTreeView*>("rows");
   menu = right_click("schools", list->viewport(), {30.0, 8.0});
@@ -156,11 +156,11 @@ TEST_F(Menus, RowsAndTheTreeHaveMenusToo) {
 }
 
 TEST_F(Menus, EveryViewAndListHasAMenu) {
-  for (const PictureDock& one : desk_->pictures) {
+  for (const PictureDock& one : app_->pictures) {
     raise(one.id);
     close(*right_click(one.id, {20.0, 20.0}));
   }
-  for (const RowsDock& one : desk_->lists) {
+  for (const RowsDock& one : app_->lists) {
     raise(one.id);
     close(*right_click(one.id, view(one.id)->findChild<QTreeView*>("rows")->viewport(), {20.0, 8.0}));
   }

@@ -77,7 +77,7 @@ class Pictures : public WindowAtWork {
     workspace().volume.assign(volume);
     window_->resize(1600, 1000);
     settle();
-    desk_->asking.reset_layout();
+    app_->dialogs.reset_layout();
     settle();
     const Target target = look_at_school();
     double_click("top_slice", place_in("top_slice", target.voxel));
@@ -109,8 +109,8 @@ class Pictures : public WindowAtWork {
   }
   void compare_view(const std::string& id, const PictureThresholds& thresholds) {
     raise(id);
-    ASSERT_EQ(desk_->picture(id)->problem(), "") << id;
-    compare(id, desk_->picture(id)->image(), thresholds);
+    ASSERT_EQ(app_->picture(id)->problem(), "") << id;
+    compare(id, app_->picture(id)->image(), thresholds);
   }
 };
 

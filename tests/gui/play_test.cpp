@@ -20,21 +20,21 @@ class Playing : public ClockedWindow {
 
 TEST_F(Playing, SpaceShowsEveryPingAtItsTimeAndSpaceStopsIt) {
   press(Qt::Key_Space);
-  ASSERT_TRUE(desk_->playback->playing());
+  ASSERT_TRUE(app_->playback->playing());
   tick(0.0);
-  std::int64_t pictures = desk_->picture("top_slice")->pictures();
+  std::int64_t pictures = app_->picture("top_slice")->pictures();
   for (std::int64_t ping = 0; ping < 3; ++ping) {
     tick(0.9 * between_s(ping));
     EXPECT_EQ(document().ping(), ping) << "too early";
     tick(0.2 * between_s(ping));
     EXPECT_EQ(document().ping(), ping + 1);
     EXPECT_EQ(document().staged()->ping_index, ping + 1);
-    EXPECT_GT(desk_->picture("top_slice")->pictures(), pictures) << "the slice follows";
-    pictures = desk_->picture("top_slice")->pictures();
+    EXPECT_GT(app_->picture("top_slice")->pictures(), pictures) << "the slice follows";
+    pictures = app_->picture("top_slice")->pictures();
     tick(0.0);  // the ping is seen from now on
   }
   press(Qt::Key_Space);
-  EXPECT_FALSE(desk_->playback->playing());
+  EXPECT_FALSE(app_->playback->playing());
   tick(100.0);
   EXPECT_EQ(document().ping(), 3);
 }
@@ -50,7 +50,7 @@ TEST_F(Playing, PlusIsTwiceAsFastAndTheEndStops) {
   press(Qt::Key_End);
   tick(0.0);
   tick(0.0);
-  EXPECT_FALSE(desk_->playback->playing());
+  EXPECT_FALSE(app_->playback->playing());
   EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
 }
 

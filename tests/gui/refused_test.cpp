@@ -32,7 +32,7 @@ class Refused : public WindowAtWork {
     return QToolTip::text().toStdString();
   }
   const std::vector<PlacedMark>& marks() {
-    return dynamic_cast<SliceModel&>(*desk_->picture("top_slice")).picture()->refused;
+    return dynamic_cast<SliceModel&>(*app_->picture("top_slice")).picture()->refused;
   }
 };
 

@@ -167,7 +167,7 @@ TEST_F(Schools, TheStripFillsWhileASchoolIsFollowed) {
   raise("propagation");
   const PixelPoint place = place_in("top_slice", target.voxel);
   click("top_slice", place);
-  LivePicture* strip = desk_->picture("propagation");
+  LivePicture* strip = app_->picture("propagation");
   ASSERT_TRUE(strip->seen());
   const Image before = strip->image();
   gate_.shut();

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "gui/action_menus.h"
-#include "session/demo.h"
+#include "session/open_demo.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -26,16 +26,16 @@ class Surroundings : public WindowAtWork {
 
 TEST_F(Surroundings, ADepthChartLiesUnderTheSurveyMapAndIsTakenAway) {
   raise("survey_map");
-  const Image plain = desk_->picture("survey_map")->image();
-  desk_->asking.file_to_open = [this](const auto&, const auto&) { return (survey_ / "truth" / "depth.tif").string(); };
+  const Image plain = app_->picture("survey_map")->image();
+  app_->dialogs.file_to_open = [this](const auto&, const auto&) { return (survey_ / "truth" / "depth.tif").string(); };
   trigger("map.depths");
-  const Image charted = desk_->picture("survey_map")->image();
-  EXPECT_TRUE(desk_->picture("survey_map")->problem().empty());
+  const Image charted = app_->picture("survey_map")->image();
+  EXPECT_TRUE(app_->picture("survey_map")->problem().empty());
   std::size_t changed = 0;
   for (std::size_t i = 0; i < plain.pixels.size(); ++i) changed += plain.pixels[i] == charted.pixels[i] ? 0U : 1U;
   EXPECT_GT(changed, plain.pixels.size() / 4) << "the sea takes the chart's colours";
   trigger("map.no_depths");
-  EXPECT_EQ(desk_->picture("survey_map")->image(), plain);
+  EXPECT_EQ(app_->picture("survey_map")->image(), plain);
 }
 
 TEST_F(Surroundings, AJournalThatMustGoElsewhereIsTold) {
@@ -46,15 +46,15 @@ TEST_F(Surroundings, AJournalThatMustGoElsewhereIsTold) {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
   DocumentOptions options = TestSurvey::options(own);
   options.journal_folders = [blocked, own](const auto&) { return std::vector{blocked, own}; };
-  desk_ = std::make_unique<Desk>(pump_->queue(), options);
-  window_ = std::make_unique<MainWindow>(*desk_);
+  app_ = std::make_unique<AppModel>(pump_->queue(), options);
+  window_ = std::make_unique<MainWindow>(*app_);
   window_->show();
   document().open({survey_});
   settle();
   ASSERT_FALSE(document().notices().empty());
   EXPECT_THAT(document().notices().back(), testing::HasSubstr("cannot be written to"));
   EXPECT_THAT(window_->statusBar()->currentMessage().toStdString(), testing::HasSubstr(own.string()));
-  document().act(EventCommand{"other", document().shown()->ground().times[1], "kept"});
+  document().act(EventCommand{"other", document().shown()->context().times[1], "kept"});
   settle();
   EXPECT_TRUE(fs::exists(own / "session.jsonl"));
 }
@@ -67,7 +67,7 @@ TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {
   EXPECT_NE(view("top_slice")->grab().toImage(), plain);
   const Target target = look_at_school();
   move("top_slice", place_in("top_slice", target.voxel));
-  EXPECT_THAT(desk_->picture("top_slice")->timing(), testing::MatchesRegex("[0-9.]+ ms, growth [0-9.]+ ms"));
+  EXPECT_THAT(app_->picture("top_slice")->timing(), testing::MatchesRegex("[0-9.]+ ms, growth [0-9.]+ ms"));
   keep_picture("latencies");
   key(Qt::Key_F12);
   EXPECT_FALSE(workspace().latencies());
@@ -78,7 +78,7 @@ TEST_F(Surroundings, ADemoThatWasMadeOpensWithItsDepthChart) {
   fs::create_directories(made);
   fs::copy(survey_, made, fs::copy_options::recursive);
   fs::create_directories(made / "truth" / "complete");
-  open_demo(*desk_, made);
+  open_demo(*app_, made);
   settle();
   ASSERT_TRUE(document().staged());
   EXPECT_EQ(document().paths().front(), made);

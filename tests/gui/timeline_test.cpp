@@ -12,7 +12,7 @@ namespace {
 class Timeline : public WindowAtWork {
  protected:
   static constexpr const char* kDock = "observation_timeline";
-  TimelineModel& timeline() { return dynamic_cast<TimelineModel&>(*desk_->picture(kDock)); }
+  TimelineModel& timeline() { return dynamic_cast<TimelineModel&>(*app_->picture(kDock)); }
   TimeNs time_of(std::int64_t ping) {
     return document().shown()->files().navigation[static_cast<std::size_t>(ping)].time;
   }
@@ -40,7 +40,7 @@ TEST_F(Timeline, AJumpTakesEveryViewWithItAsStepsDo) {
   const auto pictures = [this] {
     std::vector<Image> all;
     for (const char* id : {"top_slice", "side_slice", "volume", "observation_map"})
-      all.push_back(desk_->picture(id)->image());
+      all.push_back(app_->picture(id)->image());
     return all;
   };
   // Step by step first, for what each view shows of a ping.
@@ -56,7 +56,7 @@ TEST_F(Timeline, AJumpTakesEveryViewWithItAsStepsDo) {
     EXPECT_NE(jumped[i], at_two[i]) << i;
   }
   raise("survey_timeline");
-  auto& survey = dynamic_cast<TimelineModel&>(*desk_->picture("survey_timeline"));
+  auto& survey = dynamic_cast<TimelineModel&>(*app_->picture("survey_timeline"));
   const PixelRect& plot = survey.places()->plot.place;
   click("survey_timeline", {survey.places()->x_of(time_of(2)), plot.y + 0.5 * plot.height});
   EXPECT_EQ(document().staged()->ping_index, 2);
@@ -65,7 +65,7 @@ TEST_F(Timeline, AJumpTakesEveryViewWithItAsStepsDo) {
 
 TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {
   std::string asked;
-  desk_->asking.text = [&](const std::string& title, const std::string&, const std::string&) {
+  app_->dialogs.text = [&](const std::string& title, const std::string&, const std::string&) {
     asked = title;
     return std::string("trawl 12");
   };
@@ -77,7 +77,7 @@ TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {
   const EventCommand& event = document().state().events[0];
   EXPECT_EQ(event.kind, "trawl");
   EXPECT_EQ(event.text, "trawl 12");
-  EXPECT_EQ(event.time, document().shown()->ground().times[5]);
+  EXPECT_EQ(event.time, document().shown()->context().times[5]);
   EXPECT_FALSE(timeline().image() == before) << "the mark is drawn";
   EXPECT_THAT(timeline().hint(place_of(5)), testing::HasSubstr("trawl: trawl 12"));
   click(kDock, place_of(1));
@@ -102,7 +102,7 @@ TEST_F(Timeline, AnIntervalThatIsMarkedBadTakesNoPartInMeasures) {
   EXPECT_EQ(*workspace().marked_interval(), (MarkedInterval{0, first, first + 1}));
   key(Qt::Key_X, Qt::ShiftModifier);
   ASSERT_EQ(document().state().bad_pings.size(), 1U);
-  const auto& times = document().shown()->ground().times;
+  const auto& times = document().shown()->context().times;
   EXPECT_TRUE(is_bad(document().state(), times[static_cast<std::size_t>(first)]));
   EXPECT_TRUE(is_bad(document().state(), times[static_cast<std::size_t>(first + 1)]));
   EXPECT_EQ(document().product(0)->schools.at(0).n_pings, measured - 2);

@@ -20,7 +20,7 @@ class VolumeInTheWindow : public WindowAtWork {
     target_ = look_at_school();
     raise("volume");
   }
-  VolumeModel& model() { return dynamic_cast<VolumeModel&>(*desk_->picture("volume")); }
+  VolumeModel& model() { return dynamic_cast<VolumeModel&>(*app_->picture("volume")); }
   PixelPoint middle() {
     const PixelRect& place = model().shown()->place;
     return {place.x + 0.5 * place.width, place.y + 0.5 * place.height};

@@ -11,12 +11,12 @@ void WindowAtWork::open() {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
   DocumentOptions options = TestSurvey::options(journal_);
   options.recipe = recipe_;
-  desk_ = std::make_unique<Desk>(pump_->queue(), std::move(options));
+  app_ = std::make_unique<AppModel>(pump_->queue(), std::move(options));
   // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
   VolumeParams quick;
   quick.frames = 1;
   workspace().volume.assign(quick);
-  window_ = std::make_unique<MainWindow>(*desk_);
+  window_ = std::make_unique<MainWindow>(*app_);
   window_->show();
   window_->activateWindow();  // keys go to the window that is active
   ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
@@ -27,7 +27,7 @@ void WindowAtWork::open() {
 void WindowAtWork::close() {
   gate_.open();
   window_.reset();
-  desk_.reset();
+  app_.reset();
   pump_.reset();
 }
 
@@ -42,22 +42,22 @@ void WindowAtWork::settle_jobs() {
     QApplication::sendPostedEvents();
     QApplication::processEvents();
     document().settle();
-    for (PictureDock& dock : desk_->pictures) dock.picture->wait();
-    desk_->transfer->wait();
-    desk_->seed_tool->wait();
+    for (PictureDock& dock : app_->pictures) dock.picture->wait();
+    app_->transfer->wait();
+    app_->seed_tool->wait();
     if (pump_->queue().drain() > 0) quiet = -1;
   }
 }
 
 void WindowAtWork::settle() {
   do {
-    while (desk_->pulse.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    while (app_->animations.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
     settle_jobs();
-  } while (desk_->pulse.running());
+  } while (app_->animations.running());
 }
 
 PixelPoint WindowAtWork::place_in(const std::string& dock, const Voxel& voxel) {
-  const auto* slice = dynamic_cast<SliceModel*>(desk_->picture(dock));
+  const auto* slice = dynamic_cast<SliceModel*>(app_->picture(dock));
   EXPECT_NE(slice, nullptr);
   const auto place = slice->picture()->place_of(voxel);
   EXPECT_TRUE(place);
@@ -81,7 +81,7 @@ WindowAtWork::Target WindowAtWork::look_at_school() {
     left -= run.count;
   }
   document().look_at(target.ping);
-  desk_->workspace.slices.set({target.voxel.fan, target.voxel.beam});
+  app_->workspace.slices.set({target.voxel.fan, target.voxel.beam});
   settle();
   return target;
 }

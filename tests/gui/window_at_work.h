@@ -36,8 +36,8 @@ class WindowAtWork : public testing::Test {
   /// The window as it is now, in the folder that SONAR_GUI_PICTURES names; nothing where it names none.
   void keep_picture(const std::string& name);
 
-  [[nodiscard]] Document& document() { return desk_->workspace.document; }
-  [[nodiscard]] Workspace& workspace() { return desk_->workspace; }
+  [[nodiscard]] Document& document() { return app_->workspace.document; }
+  [[nodiscard]] Workspace& workspace() { return app_->workspace; }
 
   /// Until an event, a job and a picture more bring nothing more.
   void settle();
@@ -118,7 +118,7 @@ class WindowAtWork : public testing::Test {
   Recipe recipe_;  ///< that the window works under
   Gate gate_;
   std::unique_ptr<QueuePump> pump_;
-  std::unique_ptr<Desk> desk_;
+  std::unique_ptr<AppModel> app_;
   std::unique_ptr<MainWindow> window_;
 };
 

@@ -76,12 +76,12 @@ sonar::Run longest_run(const SchoolMasks::InPing& there) {
 }
 
 /// A session: every kind of act, each upon what the acts before it left.
-std::vector<JournalLine> session(const CommandGround& ground, JournalState& state) {
+std::vector<JournalLine> session(const CommandContext& context, JournalState& state) {
   std::vector<JournalLine> lines;
   const auto act = [&](std::int64_t ping, Command command) {
     const JournalAct made{static_cast<std::int64_t>(lines.size()) + 1, 1'600'000'000 * kSecondNs, "someone",
-                          ground.times[static_cast<std::size_t>(ping)], std::move(command)};
-    auto next = apply(made, state, ground);
+                          context.times[static_cast<std::size_t>(ping)], std::move(command)};
+    auto next = apply(made, state, context);
     EXPECT_TRUE(next) << command_name(made.command) << ": " << (next ? "" : next.error().text);
     if (next) state = *next;
     lines.push_back(line_of(made));
@@ -90,19 +90,19 @@ std::vector<JournalLine> session(const CommandGround& ground, JournalState& stat
   const SchoolMasks first = school(0);
   const SchoolMasks::InPing middle = first.pings[first.pings.size() / 2];
   const sonar::Run run = longest_run(middle);
-  const int channel = ground.grid->channel[static_cast<std::size_t>(run.row)];
-  act(middle.ping_index, DecideCommand{{{key_of(first, ground), "accepted", "herring", {}}}, ""});
-  act(middle.ping_index, BrushCommand{{{channel, run.first_sample, run.count + 30}}, key_of(first, ground)});
-  act(middle.ping_index, ReshapeCommand{Reshaping::smooth, key_of(school(0), ground), true});
+  const int channel = context.grid->channel[static_cast<std::size_t>(run.row)];
+  act(middle.ping_index, DecideCommand{{{key_of(first, context), "accepted", "herring", {}}}, ""});
+  act(middle.ping_index, BrushCommand{{{channel, run.first_sample, run.count + 30}}, key_of(first, context)});
+  act(middle.ping_index, ReshapeCommand{Reshaping::smooth, key_of(school(0), context), true});
   PropagateCommand click;
   const SchoolMasks second = school(1);
   const SchoolMasks::InPing& there = second.pings[second.pings.size() / 2];
   const sonar::Run seed = longest_run(there);
-  click.seeds = {{ground.grid->channel[static_cast<std::size_t>(seed.row)], seed.first_sample + seed.count / 2}};
+  click.seeds = {{context.grid->channel[static_cast<std::size_t>(seed.row)], seed.first_sample + seed.count / 2}};
   act(there.ping_index, click);
   const SchoolMasks carried = state.schools.back()->masks;
-  act(carried.pings[carried.pings.size() / 2].ping_index, SplitCommand{key_of(carried, ground), {}});
-  act(0, BadPingsCommand{ground.times[2], ground.times[4]});
+  act(carried.pings[carried.pings.size() / 2].ping_index, SplitCommand{key_of(carried, context), {}});
+  act(0, BadPingsCommand{context.times[2], context.times[4]});
   return lines;
 }
 
@@ -110,9 +110,9 @@ TEST_F(CommandsObserved, RunOnTheJournalGivesTheSameMasksAsTheState) {
   Work work(1);
   Engine engine(*survey_, observation(), {});
   ASSERT_TRUE(engine.estimate_background(0, engine.pings() - 1, work));
-  const CommandGround ground = ground_of(engine, {0, engine.pings() - 1});
+  const CommandContext context = context_of(engine, {0, engine.pings() - 1});
   JournalState state = detected();
-  const std::vector<JournalLine> lines = session(ground, state);
+  const std::vector<JournalLine> lines = session(context, state);
 
   // Through a file, as a run gets them.
   const std::string path = (folder_ / "session.jsonl").string();
@@ -122,7 +122,7 @@ TEST_F(CommandsObserved, RunOnTheJournalGivesTheSameMasksAsTheState) {
   ASSERT_EQ(journal->lines.size(), lines.size());
   const ObservationProduct product = observed(effective_lines(journal->lines));
 
-  const auto schools = numbered(measured_masks_of(state, ground.times), *observation().grid);
+  const auto schools = numbered(measured_masks_of(state, context.times), *observation().grid);
   ASSERT_EQ(product.schools.size(), schools.size());
   std::size_t row = 0;
   for (const SchoolMasks& school : schools) {

@@ -29,7 +29,7 @@ inline std::int16_t speckle(int ping, int channel, int sample) {
 }
 
 /// Counts of 10 log10(2)/256 dB re 1 W: noise at -150 dB, a school at -112 dB that comes nearer by two samples a ping,
-/// the seabed under the deepest fans, a lost packet's hot beam, a wall.
+/// the seabed under the deepest fans, a beam with corrupted packets, interference.
 inline std::int16_t power(int ping, int fan, int beam, int sample) {
   int counts = -12'757;
   const int off_beam = beam - 5;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "io/simrad/test_bytes.h"
 #include "pipeline/tasks/run.h"
 #include "synth/beam_table.h"

@@ -208,7 +208,7 @@ TEST_F(Observe, ChannelWithoutCalibrationIsNotedAndNotUsed) {
   const auto ping = engine.staged(0);
   ASSERT_TRUE(ping);
   const int row = altered.grid->row_of_channel()[7];
-  for (const SampleFlags flags : ping->sv.flags.view().row(row)) ASSERT_TRUE(any(flags & SampleFlags::lost));
+  for (const SampleFlags flags : ping->sv.flags.view().row(row)) ASSERT_TRUE(any(flags & SampleFlags::dropout));
   for (const std::int16_t sv : ping->sv.counts.view().row(row)) ASSERT_EQ(sv, kNoData);
 }
 

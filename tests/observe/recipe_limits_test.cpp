@@ -34,7 +34,7 @@ class ToEnd {
   }
   void field(std::string_view name, double& value, const FieldInfo& info) { number(name, value, info); }
   template <class E>
-  void choice(std::string_view, E&, ChoiceNames, std::string_view) {}
+  void choice(std::string_view, E&, ChoiceNames, const ChoiceInfo&) {}
   template <class P>
   void group(std::string_view name, P& p, std::string_view) {
     const std::string outer = prefix_;

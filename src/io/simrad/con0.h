@@ -18,7 +18,7 @@ struct Con0 {
 /// Family from the sounder's name.
 [[nodiscard]] SounderKind kind_of(const std::string& sounder_name);
 
-/// Reads the body of a CON0 (formats.md 2): header and as many whole 320-byte beam blocks as there are, never more
+/// Reads the body of a CON0: header and as many whole 320-byte beam blocks as there are, never more
 /// than it says. Numbers that are not finite become NaN; texts are cut at their first NUL.
 [[nodiscard]] Con0 parse_con0(std::span<const std::byte> body);
 

@@ -57,8 +57,8 @@ ReducedRow reduced_row_at(std::span<const std::byte> bytes, std::size_t at, bool
   return row;
 }
 
-/// The extension of reduced files, where there is one; rest goes on behind it.
-std::optional<ReducedRow> parse_reduced(std::span<const std::byte>& rest) {
+/// What of a whole beam stands first in the extension of reduced files; rest goes on behind it.
+std::optional<ReducedRow> parse_reduced_row(std::span<const std::byte>& rest) {
   const bool earlier = begins_with(rest, kReducedMark1);
   const std::size_t bytes = kReducedBytes - (earlier ? kOpenBytes : 0);
   if (rest.size() < bytes || !(earlier || begins_with(rest, kReducedMark))) return std::nullopt;
@@ -152,15 +152,19 @@ std::optional<ReducedSeabed> parse_reduced_seabed(std::span<const std::byte> res
   return ReducedSeabed{values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
-/// What one channel of a reduced ping says of the whole ping.
-void parse_reduced_ping(std::span<const std::byte> rest, ChannelPing& head) {
+/// The extension of reduced files, where there is one.
+std::optional<ReducedRecord> parse_reduced(std::span<const std::byte> rest) {
+  const auto row = parse_reduced_row(rest);
+  if (!row) return std::nullopt;
+  ReducedRecord record{*row};
   if (begins_with(rest, kReducedSeabedMark)) {
-    head.reduced_seabed = parse_reduced_seabed(rest);
+    record.seabed = parse_reduced_seabed(rest);
     rest = rest.subspan(std::min(rest.size(), kReducedSeabedBytes));
   }
-  head.reduced_water = parse_reduced_water(rest);
+  record.water = parse_reduced_water(rest);
   rest = rest.subspan(reduced_water_bytes(rest));
-  head.reduced_short = parse_reduced_short(rest);
+  record.short_beams = parse_reduced_short(rest);
+  return record;
 }
 
 }  // namespace
@@ -218,9 +222,8 @@ Raw0 parse_raw0(std::span<const std::byte> body) {
   }
   if ((head.mode & 1) == 0) return unusable(raw, "no power samples in this mode", DiagnosticCode::no_power);
   raw.power = body.subspan(kRaw0HeadBytes, static_cast<std::size_t>(count) * 2);
-  auto behind = body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count)));
-  head.reduced = parse_reduced(behind);
-  if (head.reduced) parse_reduced_ping(behind, head);
+  head.reduced =
+      parse_reduced(body.subspan(kRaw0HeadBytes + static_cast<std::size_t>(promised_bytes(head.mode, count))));
   return raw;
 }
 

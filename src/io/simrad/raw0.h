@@ -53,7 +53,7 @@ struct Raw0 {
   [[nodiscard]] int end() const { return head.offset + count(); }
 };
 
-/// Reads a RAW0 body (formats.md 4): header, and where the power counts lie. Angles and complex samples are skipped.
+/// Reads a RAW0 body: header, and where the power counts lie. Angles and complex samples are skipped.
 [[nodiscard]] Raw0 parse_raw0(std::span<const std::byte> body);
 
 }  // namespace sonar::simrad

@@ -53,10 +53,10 @@ Result<PingMask> selection_of(const Edit& edit, const PropagateCommand& command,
     }
     return edit.mask(*school, edit.ping());
   }
-  auto ping = edit.ground().ping(edit.ping());
+  auto ping = edit.context().ping(edit.ping());
   if (!ping) return pass_on(ping);
   ping->taken = edit.taken(edit.ping(), {});
-  return grow_seeds(edit.ground(), *ping, command.seeds, command.growth_curve, command.grow);
+  return grow_seeds(edit.context(), *ping, command.seeds, command.growth_curve, command.grow);
 }
 
 Result<void> apply_to_ping(Edit& edit, const Command& command) {
@@ -81,21 +81,21 @@ bool about_times(const Command& command) {
          std::holds_alternative<CalibrateCommand>(command) || std::holds_alternative<DecideCommand>(command);
 }
 
-bool overlaps(const CommandGround& ground, TimeNs first, TimeNs last) {
-  return !ground.times.empty() && first <= ground.times.back() && last >= ground.times.front();
+bool overlaps(const CommandContext& context, TimeNs first, TimeNs last) {
+  return !context.times.empty() && first <= context.times.back() && last >= context.times.front();
 }
 
 /// What is no school's: marks and bad pings, where the observation has such times, and the calibration.
 Result<void> say_of_times(Edit& edit, const Command& command) {
-  const CommandGround& ground = edit.ground();
+  const CommandContext& context = edit.context();
   if (const auto* event = std::get_if<EventCommand>(&command)) {
-    if (overlaps(ground, event->time, event->time)) edit.add_event(*event);
+    if (overlaps(context, event->time, event->time)) edit.add_event(*event);
   } else if (const auto* removed = std::get_if<RemoveEventCommand>(&command)) {
-    if (overlaps(ground, removed->event.time, removed->event.time)) return edit.remove_event(removed->event);
+    if (overlaps(context, removed->event.time, removed->event.time)) return edit.remove_event(removed->event);
   } else if (const auto* bad = std::get_if<BadPingsCommand>(&command)) {
-    if (overlaps(ground, bad->first, bad->last)) edit.take_bad(command);
+    if (overlaps(context, bad->first, bad->last)) edit.take_bad(command);
   } else if (const auto* good = std::get_if<GoodPingsCommand>(&command)) {
-    if (overlaps(ground, good->first, good->last)) edit.take_bad(command);
+    if (overlaps(context, good->first, good->last)) edit.take_bad(command);
   } else if (const auto* calibrate = std::get_if<CalibrateCommand>(&command)) {
     edit.calibrate(calibrate->calibration);
   }
@@ -114,7 +114,7 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
   const auto selection = selection_of(edit, command, school);
   if (!selection) return pass_on(selection);
   const TakenVoxels taken = [&](std::int64_t ping_index) { return edit.taken(ping_index, school); };
-  auto made = carry(edit.ground(), edit.ping(), *selection, command, taken);
+  auto made = carry(edit.context(), edit.ping(), *selection, command, taken);
   if (!made) return pass_on(made);
   note_ends(edit, *made);
   edit.carried_out_as(made->reached);
@@ -123,7 +123,7 @@ Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
     const auto before = edit.state().schools[*school]->grown;
     edit.touch(*school);
     if (before && before->ping_index == edit.ping()) edit.set_grown(*school, followed_by(*before, made->reached));
-    edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.ground().limits));
+    edit.set_pings(*school, kept_pings(edit.masks(*school), edit.ping(), made->reached, edit.context().limits));
     for (const auto& there : carried) edit.set_mask(*school, there.ping_index, there.mask, there.threshold_db);
     // A side that was not followed ends as it did before.
     ReachEnds ends = edit.masks(*school).reach;
@@ -141,7 +141,7 @@ Result<void> carry_out(Edit& edit, const DecideCommand& command) {
   int lost = 0;
   int found = 0;
   for (const Decision& decision : command.decisions) {
-    if (!ping_at(edit.ground(), decision.school.ping_time)) continue;  // another observation's
+    if (!ping_at(edit.context(), decision.school.ping_time)) continue;  // another observation's
     if (const auto school = edit.find(decision.school)) {
       edit.decide(*school, decision);
       ++found;
@@ -158,10 +158,10 @@ Result<void> carry_out(Edit& edit, const DecideCommand& command) {
   return {};
 }
 
-Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
-  const auto ping = ping_at(ground, act.ping_time);
+Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, const CommandContext& context) {
+  const auto ping = ping_at(context, act.ping_time);
   if (!ping && !about_times(act.command)) return Applied{act, state};
-  Edit edit(act, ping.value_or(-1), state, ground);
+  Edit edit(act, ping.value_or(-1), state, context);
   if (auto said = say_of_times(edit, act.command); !said) return pass_on(said);
   if (auto done = apply_to_ping(edit, act.command); !done) {
     Error error = done.error();
@@ -174,27 +174,27 @@ Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, 
   return applied;
 }
 
-Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground) {
-  auto applied = apply_watched(act, state, ground);
+Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandContext& context) {
+  auto applied = apply_watched(act, state, context);
   if (!applied) return pass_on(applied);
   return std::move(applied->state);
 }
 
-JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& whole_ground) {
-  CommandGround ground = whole_ground;
-  ground.on_step = {};  // what the lines say is not for anyone to stop
+JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandContext& whole_seabed) {
+  CommandContext context = whole_seabed;
+  context.on_step = {};  // what the lines say is not for anyone to stop
   for (const JournalLine& line : lines) {
     const auto spans = times_of(line);
     const bool concerns = std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {
-      return span.first == span.last ? ping_at(ground, span.first).has_value()
-                                     : overlaps(ground, span.first, span.last);
+      return span.first == span.last ? ping_at(context, span.first).has_value()
+                                     : overlaps(context, span.first, span.last);
     });
     const auto act = act_of(line);
-    auto next = act ? apply(*act, state, ground) : Result<JournalState>(pass_on(act));
+    auto next = act ? apply(*act, state, context) : Result<JournalState>(pass_on(act));
     if (next) {
       state = std::move(*next);
     } else if (concerns) {
-      state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(ground, line.ping_time).value_or(-1),
+      state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(context, line.ping_time).value_or(-1),
                              said_of(line) + next.error().text});
     }
   }

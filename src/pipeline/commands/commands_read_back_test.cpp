@@ -11,7 +11,7 @@
 
 #include "pipeline/commands/state.h"
 #include "pipeline/commands/test_commands.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 
 namespace sonar {
 namespace {
@@ -36,11 +36,11 @@ TEST(CommandsReadBack, FoldOfAPrefixAndTheRestIsTheFoldOfAll) {
   for (const auto& [ping, command] : every_command()) {
     lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
   }
-  const std::string all = told(fold(lines, SmallSea::detected(), sea.ground()));
+  const std::string all = told(fold(lines, SmallSea::detected(), sea.context()));
   for (std::size_t cut = 0; cut <= lines.size(); ++cut) {
     const std::span<const JournalLine> every(lines);
-    const JournalState first = fold(every.first(cut), SmallSea::detected(), sea.ground());
-    ASSERT_EQ(told(fold(every.subspan(cut), first, sea.ground())), all) << "cut at " << cut;
+    const JournalState first = fold(every.first(cut), SmallSea::detected(), sea.context());
+    ASSERT_EQ(told(fold(every.subspan(cut), first, sea.context())), all) << "cut at " << cut;
   }
 }
 
@@ -57,7 +57,7 @@ TEST(CommandsReadBack, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
   EXPECT_EQ(line_of(*read).args.dump(), act.args.dump());  // as text: an unknown value equals nothing
   // Wherever it was said, it is about the whole survey.
   act.ping_time += 1000 * kSecondNs;
-  const JournalState done = fold({&act, 1}, SmallSea::detected(), sea.ground());
+  const JournalState done = fold({&act, 1}, SmallSea::detected(), sea.context());
   EXPECT_EQ(told(done), told(SmallSea::detected()));
   ASSERT_TRUE(done.calibration);
   const Recipe recipe = measuring_recipe({}, done);
@@ -66,7 +66,7 @@ TEST(CommandsReadBack, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
   EXPECT_TRUE(std::isnan(recipe.calibration.beams[0].sa_correction_db));
   EXPECT_EQ(recipe_text(measuring_recipe({}, SmallSea::detected())), recipe_text({}));
   const JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
-  EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.ground()).calibration);
+  EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.context()).calibration);
 }
 
 TEST(CommandsReadBack, ALineThatAsksForDetectionSaysHowManyWereFound) {
@@ -95,7 +95,7 @@ TEST(CommandsReadBack, LinesOfOtherPingsChangeNothing) {
     other.ping_time += kSecondNs;
     lines.push_back(other);
   }
-  EXPECT_EQ(told(fold(lines, SmallSea::detected(), SmallSea{}.ground())), told(SmallSea::detected()));
+  EXPECT_EQ(told(fold(lines, SmallSea::detected(), SmallSea{}.context())), told(SmallSea::detected()));
 }
 
 TEST(CommandsReadBack, WhatCannotBeDoneIsADiagnosticAndChangesNothing) {

@@ -10,7 +10,7 @@
 
 #include "pipeline/commands/state.h"
 #include "pipeline/commands/test_commands.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 #include "school/grow/mask_edit.h"
 
 namespace sonar {
@@ -32,7 +32,7 @@ TEST(Commands, EveryCommandChangesTheStateAndUndoRestoresIt) {
     JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
     JournalLine redo{3, 0, "", "redo", 0, {{"target", 1}}};
     const auto fold_all = [&](const std::vector<JournalLine>& lines) {
-      return fold(effective_lines(lines), SmallSea::detected(), sea.ground());
+      return fold(effective_lines(lines), SmallSea::detected(), sea.context());
     };
     const JournalState done = fold_all({act});
     for (const Diagnostic& note : done.notes) EXPECT_NE(note.code, DiagnosticCode::decision_lost) << note.text;
@@ -46,7 +46,7 @@ TEST(Commands, NoVoxelEverBelongsToTwoSchools) {
   const SmallSea sea;
   JournalState state = SmallSea::detected();
   for (const auto& [ping, command] : every_command()) {
-    const auto next = apply({1, 0, "", ping_time(ping), command}, state, sea.ground());
+    const auto next = apply({1, 0, "", ping_time(ping), command}, state, sea.context());
     if (next) state = *next;
     for (std::size_t a = 0; a < state.schools.size(); ++a) {
       for (std::size_t b = a + 1; b < state.schools.size(); ++b) {
@@ -172,7 +172,7 @@ TEST(Commands, DecisionWithoutItsSchoolIsListedAndNeverMoved) {
 TEST(Commands, BadPingsKeepTheirMasksButAreNotMeasured) {
   const JournalState state = after({{0, BadPingsCommand{ping_time(2), ping_time(4)}}});
   EXPECT_EQ(state.schools[0]->masks.pings.size(), 9U);
-  const auto measured = measured_masks_of(state, SmallSea{}.ground().times);
+  const auto measured = measured_masks_of(state, SmallSea{}.context().times);
   ASSERT_EQ(measured.size(), 2U);
   EXPECT_EQ(measured[0].pings.size(), 6U);
   for (const auto& there : measured[0].pings) EXPECT_TRUE(there.ping_index < 2 || there.ping_index > 4);
@@ -197,14 +197,14 @@ TEST(Commands, MarksAndBadPingsAreTakenBack) {
     EXPECT_EQ(line_of(*read).args, one.args);
     EXPECT_EQ(line_of(*read).command, one.command);
   }
-  const JournalState state = fold(lines, SmallSea::detected(), sea.ground());
+  const JournalState state = fold(lines, SmallSea::detected(), sea.context());
   ASSERT_EQ(state.events.size(), 1U);
   EXPECT_EQ(state.events[0], noise);
   for (int ping = 0; ping < 9; ++ping) {
     EXPECT_EQ(is_bad(state, ping_time(ping)), ping == 2 || ping == 3 || ping == 5) << ping;
   }
   // What is not there is told, and nothing else changes.
-  const JournalState again = fold(lines_of({RemoveEventCommand{trawl}}), state, sea.ground());
+  const JournalState again = fold(lines_of({RemoveEventCommand{trawl}}), state, sea.context());
   EXPECT_EQ(again.events.size(), 1U);
   ASSERT_FALSE(again.notes.empty());
   EXPECT_THAT(again.notes.back().text, testing::HasSubstr("there is no mark trawl"));
@@ -240,20 +240,20 @@ TEST(Commands, WhatIsFoundLaterRenumbersNobody) {
   on_a.seeds = {seed_a()};
   for (const Command& first : {Command(apart), Command(propagate_from(seed_a()))}) {
     std::vector<JournalLine> lines{line(1, 3, first), line(2, 0, DetectCommand{2}), line(3, 6, apart)};
-    const JournalState alone = fold(std::span(lines).first(1), {}, sea.ground());
+    const JournalState alone = fold(std::span(lines).first(1), {}, sea.context());
     ASSERT_EQ(alone.schools.size(), 1U);
     ASSERT_EQ(alone.schools[0]->number, 1);
-    const JournalState state = fold(lines, state_before_detection(found_schools()), sea.ground());
+    const JournalState state = fold(lines, state_before_detection(found_schools()), sea.context());
     EXPECT_EQ(state.schools.front()->number, 1);
     EXPECT_EQ(state.schools.front()->made_by, 1);
     EXPECT_EQ(state.schools.back()->number, 4) << "1 by hand, 2 and 3 found";
     EXPECT_EQ(state.schools.back()->made_by, 3);
     // Of the two that were found the second is B, whether or not the first was taken over.
-    const auto b = school_at(state, sea.ground(), key_b());
+    const auto b = school_at(state, sea.context(), key_b());
     ASSERT_TRUE(b);
     EXPECT_EQ(state.schools[*b]->number, 3);
     // The journal alone knows their numbers while they are still looked for.
-    const JournalState waiting = fold(lines, {}, sea.ground());
+    const JournalState waiting = fold(lines, {}, sea.context());
     EXPECT_EQ(waiting.schools.back()->number, 4);
   }
 }
@@ -269,7 +269,7 @@ TEST(Commands, OnlyClicksAndPropagationsFromThereLeaveASchoolThatGrowsAgain) {
     for (const auto& [ping, command] : acts) {
       lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
     }
-    return fold(lines, {}, sea.ground());
+    return fold(lines, {}, sea.context());
   };
   const JournalState followed = state_after({{3, grow}, {3, on}});
   ASSERT_TRUE(followed.schools[0]->grown);
@@ -291,7 +291,7 @@ TEST(Commands, SchoolIsFoundByTheVoxelThatNamesIt) {
   const SmallSea sea;
   const JournalState state = SmallSea::detected();
   for (std::size_t i = 0; i < state.schools.size(); ++i) {
-    EXPECT_EQ(school_at(state, sea.ground(), key_of(state.schools[i]->masks, sea.ground())), i);
+    EXPECT_EQ(school_at(state, sea.context(), key_of(state.schools[i]->masks, sea.context())), i);
   }
 }
 

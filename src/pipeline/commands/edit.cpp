@@ -36,10 +36,11 @@ std::vector<SchoolMasks::InPing> without(std::vector<SchoolMasks::InPing> pings,
 }  // namespace
 
 Result<std::size_t> Edit::find(const SchoolKey& key) {
-  const auto found = school_at(state_, ground_, key);
+  const auto found = school_at(state_, context_, key);
   if (found) return *found;
-  if (const auto heir = ground_.earlier != nullptr ? heir_of(key, state_, ground_, *ground_.earlier) : std::nullopt) {
-    note_carried(key, key_of(masks(*heir), ground_));
+  if (const auto heir =
+          context_.earlier != nullptr ? heir_of(key, state_, context_, *context_.earlier) : std::nullopt) {
+    note_carried(key, key_of(masks(*heir), context_));
     return *heir;
   }
   return fail(ErrorCode::bad_parameter,
@@ -47,7 +48,7 @@ Result<std::size_t> Edit::find(const SchoolKey& key) {
 }
 
 Result<std::vector<Run>> Edit::rows_of(const std::vector<RunKey>& runs, const Shape3& shape) const {
-  const std::vector<int> rows = ground_.grid->row_of_channel();
+  const std::vector<int> rows = context_.grid->row_of_channel();
   std::vector<Run> out;
   for (const RunKey& run : runs) {
     const auto channel = static_cast<std::size_t>(run.channel);
@@ -190,7 +191,7 @@ void Edit::note(DiagnosticCode code, std::string text) {
 }
 
 void Edit::note_carried(const SchoolKey& then, const SchoolKey& now) {
-  const auto index = [&](const SchoolKey& key) { return ping_at(ground_, key.ping_time).value_or(-1); };
+  const auto index = [&](const SchoolKey& key) { return ping_at(context_, key.ping_time).value_or(-1); };
   std::string text = fmt::format("choice {} ({}): channel {}, sample {} lies in no school any more", act_.n,
                                  command_name(act_.command), then.channel, then.sample);
   text +=
@@ -218,7 +219,7 @@ JournalState Edit::done() {
     const auto pings = static_cast<int>(school->masks.pings.size());
     if (pings == 0) return true;
     const bool reduced = std::find(reduced_.begin(), reduced_.end(), school->number) != reduced_.end();
-    return reduced && !school->by_hand && pings < ground_.least_pings;
+    return reduced && !school->by_hand && pings < context_.least_pings;
   });
   return std::move(state_);
 }

@@ -16,11 +16,11 @@ namespace sonar {
 /// One act at work on a copy of the state: what the commands have in common.
 class Edit {
  public:
-  Edit(const JournalAct& act, std::int64_t ping_index, const JournalState& state, const CommandGround& ground)
-      : act_(act), ping_(ping_index), ground_(ground), state_(state) {}
+  Edit(const JournalAct& act, std::int64_t ping_index, const JournalState& state, const CommandContext& context)
+      : act_(act), ping_(ping_index), context_(context), state_(state) {}
 
   [[nodiscard]] std::int64_t ping() const { return ping_; }
-  [[nodiscard]] const CommandGround& ground() const { return ground_; }
+  [[nodiscard]] const CommandContext& context() const { return context_; }
   [[nodiscard]] const JournalState& state() const { return state_; }
   [[nodiscard]] const SchoolMasks& masks(std::size_t school) const { return state_.schools[school]->masks; }
   /// Index of the school that a key names; that it is known by an older product alone is noted. errors: bad_parameter
@@ -78,7 +78,7 @@ class Edit {
 
   const JournalAct& act_;
   std::int64_t ping_;
-  const CommandGround& ground_;
+  const CommandContext& context_;
   JournalState state_;
   std::optional<PropagateCommand> reached_;
   std::vector<std::int64_t> reduced_;  ///< numbers of detected schools of which a human took voxels

@@ -14,9 +14,9 @@ namespace sonar {
 namespace {
 
 /// Lowest Sv that could be a member, dB; NaN where opacity decides.
-double threshold_of(const GrowCommand& command, const CommandGround& ground, const FilteredPing& ping) {
+double threshold_of(const GrowCommand& command, const CommandContext& context, const FilteredPing& ping) {
   if (command.grow.mode == GrowMode::paper) return kUnknown;
-  const std::vector<int> rows = ground.grid->row_of_channel();
+  const std::vector<int> rows = context.grid->row_of_channel();
   double lowest = kUnknown;
   for (const SeedKey& seed : command.seeds) {  // growing has refused seeds outside the grid
     const auto row = ping.volume->counts.view().row(rows[static_cast<std::size_t>(seed.channel)]);
@@ -59,11 +59,11 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
   if (anew && edit.mask(*school, edit.ping()).empty()) {
     return fail(ErrorCode::bad_parameter, "the school is not in this ping");
   }
-  auto ping = edit.ground().ping(edit.ping());
+  auto ping = edit.context().ping(edit.ping());
   if (!ping) return pass_on(ping);
   const bool away = command.to == GrowTo::take_away;
   ping->taken = away ? PingMask{} : edit.taken(edit.ping(), school);
-  auto grown = grow_seeds(edit.ground(), *ping, command.seeds, command.growth_curve, command.grow);
+  auto grown = grow_seeds(edit.context(), *ping, command.seeds, command.growth_curve, command.grow);
   if (!grown) return pass_on(grown);
   if (grown->empty()) return fail(ErrorCode::bad_parameter, "all voxels there belong to other schools");
   if (away) {
@@ -71,7 +71,7 @@ Result<void> carry_out(Edit& edit, const GrowCommand& command) {
     edit.set_mask(*school, edit.ping(), subtract(edit.mask(*school, edit.ping()), *grown));
     return {};
   }
-  const double threshold_db = threshold_of(command, edit.ground(), *ping);
+  const double threshold_db = threshold_of(command, edit.context(), *ping);
   const auto before = school ? edit.state().schools[*school]->grown : nullptr;
   if (school) {
     edit.touch(*school);
@@ -94,7 +94,7 @@ namespace {
 
 /// What brush and eraser pass over in the line's ping: voxels that can belong to a school.
 Result<PingMask> stroke_of(Edit& edit, const std::vector<RunKey>& runs) {
-  const auto ping = edit.ground().ping(edit.ping());
+  const auto ping = edit.context().ping(edit.ping());
   if (!ping) return pass_on(ping);
   auto rows = edit.rows_of(runs, ping->volume->flags.shape());
   if (!rows) return pass_on(rows);
@@ -152,7 +152,7 @@ Result<void> carry_out(Edit& edit, const ReshapeCommand& command) {
   if (pings.empty()) return fail(ErrorCode::bad_parameter, "the school is not in this ping");
   edit.touch(*school);
   for (const std::int64_t ping_index : pings) {
-    const auto ping = edit.ground().ping(ping_index);
+    const auto ping = edit.context().ping(ping_index);
     if (!ping) return pass_on(ping);
     auto mask = reshaped(command.what, edit.mask(*school, ping_index), *ping);
     if (!mask) return pass_on(mask);

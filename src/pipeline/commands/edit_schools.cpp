@@ -33,8 +33,8 @@ Halves follow(const PingMask& mask, const Halves& neighbour, const Shape3& shape
   return halves;
 }
 
-Shape3 shape_of(const CommandGround& ground) {
-  return {ground.grid->fans(), ground.grid->beams(), ground.sector->range().count};
+Shape3 shape_of(const CommandContext& context) {
+  return {context.grid->fans(), context.grid->beams(), context.sector->range().count};
 }
 
 /// [ping of the school] its halves: the clicked ping's first, then outwards. Where a side has nothing in a ping, the
@@ -81,12 +81,12 @@ Result<void> split_in_space(Edit& edit, std::size_t school, const SeedKey& seed)
   const SchoolMasks before = edit.masks(school);
   const auto* there = in_ping(before, edit.ping());
   if (there == nullptr) return fail(ErrorCode::bad_parameter, "the school is not in this ping");
-  const std::vector<int> rows = edit.ground().grid->row_of_channel();
+  const std::vector<int> rows = edit.context().grid->row_of_channel();
   const auto channel = static_cast<std::size_t>(seed.channel);
   if (channel >= rows.size())
     return fail(ErrorCode::bad_parameter, fmt::format("there is no channel {}", seed.channel));
   const auto halves = halves_of(before, static_cast<std::size_t>(there - before.pings.data()),
-                                {rows[channel], seed.sample}, shape_of(edit.ground()));
+                                {rows[channel], seed.sample}, shape_of(edit.context()));
   if (!halves) return pass_on(halves);
   SchoolMasks apart;
   std::vector<InPing> rest;

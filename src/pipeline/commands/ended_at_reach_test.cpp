@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 
 namespace sonar {
 namespace {
@@ -24,7 +24,7 @@ JournalState after(const Acts& acts) {
   for (const auto& [ping, command] : acts) {
     lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
   }
-  return fold(lines, {}, kSea.ground());
+  return fold(lines, {}, kSea.context());
 }
 
 PropagateCommand reaching(std::int64_t pings) {
@@ -72,13 +72,13 @@ TEST(EndedAtReach, IsMarkedWhereTheReachAloneEndedIt) {
 
 TEST(EndedAtReach, StoppedByAHumanItEndsAtWhatWasReached) {
   const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.on_step = [](std::int64_t ping, const PingMask&) { return ping != 6; };
+  CommandContext context = sea.context();
+  context.on_step = [](std::int64_t ping, const PingMask&) { return ping != 6; };
   const JournalAct act{1, kBegin, "someone", ping_time(4), reaching(-1)};
-  const auto watched = apply_watched(act, {}, ground);
+  const auto watched = apply_watched(act, {}, context);
   ASSERT_TRUE(watched);
   EXPECT_EQ(ends(watched->state, 1), "last");
-  const auto again = apply(watched->act, {}, sea.ground());
+  const auto again = apply(watched->act, {}, sea.context());
   ASSERT_TRUE(again);
   EXPECT_EQ(ends(*again, 1), "last");
 }

@@ -10,7 +10,7 @@
 
 #include "model/school_totals.h"
 #include "pipeline/commands/state.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 #include "pipeline/journal/continued.h"
 
 namespace sonar {
@@ -26,7 +26,7 @@ JournalState after(const Acts& acts, JournalState state = SmallSea::detected()) 
   for (const auto& [ping, command] : acts) {
     lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
   }
-  return fold(lines, std::move(state), kSea.ground());
+  return fold(lines, std::move(state), kSea.context());
 }
 
 PropagateCommand reaching(std::int64_t pings, const SeedKey& seed = seed_a()) {

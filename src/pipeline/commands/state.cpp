@@ -49,17 +49,17 @@ const SchoolMasks::InPing* in_ping(const SchoolMasks& school, std::int64_t ping_
   return found != school.pings.end() && found->ping_index == ping_index ? &*found : nullptr;
 }
 
-std::optional<std::int64_t> ping_at(const CommandGround& ground, TimeNs time) {
-  const auto found = std::lower_bound(ground.times.begin(), ground.times.end(), time);
-  if (found == ground.times.end() || *found != time) return std::nullopt;
-  const std::int64_t index = found - ground.times.begin();
-  if (index < ground.limits.first || index > ground.limits.last) return std::nullopt;
+std::optional<std::int64_t> ping_at(const CommandContext& context, TimeNs time) {
+  const auto found = std::lower_bound(context.times.begin(), context.times.end(), time);
+  if (found == context.times.end() || *found != time) return std::nullopt;
+  const std::int64_t index = found - context.times.begin();
+  if (index < context.limits.first || index > context.limits.last) return std::nullopt;
   return index;
 }
 
-std::optional<std::size_t> school_at(const JournalState& state, const CommandGround& ground, const SchoolKey& key) {
-  const auto ping = ping_at(ground, key.ping_time);
-  const std::vector<int> rows = ground.grid->row_of_channel();
+std::optional<std::size_t> school_at(const JournalState& state, const CommandContext& context, const SchoolKey& key) {
+  const auto ping = ping_at(context, key.ping_time);
+  const std::vector<int> rows = context.grid->row_of_channel();
   if (!ping || key.channel < 0 || static_cast<std::size_t>(key.channel) >= rows.size()) return std::nullopt;
   const int row = rows[static_cast<std::size_t>(key.channel)];
   for (std::size_t i = 0; i < state.schools.size(); ++i) {
@@ -69,15 +69,15 @@ std::optional<std::size_t> school_at(const JournalState& state, const CommandGro
   return std::nullopt;
 }
 
-SchoolKey key_of(const SchoolMasks& school, const CommandGround& ground) {
+SchoolKey key_of(const SchoolMasks& school, const CommandContext& context) {
   if (school.pings.empty()) return {};
   const SchoolMasks::InPing& middle = school.pings[school.pings.size() / 2];
   const auto& confidence = middle.mask.confidence;
   auto left = std::max_element(confidence.begin(), confidence.end()) - confidence.begin();
   for (const Run& run : middle.mask.runs) {
     if (left < run.count) {
-      return {ground.times[static_cast<std::size_t>(middle.ping_index)],
-              ground.grid->channel[static_cast<std::size_t>(run.row)], run.first_sample + static_cast<int>(left)};
+      return {context.times[static_cast<std::size_t>(middle.ping_index)],
+              context.grid->channel[static_cast<std::size_t>(run.row)], run.first_sample + static_cast<int>(left)};
     }
     left -= run.count;
   }

@@ -59,8 +59,9 @@ struct JournalState {
 
 /// The state after one more act. An act on other pings changes nothing.
 /// errors   bad_parameter: what it needs is not there, in one line; those of the pings. The state stands.
-/// threads  pure, as far as ground.ping is
-[[nodiscard]] Result<JournalState> apply(const JournalAct& act, const JournalState& state, const CommandGround& ground);
+/// threads  pure, as far as context.ping is
+[[nodiscard]] Result<JournalState> apply(const JournalAct& act, const JournalState& state,
+                                         const CommandContext& context);
 
 /// An act as it was carried out, and the state after it.
 struct Applied {
@@ -68,23 +69,23 @@ struct Applied {
   JournalState state;
 };
 
-/// apply() for acts that ground.on_step watches and may stop: apply(act) of what comes back, without an observer, gives
+/// apply() for acts that context.on_step watches and may stop: apply(act) of what comes back, without an observer, gives
 /// this state bit for bit.
 [[nodiscard]] Result<Applied> apply_watched(const JournalAct& act, const JournalState& state,
-                                            const CommandGround& ground);
+                                            const CommandContext& context);
 
 /// The state after all lines (undo and redo already worked in, see effective_lines()). A line that cannot be applied is a
 /// diagnostic decision_lost and changes nothing else.
-[[nodiscard]] JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandGround& ground);
+[[nodiscard]] JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandContext& context);
 
 /// Index in state.schools of the school that has a voxel; empty where nobody has it.
-[[nodiscard]] std::optional<std::size_t> school_at(const JournalState& state, const CommandGround& ground,
+[[nodiscard]] std::optional<std::size_t> school_at(const JournalState& state, const CommandContext& context,
                                                    const SchoolKey& key);
 /// A voxel that names a school: of its middle ping one of the surest.
-[[nodiscard]] SchoolKey key_of(const SchoolMasks& school, const CommandGround& ground);
+[[nodiscard]] SchoolKey key_of(const SchoolMasks& school, const CommandContext& context);
 
-/// Index of the ping with this datagram time; empty where there is none within the ground's limits.
-[[nodiscard]] std::optional<std::int64_t> ping_at(const CommandGround& ground, TimeNs time);
+/// Index of the ping with this datagram time; empty where there is none within the context's limits.
+[[nodiscard]] std::optional<std::int64_t> ping_at(const CommandContext& context, TimeNs time);
 /// What an act says of bad pings; other acts change nothing.
 void take_bad_pings(JournalState& state, const Command& command);
 [[nodiscard]] bool is_bad(const JournalState& state, TimeNs ping_time);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 
 namespace sonar {
 namespace {
@@ -15,34 +15,34 @@ namespace {
 using namespace test;  // NOLINT(google-build-using-namespace)
 
 /// The sea, but in ping 6 school A is not to be seen.
-CommandGround with_a_gap(const SmallSea& sea) {
-  CommandGround ground = sea.ground();
+CommandContext with_a_gap(const SmallSea& sea) {
+  CommandContext context = sea.context();
   auto gap = std::make_shared<Volume>(*sea.volume);
   for (const Run& run : block_mask(kA).runs) {
     for (int s = run.first_sample; s < run.end(); ++s) {
       gap->counts.view().row(run.row)[static_cast<std::size_t>(s)] = static_cast<std::int16_t>(counts_from_db(-90.0));
     }
   }
-  ground.ping = [whole = ground.ping, gap = std::shared_ptr<const Volume>(gap)](std::int64_t ping_index) {
+  context.ping = [whole = context.ping, gap = std::shared_ptr<const Volume>(gap)](std::int64_t ping_index) {
     auto ping = whole(ping_index);
     if (ping_index == 6) ping->volume = gap;
     return ping;
   };
-  return ground;
+  return context;
 }
 
 /// The sea with one more voxel of A, which touches it at a corner alone: 73 voxels by 26 neighbours, 72 by 6.
-CommandGround with_a_corner(const SmallSea& sea) {
-  CommandGround ground = sea.ground();
+CommandContext with_a_corner(const SmallSea& sea) {
+  CommandContext context = sea.context();
   auto corner = std::make_shared<Volume>(*sea.volume);
   corner->counts(kA.last_fan + 1, kA.last_beam + 1, kA.last_sample + 1) =
       static_cast<std::int16_t>(counts_from_db(-40.0));
-  ground.ping = [whole = ground.ping, corner = std::shared_ptr<const Volume>(corner)](std::int64_t ping_index) {
+  context.ping = [whole = context.ping, corner = std::shared_ptr<const Volume>(corner)](std::int64_t ping_index) {
     auto ping = whole(ping_index);
     ping->volume = corner;
     return ping;
   };
-  return ground;
+  return context;
 }
 
 // Saved, loaded and replayed a click with 26 neighbours gives what it gave; a line of a journal that was written before
@@ -93,16 +93,16 @@ std::vector<PropagateCommand> propagations() {
 
 TEST(StoppedPropagation, StoppedPropagationComesBackAsTheCommandThatGivesItsState) {
   const SmallSea sea;
-  const CommandGround ground = with_a_gap(sea);
+  const CommandContext context = with_a_gap(sea);
   const JournalState before = SmallSea::detected();
   for (const PropagateCommand& command : propagations()) {
     const JournalAct act{1, 0, "someone", ping_time(4), command};
     std::size_t steps_of_all = 0;
-    CommandGround watched = ground;
+    CommandContext watched = context;
     watched.on_step = [&](std::int64_t, const PingMask&) { return ++steps_of_all > 0; };
     const auto whole = apply_watched(act, before, watched);
     ASSERT_TRUE(whole);
-    EXPECT_EQ(told(whole->state), told(*apply(act, before, ground)));
+    EXPECT_EQ(told(whole->state), told(*apply(act, before, context)));
     EXPECT_EQ(line_of(whole->act).args, line_of(act).args);
     ASSERT_GE(steps_of_all, 3U);  // the paper ends at the gap
     for (std::size_t stop = 1; stop <= steps_of_all; ++stop) {
@@ -116,8 +116,8 @@ TEST(StoppedPropagation, StoppedPropagationComesBackAsTheCommandThatGivesItsStat
       ASSERT_EQ(seen.size(), stop);
       const auto read = act_of(line_of(stopped->act));  // as a journal brings it back
       ASSERT_TRUE(read);
-      EXPECT_EQ(told(*apply(*read, before, ground)), told(stopped->state)) << "stopped at ping " << seen.back().first;
-      const std::size_t school = *school_at(stopped->state, ground, key_a(4));
+      EXPECT_EQ(told(*apply(*read, before, context)), told(stopped->state)) << "stopped at ping " << seen.back().first;
+      const std::size_t school = *school_at(stopped->state, context, key_a(4));
       for (const auto& [ping_index, mask] : seen) {
         const auto* there = in_ping(stopped->state.schools[school]->masks, ping_index);
         EXPECT_EQ(there == nullptr ? PingMask{} : there->mask, mask) << "ping " << ping_index;
@@ -128,14 +128,14 @@ TEST(StoppedPropagation, StoppedPropagationComesBackAsTheCommandThatGivesItsStat
 
 TEST(StoppedPropagation, PropagationStoppedOnTheWayBackNamesBothReaches) {
   const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 2; };
-  const auto stopped = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), ground);
+  CommandContext context = sea.context();
+  context.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 2; };
+  const auto stopped = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), context);
   ASSERT_TRUE(stopped);
   EXPECT_EQ(line_of(stopped->act).args.at("reach_backward"), 2);
   EXPECT_EQ(line_of(stopped->act).args.at("reach_forward"), 0);
-  ground.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 7; };
-  const auto later = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), ground);
+  context.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 7; };
+  const auto later = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), context);
   ASSERT_TRUE(later);
   EXPECT_EQ(line_of(later->act).args.at("reach_backward"), -1);  // it came to its own end
   EXPECT_EQ(line_of(later->act).args.at("reach_forward"), 3);
@@ -143,10 +143,10 @@ TEST(StoppedPropagation, PropagationStoppedOnTheWayBackNamesBothReaches) {
 
 TEST(StoppedPropagation, FoldIsWatchedByNobody) {
   const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.on_step = [](std::int64_t, const PingMask&) { return false; };
+  CommandContext context = sea.context();
+  context.on_step = [](std::int64_t, const PingMask&) { return false; };
   const std::vector<JournalLine> lines{line(1, 4, propagate_from(seed_a()))};
-  EXPECT_EQ(told(fold(lines, SmallSea::detected(), ground)), told(fold(lines, SmallSea::detected(), sea.ground())));
+  EXPECT_EQ(told(fold(lines, SmallSea::detected(), context)), told(fold(lines, SmallSea::detected(), sea.context())));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 
 // Commands upon the small sea, for tests.
 namespace sonar::test {
@@ -72,7 +72,7 @@ inline JournalState after(const std::vector<std::pair<int, Command>>& acts) {
   std::vector<JournalLine> lines;
   for (const auto& [ping, command] : acts)
     lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
-  return fold(lines, SmallSea::detected(), sea.ground());
+  return fold(lines, SmallSea::detected(), sea.context());
 }
 
 }  // namespace sonar::test

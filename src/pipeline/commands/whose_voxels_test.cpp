@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipeline/commands/state.h"
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 #include "school/grow/mask_edit.h"
 
 namespace sonar {
@@ -27,7 +27,7 @@ JournalState after(const std::vector<std::pair<int, Command>>& acts) {
   for (const auto& [ping, command] : acts) {
     lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, ping, command));
   }
-  return fold(lines, SmallSea::detected(), sea.ground());
+  return fold(lines, SmallSea::detected(), sea.context());
 }
 
 TEST(WhoseVoxels, GrowingAnewLeavesWhatGrowsAndNothingElseOfThePing) {
@@ -64,7 +64,7 @@ TEST(WhoseVoxels, WhatAHumanAcceptedKeepsItsVoxels) {
     for (const Command& command : commands) {
       lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, 4, command));
     }
-    return fold(effective_lines(lines), SmallSea::detected(), sea.ground());
+    return fold(effective_lines(lines), SmallSea::detected(), sea.context());
   };
   const DecideCommand accept{{Decision{key_b(), "accepted", {}, {}}}, ""};
   PropagateCommand on;
@@ -78,13 +78,13 @@ TEST(WhoseVoxels, WhatAHumanAcceptedKeepsItsVoxels) {
     std::vector<Command> after_accepting = acts;
     after_accepting.insert(after_accepting.begin(), accept);
     const JournalState kept = done(after_accepting);
-    const auto b = school_at(kept, sea.ground(), key_b(4));
+    const auto b = school_at(kept, sea.context(), key_b(4));
     ASSERT_TRUE(b);
     EXPECT_EQ(kept.schools[*b]->number, 2);
     for (int ping = 0; ping < kPings; ++ping) EXPECT_EQ(mask_of(kept, *b, ping), block_mask(kB)) << ping;
     // Where nobody has looked at it, it is one with what grew over it, and an undo has both back.
     const JournalState merged = done(acts);
-    const auto other = school_at(merged, sea.ground(), key_b(4));
+    const auto other = school_at(merged, sea.context(), key_b(4));
     ASSERT_TRUE(other);
     EXPECT_NE(merged.schools[*other]->number, 2);
     std::vector<JournalLine> lines;
@@ -92,7 +92,7 @@ TEST(WhoseVoxels, WhatAHumanAcceptedKeepsItsVoxels) {
     for (auto n = static_cast<std::int64_t>(acts.size()); n > 0; --n) {
       lines.push_back({static_cast<std::int64_t>(lines.size()) + 1, 0, "", "undo", 0, {{"target", n}}});
     }
-    EXPECT_EQ(told(fold(effective_lines(lines), SmallSea::detected(), sea.ground())), told(SmallSea::detected()));
+    EXPECT_EQ(told(fold(effective_lines(lines), SmallSea::detected(), sea.context())), told(SmallSea::detected()));
   }
 }
 

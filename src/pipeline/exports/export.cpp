@@ -10,10 +10,12 @@
 
 #include "io/csv.h"
 #include "io/mask_volume.h"
-#include "io/product.h"
-#include "io/survey_map.h"
+#include "io/product_file.h"
+#include "io/survey_layers.h"
+#include "pipeline/exports/export_sv.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/survey_numbers.h"
 
 namespace sonar {
 namespace {
@@ -21,11 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 5> kFormats = {{
+constexpr std::array<ExportFormat, 6> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
+    {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
 
@@ -56,6 +59,7 @@ Result<Source> read_source(const fs::path& out, Work& work) {
   }
   auto survey = merge(std::move(products));
   if (!survey) return pass_on(survey);
+  (void)number_schools(*survey, kept_numbers(out));
   return Source{std::move(*files), std::move(*survey)};
 }
 
@@ -108,13 +112,41 @@ Result<Files> export_map(const Source& source, const fs::path& dest, MapFormat f
   return Files{target};
 }
 
-Result<Files> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
-  if (options.survey.empty()) return fail(ErrorCode::usage, "raw-reduced needs --survey, the folder of the raw files");
-  const auto recipe = recipe_from_text(source.survey.observations.front().recipe_json);
+/// The raw files of the products, under their recipe.
+struct RawSource {
+  Recipe recipe;
+  SurveyFiles survey;
+};
+
+Result<RawSource> open_raw(const Source& source, const ExportOptions& options, Work& work) {
+  if (options.survey.empty()) {
+    return fail(ErrorCode::usage, fmt::format("{} needs --survey, the folder of the raw files", options.format));
+  }
+  auto recipe = recipe_from_text(source.survey.observations.front().recipe_json);
   if (!recipe) return pass_on(recipe);
   const std::array<fs::path, 1> paths = {options.survey};
-  const auto survey = open_survey(paths, recipe->survey, recipe->navigation, IndexCache::of_user(), work);
+  auto survey = open_survey(paths, recipe->survey, recipe->navigation, IndexCache::of_user(), work);
   if (!survey) return pass_on(survey);
+  return RawSource{std::move(*recipe), std::move(*survey)};
+}
+
+Result<Files> export_all_sv(const Source& source, const ExportOptions& options, Work& work) {
+  const auto raw = open_raw(source, options, work);
+  if (!raw) return pass_on(raw);
+  Files files;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    auto made = export_sv(raw->survey, *product, raw->recipe, options.dest, work);
+    if (!made) return pass_on(made);
+    files.insert(files.end(), made->begin(), made->end());
+  }
+  return files;
+}
+
+Result<Files> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
+  const auto raw = open_raw(source, options, work);
+  if (!raw) return pass_on(raw);
   std::vector<ObservationProduct> products;
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     auto product = with_masks(source, i);
@@ -126,7 +158,7 @@ Result<Files> export_reduced(const Source& source, const ExportOptions& options,
     });
     products.push_back(std::move(*product));
   }
-  auto reduced = reduce_survey(*survey, products, *recipe, options.dest, options.reduce, work);
+  auto reduced = reduce_survey(raw->survey, products, raw->recipe, options.dest, options.reduce, work);
   if (!reduced) return pass_on(reduced);
   return std::move(reduced->files);
 }
@@ -178,6 +210,7 @@ Result<Files> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  if (format->name == "sv") return export_all_sv(*source, options, work);
   return export_reduced(*source, options, work);
 }
 

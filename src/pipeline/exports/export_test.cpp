@@ -9,8 +9,8 @@
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 
 namespace sonar {
 namespace {
@@ -54,7 +54,7 @@ TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
-  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, raw-reduced"));
+  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, sv, raw-reduced"));
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   fs::remove_all(folder_ / "out");
   EXPECT_EQ(run("csv").error().code, ErrorCode::not_found);

@@ -97,11 +97,53 @@ Result<std::int64_t> power_count_sum(const SurveyFile& file, BlockPool& blocks, 
   return sum;
 }
 
+std::string model_of(const SounderConfig& config) {
+  switch (config.kind) {
+    case SounderKind::ek60:
+      return "Simrad EK60";
+    case SounderKind::me70:
+      return "Simrad ME70";
+    case SounderKind::ms70:
+      return "Simrad MS70";
+    default:
+      return config.sounder_name;
+  }
+}
+
+/// The gain that the sounder's table has for a pulse; the beam's own where the table does not know it.
+double gain_for(const BeamConfig& beam, double pulse_length_s) {
+  constexpr double kTolerance = 1e-3;
+  for (std::size_t i = 0; i < beam.pulse_length_s.size(); ++i) {
+    const double known_s = beam.pulse_length_s[i];
+    if (known_s > 0.0 && std::abs(known_s - pulse_length_s) <= kTolerance * known_s) return beam.gain_table_db[i];
+  }
+  return beam.gain_db;
+}
+
+InstrumentInfo instrument_info(const ObservationFiles& observation) {
+  InstrumentInfo info;
+  info.model = model_of(observation.config);
+  info.beams = std::ssize(observation.config.beams);
+  for (std::size_t i = 0; i < observation.config.beams.size(); ++i) {
+    const BeamConfig& beam = observation.config.beams[i];
+    const bool sent = i < observation.transmit.size() && observation.transmit[i].seen();
+    info.frequency_hz.take(sent ? observation.transmit[i].frequency_hz : beam.frequency_hz);
+    info.width_alongship_deg.take(beam.width_alongship_deg);
+    info.width_athwartship_deg.take(beam.width_athwartship_deg);
+    if (!sent) continue;
+    info.pulse_length_s.take(observation.transmit[i].pulse_length_s);
+    info.transmit_power_w.take(observation.transmit[i].transmit_power_w);
+    info.gain_db.take(gain_for(beam, observation.transmit[i].pulse_length_s));
+  }
+  return info;
+}
+
 SurveyInfo::Observation observation_info(const SurveyFiles& survey, const ObservationFiles& observation) {
   SurveyInfo::Observation info;
   info.name = observation.name;
   for (const std::uint32_t f : observation.files) info.files.push_back(survey.files[f].path.filename().string());
   info.sounder = observation.config.sounder_name;
+  info.instrument = instrument_info(observation);
   info.pings = static_cast<std::int64_t>(observation.pings.size());
   info.first_time = observation.navigation.front().time;
   info.last_time = observation.navigation.back().time;
@@ -113,6 +155,12 @@ SurveyInfo::Observation observation_info(const SurveyFiles& survey, const Observ
 }
 
 }  // namespace
+
+void SettingRange::take(double value) {
+  if (!std::isfinite(value)) return;
+  least = std::min(least, value);
+  greatest = std::max(greatest, value);
+}
 
 bool SurveyInfo::all_readable() const {
   return std::all_of(files.begin(), files.end(), [](const FileInfo& file) { return file.readable; });

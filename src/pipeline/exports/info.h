@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,9 +36,30 @@ struct FileInfo {
   bool readable = true;
 };
 
+/// Least and greatest of a setting over the beams; empty = no beam tells.
+struct SettingRange {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
+  void take(double value);
+  [[nodiscard]] bool empty() const { return !(least <= greatest); }
+};
+
+/// What the beams of an observation were set to.
+struct InstrumentInfo {
+  std::string model;  ///< "Simrad MS70"; as the file calls it where the family is not known
+  std::int64_t beams = 0;
+  SettingRange frequency_hz;
+  SettingRange pulse_length_s;
+  SettingRange transmit_power_w;
+  SettingRange gain_db;
+  SettingRange width_alongship_deg;
+  SettingRange width_athwartship_deg;
+};
+
 struct SurveyInfo {
   struct Observation {
     std::string name;
+    InstrumentInfo instrument;
     std::vector<std::string> files;
     std::string sounder;
     std::int64_t pings = 0;

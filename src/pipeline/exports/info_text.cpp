@@ -87,6 +87,38 @@ std::string psi_text(const BeamGrid& grid) {
   return text + '\n';
 }
 
+Json range_json(const SettingRange& range) {
+  return range.empty() ? Json(nullptr) : Json{{"min", range.least}, {"max", range.greatest}};
+}
+
+Json instrument_json(const InstrumentInfo& instrument) {
+  return {{"model", instrument.model},
+          {"beams", instrument.beams},
+          {"frequency_hz", range_json(instrument.frequency_hz)},
+          {"pulse_length_s", range_json(instrument.pulse_length_s)},
+          {"transmit_power_w", range_json(instrument.transmit_power_w)},
+          {"gain_db", range_json(instrument.gain_db)},
+          {"width_alongship_deg", range_json(instrument.width_alongship_deg)},
+          {"width_athwartship_deg", range_json(instrument.width_athwartship_deg)}};
+}
+
+/// "75 to 112 kHz, ", or "38 kHz, "; nothing where no beam tells.
+std::string range_text(const char* what, const SettingRange& range, double unit, const char* unit_name) {
+  if (range.empty()) return {};
+  const std::string least = fmt::format("{:.4g}", range.least / unit);
+  const std::string greatest = fmt::format("{:.4g}", range.greatest / unit);
+  return fmt::format(", {}{} {}", what, least == greatest ? least : least + " to " + greatest, unit_name);
+}
+
+std::string instrument_text(const InstrumentInfo& instrument) {
+  return fmt::format(
+      "  {}, {} beam{}{}{}{}{}{}{}\n", printable(instrument.model), instrument.beams, instrument.beams == 1 ? "" : "s",
+      range_text("", instrument.frequency_hz, 1e3, "kHz"), range_text("pulse ", instrument.pulse_length_s, 1e-3, "ms"),
+      range_text("power ", instrument.transmit_power_w, 1.0, "W"), range_text("gain ", instrument.gain_db, 1.0, "dB"),
+      range_text("-3 dB width alongship ", instrument.width_alongship_deg, 1.0, "deg"),
+      range_text("athwartship ", instrument.width_athwartship_deg, 1.0, "deg"));
+}
+
 Json observation_json(const SurveyInfo::Observation& observation, bool counted) {
   Json grid = nullptr;
   Json psi = nullptr;
@@ -97,6 +129,7 @@ Json observation_json(const SurveyInfo::Observation& observation, bool counted) 
   return {{"name", observation.name},
           {"files", observation.files},
           {"sounder", observation.sounder},
+          {"instrument", instrument_json(observation.instrument)},
           {"pings", counted ? Json(observation.pings) : Json(nullptr)},
           {"first_time_utc", iso_time(observation.first_time)},
           {"last_time_utc", iso_time(observation.last_time)},
@@ -154,7 +187,8 @@ std::string observation_text(const SurveyInfo::Observation& o, bool counted) {
       fmt::format("{}: {}, {}{}, {} to {}{}\n", printable(o.name), printable(o.sounder),
                   counted ? fmt::format("{} pings, ", o.pings) : std::string{}, grid, iso_time(o.first_time),
                   iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
-  if (o.grid) text += psi_text(*o.grid);
+  text += instrument_text(o.instrument);
+  text += o.grid ? psi_text(*o.grid) : std::string("  schools are not looked for in single-beam data\n");
   for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));
   return text + notes_text(o.notes);
 }

@@ -91,7 +91,7 @@ void choose_pings(const ObservationProduct& product, std::size_t observation, co
 }
 
 /// What is left of a channel's row, without the ends that hold nothing; empty where nothing is.
-std::optional<ChannelPing> channel_left(ChannelPing head, std::span<const std::int16_t> row, const ReducedRow& record,
+std::optional<ChannelPing> channel_left(ChannelPing head, std::span<const std::int16_t> row, ReducedRecord record,
                                         bool even_if_empty, std::vector<std::int16_t>& counts) {
   std::size_t first = 0;
   std::size_t end = row.size();
@@ -103,7 +103,7 @@ std::optional<ChannelPing> channel_left(ChannelPing head, std::span<const std::i
   if (counts.empty()) counts.push_back(kMissing);
   head.offset = static_cast<int>(first);
   head.power_count = counts;
-  head.reduced = record;
+  head.reduced = std::move(record);
   return head;
 }
 
@@ -127,12 +127,14 @@ class FileReducer {
     if (row < 0) return std::nullopt;
     // A ping's first channel tells of roll, heave, heading, seabed, water and beams that are missing: it stays in any
     // case.
-    ChannelPing head = recorded;
-    head.reduced_seabed = is_first ? ping_rows_.seabed : std::nullopt;
-    head.reduced_water = is_first ? ping_rows_.water : std::nullopt;
-    head.reduced_short = is_first ? ping_rows_.short_beams : std::vector<ReducedChannel>{};
-    return channel_left(std::move(head), std::as_const(ping_rows_.counts).view().row(row),
-                        ping_rows_.record[static_cast<std::size_t>(row)], is_first, counts_);
+    ReducedRecord record{ping_rows_.record[static_cast<std::size_t>(row)]};
+    if (is_first) {
+      record.seabed = ping_rows_.seabed;
+      record.water = ping_rows_.water;
+      record.short_beams = ping_rows_.short_beams;
+    }
+    return channel_left(recorded, std::as_const(ping_rows_.counts).view().row(row), std::move(record), is_first,
+                        counts_);
   }
 
  private:

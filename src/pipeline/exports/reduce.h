@@ -27,21 +27,35 @@ struct ReduceParams {
 template <class Visitor>
 void describe(Visitor& v, ReduceParams& p) {
   v.field("margin_samples", p.margin_samples,
-          {.unit = "samples", .min = 0, .max = 100000, .text = "kept before and behind each school, beside its need"});
+          {.unit = "samples",
+           .min = 0,
+           .max = 100000,
+           .text = "How many samples before and after each school are kept beyond what its figures need; raise it to "
+                   "look at more of the water around."});
   v.field("margin_beams", p.margin_beams,
-          {.unit = "beams", .min = 0, .max = 100000, .text = "kept on either side of each school, beside its need"});
+          {.unit = "beams",
+           .min = 0,
+           .max = 100000,
+           .text = "How many beams on either side of each school are kept beyond what its figures need; raise it to "
+                   "look at more of the water around."});
   v.field("margin_fans", p.margin_fans,
-          {.unit = "fans", .min = 0, .max = 100000, .text = "kept above and below each school, beside its need"});
+          {.unit = "fans",
+           .min = 0,
+           .max = 100000,
+           .text = "How many fans above and below each school are kept beyond what its figures need; raise it to look "
+                   "at more of the water around."});
   v.field("margin_pings", p.margin_pings,
           {.unit = "pings",
            .min = 0,
            .max = 100000,
-           .text = "pings before and after each school that hold none of it: they begin and end its track as before"});
+           .text = "How many pings without the school are kept before and after it; with fewer than 2 its track may "
+                   "begin and end differently."});
   v.field("coarsen_beams", p.coarsen_beams,
           {.unit = "beams",
            .min = 0,
            .max = 10000,
-           .text = "of the rest keep the mean of so many neighbouring beams of a fan as one; 0 = nothing of the rest"});
+           .text = "How many neighbouring beams of a fan are averaged into one in the water away from schools; 0 keeps "
+                   "nothing of it and gives the smallest files."});
 }
 
 struct ReduceReport {

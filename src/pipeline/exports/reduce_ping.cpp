@@ -9,8 +9,8 @@
 
 #include "base/units.h"
 #include "pipeline/stages/reduced_ping.h"
-#include "school/detect/background.h"
 #include "school/detect/detect.h"
+#include "school/detect/noise_level.h"
 #include "school/detect/settle_members.h"
 #include "school/evidence/seeds.h"
 #include "school/runs.h"
@@ -28,9 +28,9 @@ struct Reach {
 /// Detection looks no further round a candidate than this, the samples of its filter left out; where schools meet it looks
 /// on along the neighbour, whose own surroundings are kept as well.
 constexpr Reach kDetectionReach{
-    SearchReach::fans + SearchReach::most_rims * SearchReach::rim_fans,
-    SearchReach::beams + SearchReach::most_rims* SearchReach::rim_beams,
-    SearchReach::samples + SearchReach::most_rims* SearchReach::rim_samples + kMemberSamples / 2};
+    SearchReach::fans + SearchReach::most_margins * SearchReach::margin_fans,
+    SearchReach::beams + SearchReach::most_margins* SearchReach::margin_beams,
+    SearchReach::samples + SearchReach::most_margins* SearchReach::margin_samples + kMemberSamples / 2};
 
 bool meet(const IndexBox& a, const IndexBox& b) {
   return a.first_fan <= b.last_fan && b.first_fan <= a.last_fan && a.first_beam <= b.last_beam &&
@@ -41,7 +41,7 @@ IndexBox enlarged(const IndexBox& box, const Reach& by, const Shape3& shape) {
   return box.enlarged(by.fans, by.beams, by.samples).clipped(shape);
 }
 
-/// Boxes in which detection looked for what it found, round all that stands out of the water together.
+/// Boxes in which detection looked for what it found, round all that lies above the background of the water together.
 std::vector<IndexBox> candidate_boxes(const WaterLevels& water, const Shape3& shape) {
   std::vector<IndexBox> boxes;
   for (std::vector<Run>& part : connected_parts(seed_runs(water, shape), shape, Connectivity::faces)) {

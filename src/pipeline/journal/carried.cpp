@@ -29,11 +29,11 @@ std::int64_t school_then(const Layer& layer, const SchoolKey& key) {
 }
 
 /// Its masks on the pings and rows of this observation.
-std::vector<InPing> masks_now(const Layer& layer, std::int64_t school_id, const CommandGround& ground) {
-  const std::vector<int> rows = ground.grid->row_of_channel();
+std::vector<InPing> masks_now(const Layer& layer, std::int64_t school_id, const CommandContext& context) {
+  const std::vector<int> rows = context.grid->row_of_channel();
   std::vector<InPing> masks;
   for (const SchoolMask& mask : layer.masks) {
-    const auto ping = mask.school_id == school_id ? ping_at(ground, time_of(mask, layer)) : std::nullopt;
+    const auto ping = mask.school_id == school_id ? ping_at(context, time_of(mask, layer)) : std::nullopt;
     if (!ping) continue;
     PingMask moved = on_rows(mask.mask, layer.channel_of_row, rows);
     if (!moved.empty()) masks.push_back({*ping, std::move(moved), kUnknown});
@@ -44,12 +44,12 @@ std::vector<InPing> masks_now(const Layer& layer, std::int64_t school_id, const 
 
 }  // namespace
 
-std::optional<std::size_t> heir_of(const SchoolKey& key, const JournalState& state, const CommandGround& ground,
+std::optional<std::size_t> heir_of(const SchoolKey& key, const JournalState& state, const CommandContext& context,
                                    const EarlierSchools& earlier) {
   for (const Layer& layer : earlier.layers) {
     const std::int64_t school_id = school_then(layer, key);
     if (school_id == 0) continue;
-    const std::vector<InPing> then = masks_now(layer, school_id, ground);
+    const std::vector<InPing> then = masks_now(layer, school_id, context);
     std::optional<std::size_t> heir;
     std::size_t most = 0;
     for (std::size_t i = 0; i < state.schools.size(); ++i) {

@@ -14,6 +14,6 @@ namespace sonar {
 /// Index in the state of the school that is now what an older product had at a voxel: it shares most voxels with it and is
 /// the same fish. Empty where no older product has a school there, or none is it now.
 [[nodiscard]] std::optional<std::size_t> heir_of(const SchoolKey& key, const JournalState& state,
-                                                 const CommandGround& ground, const EarlierSchools& earlier);
+                                                 const CommandContext& context, const EarlierSchools& earlier);
 
 }  // namespace sonar

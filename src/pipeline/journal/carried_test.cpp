@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/commands/test_ground.h"
+#include "pipeline/commands/test_context.h"
 
 namespace sonar {
 namespace {
@@ -38,18 +38,18 @@ EarlierSchools earlier_of(const std::vector<ObservationProduct>& products) {
 
 /// Then A reached five samples farther towards B.
 constexpr Block kThen{1, 3, 2, 4, 30, 42};
-const SchoolKey kRim{ping_time(3), channel_at(2, 3), 41};
+const SchoolKey kMargin{ping_time(3), channel_at(2, 3), 41};
 
 JournalState decided(const EarlierSchools& earlier, const SchoolKey& key, JournalState state = SmallSea::detected()) {
   const SmallSea sea;
-  CommandGround ground = sea.ground();
-  ground.earlier = &earlier;
+  CommandContext context = sea.context();
+  context.earlier = &earlier;
   const JournalLine said = line(3, 3, DecideCommand{{Decision{key, "accepted", "herring", {}}}, ""});
-  return fold({&said, 1}, std::move(state), ground);
+  return fold({&said, 1}, std::move(state), context);
 }
 
 TEST(CarriedChoices, GoToTheSchoolThatHasMostOfWhatWasThere) {
-  const JournalState state = decided(earlier_of({product_then(kThen)}), kRim);
+  const JournalState state = decided(earlier_of({product_then(kThen)}), kMargin);
   EXPECT_EQ(state.schools[0]->masks.decided.status, "accepted");
   EXPECT_EQ(state.schools[0]->masks.decided.species, "herring");
   EXPECT_EQ(state.schools[1]->masks.decided.status, "unreviewed");
@@ -60,7 +60,7 @@ TEST(CarriedChoices, GoToTheSchoolThatHasMostOfWhatWasThere) {
 
 // The product of now stands before the older one, and has none of its voxel.
 TEST(CarriedChoices, AnOlderProductTellsWhatANewerOneDoesNot) {
-  const JournalState state = decided(earlier_of({product_then(kA), product_then(kThen)}), kRim);
+  const JournalState state = decided(earlier_of({product_then(kA), product_then(kThen)}), kMargin);
   EXPECT_EQ(state.schools[0]->masks.decided.status, "accepted");
   // A ping that the school is not in any more does not matter: it is the same in the others.
   JournalState without = SmallSea::detected();
@@ -79,7 +79,7 @@ TEST(CarriedChoices, WhatFindsNoSchoolIsListed) {
   const EarlierSchools then = earlier_of({product_then(kThen)});
   const EarlierSchools wide = earlier_of({product_then({1, 3, 2, 4, 8, 30})});
   for (const JournalState& state :
-       {decided(then, water), decided(then, kRim, {}), decided(wide, of_wide), decided({}, kRim)}) {
+       {decided(then, water), decided(then, kMargin, {}), decided(wide, of_wide), decided({}, kMargin)}) {
     ASSERT_EQ(state.notes.size(), 1U);
     EXPECT_EQ(state.notes[0].code, DiagnosticCode::decision_lost);
     for (const auto& school : state.schools) EXPECT_EQ(school->masks.decided.status, "unreviewed");

@@ -13,7 +13,7 @@
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/tasks/merge.h"
 
 namespace sonar {

@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "model/product.h"
 #include "pipeline/journal/school_numbers.h"
 #include "pipeline/tasks/plan.h"

@@ -136,27 +136,27 @@ void mark_ends(ManualSchool& made, std::int64_t ping_index, PingReach limits) {
 
 }  // namespace
 
-CommandGround ground_of(Engine& engine, PingReach limits) {
-  CommandGround ground;
-  ground.ping = [&engine](std::int64_t ping_index) { return engine.filtered(ping_index); };
-  ground.sector = &engine.sector();
-  ground.grid = &engine.grid();
-  for (const SurveyPing& ping : engine.observation().pings) ground.times.push_back(engine.survey().entry(ping).time);
-  ground.limits = limits;
+CommandContext context_of(Engine& engine, PingReach limits) {
+  CommandContext context;
+  context.ping = [&engine](std::int64_t ping_index) { return engine.filtered(ping_index); };
+  context.sector = &engine.sector();
+  context.grid = &engine.grid();
+  for (const SurveyPing& ping : engine.observation().pings) context.times.push_back(engine.survey().entry(ping).time);
+  context.limits = limits;
   const Recipe& recipe = engine.recipe();
-  ground.least_pings = names_judge(recipe.detect.left_out, "confirmation") ? 1 : recipe.track.confirmation.pings;
-  return ground;
+  context.least_pings = names_judge(recipe.detect.left_out, "confirmation") ? 1 : recipe.track.confirmation.pings;
+  return context;
 }
 
-Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping, std::span<const SeedKey> seeds,
+Result<PingMask> grow_seeds(const CommandContext& context, const FilteredPing& ping, std::span<const SeedKey> seeds,
                             const TransferFunction& growth_curve, const GrowParams& params) {
   if (ping.bad) return fail(ErrorCode::bad_parameter, "the ping was made without transmitting; it shows no school");
-  const std::vector<int> rows = ground.grid->row_of_channel();
+  const std::vector<int> rows = context.grid->row_of_channel();
   // The paper grows on opacity alone.
-  const bool limited = params.mode == GrowMode::tracked && params.margin_db > 0.0 && ping.standing_out;
+  const bool limited = params.mode == GrowMode::tracked && params.margin_db > 0.0 && ping.above_background;
   PingMask inside;
   // What a human points at may be the water itself, as a layer is: it has to stand above the noise alone.
-  if (limited) inside.runs = ping.standing_out(params.margin_db, Above::noise);
+  if (limited) inside.runs = ping.above_background(params.margin_db, Above::noise);
   PingMask selection;
   for (const SeedKey& seed : seeds) {
     if (seed.channel < 0 || static_cast<std::size_t>(seed.channel) >= rows.size() ||
@@ -172,31 +172,32 @@ Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& pin
   return subtract(selection, ping.taken);
 }
 
-Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index, const PingMask& selection,
+Result<ManualSchool> carry(const CommandContext& context, std::int64_t ping_index, const PingMask& selection,
                            const PropagateCommand& command, const TakenVoxels& taken) {
   const PingProvider provider = [&](std::int64_t i) {
-    auto ping = ground.ping(i);
+    auto ping = context.ping(i);
     if (ping) ping->taken = taken(i);
     return ping;
   };
-  const PingReach reach = reach_round(ping_index, command, ground.limits);
-  auto propagation =
-      command.mode == GrowMode::paper
-          ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper, ground.on_step)
-          : propagate_tracked(provider, *ground.sector, ping_index, selection, reach, command.tracked, ground.on_step);
+  const PingReach reach = reach_round(ping_index, command, context.limits);
+  auto propagation = command.mode == GrowMode::paper
+                         ? propagate_paper(provider, ping_index, selection, reach, command.growth_curve, command.paper,
+                                           context.on_step)
+                         : propagate_tracked(provider, *context.sector, ping_index, selection, reach, command.tracked,
+                                             context.on_step);
   if (!propagation) return pass_on(propagation);
   ManualSchool made;
   made.reached = reached_by(command, ping_index, *propagation);
   made.school = school_of(*propagation);
   made.note_backward = propagation->note_backward;
   made.note_forward = propagation->note_forward;
-  mark_ends(made, ping_index, ground.limits);
+  mark_ends(made, ping_index, context.limits);
   return made;
 }
 
 std::vector<SchoolMasks> replay(Engine& engine, std::span<const JournalLine> lines, PingReach limits,
                                 Diagnostics& diagnostics) {
-  const JournalState state = fold(lines, {}, ground_of(engine, limits));
+  const JournalState state = fold(lines, {}, context_of(engine, limits));
   diagnostics.insert(diagnostics.end(), state.notes.begin(), state.notes.end());
   return masks_of(state);
 }

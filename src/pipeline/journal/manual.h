@@ -72,7 +72,7 @@ struct ManualSchool {
 struct EarlierSchools;
 
 /// What commands need of an observation. Views: what they show outlives the commands.
-struct CommandGround {
+struct CommandContext {
   PingProvider ping;  ///< filtered volumes; FilteredPing::taken is not looked at
   const Sector* sector = nullptr;
   const BeamGrid* grid = nullptr;
@@ -82,20 +82,20 @@ struct CommandGround {
   const EarlierSchools* earlier = nullptr;  ///< where schools lay that choices may name; null = nobody knows
   PropagationObserver on_step = {};  ///< sees, and may stop, what apply() carries through time; fold() tells nothing
 };
-[[nodiscard]] CommandGround ground_of(Engine& engine, PingReach limits);
+[[nodiscard]] CommandContext context_of(Engine& engine, PingReach limits);
 
 /// Grows from all seeds and joins what they give.
 /// errors  bad_parameter: the seed, in one line
-[[nodiscard]] Result<PingMask> grow_seeds(const CommandGround& ground, const FilteredPing& ping,
+[[nodiscard]] Result<PingMask> grow_seeds(const CommandContext& context, const FilteredPing& ping,
                                           std::span<const SeedKey> seeds, const TransferFunction& growth_curve,
                                           const GrowParams& params);
 
 /// Voxels of a ping that are others'.
 using TakenVoxels = std::function<PingMask(std::int64_t ping_index)>;
 
-/// Carries a mask of one ping through time; ground.on_step may stop it.
+/// Carries a mask of one ping through time; context.on_step may stop it.
 /// errors  bad_parameter: an empty mask; those of the pings
-[[nodiscard]] Result<ManualSchool> carry(const CommandGround& ground, std::int64_t ping_index,
+[[nodiscard]] Result<ManualSchool> carry(const CommandContext& context, std::int64_t ping_index,
                                          const PingMask& selection, const PropagateCommand& command,
                                          const TakenVoxels& taken);
 

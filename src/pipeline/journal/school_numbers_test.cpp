@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/run.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/journal/journals.h"
 #include "pipeline/stages/observe.h"

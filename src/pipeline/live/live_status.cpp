@@ -72,7 +72,7 @@ LiveStatus live_status(const SurveyFiles& survey, double behind_s, const std::fi
   status.gps_minus_clock_s = observation.gps_minus_clock_s;
   std::int64_t channels = 0;
   for (const SurveyPing& part : survey.parts(observation.pings.back())) channels += survey.entry(part).channels;
-  status.lost_channels = std::max<std::int64_t>(0, std::ssize(observation.config.beams) - channels);
+  status.missing_channels = std::max<std::int64_t>(0, std::ssize(observation.config.beams) - channels);
   std::error_code unknown;
   std::filesystem::path there = std::filesystem::absolute(out, unknown);
   while (!std::filesystem::exists(there, unknown) && there.has_relative_path()) there = there.parent_path();
@@ -83,11 +83,11 @@ LiveStatus live_status(const SurveyFiles& survey, double behind_s, const std::fi
 
 std::string status_line(const LiveStatus& status) {
   return fmt::format(
-      "{} ping {}, {} a minute, {} behind; position {} old, heading {} old, GPS minus clock {}; {} channels lost; "
+      "{} ping {}, {} a minute, {} behind; position {} old, heading {} old, GPS minus clock {}; {} channels missing; "
       "{} left on disk",
       status.observation, status.pings - 1, told(status.pings_per_minute, ""), told(status.behind_s, " s"),
       told(status.position_age_s, " s"), told(status.heading_age_s, " s"), told(status.gps_minus_clock_s, " s", 2),
-      status.lost_channels, told(status.disk_left_gb, " GB"));
+      status.missing_channels, told(status.disk_left_gb, " GB"));
 }
 
 }  // namespace sonar

@@ -21,8 +21,8 @@ struct LiveStatus {
   double position_age_s = 0.0;  ///< from the last sentence to the newest datagram
   double heading_age_s = 0.0;
   double gps_minus_clock_s = 0.0;
-  std::int64_t lost_channels = 0;  ///< that the newest ping lacks
-  double disk_left_gb = 0.0;       ///< where products are written, 10^9 bytes
+  std::int64_t missing_channels = 0;  ///< that the newest ping lacks
+  double disk_left_gb = 0.0;          ///< where products are written, 10^9 bytes
 };
 
 /// The observation whose last ping is the newest.

@@ -14,7 +14,7 @@
 
 #include "base/describe.h"
 #include "base/result.h"
-#include "pipeline/recipe/gone_parameters.h"
+#include "pipeline/recipe/earlier_parameters.h"
 #include "pipeline/recipe/json_file.h"
 
 namespace sonar {
@@ -27,7 +27,7 @@ class JsonWriter {
   void field(std::string_view name, double& value, const FieldInfo&) { json_[std::string(name)] = value; }
   void field(std::string_view name, std::string& value, const FieldInfo&) { json_[std::string(name)] = value; }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo&) {
     json_[std::string(name)] = std::string(names[static_cast<std::size_t>(value)]);
   }
   template <class P>
@@ -43,7 +43,7 @@ class JsonWriter {
 };
 
 /// Visitor that fills a described parameter struct from JSON. A member that is absent keeps its default; one that is
-/// unknown, or of another type, is refused by name; those that earlier versions knew are listed.
+/// unknown, or of another type, is refused by name; what earlier versions called otherwise, or knew alone, is noted.
 class JsonReader {
  public:
   explicit JsonReader(const nlohmann::json& json, std::string prefix = {}) : json_(json), prefix_(std::move(prefix)) {
@@ -69,7 +69,7 @@ class JsonReader {
     if (const auto* found = take(name, &nlohmann::json::is_string, "a text")) value = found->get<std::string>();
   }
   template <class E>
-  void choice(std::string_view name, E& value, ChoiceNames names, std::string_view) {
+  void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo&) {
     const auto* found = take(name, &nlohmann::json::is_string, "a text");
     if (found == nullptr) return;
     const auto text = found->get<std::string>();
@@ -88,7 +88,7 @@ class JsonReader {
     describe(inner, parameters);
     inner.finish();
     if (problem_.empty()) problem_ = inner.problem_;
-    gone_.insert(gone_.end(), inner.gone_.begin(), inner.gone_.end());
+    notes_.insert(notes_.end(), inner.notes_.begin(), inner.notes_.end());
   }
 
   /// Marks a member as known that is read elsewhere.
@@ -99,7 +99,7 @@ class JsonReader {
     for (const auto& [key, value] : json_.items()) {
       if (known_.count(key) == 0) {
         if (is_gone_parameter(prefix_ + key)) {
-          gone_.push_back(prefix_ + key);
+          notes_.push_back(fmt::format("{}{} has no effect any more", prefix_, key));
           continue;
         }
         problem_ = fmt::format("{}{}: no such parameter", prefix_, key);
@@ -107,8 +107,8 @@ class JsonReader {
       }
     }
   }
-  /// Members that earlier versions had, with their groups: they have no effect.
-  [[nodiscard]] const std::vector<std::string>& gone() const { return gone_; }
+  /// A line each on members that are earlier versions'.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// Empty when all went well.
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
@@ -118,7 +118,12 @@ class JsonReader {
     const std::string key(name);
     known_.insert(key);
     if (!json_.is_object()) return nullptr;
-    const auto found = json_.find(key);
+    auto found = json_.find(key);
+    if (const std::string earlier(earlier_name(prefix_ + key)); !earlier.empty() && json_.contains(earlier)) {
+      known_.insert(earlier);
+      notes_.push_back(fmt::format("{}{} is called {}{} now", prefix_, earlier, prefix_, key));
+      if (found == json_.end()) found = json_.find(earlier);
+    }
     if (found == json_.end()) return nullptr;
     if (((*found).*test)()) return &*found;
     note(prefix_ + key, expected);
@@ -132,7 +137,7 @@ class JsonReader {
   std::string prefix_;
   std::set<std::string> known_;
   std::string problem_;
-  std::vector<std::string> gone_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace sonar

@@ -41,10 +41,10 @@ nlohmann::json recipe_to_json(const Recipe& recipe) {
 Recipe paper_recipe() {
   Recipe recipe;
   recipe.flags.surface.mode = SurfaceMode::fan;
-  recipe.flags.lost.enabled = false;
-  recipe.flags.hot_beam.enabled = false;
-  recipe.flags.wall.enabled = false;
-  recipe.flags.impulse.enabled = false;
+  recipe.flags.dropouts.enabled = false;
+  recipe.flags.corrupted_packets.enabled = false;
+  recipe.flags.interference.enabled = false;
+  recipe.flags.impulse_noise.enabled = false;
   recipe.background_window.enabled = false;
   recipe.seabed.enabled = false;
   recipe.automatic = false;
@@ -101,7 +101,7 @@ Result<Recipe> recipe_from_text(std::string_view text) {
     reader.skip(member);
   reader.finish();
   if (!reader.problem().empty()) return fail(ErrorCode::format, reader.problem());
-  recipe.gone = reader.gone();
+  recipe.notes = reader.notes();
   if (const auto curve = json->find("growth_curve"); curve != json->end()) {
     auto made = transfer_function_from_json(*curve);
     if (!made) return fail(made.error().code, "growth_curve: " + made.error().text);

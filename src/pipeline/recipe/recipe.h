@@ -9,17 +9,17 @@
 #include "base/describe.h"
 #include "base/result.h"
 #include "io/csv_table.h"
-#include "io/navigation.h"
+#include "io/ping_navigation.h"
 #include "model/transfer_function.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/merge_params.h"
-#include "school/bottom/seabed.h"
 #include "school/detect/detect_params.h"
 #include "school/grow/grow.h"
 #include "school/grow/propagate_paper.h"
 #include "school/grow/propagate_tracked.h"
 #include "school/measure/measure_params.h"
 #include "school/measure/summarise.h"
+#include "school/seabed/seabed.h"
 #include "school/track/track.h"
 #include "signal/absorption.h"
 #include "signal/background.h"
@@ -89,13 +89,21 @@ struct CalibrationParams {
 template <class Visitor>
 void describe(Visitor& v, CalibrationParams& p) {
   v.choice("absorption", p.absorption, kAbsorptionSourceNames,
-           "file: the value recorded with each ping's channel, else Francois & Garrison; or always by a formula");
-  v.group("water", p.water, "for the absorption formulas");
+           {"Where the absorption comes from: file takes the value recorded with each ping's channel (and Francois & "
+            "Garrison's where there is none); the others always use that formula. Choose a formula when the recorded "
+            "value was set wrongly.",
+            Tier::basic});
+  v.group("water", p.water, "the water for which absorption is worked out");
   v.field("pulse_tolerance", p.pulse_tolerance,
-          {.unit = "1", .min = 0, .max = 0.1, .text = "gain tables are matched to the pulse length within this share"});
+          {.unit = "1",
+           .min = 0,
+           .max = 0.1,
+           .text = "Largest relative difference between a ping's pulse length and one in the sounder's gain table for "
+                   "that gain to be used; raise it only if the file rounds its pulse lengths."});
   v.choice("psi", p.psi, kPsiSourceNames,
-           "equivalent beam angle: the raw file's, that of the square of a beam of the -3 dB widths, or a calibration "
-           "table's (psi_db; the raw file's where it says nothing); taking such a table chooses it");
+           "Where the equivalent beam angle comes from: stated takes the raw file's, from_widths works it out from the "
+           "-3 dB widths, table takes psi_db of a calibration table (and the raw file's where it gives none). Giving a "
+           "table with psi_db chooses table.");
 }
 
 struct BackgroundWindowParams {
@@ -106,18 +114,21 @@ struct BackgroundWindowParams {
 
 template <class Visitor>
 void describe(Visitor& v, BackgroundWindowParams& p) {
-  v.field("enabled", p.enabled, {.text = "subtract the background noise and keep thresholds above it"});
+  v.field("enabled", p.enabled,
+          {.text = "Subtract the background noise from Sv and keep thresholds above it; switch it off to see the data "
+                   "as recorded."});
   v.field("pings_each_side", p.pings_each_side,
           {.unit = "pings",
            .min = 0,
            .max = 100,
-           .text = "the background is the median over so many pings before and after"});
-  v.field(
-      "quiet_db", p.quiet_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 100,
-       .text = "a beam that is so much quieter in the ping itself was disturbed in the others: its own level counts"});
+           .text = "The background of a ping is the median over this many pings before and after it; raise it for "
+                   "steadier levels, lower it where noise changes from ping to ping."});
+  v.field("quiet_db", p.quiet_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 100,
+           .text = "A beam whose noise in a ping is this much lower than in the pings around it keeps its own level, "
+                   "because the others were disturbed."});
 }
 
 /// Every parameter of every stage: what makes one run's science equal to another's. Jobs, paths, cache and display are
@@ -140,8 +151,8 @@ struct Recipe {
   GrowParams grow;
   PaperPropagationParams propagate_paper;
   TrackedPropagationParams propagate_tracked;
-  TransferFunction growth_curve;  ///< in the JSON as growth_curve
-  std::vector<std::string> gone;  ///< parameters of earlier versions that the text named, without effect
+  TransferFunction growth_curve;   ///< in the JSON as growth_curve
+  std::vector<std::string> notes;  ///< on parameters that the text names as earlier versions did, a line each
 };
 
 template <class Visitor>
@@ -151,18 +162,19 @@ void describe(Visitor& v, Recipe& r) {
   v.group("calibration", r.calibration, "from power to Sv");
   v.group("flags", r.flags, "samples that are not to be trusted");
   v.group("background", r.background, "background noise of each beam in one ping");
-  v.group("background_window", r.background_window, "background noise over pings");
+  v.group("background_window", r.background_window, "background noise over several pings");
   v.group("median", r.median, "the filter before selection");
-  v.group("seabed", r.seabed, "finding and leaving out the seabed");
-  v.field("automatic", r.automatic, {.text = "detect schools without a human"});
-  v.group("detect", r.detect, "schools of one ping");
-  v.group("track", r.track, "schools over pings");
+  v.group("seabed", r.seabed, "finding the seabed and leaving it out");
+  v.field("automatic", r.automatic,
+          {.text = "Detect schools automatically; switch it off to keep only what an operator selects."});
+  v.group("detect", r.detect, "schools in one ping");
+  v.group("track", r.track, "schools followed over pings");
   v.group("measure", r.measure, "a school's figures in one ping");
   v.group("summarise", r.summarise, "a school's figures over its pings");
   v.group("merge", r.merge, "schools over the cuts between observations");
-  v.group("grow", r.grow, "one click");
-  v.group("propagate_paper", r.propagate_paper, "carrying a click through time as the 2007 paper did");
-  v.group("propagate_tracked", r.propagate_tracked, "carrying a click through time");
+  v.group("grow", r.grow, "growing from one click");
+  v.group("propagate_paper", r.propagate_paper, "following a selected school as the 2007 paper did");
+  v.group("propagate_tracked", r.propagate_tracked, "following a selected school through the pings");
 }
 
 /// "default", or "paper": the 2007 paper to the letter (its four noises by cropping and median alone, no seabed, no

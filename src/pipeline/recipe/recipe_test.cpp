@@ -58,9 +58,25 @@ TEST(Recipe, ParametersThatEarlierVersionsHadAreListedAndHaveNoEffect) {
   const auto recipe = recipe_from_text(
       R"({"recipe_version":1,"detect":{"floor_db":-55,"tolerance_db":9},"seabed":{"flank_rise_db":3},"track":{}})");
   ASSERT_TRUE(recipe) << recipe.error().text;
-  EXPECT_EQ(recipe->gone, (std::vector<std::string>{"seabed.flank_rise_db", "detect.floor_db"}));
+  EXPECT_EQ(recipe->notes, (std::vector<std::string>{"seabed.flank_rise_db has no effect any more",
+                                                     "detect.floor_db has no effect any more"}));
   EXPECT_EQ(recipe->detect.tolerance_db, 9.0);
   EXPECT_EQ(recipe_text(*recipe).find("floor_db"), std::string::npos);
+}
+
+TEST(Recipe, NamesOfTheVersionBeforeAreReadAndNoted) {
+  const auto recipe = recipe_from_text(
+      R"({"recipe_version":1,"flags":{"wall":{"enabled":false},"lost":{"minimum_samples":99}},
+          "measure":{"floor_extent_m":2,"min_extent_m":3}})");
+  ASSERT_TRUE(recipe) << recipe.error().text;
+  EXPECT_FALSE(recipe->flags.interference.enabled);
+  EXPECT_EQ(recipe->flags.dropouts.minimum_samples, 99);
+  EXPECT_EQ(recipe->measure.min_extent_m, 3.0) << "where both stand, today's name counts";
+  EXPECT_THAT(recipe->notes,
+              testing::UnorderedElementsAre("flags.wall is called flags.interference now",
+                                            "flags.lost is called flags.dropouts now",
+                                            "measure.floor_extent_m is called measure.min_extent_m now"));
+  EXPECT_EQ(recipe_text(*recipe).find("\"wall\""), std::string::npos);
 }
 
 struct Refusal {

@@ -14,8 +14,8 @@
 #include <tuple>
 
 #include "io/atomic_file.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "io/simrad/test_bytes.h"
 
 namespace sonar {

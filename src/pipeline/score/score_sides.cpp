@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/csv.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/score/score.h"
 #include "pipeline/tasks/merge.h"
 

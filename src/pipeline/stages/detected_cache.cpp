@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/hash.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/stages/observe.h"
 

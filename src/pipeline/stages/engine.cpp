@@ -9,8 +9,8 @@
 
 #include "base/units.h"
 #include "pipeline/stages/reduced_ping.h"
+#include "school/detect/above_background.h"
 #include "school/detect/detect_params.h"
-#include "school/detect/standing_out.h"
 #include "school/evidence/block_means.h"
 #include "school/evidence/null_model.h"
 #include "signal/beam_overlap.h"
@@ -39,13 +39,13 @@ void apply_tables(const Array3<std::int16_t>& table, Volume& volume) {
   for (int row = 0; row < rows; ++row) apply_sv_table(volume.counts.view().row(row), table.view().row(row));
 }
 
-/// A channel that the sonar equation cannot be worked out for says nothing: its samples count as lost.
+/// A channel that the sonar equation cannot be worked out for says nothing: its samples count as dropouts.
 void flag_uncalibrated(const Array3<std::int16_t>& table, Volume& volume) {
   const int rows = static_cast<int>(volume.flags.shape().rows());
   for (int row = 0; row < rows; ++row) {
     const auto calibration = table.view().row(row);
     if (calibration.empty() || calibration.back() != kNoData) continue;
-    for (SampleFlags& flags : volume.flags.view().row(row)) flags |= SampleFlags::lost;
+    for (SampleFlags& flags : volume.flags.view().row(row)) flags |= SampleFlags::dropout;
   }
 }
 
@@ -138,7 +138,7 @@ PingGeometry Engine::ping_geometry(std::int64_t ping_index) const {
 }
 
 std::vector<double> Engine::estimate(const PowerVolume& power) const {
-  // Crops alone: walls, hot beams and schools are a minority of a beam's far samples, and the median over pings sees to
+  // Crops alone: interference, corrupted packets and schools are a minority of a beam's far samples, and the median over pings sees to
   // the rest.
   Array3<SampleFlags> flags = power.volume.flags;
   flag_near_field(ping_geometry(0), recipe_.flags.near_field, flags.view());
@@ -218,10 +218,10 @@ void Engine::flag(std::int64_t ping_index, const PowerVolume& power, Volume& vol
   NeighbourPings neighbours;
   Power before;
   Power after;
-  if (recipe_.flags.impulse.enabled && ping_index > 0 && !is_bad(ping_index - 1)) {
+  if (recipe_.flags.impulse_noise.enabled && ping_index > 0 && !is_bad(ping_index - 1)) {
     if (auto loaded = this->power(ping_index - 1)) before = *loaded;
   }
-  if (recipe_.flags.impulse.enabled && ping_index + 1 < pings() && !is_bad(ping_index + 1)) {
+  if (recipe_.flags.impulse_noise.enabled && ping_index + 1 < pings() && !is_bad(ping_index + 1)) {
     if (auto loaded = this->power(ping_index + 1)) after = *loaded;
   }
   if (before) neighbours.before = before->volume.counts.view();
@@ -292,7 +292,7 @@ Result<StagedPing> Engine::staged(std::int64_t ping_index) {
     ping.seabed = find_seabed(ping.filtered->counts.view(), ping.filtered->flags.view(), ping.background(), sector_,
                               grid().vertical_width_deg, recipe_.seabed);
     flag_seabed(ping.seabed, ping.filtered->flags.view());
-    flag_ground(ping.seabed, ping.sv.flags.view());
+    flag_seabed_itself(ping.seabed, ping.sv.flags.view());
   }
   if (!ping.water) {
     ping.means = block_means(std::as_const(ping.sv.counts).view(), std::as_const(ping.sv.flags).view(),
@@ -332,16 +332,16 @@ FilteredPing Engine::filtered(const StagedPing& ping) const {
   out.placement = tracking_placement(ping.ping_index);
   out.time = observation_.navigation[static_cast<std::size_t>(ping.ping_index)].time;
   out.bad = is_bad(ping.ping_index);
-  out.standing_out = [this, volume = ping.filtered, table = ping.calibration, noise = ping.background_db,
-                      known = ping.water, means = ping.means, seabed = ping.seabed](double margin_db, Above above) {
+  out.above_background = [this, volume = ping.filtered, table = ping.calibration, noise = ping.background_db,
+                          known = ping.water, means = ping.means, seabed = ping.seabed](double margin_db, Above above) {
     const Background background{noise, table->view()};
     const auto counts = std::as_const(volume->counts).view();
     const auto flags = std::as_const(volume->flags).view();
-    if (above == Above::noise) return standing_out(counts, flags, background, nullptr, margin_db);
-    if (known) return standing_out(counts, flags, background, &*known, margin_db);
+    if (above == Above::noise) return above_background(counts, flags, background, nullptr, margin_db);
+    if (known) return above_background(counts, flags, background, &*known, margin_db);
     const WaterPing alone{&means, &seabed, background};
     const WaterLevels water = water_levels({&alone, 1}, sector_, kLeastEvidence).front();
-    return standing_out(counts, flags, background, &water, margin_db);
+    return above_background(counts, flags, background, &water, margin_db);
   };
   return out;
 }

@@ -16,10 +16,10 @@
 #include "pipeline/stages/load_volume.h"
 #include "pipeline/survey/calibration.h"
 #include "pipeline/survey/survey.h"
-#include "school/bottom/seabed.h"
-#include "school/detect/background.h"
 #include "school/detect/filtered_ping.h"
+#include "school/detect/noise_level.h"
 #include "school/judge/ping_echo.h"
+#include "school/seabed/seabed.h"
 #include "school/track/dead_reckoning.h"
 #include "signal/flags.h"
 
@@ -28,8 +28,8 @@ namespace sonar {
 /// Everything the stages after the raw file know of one ping. Values, never changed once handed out.
 struct StagedPing {
   std::int64_t ping_index = 0;
-  Volume sv;                         ///< unfiltered Sv counts; flags with the ground
-  std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the ground and its flank
+  Volume sv;                         ///< unfiltered Sv counts; flags with the seabed
+  std::shared_ptr<Volume> filtered;  ///< median-filtered Sv counts; flags with the seabed and its beam-edge echo
   Seabed seabed;
   CalibrationTables::Table calibration;
   std::vector<double> background_db;  ///< [row] power, dB re 1 W; NaN = none known

@@ -19,7 +19,7 @@ constexpr std::int16_t kMissing = -20000;
 
 void lose(std::span<std::int16_t> counts, std::span<SampleFlags> flags) {
   std::fill(counts.begin(), counts.end(), kNoData);
-  std::fill(flags.begin(), flags.end(), SampleFlags::lost);
+  std::fill(flags.begin(), flags.end(), SampleFlags::dropout);
 }
 
 // A fixed count in local arrays is what compilers make vectors of without being asked for more optimisation.
@@ -35,7 +35,7 @@ struct Block {
       const std::int16_t at_least = v < kMinCount ? kMinCount : v;
       const std::int16_t clamped = at_least > kMaxCount ? kMaxCount : at_least;
       counts[i] = v == kMissing ? kNoData : clamped;
-      flags[i] = v == kMissing ? SampleFlags::lost : SampleFlags::none;
+      flags[i] = v == kMissing ? SampleFlags::dropout : SampleFlags::none;
     }
   }
 };

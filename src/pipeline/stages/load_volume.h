@@ -19,7 +19,7 @@ struct PowerVolume {
 };
 
 /// Reads a ping from its file and lays it on the grid. Row samples are absolute: a channel with `offset` fills from
-/// there. kNoData, flagged lost: channels that are missing, what a channel did not store, and the missing value -20000.
+/// there. kNoData, flagged dropout: channels that are missing, what a channel did not store, and the missing value -20000.
 /// Everything else is clamped to kMinCount .. kMaxCount.
 /// errors   unsupported (no grid), io, format; `where` names file, byte and ping
 /// threads  any

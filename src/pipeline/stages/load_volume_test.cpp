@@ -60,7 +60,7 @@ TEST(LoadVolume, WhatIsNotThereIsLost) {
     for (int beam = 0; beam < 3; ++beam) {
       for (int s = 0; s < 5; ++s) {
         const bool lost = ping->volume.counts(fan, beam, s) == kNoData;
-        EXPECT_EQ(ping->volume.flags(fan, beam, s), lost ? SampleFlags::lost : SampleFlags::none);
+        EXPECT_EQ(ping->volume.flags(fan, beam, s), lost ? SampleFlags::dropout : SampleFlags::none);
       }
     }
   }

@@ -308,9 +308,9 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
     product.rejected = refused_echoes(engine, detected, tracks);
     state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
   }
-  CommandGround ground = ground_of(engine, reach);
-  ground.earlier = options.earlier;
-  state = fold(options.journal, std::move(state), ground);
+  CommandContext context = context_of(engine, reach);
+  context.earlier = options.earlier;
+  state = fold(options.journal, std::move(state), context);
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
   product.rejected = still_refused(std::move(product.rejected), state, engine.grid());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));

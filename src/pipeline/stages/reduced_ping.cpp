@@ -24,11 +24,12 @@ void for_each_record(std::span<const ChannelPing> heads, std::span<const int> ro
     told[at] = true;
   };
   for (const ChannelPing& head : heads) {
-    if (head.reduced) tell(head.channel, *head.reduced);
+    if (head.reduced) tell(head.channel, head.reduced->row);
   }
   // What a channel says of itself comes first: parts of a ping in two files each list what they do not hold.
   for (const ChannelPing& head : heads) {
-    for (const ReducedChannel& beam : head.reduced_short) tell(beam.channel, beam.row);
+    if (!head.reduced) continue;
+    for (const ReducedChannel& beam : head.reduced->short_beams) tell(beam.channel, beam.row);
   }
 }
 
@@ -54,14 +55,14 @@ void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_o
     const bool faulty = counts[i] == kMinCount;
     if (counts[i] == kNoData) counts[i] = kMinCount;
     if (faulty) counts[i] = kNoData;
-    flags[i] = faulty ? SampleFlags::lost : SampleFlags::none;
+    flags[i] = faulty ? SampleFlags::dropout : SampleFlags::none;
   }
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
     const auto in_row = volume.counts.view().row(row);
     const auto row_flags = volume.flags.view().row(row);
     for (auto s = static_cast<std::size_t>(record.recorded_samples); s < in_row.size(); ++s) {
       in_row[s] = kNoData;
-      row_flags[s] = SampleFlags::lost;
+      row_flags[s] = SampleFlags::dropout;
     }
   });
 }
@@ -70,7 +71,7 @@ void fill_reduced(Volume& volume) {
   const auto counts = volume.counts.all();
   const auto flags = volume.flags.all();
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == kNoData && !any(flags[i] & SampleFlags::lost)) counts[i] = kMinCount;
+    if (counts[i] == kNoData && !any(flags[i] & SampleFlags::dropout)) counts[i] = kMinCount;
   }
 }
 
@@ -107,16 +108,16 @@ bool fits(const WaterLevels& water, const Shape3& shape) {
 }  // namespace
 
 WaterLevels reduced_water(std::span<const ChannelPing> heads, const Shape3& shape) {
-  const auto teller =
-      std::find_if(heads.begin(), heads.end(), [](const ChannelPing& head) { return head.reduced_water.has_value(); });
-  return teller == heads.end() || !fits(*teller->reduced_water, shape) ? WaterLevels{} : *teller->reduced_water;
+  const auto teller = std::find_if(heads.begin(), heads.end(),
+                                   [](const ChannelPing& head) { return head.reduced && head.reduced->water; });
+  return teller == heads.end() || !fits(*teller->reduced->water, shape) ? WaterLevels{} : *teller->reduced->water;
 }
 
 Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, int samples) {
   Seabed seabed;
   for (const ChannelPing& head : heads) {
-    if (!head.reduced_seabed) continue;
-    const ReducedSeabed& plane = *head.reduced_seabed;
+    if (!head.reduced || !head.reduced->seabed) continue;
+    const ReducedSeabed& plane = *head.reduced->seabed;
     seabed.found = true;
     seabed.offset_m = plane.offset_m;
     seabed.slope_x = plane.slope_x;
@@ -130,10 +131,10 @@ Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> r
   seabed.first_sample.assign(row_of_channel.size(), samples);
   seabed.heard_sample.assign(row_of_channel.size(), samples);
   for_each_record(heads, row_of_channel, [&](int row, const ReducedRow& record) {
-    // 0.1.0 wrote stretches that begin later: water round schools in a flank of which nothing else is known
-    const bool flank = record.open_first == record.seabed_sample && record.open_end > record.open_first;
+    // 0.1.0 wrote stretches that begin later: water round schools in a beam-edge echo of which nothing else is known
+    const bool edge_echo = record.open_first == record.seabed_sample && record.open_end > record.open_first;
     const auto r = static_cast<std::size_t>(row);
-    seabed.first_sample[r] = std::min(flank ? record.open_end : record.seabed_sample, samples);
+    seabed.first_sample[r] = std::min(edge_echo ? record.open_end : record.seabed_sample, samples);
     seabed.heard_sample[r] = std::min(record.seabed_sample, samples);
   });
   return seabed;
@@ -145,7 +146,7 @@ void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int
     const auto row_flags = flags.row(row);
     const auto end = std::min(row_flags.size(), static_cast<std::size_t>(record.recorded_samples));
     for (auto s = static_cast<std::size_t>(record.seabed_sample); s < end; ++s) {
-      // schools in its flank
+      // schools in its beam-edge echo
       const bool is_open = std::cmp_greater_equal(s, record.open_first) && std::cmp_less(s, record.open_end);
       if (!is_open) row_flags[s] |= SampleFlags::seabed;
     }

@@ -8,7 +8,7 @@
 #include "model/ping.h"
 #include "model/volume.h"
 #include "pipeline/stages/load_volume.h"
-#include "school/bottom/seabed.h"
+#include "school/seabed/seabed.h"
 
 namespace sonar {
 
@@ -27,7 +27,7 @@ inline constexpr std::int16_t kReducedFault = -32767;
 [[nodiscard]] std::vector<int> reduced_lengths(std::span<const ChannelPing> heads, std::span<const int> row_of_channel);
 
 /// Puts a reduced ping's volume in the place of the whole one: what was left out becomes the weakest power there is,
-/// without flags; faulty samples, those beyond a beam's recorded end and missing channels become kNoData and lost.
+/// without flags; faulty samples, those beyond a beam's recorded end and missing channels become kNoData and dropouts.
 /// volume  as load_volume() gave it: power counts and flags
 void open_reduced(std::span<const ChannelPing> heads, std::span<const int> row_of_channel, Volume& volume);
 
@@ -38,7 +38,7 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] std::vector<float> reduced_background_db(std::span<const ChannelPing> heads,
                                                        std::span<const int> row_of_channel);
 
-/// The water's levels in the whole ping, and what stood out of it; nothing is known, and nothing stands out, where the file
+/// The water's levels in the whole ping, and what lay above it; nothing is known, and nothing lies above it, where the file
 /// does not tell or what it tells does not fit the grid.
 /// shape  of the whole ping
 [[nodiscard]] WaterLevels reduced_water(std::span<const ChannelPing> heads, const Shape3& shape);
@@ -49,7 +49,7 @@ void fill_reduced(Volume& volume);
 [[nodiscard]] Seabed reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                                     int samples);
 
-/// Flags seabed from where it began in the whole ping on, plane or not; what lies in its flank is water.
+/// Flags seabed from where it began in the whole ping on, plane or not; what lies in its beam-edge echo is water.
 void flag_reduced_seabed(std::span<const ChannelPing> heads, std::span<const int> row_of_channel,
                          View3<SampleFlags> flags);
 

@@ -12,7 +12,7 @@
 
 namespace sonar {
 
-/// What stood out clearly in an observation and became no school, with the judge's reason: in single pings, and what was
+/// What lay clearly above the background in an observation and became no school, with the judge's reason: in single pings, and what was
 /// followed. Sorted by ping and voxel.
 [[nodiscard]] std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const DetectedPing> pings,
                                                       const Tracks& tracks);

@@ -38,7 +38,7 @@ TEST(PingSettings, ARollingShipUnderAnUnknownSounderIsNoted) {
   EXPECT_FALSE(noted("MBS", 4.0F, true));
 }
 
-// formats.md leaves open which way the azimuths of a sonar count that looks to starboard.
+// No description of the format says which way the azimuths of a sonar count that looks to starboard.
 TEST(PingSettings, BeamAzimuthsCountAsTheSettingSays) {
   const test::TemporaryFolder folder;
   test::Con0Spec beams = test::small_ms70();

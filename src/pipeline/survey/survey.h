@@ -19,7 +19,7 @@
 #include "geo/sector.h"
 #include "io/block_pool.h"
 #include "io/index_cache.h"
-#include "io/navigation.h"
+#include "io/ping_navigation.h"
 #include "io/raw_index.h"
 #include "model/beam_grid.h"
 #include "model/navigation.h"
@@ -45,26 +45,39 @@ struct SurveyParams {
 template <class Visitor>
 void describe(Visitor& v, SurveyParams& p) {
   v.field("observation_gap_s", p.observation_gap_s,
-          {.unit = "s", .min = 0, .max = 1e9, .text = "A longer gap between pings begins a new observation."});
+          {.unit = "s",
+           .min = 0,
+           .max = 1e9,
+           .text = "A longer gap between pings begins a new observation; raise it for a sonar that pings rarely."});
   v.field("observation_max_s", p.observation_max_s,
-          {.unit = "s", .min = 0, .max = 1e9, .text = "Longest observation; 0 = no limit."});
+          {.unit = "s",
+           .min = 0,
+           .max = 1e9,
+           .text = "Longest duration of an observation, which is cut where it is longer; 0 sets no limit. Lower it to "
+                   "keep products small."});
   v.field("range_zero_pulses", p.range_zero_pulses,
           {.unit = "pulse lengths",
            .min = 0,
            .max = 1,
-           .text = "How much of the pulse's length in water is taken off every range; 0.25 = c tau / 4."});
+           .text = "Share of the pulse's length in water that is taken off every range; 0.25 is c tau / 4. Change it "
+                   "only for a sounder whose range zero is known to differ."});
   v.field("grid_tolerance_deg", p.grid_tolerance_deg,
-          {.unit = "deg", .min = 0, .max = 5, .text = "Beam directions closer than this are one fan or one azimuth."});
+          {.unit = "deg",
+           .min = 0,
+           .max = 5,
+           .text = "Beams whose directions differ by less than this belong to one fan or one azimuth; raise it for a "
+                   "sonar whose stated angles scatter."});
   v.field("use_passive_pings", p.use_passive_pings,
-          {.text = "Take pings made without transmitting, or as a test, like all others; else they are bad."});
-  v.field(
-      "sound_speed_mps", p.sound_speed_mps,
-      {.unit = "m/s",
-       .min = 0,
-       .max = 2000,
-       .text = "Stands for the files' sound speed in ranges, volumes, the sonar equation and absorption by Francois & "
-               "Garrison; 0 = a profile's harmonic mean from the transducer to the depth that the deepest beam "
-               "reaches, without a profile the files'."});
+          {.text = "Take pings that were made without transmitting, or as a test, like all others; otherwise they are "
+                   "marked bad. Switch it on to study noise."});
+  v.field("sound_speed_mps", p.sound_speed_mps,
+          {.unit = "m/s",
+           .min = 0,
+           .max = 2000,
+           .text = "Sound speed used instead of the files' in ranges, volumes, the sonar equation and absorption by "
+                   "Francois & Garrison; 0 takes the harmonic mean of a given profile down to the deepest beam, or the "
+                   "files' own value. Set it when the sonar was run with a wrong sound speed.",
+           .tier = Tier::basic});
 }
 
 /// One file of the survey. The name may be that of a file that could not be opened; then error says why.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 
 namespace sonar {
 

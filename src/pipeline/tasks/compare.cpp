@@ -13,9 +13,9 @@
 
 #include "base/number_text.h"
 #include "base/time.h"
-#include "io/columns.h"
 #include "io/csv_table.h"
-#include "io/product.h"
+#include "io/product_file.h"
+#include "io/table_columns.h"
 #include "pipeline/tasks/merge.h"
 
 namespace sonar {

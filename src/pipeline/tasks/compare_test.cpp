@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "io/atomic_file.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 
 namespace sonar {
 namespace {

@@ -64,7 +64,7 @@ Result<MergeReport> merge_folder(const std::filesystem::path& out, std::vector<M
 /// What a merge made, for people: counts, what is missing or failed, where the files lie. Ends with a line break.
 [[nodiscard]] std::string merge_text(const MergeReport& report, const std::filesystem::path& out);
 
-/// What the products say of their data, for people: a line for each observation and code, "note no-grid: obs-0001: ...".
+/// What the products say of their data, for people: a line for each observation and code, "no-grid: obs-0001: ...".
 /// What happened to schools (track-event, propagation-ended) is not in it.
 [[nodiscard]] std::vector<std::string> note_lines(const MergeReport& report);
 

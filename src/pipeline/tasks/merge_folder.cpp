@@ -11,12 +11,13 @@
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
-#include "io/product.h"
-#include "io/survey_map.h"
+#include "io/product_file.h"
+#include "io/survey_layers.h"
 #include "model/school_totals.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/survey_numbers.h"
 
 namespace sonar {
 namespace {
@@ -66,7 +67,19 @@ json observation_json(const ObservationProduct& product) {
   return out;
 }
 
-std::string survey_json(const MergeReport& report) {
+json numbers_json(const std::vector<SurveyNumber>& numbers) {
+  json out = json::array();
+  for (const SurveyNumber& one : numbers) {
+    out.push_back({{"survey_school", one.number},
+                   {"source", one.source},
+                   {"school_id", one.school_id},
+                   {"first_time_ns", one.first_time},
+                   {"last_time_ns", one.last_time}});
+  }
+  return out;
+}
+
+std::string survey_json(const MergeReport& report, const std::vector<SurveyNumber>& numbers) {
   json observations = json::array();
   std::size_t pings = 0;
   for (const ObservationProduct& product : report.survey.observations) {
@@ -117,7 +130,8 @@ std::string survey_json(const MergeReport& report) {
                     {"not_run", report.not_run},
                     {"partly_run", partly_run(report)},
                     {"notes", notes},
-                    {"unplanned", report.unplanned}};
+                    {"unplanned", report.unplanned},
+                    {"survey_schools", numbers_json(numbers)}};
   // Texts may come from damaged files: what is no UTF-8 is replaced, never thrown over.
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
@@ -233,11 +247,16 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   std::vector<fs::path> in_order;
   for (const auto& [observation, file] : sound) in_order.push_back(file);
 
+  // What a survey that is not whole yet makes of its numbers is not kept: whole, it has them in the order of its schools.
+  std::vector<SurveyNumber> kept = kept_numbers(out);
+  std::vector<SurveyNumber> numbers = number_schools(report.survey, kept);
+  if (!report.complete()) numbers = std::move(kept);
+
   auto written = require_free_space(out, kLeastFreeBytes);
   if (written) written = write_csv_rows(out / "schools.csv", report.survey.schools);
   if (written) written = write_csv_rows(out / "school_pings.csv", report.survey.school_pings);
   if (written) written = write_map(out, report.survey, in_order, work);
-  if (written) written = write_file(out / "survey.json", survey_json(report));
+  if (written) written = write_file(out / "survey.json", survey_json(report, numbers));
   if (!written) return pass_on(written);
   remove_leftovers(out);
   if (require_own_folder(out / "products")) remove_leftovers(out / "products");
@@ -248,8 +267,19 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
 std::string merge_text(const MergeReport& report, const fs::path& out) {
   std::size_t pings = 0;
   for (const ObservationProduct& product : report.survey.observations) pings += product.pings.size();
-  std::string text = fmt::format("{} observations, {} pings, {} schools\n", report.survey.observations.size(), pings,
-                                 counted_schools(report.survey.observations).size());
+  std::vector<std::string> without_fans;
+  for (const ObservationProduct& product : report.survey.observations) {
+    if (!product.grid) without_fans.push_back(product.observation);
+  }
+  std::string text = fmt::format("{} observations, {} pings", report.survey.observations.size(), pings);
+  if (without_fans.empty() || without_fans.size() < report.survey.observations.size()) {
+    text += fmt::format(", {} schools", counted_schools(report.survey.observations).size());
+  }
+  text += "\n";
+  if (!without_fans.empty()) {
+    text += fmt::format("schools are not looked for in single-beam data, nor in beams that make no fans: {}\n",
+                        fmt::join(without_fans, ", "));
+  }
   const auto list = [&](const char* what, const std::vector<std::string>& names) {
     if (!names.empty()) text += fmt::format("{}: {}\n", what, fmt::join(names, ", "));
   };
@@ -281,7 +311,7 @@ std::vector<std::string> note_lines(const MergeReport& report) {
       const std::string what =
           to_line({ErrorCode::format, first->text, {first->file, first->offset, first->ping_index}});
       const std::string more = count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string{};
-      lines.push_back(fmt::format("note {}: {}: {}{}", name(code), product.observation, what, more));
+      lines.push_back(fmt::format("{}: {}: {}{}", name(code), product.observation, what, more));
     }
   }
   return lines;

@@ -16,15 +16,29 @@ struct MergeParams {
 template <class Visitor>
 void describe(Visitor& v, MergeParams& p) {
   v.field("gate_m", p.gate_m,
-          {.unit = "m", .min = 0, .max = 10000, .text = "the predicted place may miss the found one by this ..."});
+          {.unit = "m",
+           .min = 0,
+           .max = 10000,
+           .text = "A school that crosses a cut may lie this far from where it is predicted, beside a share of its "
+                   "length; raise it where schools swim irregularly."});
   v.field("length_share", p.length_share,
-          {.unit = "1", .min = 0, .max = 10, .text = "... and this share of the lengths of both"});
-  v.field("depth_gate_m", p.depth_gate_m, {.unit = "m", .min = 0, .max = 10000, .text = "the same for the depth"});
+          {.unit = "1",
+           .min = 0,
+           .max = 10,
+           .text = "A school that crosses a cut may lie farther from where it is predicted by this share of the "
+                   "lengths on both sides; raise it for large, loose schools."});
+  v.field("depth_gate_m", p.depth_gate_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 10000,
+           .text = "A school that crosses a cut may differ this much in depth from the prediction; raise it where "
+                   "schools dive."});
   v.field("edge_pings", p.edge_pings,
           {.unit = "pings",
            .min = 0,
            .max = 1000,
-           .text = "pings a school may be missing before or after the cut, or the end of a reach"});
+           .text = "A school may be missing in this many pings before or after a cut, or beyond the last ping a "
+                   "propagation was asked for, and still be joined."});
 }
 
 }  // namespace sonar

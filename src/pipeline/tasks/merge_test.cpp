@@ -13,8 +13,8 @@
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
-#include "io/product.h"
 #include "io/product_example.h"
+#include "io/product_file.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/tasks/run.h"
 
@@ -60,10 +60,9 @@ TEST(Merge, tells_each_code_once_an_observation) {
                                                {DiagnosticCode::no_grid, "", -1, -1, "one fan"},
                                                {DiagnosticCode::file_truncated, "b.raw", 9, -1, "cut"}};
   report.survey.observations[1].diagnostics = {{DiagnosticCode::no_position, "", -1, 4, "6 of 10 pings"}};
-  EXPECT_THAT(
-      note_lines(report),
-      testing::ElementsAre("note file-truncated: obs-0001: a.raw: byte 700: cut (and 1 more)",
-                           "note no-grid: obs-0001: one fan", "note no-position: obs-0002: ping 4: 6 of 10 pings"));
+  EXPECT_THAT(note_lines(report),
+              testing::ElementsAre("file-truncated: obs-0001: a.raw: byte 700: cut (and 1 more)",
+                                   "no-grid: obs-0001: one fan", "no-position: obs-0002: ping 4: 6 of 10 pings"));
 }
 
 TEST(Merge, follows_a_school_over_a_cut) {

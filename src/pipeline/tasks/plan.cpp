@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/recipe/json_file.h"
 
 namespace sonar {

@@ -8,7 +8,7 @@
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "pipeline/journal/earlier.h"
 
 namespace sonar {
@@ -147,6 +147,7 @@ Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::spa
   const EarlierProducts earlier(options.out);
   RunReport report;
   for (const PlanTask& task : *tasks) {
+    work.progress(kObservations, static_cast<std::int64_t>(&task - tasks->data()), std::ssize(*tasks));
     auto worked = work_on(survey, task, plan, observe_options, options, earlier, report, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "interrupted; finished observations are kept");
     if (!worked) report.failures.push_back({task.observation, worked.error()});

@@ -23,6 +23,9 @@ struct RunOptions {
   std::string program_version;
 };
 
+/// Stage of run_plan()'s progress: how many observations are done, of how many.
+inline constexpr std::string_view kObservations = "observations";
+
 struct RunFailure {
   std::optional<std::string> observation;  ///< none: a file that gave nothing, named by the error
   Error error;
@@ -42,7 +45,7 @@ struct RunReport {
 [[nodiscard]] Result<void> require_possible(const Plan& plan, const RunOptions& options);
 
 /// Works through the plan's tasks (or the chosen one): makes each product that is not there or not right, atomically.
-/// A failed observation does not stop the others.
+/// A failed observation does not stop the others. Progress tells a stage kObservations as each one begins.
 /// survey   opened from plan.survey with plan.recipe
 /// errors   usage: no such observation or task; no_space; cancelled (what was finished stays)
 [[nodiscard]] Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey,

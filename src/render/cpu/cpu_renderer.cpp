@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/units.h"
-#include "render/cpu/columns.h"
+#include "render/cpu/sample_columns.h"
 #include "render/cpu/trace.h"
 #include "render/grid_axes.h"
 #include "render/homogeneous_cells.h"

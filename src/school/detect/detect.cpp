@@ -123,7 +123,7 @@ class PingDetector {
                              .enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples)
                              .clipped(echo_.sv.shape());
     const double own_level_db = reference_db - params_.tolerance_db - kLink_db;
-    // a stronger neighbour's skirt may reach this far down: then the school is what stands out of it
+    // a stronger neighbour's skirt may reach this far down: then the school is what rises above it
     for (double level_db = own_level_db; level_db <= reference_db - kLeastProminence_db; level_db += kStep_db) {
       if (search(component, box, level_db)) break;
     }
@@ -160,7 +160,7 @@ class PingDetector {
     return db_from_counts(count);
   }
 
-  /// Takes a part for a school where it holds none yet and stands out; whether it was taken.
+  /// Takes a part for a school where it holds none yet and lies above the background; whether it was taken.
   bool consider(const Runs& part, double level_db) {
     for (const Run& run : part) {
       const auto claimed = claimed_.view().row(run.row);

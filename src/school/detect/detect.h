@@ -13,11 +13,11 @@
 
 namespace sonar {
 
-/// Schools of one ping, without a human: what hangs together of the blocks that stand out of the water, then a threshold
+/// Schools of one ping, without a human: what hangs together of the blocks that lie above the background of the water, then a threshold
 /// relative to each one's own reference; what falls apart there becomes several detections.
 /// echo     kNeverMember voxels are never members
 /// taken    voxels that a human gave to schools; null = none
-/// refused  what stood out as clearly as a school must and is none is added, by its first voxel; null = nobody asks
+/// refused  what lay as clearly above the background as a school must and is none is added, by its first voxel; null = nobody asks
 /// out      sorted by first voxel; no voxel in two
 /// threads  pure
 /// cost     about 1 ms for 25 x 20 x 1320

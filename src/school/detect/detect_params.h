@@ -17,18 +17,24 @@ struct DetectParams {
 
 template <class Visitor>
 void describe(Visitor& v, DetectParams& p) {
-  v.field(
-      "false_alarm", p.false_alarm,
-      {.unit = "1/h",
-       .min = 1e-6,
-       .max = 1e4,
-       .text =
-           "schools that an hour of water without fish may show; fewer cost weak schools; calibrated from 2 to 20"});
+  v.field("false_alarm", p.false_alarm,
+          {.unit = "1/h",
+           .min = 1e-6,
+           .max = 1e4,
+           .text = "How many false schools an hour of water without fish may bring; lower it for fewer false schools, "
+                   "raise it to find weaker ones. Calibrated from 2 to 20.",
+           .tier = Tier::basic});
   v.field("tolerance_db", p.tolerance_db,
-          {.unit = "dB", .min = 0.1, .max = 60, .text = "members lie no deeper below the school's reference"});
+          {.unit = "dB",
+           .min = 0.1,
+           .max = 60,
+           .text = "Members of a school lie at most this much below its reference level; lower it to keep to a "
+                   "school's core, raise it for loose schools.",
+           .tier = Tier::basic});
   describe(v, p.size);
   v.field("left_out", p.left_out,
-          {.text = "judges that are not asked, commas between: size, prominence, confirmation, ship, level, surface"});
+          {.text = "Judges that are not asked, separated by commas: size, prominence, confirmation, ship, level, "
+                   "surface. Leave one out when it is known to refuse real schools."});
 }
 
 /// Evidence asked of a school over its sights, each counted by what it has above kChanceEvidence, for a rate of
@@ -48,10 +54,10 @@ struct SearchReach {
   static constexpr int fans = 2;
   static constexpr int beams = 3;
   static constexpr int samples = 40;
-  static constexpr int rim_fans = 1;
-  static constexpr int rim_beams = 1;
-  static constexpr int rim_samples = 15;
-  static constexpr int most_rims = 2;  ///< beside a louder neighbour
+  static constexpr int margin_fans = 1;
+  static constexpr int margin_beams = 1;
+  static constexpr int margin_samples = 15;
+  static constexpr int most_margins = 2;  ///< beside a louder neighbour
 };
 /// Members are told by a median along each beam of so many samples.
 inline constexpr int kMemberSamples = 23;

@@ -113,7 +113,7 @@ TEST(Detect, BridgesAHotBeam) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0, {16, 9, 6});
   const int row = 11 * 25 + 10;
-  for (int s = 300; s < 600; ++s) scene.flags.view().row(row)[static_cast<std::size_t>(s)] |= SampleFlags::hot_beam;
+  for (int s = 300; s < 600; ++s) scene.flags.view().row(row)[static_cast<std::size_t>(s)] |= SampleFlags::corrupted;
   const std::vector<Detection> found = scene.look(3);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_GT(dice(found[0].mask, scene.truths[0]), 0.85);
@@ -123,9 +123,9 @@ TEST(Detect, BridgesAHotBeam) {
   EXPECT_GT(overlap(found[0].mask, stripe), 0U);
 }
 
-TEST(Detect, RefusesAWallAndABeam) {
+TEST(Detect, RefusesInterferenceAndABeam) {
   Scene scene;
-  for (int row = 0; row < 500; ++row) {  // a wall that nobody flagged: 15 samples thick in all beams
+  for (int row = 0; row < 500; ++row) {  // interference that nobody flagged: 15 samples thick in all beams
     for (int s = 500; s < 515; ++s) scene.expected.view().row(row)[static_cast<std::size_t>(s)] = 1e-4;
   }
   for (int s = 300; s < 450; ++s) scene.expected(9, 9, s) = 1e-3;  // one beam
@@ -243,8 +243,8 @@ TEST(Edges, CropsAreBorders) {
   const Sector sector = test::grid().sector(test::range_axis(100));
   Array3<SampleFlags> flags({20, 25, 100});
   for (SampleFlags& flag : flags.all().subspan(19 * 25 * 100)) flag = SampleFlags::surface;
-  for (int s = 96; s < 100; ++s) flags(10, 10, s) = SampleFlags::lost;
-  flags(5, 6, 60) = SampleFlags::hot_beam;
+  for (int s = 96; s < 100; ++s) flags(10, 10, s) = SampleFlags::dropout;
+  flags(5, 6, 60) = SampleFlags::corrupted;
   PingMask top;
   top.runs = {{18 * 25 + 10, 60, 5}};
   top.confidence.assign(5, 255);
@@ -254,7 +254,7 @@ TEST(Edges, CropsAreBorders) {
   end.confidence.assign(6, 255);
   EXPECT_EQ(mask_edges(end, flags.view(), sector).flags, kEdgeFar);
   // A channel that was lost altogether has no end: beside it, and in it, lie faulty samples, wherever that is.
-  for (int s = 0; s < 100; ++s) flags(10, 14, s) = SampleFlags::lost;
+  for (int s = 0; s < 100; ++s) flags(10, 14, s) = SampleFlags::dropout;
   PingMask lost{{{10 * 25 + 14, 50, 4}}, {255, 255, 255, 255}};
   EXPECT_EQ(mask_edges(lost, flags.view(), sector).flags, kEdgeFlagged);
   lost.runs[0].row = 10 * 25 + 13;

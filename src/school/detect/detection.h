@@ -28,9 +28,9 @@ struct Detection {
   Run loudest;                     ///< one voxel, where the filtered echo is loudest
 };
 
-/// What stood out clearly in one ping and was judged no school.
+/// What lay clearly above the background in one ping and was judged no school.
 struct RefusedDetection {
-  Detection detection;  ///< without a threshold; its mask is what stood out
+  Detection detection;  ///< without a threshold; its mask is what lay above the background
   Reason reason;
 };
 

@@ -26,8 +26,8 @@ class Flood {
     }
   }
 
-  void pour(const std::vector<Run>& heart, int school) {
-    for (const Run& run : heart) {
+  void pour(const std::vector<Run>& core, int school) {
+    for (const Run& run : core) {
       for (int s = run.first_sample; s < run.end(); ++s) take({run.row, s}, school, kMaxCount);
     }
   }
@@ -101,12 +101,12 @@ class Flood {
 }  // namespace
 
 std::vector<std::vector<Run>> flood(View3<const std::int16_t> sv, std::span<const Run> water,
-                                    std::span<const std::vector<Run>> hearts, Connectivity connectivity) {
-  if (water.empty()) return std::vector<std::vector<Run>>(hearts.size());
+                                    std::span<const std::vector<Run>> cores, Connectivity connectivity) {
+  if (water.empty()) return std::vector<std::vector<Run>>(cores.size());
   Flood rising(sv, water, connectivity);
-  for (std::size_t i = 0; i < hearts.size(); ++i) rising.pour(hearts[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < cores.size(); ++i) rising.pour(cores[i], static_cast<int>(i));
   rising.rise();
-  return rising.shares(hearts.size());
+  return rising.shares(cores.size());
 }
 
 }  // namespace sonar

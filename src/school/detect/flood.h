@@ -11,14 +11,14 @@
 
 namespace sonar {
 
-/// Shares water among schools that meet in it: from each school's heart it is flooded, the loudest voxels first, so that
-/// the floods meet along the valleys between them.
+/// Shares water among schools that meet in it: from each school's core it is flooded, the loudest voxels first, so that
+/// the floods meet along the saddles between them.
 /// sv      [fan][beam][sample] counts
 /// water   sorted runs
-/// hearts  [school] sorted runs within the water; no voxel in two
-/// out     [school] sorted runs, the hearts included; what no flood reaches is in none
+/// cores  [school] sorted runs within the water; no voxel in two
+/// out     [school] sorted runs, the cores included; what no flood reaches is in none
 /// source  watershed by a priority queue (Meyer 1991)
 [[nodiscard]] std::vector<std::vector<Run>> flood(View3<const std::int16_t> sv, std::span<const Run> water,
-                                                  std::span<const std::vector<Run>> hearts, Connectivity connectivity);
+                                                  std::span<const std::vector<Run>> cores, Connectivity connectivity);
 
 }  // namespace sonar

@@ -19,11 +19,12 @@ constexpr double kMemberShare = 0.92;        ///< of a school's medians lies bel
 constexpr double kPeakShare = 0.995;         ///< of a school's filtered voxels lies below its peak
 constexpr double kPeakAbove_db = 1.5;        ///< the reference lies so far above the filtered peak at least
 constexpr double kLeastAboveWater_db = 2.5;  ///< members stand so far above the background
-constexpr double kLeastValley_db = 5.0;  ///< two schools that the filter joined stand so far above the valley between
-constexpr double kValleyStep_db = 1.0;   ///< which is sounded in such steps
-constexpr double kCrownShare = 0.5;      ///< both are as large as a school so far up from it to their tops
-constexpr double kLink_db = 3.0;         ///< parts joined by echo this far below the threshold are one school
-constexpr int kMostSearches = 6;         ///< boxes are enlarged so often where a neighbour goes on
+constexpr double kLeastProminence_db =
+    5.0;                                ///< two schools that the filter joined stand so far above the saddle between
+constexpr double kSaddleStep_db = 1.0;  ///< which is sounded in such steps
+constexpr double kUpperShare = 0.5;     ///< both are as large as a school so far up from it to their peaks
+constexpr double kLink_db = 3.0;        ///< parts joined by echo this far below the threshold are one school
+constexpr int kMostSearches = 6;        ///< boxes are enlarged so often where a neighbour goes on
 
 std::vector<Run> joined(const std::vector<std::vector<Run>>& parts) {
   std::vector<Run> runs;
@@ -62,11 +63,12 @@ MemberSettler::MemberSettler(View3<const std::int16_t> filtered, View3<const std
       along_beams_(filtered.shape(), kNoData),
       thresholder_(std::as_const(along_beams_).view(), flags, background, &water, taken) {}
 
-IndexBox MemberSettler::box_round(const std::vector<Run>& part, int rims) const {
+IndexBox MemberSettler::box_round(const std::vector<Run>& part, int margins) const {
   PingMask mask;
   mask.runs = part;
   return box_of(mask, filtered_.shape().beams)
-      .enlarged(rims * SearchReach::rim_fans, rims * SearchReach::rim_beams, rims * SearchReach::rim_samples)
+      .enlarged(margins * SearchReach::margin_fans, margins * SearchReach::margin_beams,
+                margins * SearchReach::margin_samples)
       .clipped(filtered_.shape());
 }
 
@@ -116,38 +118,38 @@ MemberSettler::Parts MemberSettler::pieces(const std::vector<Run>& part, double 
   return parts;
 }
 
-bool MemberSettler::has_crown(const std::vector<Run>& piece, double level_db,
-                              const std::function<bool(const std::vector<Run>&)>& large) const {
+bool MemberSettler::is_prominent(const std::vector<Run>& piece, double level_db,
+                                 const std::function<bool(const std::vector<Run>&)>& large) const {
   const std::vector<Run> above = common_runs(piece, thresholder_.above(box_, level_db, kLeastAboveWater_db));
   const Parts parts = connected_parts(above, filtered_.shape(), Connectivity::faces);
   return std::any_of(parts.begin(), parts.end(), large);
 }
 
-std::vector<MemberSettler::Heart> MemberSettler::hearts(
-    const std::vector<Run>& part, double reference_db, double lowest_db, const std::vector<Run>& others,
-    const std::function<bool(const std::vector<Run>&)>& large) const {
-  std::vector<Heart> found;
-  for (double top_db = reference_db;; top_db = std::max(top_db - kValleyStep_db, lowest_db)) {
-    const double valley_db = top_db - kLeastValley_db;
-    for (std::vector<Run>& piece : pieces(part, valley_db)) {
+std::vector<MemberSettler::Core> MemberSettler::cores(const std::vector<Run>& part, double reference_db,
+                                                      double lowest_db, const std::vector<Run>& others,
+                                                      const std::function<bool(const std::vector<Run>&)>& large) const {
+  std::vector<Core> found;
+  for (double top_db = reference_db;; top_db = std::max(top_db - kSaddleStep_db, lowest_db)) {
+    const double saddle_db = top_db - kLeastProminence_db;
+    for (std::vector<Run>& piece : pieces(part, saddle_db)) {
       const bool known =
-          std::any_of(found.begin(), found.end(), [&](const Heart& heart) { return share_a_voxel(piece, heart.runs); });
+          std::any_of(found.begin(), found.end(), [&](const Core& core) { return share_a_voxel(piece, core.runs); });
       if (known || !large(piece) || share_a_voxel(piece, others)) continue;
       const double own_db = reference(piece);
-      if (own_db < top_db || !has_crown(piece, top_db - (1.0 - kCrownShare) * kLeastValley_db, large)) continue;
-      found.push_back({own_db, valley_db, std::move(piece)});
+      if (own_db < top_db || !is_prominent(piece, top_db - (1.0 - kUpperShare) * kLeastProminence_db, large)) continue;
+      found.push_back({own_db, saddle_db, std::move(piece)});
     }
     if (top_db <= lowest_db) break;
   }
-  std::stable_sort(found.begin(), found.end(), [](const Heart& a, const Heart& b) { return a.top_db > b.top_db; });
+  std::stable_sort(found.begin(), found.end(), [](const Core& a, const Core& b) { return a.top_db > b.top_db; });
   return found;
 }
 
-bool MemberSettler::cut_by_box(const std::vector<Heart>& hearts) const {
+bool MemberSettler::cut_by_box(const std::vector<Core>& cores) const {
   const IndexBox whole = IndexBox::whole(filtered_.shape());
-  return std::any_of(hearts.begin(), hearts.end(), [&](const Heart& heart) {
+  return std::any_of(cores.begin(), cores.end(), [&](const Core& core) {
     PingMask mask;
-    mask.runs = heart.runs;
+    mask.runs = core.runs;
     const IndexBox box = box_of(mask, filtered_.shape().beams);
     const auto cut = [](int at, int end, int border) { return at == end && end != border; };
     return cut(box.first_fan, box_.first_fan, whole.first_fan) || cut(box.last_fan, box_.last_fan, whole.last_fan) ||
@@ -158,13 +160,13 @@ bool MemberSettler::cut_by_box(const std::vector<Heart>& hearts) const {
   });
 }
 
-MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
+MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const std::vector<Core>& cores,
                                            const std::vector<Run>& others, double threshold_db) const {
   Parts springs;
   double bed_db = threshold_db;
-  for (const Heart& heart : hearts) {
-    springs.push_back(heart.runs);
-    bed_db = std::min({bed_db, heart.top_db - tolerance_db_, heart.valley_db});
+  for (const Core& core : cores) {
+    springs.push_back(core.runs);
+    bed_db = std::min({bed_db, core.top_db - tolerance_db_, core.saddle_db});
   }
   // Faint echo round a school leads its fragments to it.
   const std::vector<Run> bed = joined(pieces(part, bed_db - kLink_db));
@@ -183,19 +185,19 @@ MemberSettler::Parts MemberSettler::waters(const std::vector<Run>& part, const s
 std::vector<MemberSettler::Settled> MemberSettler::settle(const std::vector<Run>& part, double depth_db,
                                                           const std::function<bool(const std::vector<Run>&)>& large,
                                                           View3<std::uint8_t> claimed) {
-  // What stands out of a stronger neighbour's skirt alone: it is to be seen where that one lies.
-  box_ = box_round(part, depth_db < tolerance_db_ ? SearchReach::most_rims : 1);
+  // What rises above a stronger neighbour's skirt alone: it is to be seen where that one lies.
+  box_ = box_round(part, depth_db < tolerance_db_ ? SearchReach::most_margins : 1);
   look_along_beams();
   const double reference_db = level(part);
   const double threshold_db = reference_db - depth_db;
   std::vector<Run> others = set_runs(claimed, box_);
-  std::vector<Heart> schools = hearts(part, reference_db, threshold_db, others, large);
+  std::vector<Core> schools = cores(part, reference_db, threshold_db, others, large);
   // The part ends where the search for one school ended, and so may its neighbour's piece.
   for (int times = 0; times < kMostSearches && schools.size() > 1 && cut_by_box(schools); ++times) {
     box_ = box_.enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples).clipped(filtered_.shape());
     look_along_beams();
     others = set_runs(claimed, box_);
-    schools = hearts(part, reference_db, threshold_db, others, large);
+    schools = cores(part, reference_db, threshold_db, others, large);
   }
   if (schools.empty() || (schools.size() == 1 && others.empty())) {
     box_ = box_round(part, 1);

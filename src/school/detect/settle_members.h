@@ -8,14 +8,14 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "model/mask.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
 #include "school/detect/thresholder.h"
 #include "school/runs.h"
 
 namespace sonar {
 
 /// Which voxels belong to a school that the filtered data show. Their box of many beams finds schools in noise, but
-/// takes the rims of small ones away and lets noise fill those of weak ones; a median along each beam alone does
+/// takes the margins of small ones away and lets noise fill those of weak ones; a median along each beam alone does
 /// neither.
 class MemberSettler {
  public:
@@ -34,7 +34,7 @@ class MemberSettler {
     double reference_db = 0.0;
     double threshold_db = 0.0;
   };
-  /// One school, or several where valleys part them: the filter's box of beams bridges open water.
+  /// One school, or several where saddles part them: the filter's box of beams bridges open water.
   /// part      what hangs together in the filtered data
   /// depth_db  members lie no deeper below the reference
   /// large     whether so many voxels may be a school: others go with the first school
@@ -47,32 +47,32 @@ class MemberSettler {
  private:
   using Parts = std::vector<std::vector<Run>>;
 
-  [[nodiscard]] IndexBox box_round(const std::vector<Run>& part, int rims) const;
+  [[nodiscard]] IndexBox box_round(const std::vector<Run>& part, int margins) const;
   void look_along_beams();
   [[nodiscard]] double reference(const std::vector<Run>& part) const;
   /// From where a school's members are counted down. Most schools are about as loud all through, and many beams' voxels
-  /// tell how loud; of one whose echo rises towards its heart the filtered data show the peak.
+  /// tell how loud; of one whose echo rises towards its core the filtered data show the peak.
   [[nodiscard]] double level(const std::vector<Run>& part) const;
   [[nodiscard]] Parts pieces(const std::vector<Run>& part, double threshold_db) const;
-  struct Heart {
+  struct Core {
     double top_db = 0.0;
-    double valley_db = 0.0;  ///< what its runs lie above
+    double saddle_db = 0.0;  ///< what its runs lie above
     std::vector<Run> runs;
   };
   /// Fading makes peaks too, but no large ones.
-  [[nodiscard]] bool has_crown(const std::vector<Run>& piece, double level_db,
-                               const std::function<bool(const std::vector<Run>&)>& large) const;
-  /// Where each school is loudest: what stands min_valley_db above the valleys round it, the strongest first.
-  /// lowest_db  no heart's top lies deeper
-  /// others     water of schools that were found before: what hangs together with it is their flank
-  [[nodiscard]] std::vector<Heart> hearts(const std::vector<Run>& part, double reference_db, double lowest_db,
-                                          const std::vector<Run>& others,
-                                          const std::function<bool(const std::vector<Run>&)>& large) const;
+  [[nodiscard]] bool is_prominent(const std::vector<Run>& piece, double level_db,
+                                  const std::function<bool(const std::vector<Run>&)>& large) const;
+  /// Where each school is loudest: what stands min_prominence_db above the saddles round it, the strongest first.
+  /// lowest_db  no core's top lies deeper
+  /// others     water of schools that were found before: what hangs together with it is their margin
+  [[nodiscard]] std::vector<Core> cores(const std::vector<Run>& part, double reference_db, double lowest_db,
+                                        const std::vector<Run>& others,
+                                        const std::function<bool(const std::vector<Run>&)>& large) const;
   /// Whether one of them goes on where the water that is looked at ends.
-  [[nodiscard]] bool cut_by_box(const std::vector<Heart>& hearts) const;
-  /// Each heart's side of the valleys, down to the tolerance below its top; fragments above threshold_db to which no echo
+  [[nodiscard]] bool cut_by_box(const std::vector<Core>& cores) const;
+  /// Each core's side of the saddles, down to the tolerance below its top; fragments above threshold_db to which no echo
   /// leads go with the first.
-  [[nodiscard]] Parts waters(const std::vector<Run>& part, const std::vector<Heart>& hearts,
+  [[nodiscard]] Parts waters(const std::vector<Run>& part, const std::vector<Core>& cores,
                              const std::vector<Run>& others, double threshold_db) const;
   [[nodiscard]] Settled members(const std::vector<Run>& runs, double reference_db, double threshold_db,
                                 View3<std::uint8_t> claimed) const;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Shape3 kShape{20, 25, 900};
 
-/// A school 200 m away whose density falls off by so many dB from its heart to its rim, evenly in dB.
+/// A school 200 m away whose density falls off by so many dB from its core to its margin, evenly in dB.
 Array3<double> peaked_school(const Sector& sector, double fall_db) {
   Array3<double> expected(kShape);
   constexpr int kShells = 8;
@@ -104,7 +104,7 @@ TEST(SettleMembers, OneFreeFanPartsSchoolsOneAboveTheOther) {
 }
 
 // A school 6 dB fainter than its neighbour is as large as if it were alone: down to 10 dB below its own top.
-TEST(SettleMembers, AFaintSchoolKeepsItsRimBesideALoudOne) {
+TEST(SettleMembers, AFaintSchoolKeepsItsMarginBesideALoudOne) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     test::Scene scene;
     scene.add(200.0, -32.0, 270.0, -38.0, {12, 12, 4});

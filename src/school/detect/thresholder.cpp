@@ -124,7 +124,7 @@ void Thresholder::collect(int row, int first, int end, const Member& member, std
   if (start >= 0) cut(row, start, end, runs);
 }
 
-std::vector<Run> Thresholder::standing_out(double margin_db) const {
+std::vector<Run> Thresholder::above_background(double margin_db) const {
   const int margin = rounded_counts(counts_from_db(margin_db)) + median_of_mean_counts();
   std::vector<Run> runs;
   for (int row = 0; row < static_cast<int>(sv_.shape().rows()); ++row) {

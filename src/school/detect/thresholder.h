@@ -8,7 +8,7 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "model/mask.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
 #include "school/runs.h"
 
 namespace sonar {
@@ -23,9 +23,9 @@ class Thresholder {
               const WaterLevels* water, const PingMask* taken);
 
   /// Runs of the whole ping whose median lies margin_db above the background's.
-  [[nodiscard]] std::vector<Run> standing_out(double margin_db) const;
+  [[nodiscard]] std::vector<Run> above_background(double margin_db) const;
 
-  /// Runs inside a box where the echo without its background reaches level_db, and the whole stands out of the
+  /// Runs inside a box where the echo without its background reaches level_db, and the whole lies above the
   /// background by least_db or more, and by more than the water itself does.
   [[nodiscard]] std::vector<Run> above(const IndexBox& box, double level_db, double least_db) const;
 

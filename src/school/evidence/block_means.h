@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "geo/sector.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
 
 namespace sonar {
 

@@ -19,7 +19,7 @@ namespace sonar {
 namespace {
 
 constexpr double kLeastSpread_db = 0.7;  ///< of a mean over so many samples, if none were correlated
-constexpr double kMasked = 6.0;          ///< what stands out so far has no say in the next looks
+constexpr double kMasked = 6.0;          ///< what lies so far above it has no say in the next looks
 constexpr int kLooks = 3;
 constexpr double kClip = 2.0;     ///< spreads, up to which a block tells of the patch it lies in
 constexpr double kRise_db = 3.0;  ///< of the seabed out of the water before it
@@ -69,7 +69,7 @@ class Window {
         places_(seabed_stretch(pings, sector), shape_) {
     for (const WaterPing& ping : pings) {
       levels_.push_back(*ping.means);
-      floors_.push_back(block_noise(ping.noise, shape_, block_samples_));
+      noise_levels_.push_back(block_noise(ping.noise, shape_, block_samples_));
       masked_.emplace_back(shape_);
     }
   }
@@ -113,7 +113,7 @@ class Window {
     lift_seabed();
   }
 
-  /// Hills are heard where the ground in between is not yet: in beams that point down the water is as loud as up to
+  /// Hills are heard where the seabed in between is not yet: in beams that point down the water is as loud as up to
   /// where the seabed would be if it lay so much higher.
   void lift_seabed() {
     const double nearer = seabed_nearer(pings_);
@@ -162,10 +162,10 @@ class Window {
             std::span(told).subspan(cell(row / shape_.beams, 0), static_cast<std::size_t>(places_.count()));
         water_of_row(of_fan, places_.stretch(p, row), below);
         const auto level = std::as_const(levels_[p]).view().row(row);
-        const auto floor = std::as_const(floors_[p]).view().row(row);
+        const auto noise = std::as_const(noise_levels_[p]).view().row(row);
         const auto out = excess.view().row(row);
         for (std::size_t i = 0; i < out.size(); ++i) {
-          const int water = std::max(below[i], int{floor[i]});
+          const int water = std::max(below[i], int{noise[i]});
           if (level[i] == kNoData || water <= kMinCount) continue;
           out[i] = static_cast<std::int16_t>(std::clamp(level[i] - water, -30000, 30000));
         }
@@ -198,7 +198,7 @@ class Window {
     }
   }
 
-  /// Before what stands out is known the upper half may hold a school; then it is the half that schools must exceed. A
+  /// Before what lies above it is known the upper half may hold a school; then it is the half that schools must exceed. A
   /// school that keeps its place in the window and fills more than a sixth of it widens the water.
   [[nodiscard]] double width(const PlaceStatistics& told, double least) const {
     return std::max<double>(look_ == 0 ? told.below : told.above, least);
@@ -296,7 +296,7 @@ class Window {
   Places places_;
   int look_ = 0;
   std::vector<Levels> levels_;
-  std::vector<Levels> floors_;
+  std::vector<Levels> noise_levels_;
   std::vector<Levels> excess_;
   std::vector<std::vector<std::int8_t>> patches_;  ///< [ping][row][block]
   std::vector<Levels> evidence_;

@@ -8,8 +8,8 @@
 #include "base/array.h"
 #include "geo/sector.h"
 #include "model/water_levels.h"
-#include "school/bottom/seabed.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
+#include "school/seabed/seabed.h"
 
 namespace sonar {
 
@@ -21,12 +21,12 @@ struct WaterPing {
   bool asked = true;  ///< false = it tells of the others' water alone
 };
 
-/// The water of neighbouring pings, and what stands out of it in each: the null model of that place and hour.
+/// The water of neighbouring pings, and what lies above it in each: the null model of that place and hour.
 ///
 /// For each place of a fan the water is what most beams of most pings return there, in ship-fixed coordinates: its
 /// median, or that of the rest where most is a school. The excess over that (or over a beam's own noise, where that is louder) and over the patch it lies in, in
 /// spreads, is averaged over 3 x 3 beams and judged by its own median and spread. At the first look the spread is that
-/// downwards, which schools do not move; what stands out is left out of the next looks, which take that upwards.
+/// downwards, which schools do not move; what lies above it is left out of the next looks, which take that upwards.
 /// window  pings in order; all of one shape
 /// least   cells of less evidence are not listed
 /// out     [ping of the window]; nothing known of those that are not asked for

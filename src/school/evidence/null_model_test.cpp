@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/units.h"
-#include "school/bottom/seabed_plane.h"
 #include "school/evidence/block_means.h"
+#include "school/seabed/seabed_plane.h"
 #include "school/test_water.h"
 
 namespace sonar {
@@ -135,9 +135,9 @@ TEST(NullModel, AMinorityThatHearsBadlyMakesNoSchoolOfTheRest) {
   }
 }
 
-// Towards a loud seabed beams hear its flank rise by 1.5 dB a metre, 8 dB from block to block, and its slope brings it nearer
+// Towards a loud seabed beams hear its beam-edge echo rise by 1.5 dB a metre, 8 dB from block to block, and its slope brings it nearer
 // in some of them than in others by less than a block: each beam's water is as loud as it is there.
-TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
+TEST(NullModel, TheBeamEdgeEchoOfASlopingSeabedIsWater) {
   Seabed seabed;
   seabed.found = true;
   seabed.offset_m = 110.0;
@@ -146,9 +146,9 @@ TEST(NullModel, TheFlankOfASlopingSeabedIsWater) {
   const SeabedPlane plane{seabed.offset_m, seabed.slope_x, seabed.slope_y};
   const Sector sector = test::grid().sector(test::range_axis());
   const auto level_db = [&](int row, int sample) {
-    const double flank_m =
+    const double edge_echo_m =
         plane.range(Sector::direction(sector.elevation_rad(row / 25) - 0.105, sector.azimuth_rad(row % 25)));
-    return kWater_db + std::clamp(1.5 * (sector.range().range_m(sample) - flank_m) + 40.0, 0.0, 40.0);
+    return kWater_db + std::clamp(1.5 * (sector.range().range_m(sample) - edge_echo_m) + 40.0, 0.0, 40.0);
   };
   const auto sea = [&](int f, int b, int s, int /*ping*/) { return linear_from_db(level_db(f * 25 + b, s)); };
   const WaterLevels told = Pings(sea).levels(&seabed)[3];
@@ -264,7 +264,7 @@ TEST(NullModel, FaultySamplesHaveNoSay) {
   Array3<SampleFlags> flags(kShape);
   for (int s = 0; s < kShape.samples; ++s) {
     counts(3, 4, s) = static_cast<std::int16_t>(counts_from_db(-10.0));
-    flags(3, 4, s) = SampleFlags::hot_beam;
+    flags(3, 4, s) = SampleFlags::corrupted;
   }
   const Array3<std::int16_t> means = block_means(std::as_const(counts).view(), std::as_const(flags).view(), 5);
   for (const std::int16_t mean : means.view().row(3 * 25 + 4)) EXPECT_EQ(mean, kNoData);

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/median.h"
-#include "school/bottom/seabed_echoes.h"
-#include "school/bottom/seabed_plane.h"
+#include "base/middle.h"
+#include "school/seabed/seabed_echoes.h"
+#include "school/seabed/seabed_plane.h"
 
 namespace sonar {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kHills = 3.0;    ///< standard deviations of its depth above wh
 constexpr double kNearest = 0.5;  ///< share of its depth that hills leave at least
 /// A beam hears the seabed first by the foot of its main lobe; that meets it at angles at which a plane's slope, which is
 /// never quite known, moves its range less than on the axes of beams that graze it.
-constexpr double kFlank_rad = 0.105;
+constexpr double kBeamEdge_rad = 0.105;
 constexpr double kBeyondRecord = 1.25;  ///< a seabed so far beyond the record is not heard
 
 SeabedPlane plane_of(const Seabed& seabed) { return {seabed.offset_m, seabed.slope_x, seabed.slope_y}; }
@@ -30,7 +30,7 @@ bool has_seabed(const WaterPing& ping) {
 
 /// Range of a fan's beams to a level seabed at the window's depth; infinite where they meet none.
 double usual_range_m(const Sector& sector, int fan, double depth_m) {
-  const double down = -std::sin(sector.elevation_rad(fan) - kFlank_rad);
+  const double down = -std::sin(sector.elevation_rad(fan) - kBeamEdge_rad);
   return down > 1e-6 ? depth_m / down : INFINITY;
 }
 
@@ -42,7 +42,7 @@ std::vector<float> stretch_of(const Seabed& seabed, const Sector& sector, double
     if (!(usual_m < kBeyondRecord * last_m)) continue;
     for (int beam = 0; beam < sector.beams(); ++beam) {
       const int row = fan * sector.beams() + beam;
-      const double by = usual_m / plane_of(seabed).range(Sector::direction(sector.elevation_rad(fan) - kFlank_rad,
+      const double by = usual_m / plane_of(seabed).range(Sector::direction(sector.elevation_rad(fan) - kBeamEdge_rad,
                                                                            sector.azimuth_rad(beam)));
       stretch[static_cast<std::size_t>(row)] = static_cast<float>(std::clamp(by, 1.0 / kMost, kMost));
     }

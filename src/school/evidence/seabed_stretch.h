@@ -10,7 +10,7 @@
 namespace sonar {
 
 /// By how much each beam's range is stretched, so that all beams of a fan, of all pings of a window, meet the seabed at the
-/// same one: beams hear its flank at like shares of their way to it.
+/// same one: beams hear its beam-edge echo at like shares of their way to it.
 /// out  [ping][row]; empty for pings, or 1 for fans, in which no seabed is met
 [[nodiscard]] std::vector<std::vector<float>> seabed_stretch(std::span<const WaterPing> window, const Sector& sector);
 

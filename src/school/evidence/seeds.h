@@ -9,7 +9,7 @@
 
 namespace sonar {
 
-/// The samples of the blocks that stand out, as sorted runs within the recorded samples.
+/// The samples of the blocks above the background, as sorted runs within the recorded samples.
 [[nodiscard]] std::vector<Run> seed_runs(const WaterLevels& water, const Shape3& shape);
 
 /// The most evidence of a block that holds a voxel of a mask; 0 where none does.

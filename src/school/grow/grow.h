@@ -33,17 +33,29 @@ struct GrowParams {
 template <class Visitor>
 void describe(Visitor& v, GrowParams& p) {
   v.choice("mode", p.mode, kGrowModeNames,
-           "tracked: one-sided in dB, bright nuclei stay in; paper: two-sided in opacity");
-  v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
+           "How members are compared with the reference: tracked takes everything no more than tolerance_db below it, "
+           "paper takes opacities within tolerance_opacity either way, as the 2007 paper did.");
+  v.choice("connectivity", p.connectivity, kConnectivityNames,
+           "Which voxels count as neighbours: the 6 across faces, or all 26. Choose 26 for schools that are thin in "
+           "some direction.");
   v.field("tolerance_db", p.tolerance_db,
-          {.unit = "dB", .min = 0.01, .max = 60, .text = "members lie no deeper below the reference level"});
-  v.field("tolerance_opacity", p.tolerance_opacity,
-          {.unit = "1", .min = 0, .max = 1, .text = "mode paper: members differ no more in opacity"});
-  v.field("margin_db", p.margin_db,
           {.unit = "dB",
+           .min = 0.01,
+           .max = 60,
+           .text = "Members lie at most this much below the reference level; lower it when a click selects too much, "
+                   "raise it when it selects too little.",
+           .tier = Tier::basic});
+  v.field("tolerance_opacity", p.tolerance_opacity,
+          {.unit = "1",
            .min = 0,
-           .max = 30,
-           .text = "mode tracked: members stand so far above the beam's noise; 0 = whatever the noise is"});
+           .max = 1,
+           .text = "Mode paper: members differ in opacity by at most this; lower it when a click selects too much."});
+  v.field(
+      "margin_db", p.margin_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 30,
+       .text = "Mode tracked: members lie at least this much above the beam's background noise; 0 ignores the noise."});
 }
 
 /// Which Sv counts are members, and how surely: one byte for each of the 65536 counts, 0 = no member, else 255 f.

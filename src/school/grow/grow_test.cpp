@@ -18,7 +18,7 @@ struct RandomVolume {
       sv.all()[i] = static_cast<std::int16_t>(counts_from_db(-70.0 + 40.0 * test::uniform(seed * 104729 + i)));
       const double u = test::uniform(seed * 15485863 + i);
       if (u < 0.05) flags.all()[i] = SampleFlags::seabed;
-      if (u > 0.9) flags.all()[i] = SampleFlags::hot_beam;
+      if (u > 0.9) flags.all()[i] = SampleFlags::corrupted;
       if (u > 0.97) sv.all()[i] = kNoData;
     }
   }

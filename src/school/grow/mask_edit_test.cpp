@@ -46,7 +46,7 @@ PingMask cube(const std::vector<std::tuple<int, int, int>>& holes = {}) {
 TEST(MaskEdit, BrushedRunsMayOverlapAndSkipWhatIsNeverAMember) {
   Array3<SampleFlags> flags(kShape);
   flags(0, 1, 4) = SampleFlags::seabed;
-  flags(0, 1, 5) = SampleFlags::hot_beam;  // a fault stays in the mask
+  flags(0, 1, 5) = SampleFlags::corrupted;  // a fault stays in the mask
   const PingMask mask = brushed({{1, 3, 4}, {1, 2, 2}, {0, 7, 1}}, flags.view());
   EXPECT_EQ(mask.runs, (std::vector<sonar::Run>{{0, 7, 1}, {1, 2, 2}, {1, 5, 2}}));
   EXPECT_EQ(mask.confidence, std::vector<std::uint8_t>(5, 255));

@@ -29,12 +29,25 @@ struct PaperPropagationParams {
 template <class Visitor>
 void describe(Visitor& v, PaperPropagationParams& p) {
   v.field("enlarge_fans", p.enlarge_fans,
-          {.unit = "fans", .min = 0, .max = 1000, .text = "growth of the bounding volume per ping, each side"});
+          {.unit = "fans",
+           .min = 0,
+           .max = 1000,
+           .text = "How many fans the bounding volume is enlarged by on each side from ping to ping; raise it for "
+                   "schools that dive or for long ping intervals."});
   v.field("enlarge_beams", p.enlarge_beams,
-          {.unit = "beams", .min = 0, .max = 1000, .text = "growth of the bounding volume per ping, each side"});
+          {.unit = "beams",
+           .min = 0,
+           .max = 1000,
+           .text = "How many beams the bounding volume is enlarged by on each side from ping to ping; raise it for a "
+                   "fast ship or long ping intervals."});
   v.field("enlarge_samples", p.enlarge_samples,
-          {.unit = "samples", .min = 0, .max = 100000, .text = "growth of the bounding volume per ping, each side"});
-  v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
+          {.unit = "samples",
+           .min = 0,
+           .max = 100000,
+           .text = "How many samples the bounding volume is enlarged by on each side from ping to ping; raise it for "
+                   "schools that swim fast or for long ping intervals."});
+  v.choice("connectivity", p.connectivity, kConnectivityNames,
+           "Which voxels count as neighbours: the 6 across faces, or all 26.");
 }
 
 /// A school in one ping.

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "model/school.h"
-#include "school/detect/standing_out.h"
+#include "school/detect/above_background.h"
 #include "school/grow/grow.h"
 #include "school/grow/propagate_paper.h"
 #include "school/grow/propagate_tracked.h"
@@ -42,11 +42,11 @@ struct Passage {
     volume->counts = test::filtered(test::counts_of(expected, static_cast<std::uint64_t>(i) + 1), volume->flags);
     if (noise_known) {
       const double level_db = db_from_linear(linear_from_db(noise_db) + linear_from_db(test::kNoise_db));
-      out.standing_out = [volume, level_db](double margin_db, Above /*above*/) {
+      out.above_background = [volume, level_db](double margin_db, Above /*above*/) {
         test::FlatBackground flat(volume->counts.shape());
         flat.power_db.assign(flat.power_db.size(), level_db);
-        return standing_out(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(),
-                            {flat.power_db, flat.calibration.view()}, nullptr, margin_db);
+        return above_background(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(),
+                                {flat.power_db, flat.calibration.view()}, nullptr, margin_db);
       };
     }
     out.volume = std::move(volume);

@@ -53,9 +53,9 @@ std::vector<Run> common(const std::vector<Run>& a, const std::vector<Run>& b) {
 
 /// What the members of a selection's later pings have to stand above.
 Above stands_above(const FilteredPing& ping, const PingMask& selection, double margin_db) {
-  if (!ping.standing_out) return Above::noise;
+  if (!ping.above_background) return Above::noise;
   std::size_t standing = 0;
-  for (const Run& run : common(selection.runs, ping.standing_out(margin_db, Above::water))) {
+  for (const Run& run : common(selection.runs, ping.above_background(margin_db, Above::water))) {
     standing += static_cast<std::size_t>(run.count);
   }
   return 2 * standing >= selection.voxels() ? Above::water : Above::noise;
@@ -151,15 +151,15 @@ class Follower {
     const std::vector<VoxelIndex> seeds = seeds_at(moved);
     PingMask gate;
     gate.runs = gate_round(seeds, dt);
-    if (ping.standing_out && params_.margin_db > 0.0) {
-      gate.runs = common(gate.runs, ping.standing_out(params_.margin_db, above_));
+    if (ping.above_background && params_.margin_db > 0.0) {
+      gate.runs = common(gate.runs, ping.above_background(params_.margin_db, above_));
     }
     double tolerance_db = params_.tolerance_db;
     const double largest = params_.max_growth * (last.cut ? params_.cut_growth : 1.0);
     for (int attempt = 0; attempt < params_.tries; ++attempt, tolerance_db *= params_.tighter) {
       Found found = grow_twice(ping, seeds, gate, reference_db, tolerance_db);
       if (found.mask.empty()) {
-        why = fmt::format("no voxel of the moved school reaches {:.1f} dB and stands out of the background",
+        why = fmt::format("no voxel of the moved school reaches {:.1f} dB and is above the background",
                           reference_db - tolerance_db);
         return std::nullopt;
       }

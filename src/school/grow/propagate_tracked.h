@@ -40,45 +40,109 @@ struct TrackedPropagationParams {
 template <class Visitor>
 void describe(Visitor& v, TrackedPropagationParams& p) {
   v.field("tolerance_db", p.tolerance_db,
-          {.unit = "dB", .min = 0.1, .max = 60, .text = "members lie no deeper below the school's reference level"});
+          {.unit = "dB",
+           .min = 0.1,
+           .max = 60,
+           .text = "Members lie at most this much below the school's reference level; lower it when the school grows "
+                   "into its surroundings."});
   v.field("margin_db", p.margin_db,
           {.unit = "dB",
            .min = 0,
            .max = 30,
-           .text = "and stand so far above the background: a school that has left is not sought in it; 0 = anywhere"});
+           .text = "Members lie at least this much above the background, so that a school that has left is not sought "
+                   "in noise; 0 ignores the background."});
   v.field("reference_percentile", p.reference_percentile,
-          {.unit = "%", .min = 1, .max = 100, .text = "share of the school's voxels below its reference level"});
+          {.unit = "%",
+           .min = 1,
+           .max = 100,
+           .text = "Percentile of the school's Sv that serves as its reference level; lower it when a few bright "
+                   "voxels lead."});
   v.field("max_reference_step_db", p.max_reference_step_db,
-          {.unit = "dB", .min = 0, .max = 60, .text = "largest change of the reference from ping to ping"});
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "Largest change of the reference level from one ping to the next; raise it for schools that change "
+                   "their aspect quickly."});
   v.field("max_growth", p.max_growth,
-          {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of volumes from ping to ping; more is a leak"});
-  v.field("gate_m", p.gate_m,
-          {.unit = "m", .min = 0, .max = 1000, .text = "growth stays this near to the predicted school"});
-  v.field("gate_speed_mps", p.gate_speed_mps,
-          {.unit = "m s-1", .min = 0, .max = 20, .text = "the gate widens by this for each second since last seen"});
-  v.field("gate_fans", p.gate_fans, {.unit = "fans", .min = 0, .max = 100, .text = "the gate's least reach"});
-  v.field("gate_beams", p.gate_beams, {.unit = "beams", .min = 0, .max = 100, .text = "the gate's least reach"});
-  v.field("max_lost_pings", p.max_lost_pings,
-          {.unit = "pings", .min = 0, .max = 100, .text = "a school lost for so many pings may be found again"});
+          {.unit = "1",
+           .min = 1,
+           .max = 100,
+           .text = "Largest ratio of volumes from one ping to the next; growth beyond it counts as a leak and is tried "
+                   "again with a smaller tolerance."});
   v.field(
-      "cut_growth", p.cut_growth,
-      {.unit = "1", .min = 1, .max = 100, .text = "a school that a border cuts may grow so much more: it comes in"});
+      "gate_m", p.gate_m,
+      {.unit = "m",
+       .min = 0,
+       .max = 1000,
+       .text =
+           "Growth stays within this distance of the predicted school; raise it for schools that swim irregularly."});
+  v.field(
+      "gate_speed_mps", p.gate_speed_mps,
+      {.unit = "m s-1",
+       .min = 0,
+       .max = 20,
+       .text = "By how much the gate widens for each second since the school was last seen; raise it for fast fish."});
+  v.field("gate_fans", p.gate_fans,
+          {.unit = "fans",
+           .min = 0,
+           .max = 100,
+           .text = "The gate reaches at least this many fans beyond the predicted school."});
+  v.field("gate_beams", p.gate_beams,
+          {.unit = "beams",
+           .min = 0,
+           .max = 100,
+           .text = "The gate reaches at least this many beams beyond the predicted school."});
+  v.field("max_lost_pings", p.max_lost_pings,
+          {.unit = "pings",
+           .min = 0,
+           .max = 100,
+           .text = "A school that was not seen in this many pings may still be found again; raise it where pings are "
+                   "often disturbed."});
+  v.field("cut_growth", p.cut_growth,
+          {.unit = "1",
+           .min = 1,
+           .max = 100,
+           .text = "How much more a school that the sector's border cuts may grow than another, since more of it may "
+                   "come in; a factor on max_growth."});
   v.field("tries", p.tries,
-          {.unit = "1", .min = 1, .max = 100, .text = "growths with ever tighter tolerance before a leak is given up"});
+          {.unit = "1",
+           .min = 1,
+           .max = 100,
+           .text = "How many times growth is tried again with a smaller tolerance before a leak is given up."});
   v.field("tighter", p.tighter,
-          {.unit = "1", .min = 0.01, .max = 1, .text = "factor on the tolerance from one try to the next"});
+          {.unit = "1", .min = 0.01, .max = 1, .text = "Factor on the tolerance from one try to the next."});
   v.field("seed_samples", p.seed_samples,
-          {.unit = "samples", .min = 1, .max = 1000, .text = "every so-manyth sample of the moved mask is a seed"});
+          {.unit = "samples",
+           .min = 1,
+           .max = 1000,
+           .text = "Every so-manyth sample of the predicted mask is a seed; lower it for very small schools."});
   v.field("acceleration_mps2", p.acceleration_mps2,
-          {.unit = "m s-2", .min = 0.0001, .max = 10, .text = "how strongly schools change their velocity"});
+          {.unit = "m s-2",
+           .min = 0.0001,
+           .max = 10,
+           .text = "Standard deviation of a school's acceleration; raise it for schools that turn sharply."});
   v.field("initial_speed_mps", p.initial_speed_mps,
-          {.unit = "m s-1", .min = 0, .max = 20, .text = "spread of the clicked school's velocity, per axis"});
-  v.field("position_share", p.position_share,
-          {.unit = "1", .min = 0.001, .max = 2, .text = "uncertainty of a centre as a share of the school's extent"});
-  v.field("min_position_m", p.min_position_m, {.unit = "m", .min = 0.01, .max = 100, .text = "its least value"});
+          {.unit = "m s-1",
+           .min = 0,
+           .max = 20,
+           .text = "Standard deviation of the selected school's speed along each axis before it is measured; raise it "
+                   "for fast fish."});
+  v.field(
+      "position_share", p.position_share,
+      {.unit = "1",
+       .min = 0.001,
+       .max = 2,
+       .text =
+           "Uncertainty of a school's centre as a share of its extent; raise it for schools that change their shape."});
+  v.field("min_position_m", p.min_position_m,
+          {.unit = "m", .min = 0.01, .max = 100, .text = "Least uncertainty of a school's centre."});
   v.field("censored_m", p.censored_m,
-          {.unit = "m", .min = 1, .max = 100000, .text = "uncertainty of a coordinate that a border cuts off"});
-  v.choice("connectivity", p.connectivity, kConnectivityNames, "neighbours of a voxel: 6 faces or all 26");
+          {.unit = "m",
+           .min = 1,
+           .max = 100000,
+           .text = "Uncertainty of a centre's coordinate where the sector's border cuts the school."});
+  v.choice("connectivity", p.connectivity, kConnectivityNames,
+           "Which voxels count as neighbours: the 6 across faces, or all 26.");
 }
 
 /// Carries a school through time without the paper's limits: the whole previous mask, moved over ground by the ship's

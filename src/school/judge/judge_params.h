@@ -28,10 +28,22 @@ struct SizeParams {
 template <class Visitor>
 void describe(Visitor& v, SizeParams& p) {
   v.field("min_range_m", p.min_range_m,
-          {.unit = "m", .min = 0, .max = 500, .text = "least extent of a school along range"});
+          {.unit = "m",
+           .min = 0,
+           .max = 500,
+           .text = "A school extends at least this far along range; lower it to find smaller schools."});
   v.field("min_beams", p.min_beams,
-          {.unit = "beams", .min = 1, .max = 1000, .text = "least number of beams of a school"});
-  v.field("min_fans", p.min_fans, {.unit = "fans", .min = 1, .max = 1000, .text = "least number of fans of a school"});
+          {.unit = "beams",
+           .min = 1,
+           .max = 1000,
+           .text = "A school spans at least this many beams; lower it to find smaller schools, at the price of more "
+                   "false ones."});
+  v.field("min_fans", p.min_fans,
+          {.unit = "fans",
+           .min = 1,
+           .max = 1000,
+           .text = "A school spans at least this many fans; lower it to find smaller schools, at the price of more "
+                   "false ones."});
 }
 
 struct ConfirmationParams {
@@ -43,9 +55,16 @@ struct ConfirmationParams {
 template <class Visitor>
 void describe(Visitor& v, ConfirmationParams& p) {
   v.field("confirm_pings", p.pings,
-          {.unit = "pings", .min = 1, .max = 100, .text = "a school is seen at least so often ..."});
+          {.unit = "pings",
+           .min = 1,
+           .max = 100,
+           .text = "A school is seen in at least this many pings of confirm_window neighbouring ones; lower it for a "
+                   "fast ship that passes schools in few pings."});
   v.field("confirm_window", p.window,
-          {.unit = "pings", .min = 1, .max = 100, .text = "... in so many neighbouring pings"});
+          {.unit = "pings",
+           .min = 1,
+           .max = 100,
+           .text = "Number of neighbouring pings among which a school must be seen confirm_pings times."});
 }
 
 struct ShipParams {
@@ -58,7 +77,8 @@ void describe(Visitor& v, ShipParams& p) {
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "no school: moves by less beside the ship than this share of the ship's way; 0 = not looked at"});
+           .text = "An echo that moves relative to the ship by less than this share of the ship's own way follows the "
+                   "ship, and is no school; 0 asks nothing. Lower it where schools may follow the ship."});
 }
 
 struct LevelParams {
@@ -71,7 +91,9 @@ void describe(Visitor& v, LevelParams& p) {
           {.unit = "dB",
            .min = -200,
            .max = 0,
-           .text = "no school: the Sv of its members together is lower; lower for krill"});
+           .text = "Lowest mean Sv of all members together for an echo to be a school; lower it for krill and other "
+                   "weak scatterers.",
+           .tier = Tier::basic});
 }
 
 }  // namespace sonar

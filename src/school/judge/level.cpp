@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/median.h"
+#include "base/middle.h"
 
 namespace sonar {
 

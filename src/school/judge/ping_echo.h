@@ -6,8 +6,8 @@
 #include "base/array.h"
 #include "base/sample_flags.h"
 #include "geo/sector.h"
-#include "school/bottom/seabed.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
+#include "school/seabed/seabed.h"
 
 namespace sonar {
 
@@ -19,7 +19,7 @@ struct PingEcho {
   const Sector& sector;
   Background background;  ///< noise of the unfiltered samples
   const Seabed& seabed;
-  const WaterLevels& water;  ///< and what stands out of it
+  const WaterLevels& water;  ///< and what lies above it
   bool peaked = true;        ///< the filter looked at many beams: its loudest voxels are a school's peak, not fading
 };
 

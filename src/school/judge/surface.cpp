@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/median.h"
+#include "base/middle.h"
 #include "model/school.h"
 
 namespace sonar {

@@ -44,7 +44,7 @@ PingMask with_confidence(std::vector<Run> runs) {
 }
 
 /// A mask and the beams next to it: a loud school's echo there may be louder than a faint neighbour's own.
-PingMask with_flanks(const PingMask& mask, const Shape3& shape) {
+PingMask with_beam_edges(const PingMask& mask, const Shape3& shape) {
   std::vector<Run> all = mask.runs;
   for (const Run& run : mask.runs) {
     const NeighbourRows rows = neighbour_rows(run.row, shape, Connectivity::faces);
@@ -54,7 +54,7 @@ PingMask with_flanks(const PingMask& mask, const Shape3& shape) {
   return with_confidence(merged(all));
 }
 
-/// Leaves out what beams hear of the seabed by their flanks, but for members.
+/// Leaves out the beam-edge seabed echo, but for members.
 void leave_seabed(const MeasureInput& ping, const PingMask& mask, std::vector<Run>& runs) {
   PingMask heard;
   for (const Run& run : runs) {
@@ -66,7 +66,7 @@ void leave_seabed(const MeasureInput& ping, const PingMask& mask, std::vector<Ru
   runs = subtract(with_confidence(std::move(runs)), foreign).runs;
 }
 
-/// The water that holds the school's echo, without what belongs to others and to their flanks: the mask widened in beams
+/// The water that holds the school's echo, without what belongs to others and to their beam edges: the mask widened in beams
 /// and samples, and that through all fans of the mask and some more. Where the echo is weak the mask is thin, but the
 /// beam is not.
 std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
@@ -92,10 +92,10 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
   }
   leave_seabed(ping, mask, united.runs);
   if (ping.others == nullptr || ping.others->empty()) return std::move(united.runs);
-  return subtract(with_confidence(std::move(united.runs)), subtract(with_flanks(*ping.others, shape), mask)).runs;
+  return subtract(with_confidence(std::move(united.runs)), subtract(with_beam_edges(*ping.others, shape), mask)).runs;
 }
 
-/// [beam x samples + sample] Where other schools' echo is no background, in any fan: the beam's flanks are high.
+/// [beam x samples + sample] Where other schools' echo is no background, in any fan: the beam's skirts are high.
 std::vector<bool> heard_of_others(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   const Shape3 shape = ping.sv.shape();
   std::vector<bool> loud(static_cast<std::size_t>(shape.beams) * static_cast<std::size_t>(shape.samples), false);
@@ -115,7 +115,7 @@ std::vector<bool> heard_of_others(const MeasureInput& ping, const PingMask& mask
 }
 
 /// What the background near the school is, as a multiple of the expected: its reverberation changes with range as no
-/// beam's average does, and in the far flanks of the beam a tenth too much looks like a lower school.
+/// beam's average does, and in the far skirts of the beam a tenth too much looks like a lower school.
 /// out  [fan], from the median over the samples just before and behind the stretch
 std::vector<double> background_factors(const MeasureInput& ping, const std::vector<Run>& runs,
                                        const std::vector<bool>& loud, const MeasureParams& params) {

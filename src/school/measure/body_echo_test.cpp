@@ -59,7 +59,7 @@ SchoolPingRow measured_beside(const Array3<double>& faint, const Array3<double>&
 }
 
 // The beams spread a loud school's echo over water where a faint one's own is weaker: it tells nothing of that one's height.
-TEST(BodyEcho, ALoudNeighboursFlankIsNotTheSchools) {
+TEST(BodyEcho, ALoudNeighboursEdgeIsNotTheSchools) {
   const Sector sector = test::grid().sector(test::range_axis());
   Array3<double> faint(kShape);
   test::add_ellipsoid(faint, sector, faint_body());
@@ -105,7 +105,7 @@ TEST(BodyEcho, AMissingFanTellsNoHeight) {
     test::MeasuredPing ping = whole;
     for (int beam = 0; beam < 25; ++beam) {
       for (int s = 0; s < 900; ++s) {
-        ping.flags(fan, beam, s) |= SampleFlags::lost;
+        ping.flags(fan, beam, s) |= SampleFlags::dropout;
         ping.expected(fan, beam, s) = 0.0;
       }
     }

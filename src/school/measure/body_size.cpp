@@ -73,7 +73,7 @@ std::optional<BodySight> body_sight(const BodyEcho& echo, const HeightLikelihood
 BodySize body_size(const BodySight& body, const BodyShape& shape, const MeasureParams& params) {
   const auto extent = [&](double variance, double by_shape, double least_variance) {
     const double size_m = 2.0 * std::sqrt(by_shape * std::max(variance, 0.0));
-    return variance > least_variance && size_m >= params.floor_extent_m ? size_m : kUnknown;
+    return variance > least_variance && size_m >= params.min_extent_m ? size_m : kUnknown;
   };
   const double least_variance = params.min_level_share * body.blur_variance;
   return {extent(body.length_variance, shape.length, least_variance),

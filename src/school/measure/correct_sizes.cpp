@@ -35,7 +35,7 @@ void measure_body(const BodySize& body, SchoolPingRow& row) {
   if (sv > 0.0) row.sv_corrected_db = db_from_linear(sv);
 }
 
-/// A ping whose echo no shape of beam explains, as beside a lost packet, must not outweigh all others.
+/// A ping whose echo no shape of beam explains, as beside a corrupted packet, must not outweigh all others.
 double dispersion(const BodyEcho& body) {
   double least = std::numeric_limits<double>::infinity();
   for (const HeightLikelihood& heights : body.heights) {

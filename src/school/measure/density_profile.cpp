@@ -13,7 +13,7 @@ constexpr double kEvenKurtosis = 15.0 / 7.0;
 constexpr double kEvenFourth = kEvenKurtosis - 3.0;  ///< fourth cumulant, in variances squared
 constexpr double kEvenShape = 5.0;
 constexpr double kLeastKurtosis = 1.0;  ///< of anything: that of two lumps
-constexpr double kMostKurtosis = 2.45;  ///< of a heart 10 dB denser than the rim, falling off as exp(-c r^2)
+constexpr double kMostKurtosis = 2.45;  ///< of a core 10 dB denser than the margin, falling off as exp(-c r^2)
 
 constexpr std::array<std::array<double, 5>, 5> kBinomial = {
     {{1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}}};

@@ -10,7 +10,7 @@
 namespace sonar {
 
 /// Moments of an echo over slant range and azimuth, to the fourth: they tell along any level axis how its density changes
-/// from heart to rim. All fans lie in one plane, so that what the beam blurs upright has no part in them.
+/// from core to margin. All fans lie in one plane, so that what the beam blurs upright has no part in them.
 class LevelMoments {
  public:
   struct Cumulants {
@@ -39,12 +39,12 @@ struct AxisSight {
 
 /// Square of a half axis over the variance of the body's density along it, by the kurtosis of that density.
 /// source  the curve through two lumps (1, 1) and an even ellipsoid (15/7, 5); within 8.5 % in length of an even box
-///         (9/5, 3), hoops and shells, within 3 % of hearts up to 10 dB denser than the rim. Denser ones count as that.
+///         (9/5, 3), hoops and shells, within 3 % of cores up to 10 dB denser than the margin. Denser ones count as that.
 [[nodiscard]] double shape_variance(double kurtosis);
 
 /// The same from several sights of one school, times params.shape_variance / 5. What few looks tell is drawn to an even
-/// density, and so is a body that is small beside the blur: the flanks of a beam, which nobody knows, may look like a dense
-/// heart or a hollow, by as much as the blur is of the echo.
+/// density, and so is a body that is small beside the blur: the skirts of a beam, which nobody knows, may look like a dense
+/// core or a hollow, by as much as the blur is of the echo.
 [[nodiscard]] double shape_variance(std::span<const AxisSight> sights, const MeasureParams& params);
 
 }  // namespace sonar

@@ -18,7 +18,7 @@
 namespace sonar {
 namespace {
 
-// Densities of the distance from heart to rim that are not of the family the sizes are told by.
+// Densities of the distance from core to margin that are not of the family the sizes are told by.
 double even(double) { return 1.0; }
 double six_decibels(double r) { return 0.5 + 1.5 * std::exp(-4.0 * r * r); }
 double exponential(double r) { return std::pow(10.0, -r); }
@@ -67,7 +67,7 @@ TEST(DensityProfile, LinesHoopsShellsAndLumpsAreAsLongAsTheyAre) {
   }
 }
 
-TEST(DensityProfile, HeartAndRimDifferByNoMoreThanIsBelieved) {
+TEST(DensityProfile, CoreAndMarginDifferByNoMoreThanIsBelieved) {
   EXPECT_EQ(shape_variance(3.0), shape_variance(2.9));  // without an end a Gaussian's half axis would be infinite
   EXPECT_EQ(shape_variance(0.2), shape_variance(1.0));  // nothing has less
   double before = 0.0;
@@ -92,7 +92,7 @@ TEST(DensityProfile, FewLooksAndWideBeamsAreDrawnToAnEvenDensity) {
   EXPECT_NEAR(told({}), 5.0, 1e-12);
   EXPECT_NEAR(told({sight(1.5, 1e9, 0.4)}), shape_variance(1.5), 0.8) << "a tenth of blur hides little";
   EXPECT_NEAR(told({sight(1.5, 1e9, 12.0)}), 5.0, 0.25) << "three times the body's variance nearly all";
-  EXPECT_NEAR(told({sight(2.4, 1e9, 4.0)}), 5.0, 1e-6) << "a dense heart may be the beam's flanks";
+  EXPECT_NEAR(told({sight(2.4, 1e9, 4.0)}), 5.0, 1e-6) << "a dense core may be the beam's skirts";
   EXPECT_NEAR(told({sight(15.0 / 7.0, 1e9, 12.0)}), 5.0, 1e-6);
   params.find_density = false;
   params.shape_variance = 3.0;
@@ -151,7 +151,7 @@ double volume_ratio(double (*density)(double), double pulse_m, const MeasurePara
   return correct_sizes({{&school}}, params).front().volume_corrected_m3 / body_m3;
 }
 
-TEST(DensityProfile, DenseHeartsAreNoSmallerBodiesAndHollowOnesNoLarger) {
+TEST(DensityProfile, DenseCoresAreNoSmallerBodiesAndHollowOnesNoLarger) {
   MeasureParams params;
   params.find_beam_shape = false;
   params.beam_gaussian_share = 1.0;

@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "model/volume.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
 #include "school/measure/measure_input.h"
 
 namespace sonar {

@@ -43,7 +43,7 @@ class FaceCount {
     if (sample < 0 || sample >= shape_.samples) return add(border, 1);
     const auto flags = flags_.row(row);
     const SampleFlags beyond = flags[static_cast<std::size_t>(sample)];
-    if (border == kEdgeFar && any(beyond & SampleFlags::lost)) {
+    if (border == kEdgeFar && any(beyond & SampleFlags::dropout)) {
       // A beam without any sample has no end: it is a fault, wherever the mask lies in it.
       const int end = recorded_end(flags);
       if (end > 0 && sample >= end) return add(kEdgeFar, 1);
@@ -54,7 +54,7 @@ class FaceCount {
   /// One past the last sample that the beam recorded.
   static int recorded_end(std::span<const SampleFlags> flags) {
     auto end = static_cast<int>(flags.size());
-    while (end > 0 && any(flags[static_cast<std::size_t>(end - 1)] & SampleFlags::lost)) --end;
+    while (end > 0 && any(flags[static_cast<std::size_t>(end - 1)] & SampleFlags::dropout)) --end;
     return end;
   }
 

@@ -212,7 +212,7 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
   if (ping.seabed != nullptr) {
     // The seabed is a plane in the sector; its depth under the school is that of the levelled place.
     const double depth =
-        bottom_depth_m(*ping.seabed, shape.centre, ping.placement, params.bottom_beyond_share, params.bottom_beyond_m);
+        bottom_depth_m(*ping.seabed, shape.centre, ping.placement, params.seabed_beyond_share, params.seabed_beyond_m);
     const Point<Sonar> bottom{shape.centre.x, shape.centre.y, depth - ping.placement.transducer_depth_m};
     row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
   }

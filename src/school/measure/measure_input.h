@@ -11,8 +11,8 @@
 #include "model/beam_grid.h"
 #include "model/mask.h"
 #include "model/school.h"
-#include "school/bottom/seabed.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
+#include "school/seabed/seabed.h"
 
 namespace sonar {
 
@@ -38,7 +38,7 @@ struct MeasureInput {
   const EchoClaims* claims = nullptr;  ///< what each school of the ping reaches for; null = there is no other
   double threshold_db = kUnknown;      ///< the mask's, for the record
 
-  /// From where a beam hears the seabed, by its flank first: what lies beyond is a school's where it is a member, else not.
+  /// From where a beam hears the seabed, by its edge first: what lies beyond is a school's where it is a member, else not.
   /// The record's end where none is heard.
   [[nodiscard]] int seabed_heard(int row) const {
     return seabed == nullptr || seabed->heard_sample.empty() ? sv.shape().samples

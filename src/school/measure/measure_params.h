@@ -13,7 +13,7 @@ struct MeasureParams {
   int reach_beams = 1;
   int reach_samples = 6;
   int others_beams = 2;
-  double floor_extent_m = 1.0;
+  double min_extent_m = 1.0;
   int ring_gap_samples = 12;
   int ring_samples = 64;
   int min_ring_samples = 60;
@@ -31,8 +31,8 @@ struct MeasureParams {
   int height_pool_pings = 10;
   double min_height_evidence = 0.7;
   double min_level_share = 0.05;
-  double bottom_beyond_share = 0.3;
-  double bottom_beyond_m = 20.0;
+  double seabed_beyond_share = 0.3;
+  double seabed_beyond_m = 20.0;
 };
 
 template <class Visitor>
@@ -41,98 +41,142 @@ void describe(Visitor& v, MeasureParams& p) {
           {.unit = "1",
            .min = 1,
            .max = 12,
-           .text = "extent = 2 sqrt(this x variance): 5 for a uniform ellipsoid, 3 for a box"});
+           .text = "A school's extent is 2 sqrt(this times the variance of its echo): 5 for a uniform ellipsoid, 3 for "
+                   "a box. Change it where the form of the schools is known."});
   v.field("find_density", p.find_density,
-          {.text = "the echo along each axis tells how dense a school's heart is beside its rim; off = evenly"});
+          {.text = "Tell from the echo along each axis how much denser a school's core is than its margin; switch it "
+                   "off to take every school as evenly dense."});
   v.field("density_looks", p.density_looks,
           {.unit = "1",
            .min = 0,
            .max = 1000000,
-           .text = "... an even density has as much say as so many members, each a pulse long"});
+           .text = "An even density weighs as much as this many members, each a pulse long; raise it if corrected "
+                   "sizes scatter from school to school."});
   v.field("reach_fans", p.reach_fans,
-          {.unit = "fans", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
+          {.unit = "fans", .min = 0, .max = 100, .text = "Corrected sizes use echo this many fans beyond the mask."});
   v.field("reach_beams", p.reach_beams,
-          {.unit = "beams", .min = 0, .max = 100, .text = "corrected sizes use echo so far beyond the mask"});
+          {.unit = "beams", .min = 0, .max = 100, .text = "Corrected sizes use echo this many beams beyond the mask."});
   v.field("reach_samples", p.reach_samples,
-          {.unit = "samples", .min = 0, .max = 1000, .text = "corrected sizes use echo so far beyond the mask"});
+          {.unit = "samples",
+           .min = 0,
+           .max = 1000,
+           .text = "Corrected sizes use echo this many samples beyond the mask."});
   v.field("others_beams", p.others_beams,
           {.unit = "beams",
            .min = 0,
            .max = 100,
-           .text = "the echo so far beside another school is no background; reach_samples before and behind it"});
-  v.field("floor_extent_m", p.floor_extent_m,
-          {.unit = "m", .min = 0.01, .max = 100, .text = "a smaller corrected extent is not told"});
+           .text = "Echo within this many beams of another school is not taken as background, nor is echo within "
+                   "reach_samples before and behind it."});
+  v.field("min_extent_m", p.min_extent_m,
+          {.unit = "m",
+           .min = 0.01,
+           .max = 100,
+           .text = "A corrected extent below this is left empty, because beam and pulse hide it."});
   v.field("ring_gap_samples", p.ring_gap_samples,
           {.unit = "samples",
            .min = 0,
            .max = 10000,
-           .text = "the local background is taken from so far before and behind that echo"});
+           .text = "Gap between the echo used for sizes and the water from which the local background is taken, before "
+                   "and behind."});
   v.field("ring_samples", p.ring_samples,
-          {.unit = "samples", .min = 1, .max = 10000, .text = "over this length on either side"});
-  v.field("min_ring_samples", p.min_ring_samples,
-          {.unit = "samples", .min = 1, .max = 100000, .text = "fewer sound samples in a fan leave it as estimated"});
-  v.field("max_ring_factor", p.max_ring_factor,
-          {.unit = "1", .min = 1, .max = 100, .text = "largest ratio of local and estimated background, either way"});
-  v.field("min_fan_share", p.min_fan_share,
-          {.unit = "1", .min = 0, .max = 1, .text = "fans count for the height where this share of the echo is heard"});
-  v.field("find_beam_shape", p.find_beam_shape,
-          {.text = "the shape of beam that fits all schools of an observation best; off = as beam_gaussian_share"});
+          {.unit = "samples",
+           .min = 1,
+           .max = 10000,
+           .text = "Length of the water before and behind from which the local background is taken."});
   v.field(
-      "beam_shapes", p.beam_shapes,
-      {.unit = "1", .min = 2, .max = 100, .text = "... of so many, evenly spaced from a uniform line to a Gaussian"});
+      "min_ring_samples", p.min_ring_samples,
+      {.unit = "samples",
+       .min = 1,
+       .max = 100000,
+       .text = "Fans with fewer sound samples in that water keep the background as estimated from the whole beam."});
+  v.field("max_ring_factor", p.max_ring_factor,
+          {.unit = "1",
+           .min = 1,
+           .max = 100,
+           .text = "Largest ratio of local and estimated background, either way; raise it where the water's own echo "
+                   "varies strongly."});
+  v.field("min_fan_share", p.min_fan_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "A fan counts for the height where at least this share of its echo is heard, and not hidden by "
+                   "faults or borders."});
+  v.field("find_beam_shape", p.find_beam_shape,
+          {.text = "Find the shape of beam that fits all schools of an observation best; switch it off to use "
+                   "beam_gaussian_share."});
+  v.field("beam_shapes", p.beam_shapes,
+          {.unit = "1",
+           .min = 2,
+           .max = 100,
+           .text = "How many shapes of beam are tried, evenly spaced from a uniform line array's to a Gaussian."});
   v.field("beam_gaussian_share", p.beam_gaussian_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "the beam's flanks: 1 = Gaussian (a shaded array), 0 = a uniform line array's, between = a mean"});
+           .text = "Shape of the beam's skirts: 1 is a Gaussian (a shaded array), 0 a uniform line array's, values "
+                   "between are a mean. Set it where the array's shading is known."});
   v.field("use_beam_angle", p.use_beam_angle,
-          {.text = "the file's equivalent beam angles tell how much wider than it receives the sonar sends"});
+          {.text = "Tell from the file's equivalent beam angles how much wider the sonar sends than it receives; "
+                   "switch it off where the stated angles are known to be wrong."});
   v.field("beam_angle_least_db", p.beam_angle_least_db,
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "... where they differ by this from what the widths give; so much more than can be is rounding"});
-  v.field(
-      "beam_angle_spread_db", p.beam_angle_spread_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 60,
-       .text = "... and by no more over the sector, ripple from beam to beam smoothed: angles copied from one to all "
-               "tell nothing"});
+           .text = "Equivalent beam angles that differ by less than this from what the -3 dB widths give, or by so "
+                   "much more than is possible, are taken as rounded."});
+  v.field("beam_angle_spread_db", p.beam_angle_spread_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 60,
+           .text = "Equivalent beam angles that differ by more than this over the sector, ripple removed, are taken as "
+                   "copied from one beam to all."});
   v.field("beam_angle_ripple_db", p.beam_angle_ripple_db,
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "... whose ripple is no more either way: a transmit fan's is 0.5 to 2.4 dB from crest to trough"});
+           .text = "Equivalent beam angles with more ripple from beam to beam than this are not believed; transmit "
+                   "fans have 0.5 to 2.4 dB from crest to trough."});
   v.field("alike_evidence", p.alike_evidence,
           {.unit = "1",
            .min = 0,
            .max = 1000,
-           .text = "it sends wider along the fan, or both ways alike where that is likelier by this log-likelihood"});
+           .text = "Log-likelihood by which schools must favour a sonar that sends wider both ways over one that sends "
+                   "wider along the fan alone."});
   v.field("beam_pedestal", p.beam_pedestal,
           {.unit = "1",
            .min = 0.0001,
            .max = 10,
-           .text = "share of the strongest fan below which the flanks of the beam decide nothing about the height"});
+           .text = "Share of the strongest fan's echo below which the beam's skirts have no say in the height; raise "
+                   "it where side lobes are high."});
   v.field("height_pool_pings", p.height_pool_pings,
           {.unit = "pings",
            .min = 0,
            .max = 10000,
-           .text = "so many pings before and after have their say in a school's corrected height; 0 = each its own"});
+           .text = "How many pings before and after have a say in a school's corrected height; 0 measures each ping on "
+                   "its own."});
   v.field("min_height_evidence", p.min_height_evidence,
           {.unit = "1",
            .min = 0,
            .max = 1000,
-           .text = "no height where its log-likelihood exceeds that of a flat body by less"});
+           .text = "A height is left empty where its log-likelihood exceeds that of a flat school by less than this."});
   v.field("min_level_share", p.min_level_share,
           {.unit = "1",
            .min = 0,
            .max = 10,
-           .text = "no length or width where the body's variance is a smaller share of the beam's and the pulse's"});
-  v.field("bottom_beyond_share", p.bottom_beyond_share,
-          {.unit = "1", .min = 0, .max = 10, .text = "the seabed's plane holds so far beyond where it was seen ..."});
-  v.field("bottom_beyond_m", p.bottom_beyond_m,
-          {.unit = "m", .min = 0, .max = 10000, .text = "... as a share of that area's extent, and this more"});
+           .text = "A length or width is left empty where the school's variance is a smaller share of the beam's and "
+                   "the pulse's than this."});
+  v.field("seabed_beyond_share", p.seabed_beyond_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 10,
+           .text = "How far beyond the area in which it was seen the seabed's plane is believed, as a share of that "
+                   "area's extent; raise it over flat ground."});
+  v.field("seabed_beyond_m", p.seabed_beyond_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 10000,
+           .text = "How much farther, beside that share, the seabed's plane is believed beyond the area in which it "
+                   "was seen."});
 }
 
 }  // namespace sonar

@@ -61,7 +61,7 @@ TEST(Measure, OneVoxelByHand) {
 
 constexpr double kBody_m3 = 4.0 / 3.0 * std::numbers::pi * 20.0 * 12.0 * 6.0;
 
-// Nobody tells which flanks a sonar's beams have: with what is assumed by default, both shapes come out.
+// Nobody tells which skirts a sonar's beams have: with what is assumed by default, both shapes come out.
 TEST(Measure, CorrectedSizesAreTheBodysForEitherBeamShape) {
   for (const test::Beams beams : {test::Beams::gaussian, test::Beams::uniform_line}) {
     for (const double range_m : {100.0, 200.0, 300.0}) {
@@ -202,7 +202,7 @@ double worst_height_error(const std::vector<SchoolPingRow>& rows) {
   return worst;
 }
 
-// One ping of speckle cannot tell a low body's height, nor the shape of the beam's flanks; twenty can, for either shape.
+// One ping of speckle cannot tell a low body's height, nor the shape of the beam's skirts; twenty can, for either shape.
 TEST(Measure, PingsTogetherTellALowBodysHeight) {
   for (const test::Beams beams : {test::Beams::gaussian, test::Beams::uniform_line}) {
     MeasureParams params;
@@ -245,7 +245,7 @@ TEST(Measure, PingsOutOfReachHaveNoSayInTheHeight) {
   EXPECT_NE(corrected(seen, params)[1].height_corrected_m, before);
 }
 
-// A ping whose fans make no sense together, as beside lost packets, must not decide for all others.
+// A ping whose fans make no sense together, as beside corrupted packets, must not decide for all others.
 TEST(Measure, OnePingThatFitsNoBodyDoesNotDecide) {
   MeasureParams params;
   std::vector<MeasuredSchool> seen = low_school(test::Beams::gaussian, params, 20);
@@ -324,7 +324,7 @@ TEST(Measure, UnderAHotBeamTheMeanStays) {
   const SchoolPingRow expected = clean.measured(2);
   Ping hot = clean;
   const int row = 11 * 25 + 10;
-  for (int s = 300; s < 600; ++s) hot.flags.view().row(row)[static_cast<std::size_t>(s)] |= SampleFlags::hot_beam;
+  for (int s = 300; s < 600; ++s) hot.flags.view().row(row)[static_cast<std::size_t>(s)] |= SampleFlags::corrupted;
   hot.counts = test::counts_of(hot.expected, 2);
   const SchoolPingRow got = hot.measured(2);
   EXPECT_NEAR(got.sv_mean_db, expected.sv_mean_db, 1.0);

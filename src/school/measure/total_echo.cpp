@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/check.h"
-#include "base/median.h"
+#include "base/middle.h"
 #include "base/units.h"
-#include "school/detect/background.h"
+#include "school/detect/noise_level.h"
 #include "school/runs.h"
 
 namespace sonar {

@@ -28,7 +28,7 @@ struct TotalEcho {
 
 /// The sum over the mask widened by half a beam's width each way and 3 m along range, less the level of the water round
 /// that (the median over beams of their means). A voxel that several schools reach for is shared among them in equal parts, members are their school's alone.
-/// Boundaries, what beams hear of the seabed by their flanks round the mask, other schools' members and beams that hear more round the mask than its threshold tells are left out; faulty samples count as their sound neighbours do on average.
+/// Boundaries, the beam-edge seabed echo round the mask, other schools' members and beams that hear more round the mask than its threshold tells are left out; faulty samples count as their sound neighbours do on average.
 /// claims   null = the ping holds no other school
 /// threads  pure
 [[nodiscard]] TotalEcho total_echo(const MeasureInput& ping, const PingMask& mask, const EchoClaims* claims);

@@ -126,7 +126,7 @@ TEST(TotalEcho, StopsAtBoundaries) {
   EXPECT_NEAR(db_from_linear(ping.measured(1, false).backscatter_total_m2 / body_m2(e)), 0.0, 0.25);
 }
 
-// Nor is what beams hear of it by their flanks, before the ground itself; members there are the school's all the same.
+// Nor is what beams hear of it by their edges, before the seabed itself; members there are the school's all the same.
 TEST(TotalEcho, StopsWhereBeamsHearTheSeabed) {
   test::MeasuredPing ping;
   const test::Ellipsoid e = school(150.0, -20.0, 268.0);

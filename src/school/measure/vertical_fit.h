@@ -15,11 +15,11 @@ struct FanEcho {
   double looks = 0.0;       ///< how many samples it is the mean of
 };
 
-/// What is taken for the beam. Beams of one -3 dB width differ in their flanks: a shaded array's is near a Gaussian, a
+/// What is taken for the beam. Beams of one -3 dB width differ in their skirts: a shaded array's is near a Gaussian, a
 /// uniform line's is steeper and has side lobes.
 struct BeamModel {
   double gaussian_share = 0.5;  ///< 1 = Gaussian, 0 = a uniform line array, in between a mean of both
-  double pedestal = 0.1;  ///< share of the strongest fan, added to echo and model alike: flanks below decide nothing
+  double pedestal = 0.1;  ///< share of the strongest fan, added to echo and model alike: skirts below decide nothing
   double transmit_ratio = 1.0;  ///< width of receiving over that of sending: 1 = alike, 0 = sent everywhere
 };
 

@@ -9,7 +9,7 @@
 namespace sonar {
 
 /// Two schools are two if they are ever seen apart. Tracks whose masks touch wherever both are seen are parts of one body
-/// that a valley in its echo divides (a waist, a hollow): they become one track, under the number of the first.
+/// that a saddle in its echo divides (a waist, a hollow): they become one track, under the number of the first.
 /// closed  all tracks; those that went into another are taken out
 /// events  renamed, or dropped where they tell of parts of one school
 void join_inseparable(std::vector<OpenTrack>& closed, std::vector<RawEvent>& events,

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/median.h"
+#include "base/middle.h"
 #include "base/units.h"
 #include "model/school.h"
 #include "school/mask_shape.h"

@@ -28,7 +28,7 @@ struct Sea {
   bool fading = false;
 };
 
-/// Pings of a ship that passes a school whose echo fades outwards: 10 dB below its heart it is a ball.
+/// Pings of a ship that passes a school whose echo fades outwards: 10 dB below its core it is a ball.
 struct Passage {
   explicit Passage(const Sea& sea = {}, int count = 7,
                    const test::Ball& ball = {{-200.0, 60.0, -100.0}, {0.4, 0.3, 0.0}, 25.0}) {
@@ -36,9 +36,9 @@ struct Passage {
     for (int p = 0; p < count; ++p) {
       pings.push_back({p, p * 5 * kSecondNs, test::ship_at(p), {}});
       whole.push_back(test::ball_mask(ball, sector, pings.back().placement, start, p * test::kInterval_s));
-      const Point<Sonar> heart =
+      const Point<Sonar> core =
           PingFrame(pings.back().placement, start).from_world(ball.start + ball.velocity * (p * test::kInterval_s));
-      pings.back().detections.push_back(sight(sea, p, heart, ball.radius_m));
+      pings.back().detections.push_back(sight(sea, p, core, ball.radius_m));
       schools.front().pings.push_back({p, {0}, {}});
     }
   }
@@ -48,7 +48,7 @@ struct Passage {
   }
   [[nodiscard]] PingMask mask(std::size_t p) const { return mask_of(schools.front().pings[p], pings[p]); }
 
-  Detection sight(const Sea& sea, int p, const Point<Sonar>& heart, double radius_m) {
+  Detection sight(const Sea& sea, int p, const Point<Sonar>& core, double radius_m) {
     const PingMask& ball = whole.back();
     EchoPieces pieces;
     pieces.box = box_of(ball, 25).enlarged(2, 3, 40).clipped({20, 25, 900});
@@ -63,7 +63,7 @@ struct Passage {
         for (int i = 0; i < shape.samples; ++i) {
           const int row = (pieces.box.first_fan + f) * 25 + pieces.box.first_beam + b;
           const int first = pieces.box.first_sample + i * EchoPieces::kSamples;
-          const double off = norm(sector.centre(row / 25, row % 25, first + 1) - heart) / radius_m;
+          const double off = norm(sector.centre(row / 25, row % 25, first + 1) - core) / radius_m;
           double echo = 1000.0 * std::pow(10.0, -off * off);
           echo = std::max<double>(echo, sea.also(p, row, first));
           if (sea.hidden(p, row, first)) echo *= 0.05;

@@ -53,21 +53,45 @@ struct TrackParams {
 template <class Visitor>
 void describe(Visitor& v, TrackParams& p) {
   v.field("acceleration_mps2", p.acceleration_mps2,
-          {.unit = "m s-2", .min = 0.0001, .max = 10, .text = "how strongly schools change their velocity"});
+          {.unit = "m s-2",
+           .min = 0.0001,
+           .max = 10,
+           .text = "Standard deviation of a school's acceleration; raise it for schools that turn sharply."});
   v.field("initial_speed_mps", p.initial_speed_mps,
-          {.unit = "m s-1", .min = 0, .max = 20, .text = "spread of a new school's velocity, per axis"});
-  v.field("position_share", p.position_share,
-          {.unit = "1", .min = 0.001, .max = 2, .text = "uncertainty of a centre as a share of the school's extent"});
-  v.field("min_position_m", p.min_position_m, {.unit = "m", .min = 0.01, .max = 100, .text = "its least value"});
+          {.unit = "m s-1",
+           .min = 0,
+           .max = 20,
+           .text = "Standard deviation of a new school's speed along each axis; raise it for fast fish."});
+  v.field(
+      "position_share", p.position_share,
+      {.unit = "1",
+       .min = 0.001,
+       .max = 2,
+       .text =
+           "Uncertainty of a school's centre as a share of its extent; raise it for schools that change their shape."});
+  v.field("min_position_m", p.min_position_m,
+          {.unit = "m", .min = 0.01, .max = 100, .text = "Least uncertainty of a school's centre."});
   v.field("gate_sigmas", p.gate_sigmas,
-          {.unit = "1", .min = 0.1, .max = 20, .text = "detections farther from the prediction are other schools"});
+          {.unit = "1",
+           .min = 0.1,
+           .max = 20,
+           .text = "Detections farther from the prediction than this many standard deviations belong to other schools; "
+                   "raise it when tracks break."});
   v.field("max_lost_pings", p.max_lost_pings,
-          {.unit = "pings", .min = 0, .max = 100, .text = "a school unseen for so many pings may be found again"});
+          {.unit = "pings",
+           .min = 0,
+           .max = 100,
+           .text = "A school that was not seen in this many pings may still be found again; raise it where pings are "
+                   "often disturbed."});
   v.field("max_lost_s", p.max_lost_s,
-          {.unit = "s", .min = 1, .max = 86400, .text = "... if it was seen no longer ago than this"});
+          {.unit = "s",
+           .min = 1,
+           .max = 86400,
+           .text = "A school that was last seen longer ago than this is not found again."});
   describe(v, p.confirmation);
   v.field("divide_joined", p.divide_joined,
-          {.text = "schools seen apart before that meet in one detection share it among them"});
+          {.text = "Share one detection between schools that were seen apart before and meet in it; switch it off to "
+                   "let them merge."});
   describe(v, p.ship);
   describe(v, p.level);
 }
@@ -78,7 +102,8 @@ struct DetectedPing {
   TimeNs time = 0;
   Placement placement;
   std::vector<Detection> detections;
-  std::vector<RefusedDetection> refused = {};  ///< what stood out clearly and is no school; tracks do not see it
+  std::vector<RefusedDetection> refused =
+      {};  ///< what lay clearly above the background and is no school; tracks do not see it
 };
 
 /// Where the ping of this index stands in the list.

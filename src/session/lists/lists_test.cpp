@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "session/lists/school_ping_table.h"
-#include "session/test_desk.h"
+#include "session/test_app.h"
 
 namespace sonar {
 namespace {
@@ -11,10 +11,10 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class Lists : public testing::Test, protected TestDesk {
+class Lists : public testing::Test, protected TestApp {
  protected:
   void SetUp() override { begin(); }
-  [[nodiscard]] Rows& rows(const std::string& id) { return *desk_->rows(id); }
+  [[nodiscard]] Rows& rows(const std::string& id) { return *app_->rows(id); }
   /// Text of a cell by its column's title.
   [[nodiscard]] std::string text(const std::string& id, std::size_t row, const std::string& title) {
     const auto& columns = rows(id).columns();
@@ -47,9 +47,9 @@ TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {
 // While the files are read the list has what their ends tell, and opens a part.
 TEST(ListsWhileReading, TheSurveyTreeTellsRunsOfFilesAndOpensOneAlone) {
   ChangeQueue queue;
-  Desk desk(queue, TestSurvey::options(TestSurvey::easy().fresh()));
-  Document& document = desk.workspace.document;
-  Rows& tree = *desk.rows("survey_tree");
+  AppModel app(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  Document& document = app.workspace.document;
+  Rows& tree = *app.rows("survey_tree");
   std::vector<std::string> names;
   std::string hint;
   document.changes().add([&](DocumentChange change) {
@@ -159,7 +159,7 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   document().settle();
   press("review.accept");
   document().settle();
-  desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
+  app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
   const int listening = document().changes().add([&](DocumentChange change) {
     if (change != DocumentChange::state && change != DocumentChange::measures) return;
     if (document().survey() == nullptr || !document().choices().states.contains(0)) return;
@@ -201,7 +201,7 @@ TEST_F(Lists, ChoicesOfEarlierRunsAreSeenInTheWholeSurvey) {
   EXPECT_EQ(rows("schools").rows(), 2U);
 }
 
-TEST_F(Lists, NoTwoActionsHaveOneKey) { EXPECT_THAT(desk_->actions.clashes(), IsEmpty()); }
+TEST_F(Lists, NoTwoActionsHaveOneKey) { EXPECT_THAT(app_->actions.clashes(), IsEmpty()); }
 
 }  // namespace
 }  // namespace sonar

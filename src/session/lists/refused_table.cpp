@@ -38,7 +38,7 @@ const std::vector<ColumnOf<SurveyEcho>>& refused_columns() {
       {{"Beams", "", "that it reaches over", true}, count<&R::n_beams>},
       {{"Along range", "m", "", true}, figure<&R::range_extent_m, 1>},
       {{"Volume", "m\u00B3", "as the beams see it", true}, figure<&R::volume_m3, 0>},
-      {{"Above water", "1", "how far it stands out, in standard deviations of the water", true},
+      {{"Above background", "1", "evidence: standard deviations above the background", true},
        figure<&R::above_water, 1>},
       {{"Latitude", "", "of its centre", true}, [](const E& e) { return latitude_cell(e.sights.loudest->latitude); }},
       {{"Longitude", "", "of its centre", true},

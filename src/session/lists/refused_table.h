@@ -16,7 +16,7 @@ struct SurveyEcho {
   RefusedSights sights;
 };
 
-/// What stood out and is no school, of all observations in which schools were looked for. A click on one goes to it.
+/// What lay above the background and is no school, of all observations in which schools were looked for. A click on one goes to it.
 class RefusedTable : public DocumentRows {
  public:
   explicit RefusedTable(Workspace& workspace);

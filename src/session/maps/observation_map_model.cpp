@@ -118,7 +118,8 @@ LivePicture::Build ObservationMapModel::build() {
   wish.dark = workspace_.dark();
   wish.scale = scale();
   wish.zoom = gesture_.zoom();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken&,
+                                                      const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
     show({std::move(painted->frame), std::nullopt, std::move(painted->places)});

@@ -130,7 +130,7 @@ LivePicture::Build StripModel::build() {
   }
   wish.dark = workspace_.dark();
   wish.scale = scale();
-  return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+  return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
     const auto panels = strip_panels(wish, masks);
     const Theme theme = strip_theme(size, wish.scale, wish.dark);

@@ -39,7 +39,7 @@ std::map<std::int64_t, std::string> endings(const JournalState& state) {
 
 std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPings& masks) {
   const auto notes = wish.state ? endings(*wish.state) : std::map<std::int64_t, std::string>{};
-  const auto& ground = wish.observation->ground();
+  const auto& context = wish.observation->context();
   std::vector<PropagationPanel> panels;
   for (std::int64_t ping = wish.first; ping < std::min(wish.first + wish.panes, wish.observation->pings()); ++ping) {
     PropagationPanel& panel = panels.emplace_back();
@@ -49,7 +49,7 @@ std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPi
     const PingNavigation& navigation = wish.observation->files().navigation[i];
     panel.time = navigation.time;
     panel.transducer_depth_m = navigation.transducer_depth_m;
-    panel.bad = navigation.bad || (wish.state && is_bad(*wish.state, ground.times[i]));
+    panel.bad = navigation.bad || (wish.state && is_bad(*wish.state, context.times[i]));
     if (const auto found = masks.pings.find(ping); found != masks.pings.end()) {
       panel.masks = found->second;
       for (const MosaicMask& mask : panel.masks) panel.school_ids.push_back(mask.school);

@@ -96,8 +96,8 @@ LivePicture::Build SurveyMapModel::build() {
   wish.style.rejected = workspace_.display.values().rejected;
   wish.dark = workspace_.dark();
   wish.scale = scale();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted& wanted, const Show& show) {
-    return painter->paint(wish, size, wanted, [&show](SurveyMapPainter::Painted painted) {
+  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken& token, const Show& show) {
+    return painter->paint(wish, size, token, [&show](SurveyMapPainter::Painted painted) {
       show({std::move(painted.frame), std::nullopt, std::move(painted.places)});
     });
   };

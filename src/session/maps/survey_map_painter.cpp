@@ -75,9 +75,9 @@ void SurveyMapPainter::take_products(const std::vector<ProductPtr>& products) {
   join_over_cuts(light_);
 }
 
-bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const Wanted& wanted) {
+bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const CancelToken& token) {
   for (std::size_t i = 0; i < light_.size(); ++i) {
-    if (!wanted()) return false;
+    if (token.cancelled()) return false;
     outlines_[i].observation = light_[i].observation;
     if (products_[i] && outlined_[i] != products_[i]) {
       outlines_[i] = school_outlines(*products_[i], outlined_[i].get(), outlines_[i]);
@@ -85,7 +85,7 @@ bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const Wanted& wanted
     outlined_[i] = products_[i];
   }
   for (std::size_t i = 0; i < light_.size(); ++i) {
-    if (!wanted()) return false;
+    if (token.cancelled()) return false;
     if (swept_known_[i]) continue;
     if (wish.style.swept) outlines_[i].swept = swept_area(light_[i]);
     swept_known_[i] = true;
@@ -143,13 +143,13 @@ Result<SurveyMapPainter::Painted> SurveyMapPainter::painted(const SurveyMapWish&
   return Painted{std::move(*frame), std::move(places)};
 }
 
-Result<void> SurveyMapPainter::paint(const SurveyMapWish& wish, PixelSize size, const Wanted& wanted,
+Result<void> SurveyMapPainter::paint(const SurveyMapWish& wish, PixelSize size, const CancelToken& token,
                                      const Show& show) {
   const bool complete = know(wish);
   auto first = painted(wish, size);
   if (!first) return pass_on(first);
   show(std::move(*first));
-  if (complete || !know_more(wish, wanted)) return {};
+  if (complete || !know_more(wish, token)) return {};
   auto second = painted(wish, size);
   if (!second) return pass_on(second);
   show(std::move(*second));

@@ -37,12 +37,13 @@ class SurveyMapPainter {
   using Show = std::function<void(Painted)>;
   /// Shows what is known at once, and what takes long as it comes.
   /// errors  as survey_map()
-  [[nodiscard]] Result<void> paint(const SurveyMapWish& wish, PixelSize size, const Wanted& wanted, const Show& show);
+  [[nodiscard]] Result<void> paint(const SurveyMapWish& wish, PixelSize size, const CancelToken& token,
+                                   const Show& show);
 
  private:
   [[nodiscard]] bool know(const SurveyMapWish& wish);
   void take_products(const std::vector<ProductPtr>& products);
-  bool know_more(const SurveyMapWish& wish, const Wanted& wanted);
+  bool know_more(const SurveyMapWish& wish, const CancelToken& token);
   [[nodiscard]] Result<Painted> painted(const SurveyMapWish& wish, PixelSize size);
   const DepthGrid* depths(const SurveyMapWish& wish, const MapFrame& map, std::string& note);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 #include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
@@ -9,20 +9,19 @@
 
 namespace sonar {
 
-void add_slices(Desk& desk) {
-  Workspace& workspace = desk.workspace;
-  desk.seed_tool = std::make_shared<SeedTool>(workspace, desk.pulse);
-  desk.brush_tool = std::make_shared<BrushTool>(workspace);
-  desk.playback = std::make_shared<Playback>(workspace, desk.pulse);
-  desk.live = std::make_shared<LiveWatch>(workspace, desk.pulse);
-  desk.pictures.push_back({"top_slice", "Slice from above", DockPlace::centre, "top_slice",
-                           std::make_unique<SliceModel>(SliceSide::top, workspace, *desk.seed_tool, *desk.brush_tool)});
-  desk.pictures.push_back(
-      {"side_slice", "Slice from the side", DockPlace::centre, "side_slice",
-       std::make_unique<SliceModel>(SliceSide::side, workspace, *desk.seed_tool, *desk.brush_tool)});
-  add_navigation_actions(desk);
-  add_tool_actions(desk);
-  add_display_actions(desk);
+void add_slices(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.seed_tool = std::make_shared<SeedTool>(workspace, app.animations);
+  app.brush_tool = std::make_shared<BrushTool>(workspace);
+  app.playback = std::make_shared<Playback>(workspace, app.animations);
+  app.live = std::make_shared<LiveWatch>(workspace, app.animations);
+  app.pictures.push_back({"top_slice", "Slice from above", DockPlace::centre, "top_slice",
+                          std::make_unique<SliceModel>(SliceSide::top, workspace, *app.seed_tool, *app.brush_tool)});
+  app.pictures.push_back({"side_slice", "Slice from the side", DockPlace::centre, "side_slice",
+                          std::make_unique<SliceModel>(SliceSide::side, workspace, *app.seed_tool, *app.brush_tool)});
+  add_navigation_actions(app);
+  add_tool_actions(app);
+  add_display_actions(app);
 }
 
 }  // namespace sonar

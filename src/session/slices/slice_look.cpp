@@ -41,8 +41,8 @@ SampleFlags put_back(const DisplayParams& display) {
   };
   unless(out.near_field, SampleFlags::near_field);
   unless(out.surface, SampleFlags::surface);
-  unless(out.hot_beams, SampleFlags::hot_beam);
-  unless(out.walls, SampleFlags::wall);
+  unless(out.corrupted_packets, SampleFlags::corrupted);
+  unless(out.interference, SampleFlags::interference);
   unless(out.impulses, SampleFlags::impulse);
   unless(out.seabed, SampleFlags::seabed);
   return back;

@@ -103,7 +103,7 @@ LivePicture::Build SliceModel::build() {
   wish.refused = refused_layer_in(workspace_, wish.ping->ping_index);
   if (picture_) wish.earlier = picture_->map;
   wish.flags = flags_;
-  return [wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+  return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto picture = slice_of(wish, size);
     if (!picture) return pass_on(picture);
     auto detail = std::make_shared<const SlicePicture>(std::move(*picture));

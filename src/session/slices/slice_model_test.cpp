@@ -18,9 +18,9 @@ namespace {
 
 class SlicesAtWork : public testing::Test {
  protected:
-  void SetUp() override { desk_.look_at_bright(); }
-  Workspace& workspace() { return desk_.workspace(); }
-  const Voxel& bright() { return SlicesDesk::bright().voxel; }
+  void SetUp() override { app_.look_at_bright(); }
+  Workspace& workspace() { return app_.workspace(); }
+  const Voxel& bright() { return SlicesApp::bright().voxel; }
   Rgba8 pixel(SliceModel& slice, const Voxel& voxel) {
     const PixelPoint at = *slice.picture()->place_of(voxel);
     return slice.image().at(static_cast<int>(at.x), static_cast<int>(at.y));
@@ -30,7 +30,7 @@ class SlicesAtWork : public testing::Test {
     // The voxel that the pixel shows, which need not be the one whose centre lies in it.
     const PixelPoint at = *slice.picture()->place_of(voxel);
     const Voxel shown = *slice.picture()->voxel_at({std::floor(at.x) + 0.5, std::floor(at.y) + 0.5});
-    const auto& staged = *desk_.document().staged();
+    const auto& staged = *app_.document().staged();
     const Volume& volume = workspace().display.values().filtered ? *staged.filtered : staged.sv;
     return sv_colours(workspace().display.values().scale)[volume.counts(shown.fan, shown.beam, shown.sample)];
   }
@@ -38,42 +38,42 @@ class SlicesAtWork : public testing::Test {
     DisplayParams params = workspace().display.values();
     params.removed = params.weak = NoiseLook::shown;
     workspace().display.assign(params);
-    desk_.settle();
+    app_.settle();
   }
 
-  SlicesDesk desk_;
+  SlicesApp app_;
 };
 
 // The 2007 paper shows its slices as recorded and filters what schools are grown on.
 TEST_F(SlicesAtWork, SlicesAreAsRecordedUntilTheyAreAskedToBeFiltered) {
   plain_display();
   EXPECT_FALSE(workspace().display.values().filtered);
-  desk_.ask("display.filtered");
-  desk_.settle();
+  app_.ask("display.filtered");
+  app_.settle();
   EXPECT_TRUE(workspace().display.values().filtered);
 }
 
 TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
   plain_display();
-  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+  for (SliceModel* slice : {&app_.top(), &app_.side()}) {
     EXPECT_EQ(slice->image().size, (PixelSize{480, 360}));
     EXPECT_TRUE(slice->problem().empty());
     EXPECT_EQ(pixel(*slice, bright()), sv_colour(*slice, bright()));
   }
-  EXPECT_FALSE(desk_.top().picture()->place_of({bright().fan + 1, bright().beam, bright().sample}));
-  desk_.ask("display.filtered");
-  desk_.settle();
-  EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
-  desk_.ask("display.weak");
-  desk_.settle();
+  EXPECT_FALSE(app_.top().picture()->place_of({bright().fan + 1, bright().beam, bright().sample}));
+  app_.ask("display.filtered");
+  app_.settle();
+  EXPECT_EQ(pixel(app_.top(), bright()), sv_colour(app_.top(), bright()));
+  app_.ask("display.weak");
+  app_.settle();
   EXPECT_EQ(workspace().display.values().scale.low_db, -70.0);
-  EXPECT_EQ(pixel(desk_.top(), bright()), sv_colour(desk_.top(), bright()));
+  EXPECT_EQ(pixel(app_.top(), bright()), sv_colour(app_.top(), bright()));
 }
 
 // Near the transducer every beam rings.
 TEST_F(SlicesAtWork, AReasonThatIsSwitchedOffShowsItsSamplesAsRecorded) {
   const Voxel ringing{bright().fan, bright().beam, 30};
-  const StagedPing& ping = *desk_.document().staged();
+  const StagedPing& ping = *app_.document().staged();
   ASSERT_EQ(ping.filtered->flags(ringing.fan, ringing.beam, ringing.sample), SampleFlags::near_field);
   const auto recorded = ping.sv.counts(ringing.fan, ringing.beam, ringing.sample);
   ASSERT_NE(recorded, ping.filtered->counts(ringing.fan, ringing.beam, ringing.sample));
@@ -83,15 +83,15 @@ TEST_F(SlicesAtWork, AReasonThatIsSwitchedOffShowsItsSamplesAsRecorded) {
   params.scale.low_db = -150.0;
   params.scale.span_db = 200.0;
   workspace().display.assign(params);
-  desk_.settle();
-  const Rgba8 nothing = pixel(desk_.top(), ringing);
+  app_.settle();
+  const Rgba8 nothing = pixel(app_.top(), ringing);
   EXPECT_NE(read_out(workspace(), ringing).sv, fmt::format("Sv {:.1f} dB", db_from_counts(recorded)));
-  ASSERT_TRUE(workspace().display.set("take_out.walls", false));
-  desk_.settle();
-  EXPECT_EQ(pixel(desk_.top(), ringing), nothing) << "another reason's switch";
+  ASSERT_TRUE(workspace().display.set("take_out.interference", false));
+  app_.settle();
+  EXPECT_EQ(pixel(app_.top(), ringing), nothing) << "another reason's switch";
   ASSERT_TRUE(workspace().display.set("take_out.near_field", false));
-  desk_.settle();
-  EXPECT_NE(pixel(desk_.top(), ringing), nothing);
+  app_.settle();
+  EXPECT_NE(pixel(app_.top(), ringing), nothing);
   EXPECT_EQ(read_out(workspace(), ringing).sv, fmt::format("Sv {:.1f} dB", db_from_counts(recorded)));
   EXPECT_THAT(read_out(workspace(), ringing).flags, testing::HasSubstr("near field"))
       << "the reason stays in the read-out";
@@ -99,7 +99,7 @@ TEST_F(SlicesAtWork, AReasonThatIsSwitchedOffShowsItsSamplesAsRecorded) {
 
 TEST_F(SlicesAtWork, TheReadOutTellsTheShipsSpeedInKnotsAndItsLogInNauticalMiles) {
   const PingNavigation& ship =
-      desk_.document().shown()->files().navigation[static_cast<std::size_t>(desk_.document().ping())];
+      app_.document().shown()->files().navigation[static_cast<std::size_t>(app_.document().ping())];
   const ReadOut text = read_out(workspace(), bright());
   EXPECT_EQ(text.ship, fmt::format("ship {:.1f} kn", ship.speed_mps * 3600.0 / 1852.0));
   EXPECT_EQ(text.log, fmt::format("log {:.3f} nmi", ship.distance_nmi));
@@ -107,7 +107,7 @@ TEST_F(SlicesAtWork, TheReadOutTellsTheShipsSpeedInKnotsAndItsLogInNauticalMiles
 }
 
 TEST_F(SlicesAtWork, TitlesSayThatTheDataIsSimulated) {
-  for (SliceModel* slice : {&desk_.top(), &desk_.side()}) {
+  for (SliceModel* slice : {&app_.top(), &app_.side()}) {
     const auto& items = slice->picture()->frame.items;
     EXPECT_TRUE(std::any_of(items.begin(), items.end(), [](const auto& item) {
       const auto* text = std::get_if<TextItem>(&item);
@@ -117,31 +117,31 @@ TEST_F(SlicesAtWork, TitlesSayThatTheDataIsSimulated) {
 }
 
 TEST_F(SlicesAtWork, TheWheelTurnsToTheNextFanAndBeam) {
-  PointerEvent wheel = desk_.at(desk_.top(), bright(), PointerAction::wheel);
+  PointerEvent wheel = app_.at(app_.top(), bright(), PointerAction::wheel);
   wheel.wheel_steps = 0.5;  // a fine wheel
-  desk_.top().pointer(wheel);
+  app_.top().pointer(wheel);
   EXPECT_EQ(workspace().slices().fan, bright().fan);
-  desk_.top().pointer(wheel);
+  app_.top().pointer(wheel);
   EXPECT_EQ(workspace().slices().fan, bright().fan + 1);
-  wheel = desk_.at(desk_.side(), bright(), PointerAction::wheel);
+  wheel = app_.at(app_.side(), bright(), PointerAction::wheel);
   wheel.wheel_steps = -100.0;
-  desk_.side().pointer(wheel);
+  app_.side().pointer(wheel);
   EXPECT_EQ(workspace().slices(), (SlicePlaces{bright().fan + 1, 0}));
-  desk_.settle();
-  EXPECT_TRUE(desk_.side().picture()->place_of({3, 0, 100}));
-  desk_.ask("slice.fan_down");
-  desk_.ask("slice.beam_up");
+  app_.settle();
+  EXPECT_TRUE(app_.side().picture()->place_of({3, 0, 100}));
+  app_.ask("slice.fan_down");
+  app_.ask("slice.beam_up");
   EXPECT_EQ(workspace().slices(), (SlicePlaces{bright().fan, 1}));
 }
 
 TEST_F(SlicesAtWork, ZoomKeepsThePlaceUnderThePointerAndPanFollowsIt) {
-  SliceModel& top = desk_.top();
-  PointerEvent wheel = desk_.at(top, bright(), PointerAction::wheel);
+  SliceModel& top = app_.top();
+  PointerEvent wheel = app_.at(top, bright(), PointerAction::wheel);
   wheel.wheel_steps = 3.0;
   wheel.control = true;
   const double before_m = top.picture()->map->extent().x1 - top.picture()->map->extent().x0;
   top.pointer(wheel);
-  desk_.settle();
+  app_.settle();
   const double after_m = top.picture()->map->extent().x1 - top.picture()->map->extent().x0;
   EXPECT_NEAR(after_m, before_m / std::pow(1.25, 3.0), 1e-6 * before_m);
   PixelPoint now = *top.picture()->place_of(bright());
@@ -151,65 +151,65 @@ TEST_F(SlicesAtWork, ZoomKeepsThePlaceUnderThePointerAndPanFollowsIt) {
   top.pointer({PointerAction::move, PointerButton::middle, {220.0, 140.0}});
   top.pointer({PointerAction::release, PointerButton::middle, {220.0, 140.0}});
   top.pointer({PointerAction::move, PointerButton::none, {300.0, 300.0}});
-  desk_.settle();
+  app_.settle();
   now = *top.picture()->place_of(bright());
   EXPECT_NEAR(now.x, wheel.at.x + 20.0, 1e-6);
   EXPECT_NEAR(now.y, wheel.at.y - 10.0, 1e-6);
-  desk_.ask("display.all");
-  desk_.settle();
+  app_.ask("display.all");
+  app_.settle();
   EXPECT_FALSE(top.zoomed());
   EXPECT_NEAR(top.picture()->map->extent().x1 - top.picture()->map->extent().x0, before_m, 1e-9);
 }
 
 TEST_F(SlicesAtWork, TheCursorOfOneViewIsSeenInTheOtherWithTheLineOfTheOtherSlice) {
-  desk_.top().pointer(desk_.at(desk_.top(), bright(), PointerAction::move));
+  app_.top().pointer(app_.at(app_.top(), bright(), PointerAction::move));
   ASSERT_TRUE(workspace().cursor());
   EXPECT_EQ(workspace().cursor()->beam, bright().beam);
-  const auto over = desk_.side().overlays();
+  const auto over = app_.side().overlays();
   ASSERT_EQ(over.size(), 2U);
   ASSERT_EQ(over[0].line.size(), 2U);
-  EXPECT_EQ(desk_.side().picture()->voxel_at(over[0].line[1])->fan, bright().fan);
+  EXPECT_EQ(app_.side().picture()->voxel_at(over[0].line[1])->fan, bright().fan);
   ASSERT_TRUE(over[1].cross);
-  const auto voxel = desk_.side().picture()->voxel_at(*over[1].cross);
+  const auto voxel = app_.side().picture()->voxel_at(*over[1].cross);
   ASSERT_TRUE(voxel);
   EXPECT_EQ(voxel->fan, bright().fan);
   EXPECT_NEAR(voxel->sample, bright().sample, 8);
-  EXPECT_EQ(desk_.top().overlays().size(), 1U) << "no cross under the pointer itself";
-  desk_.top().pointer({PointerAction::leave, PointerButton::none, {}});
+  EXPECT_EQ(app_.top().overlays().size(), 1U) << "no cross under the pointer itself";
+  app_.top().pointer({PointerAction::leave, PointerButton::none, {}});
   EXPECT_FALSE(workspace().cursor());
-  EXPECT_EQ(desk_.side().overlays().size(), 1U);
+  EXPECT_EQ(app_.side().overlays().size(), 1U);
 }
 
 TEST_F(SlicesAtWork, AHoverIsDrawnAndAClickTakesItsPlace) {
-  SliceModel& top = desk_.top();
+  SliceModel& top = app_.top();
   const std::int64_t before = top.pictures();
-  top.pointer(desk_.at(top, bright(), PointerAction::move));
-  desk_.settle();
+  top.pointer(app_.at(top, bright(), PointerAction::move));
+  app_.settle();
   EXPECT_GT(top.pictures(), before);
   ASSERT_TRUE(workspace().preview().mask);
   const auto theme = light_theme({480, 360});
-  auto layers = school_layers(workspace(), desk_.document().ping(), theme);
+  auto layers = school_layers(workspace(), app_.document().ping(), theme);
   ASSERT_EQ(layers.size(), 1U);
   EXPECT_EQ(layers[0].number, 0);
-  desk_.click(top, bright());
-  desk_.settle();
-  ASSERT_EQ(desk_.document().state().schools.size(), 1U);
-  layers = school_layers(workspace(), desk_.document().ping(), theme);
+  app_.click(top, bright());
+  app_.settle();
+  ASSERT_EQ(app_.document().state().schools.size(), 1U);
+  layers = school_layers(workspace(), app_.document().ping(), theme);
   ASSERT_EQ(layers.size(), 1U);
   EXPECT_EQ(layers[0].number, 1);
   EXPECT_TRUE(layers[0].selected);
-  desk_.ask("display.masks");
-  desk_.settle();
-  EXPECT_TRUE(school_layers(workspace(), desk_.document().ping(), theme).empty());
+  app_.ask("display.masks");
+  app_.settle();
+  EXPECT_TRUE(school_layers(workspace(), app_.document().ping(), theme).empty());
 }
 
 TEST_F(SlicesAtWork, TheHintNamesLevelReasonAndSchool) {
-  SliceModel& top = desk_.top();
-  desk_.click(top, bright());
-  desk_.settle();
+  SliceModel& top = app_.top();
+  app_.click(top, bright());
+  app_.settle();
   EXPECT_THAT(top.hint(*top.picture()->place_of(bright())),
               testing::AllOf(testing::HasSubstr("Sv -"), testing::HasSubstr("school 1")));
-  const auto& flags = desk_.document().staged()->filtered->flags;
+  const auto& flags = app_.document().staged()->filtered->flags;
   int reasons = 0;
   for (int sample = 0; sample < flags.shape().samples; ++sample) {
     const auto at = top.picture()->place_of({bright().fan, bright().beam, sample});
@@ -224,18 +224,18 @@ TEST_F(SlicesAtWork, TheHintNamesLevelReasonAndSchool) {
 }
 
 TEST_F(SlicesAtWork, NothingIsBuiltForASliceThatIsNotSeen) {
-  desk_.side().set_seen(false);
-  const std::int64_t before = desk_.side().pictures();
-  desk_.ask("ping.next");
-  desk_.settle();
-  EXPECT_EQ(desk_.side().pictures(), before);
-  desk_.side().set_seen(true);
-  desk_.settle();
-  EXPECT_GT(desk_.side().pictures(), before);
+  app_.side().set_seen(false);
+  const std::int64_t before = app_.side().pictures();
+  app_.ask("ping.next");
+  app_.settle();
+  EXPECT_EQ(app_.side().pictures(), before);
+  app_.side().set_seen(true);
+  app_.settle();
+  EXPECT_GT(app_.side().pictures(), before);
 }
 
 TEST_F(SlicesAtWork, WeakSamplesAreThoseThatHardlyRiseAboveTheBackground) {
-  const StagedPing& ping = *desk_.document().staged();
+  const StagedPing& ping = *app_.document().staged();
   Array3<SampleFlags> flags(ping.filtered->flags.shape());
   const int row = bright().fan * 25 + bright().beam;
   flag_weak_rows(ping, std::array{row}, 3.0, flags.view());
@@ -272,21 +272,21 @@ TEST(FuzzyArea, KeepsWhatIsSurer) {
 }
 
 TEST_F(SlicesAtWork, TheOutlineTellsWhatAHumanSaid) {
-  desk_.click(desk_.top(), bright());
-  desk_.settle();
+  app_.click(app_.top(), bright());
+  app_.settle();
   const Theme theme = light_theme({480, 360});
   const auto layer = [&] {
-    const auto layers = school_layers(workspace(), desk_.document().ping(), theme);
+    const auto layers = school_layers(workspace(), app_.document().ping(), theme);
     const auto found =
         std::find_if(layers.begin(), layers.end(), [](const SchoolLayer& one) { return one.number > 0; });
     return found == layers.end() ? MaskLayer{} : found->layer;
   };
   EXPECT_EQ(layer().line, OutlineLine::dashed);
-  desk_.ask("review.accept");
-  desk_.settle();
+  app_.ask("review.accept");
+  app_.settle();
   EXPECT_EQ(layer().line, OutlineLine::solid);
-  desk_.ask("review.reject");
-  desk_.settle();
+  app_.ask("review.reject");
+  app_.settle();
   EXPECT_EQ(layer().line, OutlineLine::dotted);
   EXPECT_NEAR(255.0 * static_cast<double>(layer().rgb[0]), theme.muted.r, 0.5);
 }

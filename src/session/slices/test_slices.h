@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pipeline/stages/observe.h"
-#include "session/desk.h"
+#include "session/app_model.h"
 #include "session/playback.h"
 #include "session/slices/slice_model.h"
 #include "session/test_survey.h"
@@ -15,11 +15,11 @@
 
 namespace sonar {
 
-/// A desk on the small simulated survey, its two slices seen at 480 x 360; for tests.
-class SlicesDesk {
+/// An app on the small simulated survey, its two slices seen at 480 x 360; for tests.
+class SlicesApp {
  public:
-  explicit SlicesDesk(const Recipe& recipe = {}) : desk(queue, options(journal, recipe)) {
-    desk.workspace.document.open({TestSurvey::easy().folder()});
+  explicit SlicesApp(const Recipe& recipe = {}) : app(queue, options(journal, recipe)) {
+    app.workspace.document.open({TestSurvey::easy().folder()});
     for (SliceModel* slice : {&top(), &side()}) {
       slice->resize({480, 360}, 1.0);
       slice->set_seen(true);
@@ -27,23 +27,23 @@ class SlicesDesk {
     settle();
   }
 
-  [[nodiscard]] Workspace& workspace() { return desk.workspace; }
-  [[nodiscard]] Document& document() { return desk.workspace.document; }
-  [[nodiscard]] SliceModel& top() { return dynamic_cast<SliceModel&>(*desk.picture("top_slice")); }
-  [[nodiscard]] SliceModel& side() { return dynamic_cast<SliceModel&>(*desk.picture("side_slice")); }
+  [[nodiscard]] Workspace& workspace() { return app.workspace; }
+  [[nodiscard]] Document& document() { return app.workspace.document; }
+  [[nodiscard]] SliceModel& top() { return dynamic_cast<SliceModel&>(*app.picture("top_slice")); }
+  [[nodiscard]] SliceModel& side() { return dynamic_cast<SliceModel&>(*app.picture("side_slice")); }
 
   /// Returns when nothing runs or waits.
   void settle() {
     do {
       document().settle();
-      desk.seed_tool->wait();
+      app.seed_tool->wait();
       top().wait();
       side().wait();
     } while (queue.drain() > 0);
   }
   /// Asks as keys and menus do.
   void ask(const std::string& id) {
-    const Action* action = desk.actions.find(id);
+    const Action* action = app.actions.find(id);
     if (action != nullptr) action->run();
   }
 
@@ -55,7 +55,7 @@ class SlicesDesk {
   };
   [[nodiscard]] static const Bright& bright() {
     static const Bright found = [] {
-      SlicesDesk searching;
+      SlicesApp searching;
       return searching.find_bright();
     }();
     return found;
@@ -83,7 +83,7 @@ class SlicesDesk {
 
   std::filesystem::path journal = TestSurvey::easy().fresh();
   ChangeQueue queue;
-  Desk desk;
+  AppModel app;
 
  private:
   static DocumentOptions options(const std::filesystem::path& journal, const Recipe& recipe) {

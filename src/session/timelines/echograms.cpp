@@ -9,7 +9,7 @@
 namespace sonar {
 namespace {
 
-constexpr std::int64_t kAtOnce = 4;          ///< pings between two looks at what is wanted
+constexpr std::int64_t kAtOnce = 4;          ///< pings between two looks at the token
 constexpr std::int64_t kPictures = 24;       ///< of an echogram while it is filled
 constexpr std::int64_t kLeastNew = 8;        ///< pings between two of them
 constexpr int kWidth_px = 2048;              ///< what an echogram is kept fine enough for
@@ -136,7 +136,7 @@ void Echograms::follow_growth() {
     pings = now->pings();
     grows_.insert(index);
     if (const auto filling = fillings_.find(index); filling != fillings_.end() && filling->second) {
-      background_.post([of = filling->second, now](const Wanted&) { of->go_on_with(now); });
+      background_.post([of = filling->second, now](const CancelToken&) { of->go_on_with(now); });
     }
     if (const auto kept = kept_.find(index); kept != kept_.end()) kept->second.complete = false;
   }
@@ -188,13 +188,13 @@ void Echograms::go_on() {
 
 void Echograms::read(const std::shared_ptr<Filling>& filling) {
   reading_ = true;
-  background_.post([this, filling, give_way = GivesWay(document_.right_of_way())](const Wanted& wanted) mutable {
+  background_.post([this, filling, give_way = GivesWay(document_.right_of_way())](const CancelToken& token) mutable {
     if (!filling->begun) filling->begin();
     EchogramPtr picture = filling->done;
     if (!picture) {
       const std::int64_t pings = filling->pings();
       const std::int64_t step = std::max(kLeastNew, pings / kPictures);
-      for (std::int64_t i = 0; i < kAtOnce && wanted(); ++i) {
+      for (std::int64_t i = 0; i < kAtOnce && !token.cancelled(); ++i) {
         const auto have = static_cast<std::int64_t>(filling->echogram->pings());
         if (have >= pings) break;
         give_way();

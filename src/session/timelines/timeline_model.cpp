@@ -131,7 +131,8 @@ LivePicture::Build TimelineModel::build() {
   wish.dark = workspace_.dark();
   wish.shown = shown_;
   wish.scale = scale();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const Wanted&, const Show& show) -> Result<void> {
+  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken&,
+                                                      const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
     show({std::move(painted->frame), std::nullopt, std::move(painted->places)});

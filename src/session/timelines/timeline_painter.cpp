@@ -33,7 +33,7 @@ TimelineObservation drawn(const TimelineWish::Observation& wish, const Observati
 }  // namespace
 
 TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time) {
-  const auto& times = observation.ground().times;
+  const auto& times = observation.context().times;
   if (times.empty()) return datagram_time;
   const auto after = std::lower_bound(times.begin(), times.end(), datagram_time);
   auto i = static_cast<std::size_t>(after - times.begin());
@@ -42,7 +42,7 @@ TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time) {
 }
 
 TimeNs bad_until(const OpenObservation& observation, const BadPingsCommand& bad) {
-  const auto& times = observation.ground().times;
+  const auto& times = observation.context().times;
   const auto after = std::upper_bound(times.begin(), times.end(), bad.last);
   return after == times.end() ? shown_time(observation, bad.last) + 1
                               : observation.files().navigation[static_cast<std::size_t>(after - times.begin())].time;

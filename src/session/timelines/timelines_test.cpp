@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "publish/echogram_cache.h"
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 #include "session/maps/test_maps.h"
 #include "session/timelines/timeline_painter.h"
 
@@ -173,7 +173,7 @@ TEST(TimelineModel, TheWheelZoomsAboutThePointerTheMiddleButtonPansAndADoublePre
 TEST(TimelineModel, AClickChoosesTheMarkThatLiesThere) {
   TestMaps maps;
   Document& document = maps.workspace.document;
-  const auto& times = document.shown()->ground().times;
+  const auto& times = document.shown()->context().times;
   const EventCommand trawl{"trawl", times[3], "haul 1"};
   const BadPingsCommand bad{times[6], times[8]};
   document.act(3, trawl);
@@ -198,21 +198,21 @@ TEST(TimelineModel, AClickChoosesTheMarkThatLiesThere) {
   EXPECT_FALSE(maps.workspace.mark()) << "it is gone";
 }
 
-/// A desk with the actions of timelines, over a survey and its journal.
+/// An app with the actions of timelines, over a survey and its journal.
 class TimelineActions : public testing::Test {
  protected:
   void SetUp() override { reopen(); }
   void reopen() {
-    desk_.reset();
-    desk_ = std::make_unique<Desk>(queue_, TestSurvey::options(journal_));
-    if (desk_->actions.find("event.trawl") == nullptr) add_maps(*desk_);
-    desk_->asking.text = [this](const std::string&, const std::string&, const std::string&) { return answer_; };
+    app_.reset();
+    app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
+    if (app_->actions.find("event.trawl") == nullptr) add_maps(*app_);
+    app_->dialogs.text = [this](const std::string&, const std::string&, const std::string&) { return answer_; };
     document().open({TestSurvey::easy().folder()});
     document().settle();
   }
-  Document& document() { return desk_->workspace.document; }
+  Document& document() { return app_->workspace.document; }
   void ask(const std::string& id) {
-    const Action* action = desk_->actions.find(id);
+    const Action* action = app_->actions.find(id);
     ASSERT_NE(action, nullptr) << id;
     EXPECT_TRUE(!action->enabled || action->enabled()) << id;
     action->run();
@@ -222,14 +222,14 @@ class TimelineActions : public testing::Test {
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
   std::string answer_ = "cod end full";
   ChangeQueue queue_;
-  std::unique_ptr<Desk> desk_;
+  std::unique_ptr<AppModel> app_;
 };
 
 TEST_F(TimelineActions, AnEventIsALineOfTheJournalAndIsThereAfterReopening) {
   document().look_at(6);
   document().settle();
   ask("event.trawl");
-  const TimeNs time = document().shown()->ground().times[6];
+  const TimeNs time = document().shown()->context().times[6];
   const auto journal = read_journal(document().journal_path().string());
   ASSERT_TRUE(journal);
   ASSERT_EQ(journal->lines.size(), 1U);
@@ -257,9 +257,9 @@ TEST_F(TimelineActions, PingsOfABadIntervalTakeNoPartInMeasuresUntilItIsUndone) 
   };
   const std::int64_t from = before->school_pings.front().ping_index;
   ASSERT_GT(rows_in(*before, from, from + 1), 0);
-  desk_->workspace.marked_interval.set(MarkedInterval{0, from, from + 1});
+  app_->workspace.marked_interval.set(MarkedInterval{0, from, from + 1});
   ask("bad.interval");
-  EXPECT_FALSE(desk_->workspace.marked_interval());
+  EXPECT_FALSE(app_->workspace.marked_interval());
   EXPECT_EQ(rows_in(*document().product(0), from, from + 1), 0);
   EXPECT_TRUE(document().product(0)->pings[static_cast<std::size_t>(from)].bad);
   document().undo();
@@ -273,13 +273,13 @@ TEST_F(TimelineActions, DeleteTakesTheChosenMarkAwayAndUndoBringsItBack) {
   ask("event.trawl");
   ask("bad.ping");
   const auto state = [&]() -> const JournalState& { return document().state(); };
-  desk_->workspace.mark.set(ChosenMark{0, state().events.at(0)});
-  EXPECT_EQ(desk_->actions.find("school.delete")->text_now(), "Remove mark trawl");
+  app_->workspace.mark.set(ChosenMark{0, state().events.at(0)});
+  EXPECT_EQ(app_->actions.find("school.delete")->text_now(), "Remove mark trawl");
   ask("school.delete");
-  EXPECT_FALSE(desk_->workspace.mark());
+  EXPECT_FALSE(app_->workspace.mark());
   EXPECT_TRUE(state().events.empty());
   EXPECT_EQ(document().choices().undo_text, "Undo remove mark trawl");
-  desk_->workspace.mark.set(ChosenMark{0, state().bad_pings.at(0)});
+  app_->workspace.mark.set(ChosenMark{0, state().bad_pings.at(0)});
   ask("mark.remove");
   EXPECT_TRUE(state().bad_pings.empty());
   EXPECT_EQ(document().choices().undo_text, "Undo mark good ping");
@@ -291,11 +291,11 @@ TEST_F(TimelineActions, DeleteTakesTheChosenMarkAwayAndUndoBringsItBack) {
   EXPECT_EQ(state().events.size(), 1U);
   EXPECT_EQ(state().bad_pings.size(), 1U);
   // Of an interval a part can be made good.
-  desk_->workspace.marked_interval.set(MarkedInterval{0, 2, 6});
+  app_->workspace.marked_interval.set(MarkedInterval{0, 2, 6});
   ask("bad.interval");
-  desk_->workspace.marked_interval.set(MarkedInterval{0, 4, 6});
+  app_->workspace.marked_interval.set(MarkedInterval{0, 4, 6});
   ask("good.interval");
-  const auto& times = document().shown()->ground().times;
+  const auto& times = document().shown()->context().times;
   EXPECT_TRUE(is_bad(state(), times[3]));
   for (const std::size_t ping : {1U, 4U, 6U, 7U}) EXPECT_FALSE(is_bad(state(), times[ping])) << ping;
 }
@@ -305,8 +305,8 @@ TEST_F(TimelineActions, ABadPingIsTheOneOnShow) {
   document().settle();
   ask("bad.ping");
   ASSERT_EQ(document().state().bad_pings.size(), 1U);
-  EXPECT_EQ(document().state().bad_pings[0].first, document().shown()->ground().times[4]);
-  EXPECT_EQ(document().state().bad_pings[0].last, document().shown()->ground().times[4]);
+  EXPECT_EQ(document().state().bad_pings[0].first, document().shown()->context().times[4]);
+  EXPECT_EQ(document().state().bad_pings[0].last, document().shown()->context().times[4]);
 }
 
 }  // namespace

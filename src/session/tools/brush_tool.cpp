@@ -136,7 +136,7 @@ void BrushTool::release() {
   if (const auto selected = workspace_.selected()) {
     const SchoolMasks& masks = workspace_.document.state().schools[*selected]->masks;
     const bool there = in_ping(masks, ping->ping_index) != nullptr;
-    if (!erase_ || there) school = key_of(masks, observation->ground());
+    if (!erase_ || there) school = key_of(masks, observation->context());
   }
   const auto keys = keys_of(stroke, observation->grid());
   selects_ = !erase_ && !school;

@@ -14,19 +14,19 @@ namespace {
 class BrushAtWork : public testing::Test {
  protected:
   void SetUp() override {
-    desk_.look_at_bright();
-    desk_.workspace().tool.set(ToolName::brush);
-    desk_.workspace().brush_px.set(8);
+    app_.look_at_bright();
+    app_.workspace().tool.set(ToolName::brush);
+    app_.workspace().brush_px.set(8);
   }
   void drag(const Voxel& from, const Voxel& to, bool release = true) {
-    SliceModel& top = desk_.top();
-    top.pointer(desk_.at(top, from, PointerAction::press, PointerButton::left));
-    top.pointer(desk_.at(top, to, PointerAction::move, PointerButton::left));
-    if (release) top.pointer(desk_.at(top, to, PointerAction::release, PointerButton::left));
+    SliceModel& top = app_.top();
+    top.pointer(app_.at(top, from, PointerAction::press, PointerButton::left));
+    top.pointer(app_.at(top, to, PointerAction::move, PointerButton::left));
+    if (release) top.pointer(app_.at(top, to, PointerAction::release, PointerButton::left));
   }
   std::vector<std::string> journal() {
     std::vector<std::string> commands;
-    const auto read = read_journal(desk_.document().journal_path().string());
+    const auto read = read_journal(app_.document().journal_path().string());
     if (read) {
       for (const JournalLine& line : read->lines) commands.push_back(line.command);
     }
@@ -34,18 +34,18 @@ class BrushAtWork : public testing::Test {
   }
   const PingMask& mask() {
     static const PingMask none;
-    const auto& schools = desk_.document().state().schools;
-    const auto* there = schools.empty() ? nullptr : in_ping(schools[0]->masks, desk_.document().ping());
+    const auto& schools = app_.document().state().schools;
+    const auto* there = schools.empty() ? nullptr : in_ping(schools[0]->masks, app_.document().ping());
     return there == nullptr ? none : there->mask;
   }
 
-  SlicesDesk desk_;
-  Voxel from_ = SlicesDesk::bright().voxel;
+  SlicesApp app_;
+  Voxel from_ = SlicesApp::bright().voxel;
   Voxel to_{from_.fan, from_.beam, from_.sample + 120};
 };
 
 TEST_F(BrushAtWork, RunsUnderADiscAreThePixelsVoxelsAndWhatLiesBetweenThem) {
-  const SliceMap& map = *desk_.top().picture()->map;
+  const SliceMap& map = *app_.top().picture()->map;
   const PixelPoint at = *map.place_of(from_);
   const double radius_px = 9.0;
   const auto runs = runs_under(map, at, at, radius_px);
@@ -81,44 +81,44 @@ TEST_F(BrushAtWork, RunsUnderADiscAreThePixelsVoxelsAndWhatLiesBetweenThem) {
 
 TEST_F(BrushAtWork, ADragPaintsOneActWhatWasPreviewed) {
   drag(from_, to_, false);
-  ASSERT_TRUE(desk_.workspace().preview().mask);
-  const PingMask previewed = *desk_.workspace().preview().mask;
+  ASSERT_TRUE(app_.workspace().preview().mask);
+  const PingMask previewed = *app_.workspace().preview().mask;
   EXPECT_GT(confidence_at(previewed, from_.fan * 25 + from_.beam, from_.sample), 0);
   EXPECT_GT(confidence_at(previewed, to_.fan * 25 + to_.beam, to_.sample - 60), 0) << "what lies between too";
   EXPECT_TRUE(journal().empty());
-  desk_.top().pointer(desk_.at(desk_.top(), to_, PointerAction::release, PointerButton::left));
-  desk_.settle();
+  app_.top().pointer(app_.at(app_.top(), to_, PointerAction::release, PointerButton::left));
+  app_.settle();
   EXPECT_EQ(journal(), (std::vector<std::string>{"brush"}));
   EXPECT_EQ(mask(), previewed);
-  EXPECT_FALSE(desk_.workspace().preview().mask);
-  EXPECT_EQ(desk_.workspace().school(), (SchoolName{0, 1}));
+  EXPECT_FALSE(app_.workspace().preview().mask);
+  EXPECT_EQ(app_.workspace().school(), (SchoolName{0, 1}));
   drag(to_, {to_.fan, to_.beam, to_.sample + 60});
-  desk_.settle();
-  EXPECT_EQ(desk_.document().state().schools.size(), 1U) << "more of the selected school";
+  app_.settle();
+  EXPECT_EQ(app_.document().state().schools.size(), 1U) << "more of the selected school";
   EXPECT_GT(mask().voxels(), previewed.voxels());
 }
 
 TEST_F(BrushAtWork, TheEraserTakesAwayAndEscapeMakesItNeverHaveBeen) {
   drag(from_, to_);
-  desk_.settle();
+  app_.settle();
   const std::size_t painted = mask().voxels();
-  desk_.workspace().tool.set(ToolName::eraser);
+  app_.workspace().tool.set(ToolName::eraser);
   drag(from_, from_, false);
-  EXPECT_TRUE(desk_.desk.brush_tool->drawing());
-  desk_.ask("tool.cancel");
-  desk_.top().pointer(desk_.at(desk_.top(), from_, PointerAction::release, PointerButton::left));
-  desk_.settle();
+  EXPECT_TRUE(app_.app.brush_tool->drawing());
+  app_.ask("tool.cancel");
+  app_.top().pointer(app_.at(app_.top(), from_, PointerAction::release, PointerButton::left));
+  app_.settle();
   EXPECT_EQ(mask().voxels(), painted);
   EXPECT_EQ(journal().size(), 1U);
   drag(from_, from_);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(journal().back(), "erase");
   EXPECT_LT(mask().voxels(), painted);
   EXPECT_EQ(confidence_at(mask(), from_.fan * 25 + from_.beam, from_.sample), 0);
 }
 
 TEST_F(BrushAtWork, ADiscHalfOutsideThePictureIsCutNotRead) {
-  const SliceMap& map = *desk_.top().picture()->map;
+  const SliceMap& map = *app_.top().picture()->map;
   for (const PixelPoint at : {PixelPoint{-5.0, -5.0}, PixelPoint{1e6, 1e6}, PixelPoint{map.size().width - 1.0, 0.0}}) {
     for (const sonar::Run& run : runs_under(map, at, at, 20.0)) EXPECT_GE(run.count, 1);
   }

@@ -111,16 +111,16 @@ std::string too_weak(const Volume& filtered, const BeamGrid& grid, const GrowCom
 }
 
 Result<PingMask> try_growth(const GrowthTrial& trial) {
-  const CommandGround& ground = trial.observation->ground();
+  const CommandContext& context = trial.observation->context();
   std::optional<std::size_t> school;
   if (trial.command.school) {
-    school = trial.state ? school_at(*trial.state, ground, *trial.command.school) : std::nullopt;
+    school = trial.state ? school_at(*trial.state, context, *trial.command.school) : std::nullopt;
     if (!school) return fail(ErrorCode::bad_parameter, "the selected school is no more");
   }
   FilteredPing ping = trial.observation->engine().filtered(*trial.ping);
   if (trial.observation->recalibrated()) {
     // What is tried is what the act will do, and that stands on the calibration of the choices.
-    auto of_choices = ground.ping(trial.ping->ping_index);
+    auto of_choices = context.ping(trial.ping->ping_index);
     if (!of_choices) return pass_on(of_choices);
     ping = std::move(*of_choices);
   }
@@ -131,7 +131,7 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
     return fail(ErrorCode::bad_parameter, std::move(why));
   }
   ping.taken = taken_by_others(trial, school);
-  auto grown = grow_seeds(ground, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
+  auto grown = grow_seeds(context, ping, trial.command.seeds, trial.command.growth_curve, trial.command.grow);
   if (!grown) return grown;
   if (grown->empty()) return fail(ErrorCode::bad_parameter, "all voxels there belong to other schools");
   if (trial.command.to != GrowTo::take_away) return grown;

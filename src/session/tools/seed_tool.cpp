@@ -18,8 +18,8 @@ bool same_depth(const GrowParams& a, const GrowParams& b) {
 
 }  // namespace
 
-SeedTool::SeedTool(Workspace& workspace, Pulse& pulse)
-    : workspace_(workspace), pulse_(pulse), params_(grow_params(workspace.select.values())) {
+SeedTool::SeedTool(Workspace& workspace, AnimationDriver& animations)
+    : workspace_(workspace), animations_(animations), params_(grow_params(workspace.select.values())) {
   document_listening_ = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
   curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(false); });
   tool_listening_ = workspace.tool.changed().add([this] { leave(); });
@@ -34,7 +34,7 @@ SeedTool::SeedTool(Workspace& workspace, Pulse& pulse)
 }
 
 SeedTool::~SeedTool() {
-  pulse_.stop("grow anew");
+  animations_.stop("grow anew");
   workspace_.document.changes().remove(document_listening_);
   workspace_.growth_curve.changed().remove(curve_listening_);
   workspace_.tool.changed().remove(tool_listening_);
@@ -72,7 +72,7 @@ Result<GrowCommand> SeedTool::command_at(const Place& place) const {
     return fail(ErrorCode::usage, "no school is selected that this could be taken from");
   }
   command.to = place.control ? GrowTo::take_away : GrowTo::add;
-  command.school = key_of(workspace_.document.state().schools[*selected]->masks, shown->ground());
+  command.school = key_of(workspace_.document.state().schools[*selected]->masks, shown->context());
   return command;
 }
 
@@ -100,7 +100,7 @@ void SeedTool::drop_preview() {
 void SeedTool::show(GrowthTrial trial, std::int64_t instead_of) {
   const auto begun = std::chrono::steady_clock::now();
   growing_.post_latest([this, trial = std::move(trial), instead_of, number = ++asked_, begun,
-                        alive = std::weak_ptr<bool>(alive_)](const Wanted&) {
+                        alive = std::weak_ptr<bool>(alive_)](const CancelToken&) {
     // Shown even where a later wish has come: while wishes come faster than growths something must be seen.
     Preview preview = preview_of(trial);
     preview.instead_of = instead_of;
@@ -190,7 +190,7 @@ std::optional<PropagateCommand> SeedTool::propagation_from(std::size_t observati
   command.grow = params_;
   if (!select.backwards) command.reach_backward = 0;
   if (!select.forwards) command.reach_forward = 0;
-  command.school = SchoolKey{open->ground().times[static_cast<std::size_t>(ping)], seed.channel, seed.sample};
+  command.school = SchoolKey{open->context().times[static_cast<std::size_t>(ping)], seed.channel, seed.sample};
   return command;
 }
 
@@ -226,7 +226,7 @@ void SeedTool::forget() {
   const auto& shown = workspace_.document.shown();
   of_ = shown;
   state_ = shown ? state_of(workspace_.document, shown->index()) : nullptr;
-  pulse_.stop("grow anew");
+  animations_.stop("grow anew");
   anew_.reset();
   made_.reset();
   place_.reset();
@@ -311,7 +311,7 @@ bool SeedTool::grow_selected_anew() {
   const bool rejected = school.masks.decided.status == "rejected";
   GrowCommand command;
   command.to = GrowTo::replace;
-  command.school = key_of(school.masks, document.shown()->ground());
+  command.school = key_of(school.masks, document.shown()->context());
   if (school.grown && !rejected && in_ping(school.masks, school.grown->ping_index) != nullptr) {
     command.seeds = school.grown->grow.seeds;
     grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false,
@@ -350,7 +350,7 @@ void SeedTool::grow_anew(Anew anew) {
   anew.command.grow = params_;
   anew.command.growth_curve = workspace_.growth_curve();
   const SeedKey& seed = anew.command.seeds.front();
-  const TimeNs seeded = workspace_.document.shown()->ground().times[static_cast<std::size_t>(anew.ping)];
+  const TimeNs seeded = workspace_.document.shown()->context().times[static_cast<std::size_t>(anew.ping)];
   anew.followed = as_set(std::move(anew.followed), {seeded, seed.channel, seed.sample});
   rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
   if (anew.staged->ping_index == anew.ping) {
@@ -359,7 +359,7 @@ void SeedTool::grow_anew(Anew anew) {
     say(fmt::format("school {} grows anew from ping {}", anew.number, anew.ping));
   }
   anew_ = std::move(anew);
-  pulse_.run("grow anew", [this](double now_s) { return rest(now_s); });
+  animations_.run("grow anew", [this](double now_s) { return rest(now_s); });
 }
 
 bool SeedTool::rest(double now_s) {
@@ -375,7 +375,7 @@ bool SeedTool::rest(double now_s) {
 
 void SeedTool::finish_growing_anew() {
   if (!anew_) return;
-  pulse_.stop("grow anew");
+  animations_.stop("grow anew");
   const Anew anew = *std::exchange(anew_, std::nullopt);
   if (workspace_.document.busy() || (anew.instead_of_last && !stands_last())) return;
   const auto of = workspace_.document.open_observation(anew.observation);

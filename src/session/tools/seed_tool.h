@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "base/task_thread.h"
-#include "session/pulse.h"
+#include "session/animation_driver.h"
 #include "session/tools/growth.h"
 #include "session/workspace.h"
 
 namespace sonar {
 
-/// Schools by seeds, in whatever view a voxel was pointed at: one for all views of a desk.
+/// Schools by seeds, in whatever view a voxel was pointed at: one for all views of an app.
 ///
 /// A press upon nothing grows a new school and selects it; upon a school it selects that one. With shift the growth joins
 /// the selected school, with control it is taken from it. A double press carries the school under it through time: the
@@ -30,7 +30,7 @@ namespace sonar {
 class SeedTool {
  public:
   /// Both outlive the tool.
-  SeedTool(Workspace& workspace, Pulse& pulse);
+  SeedTool(Workspace& workspace, AnimationDriver& animations);
   ~SeedTool();
   SeedTool(const SeedTool&) = delete;
   SeedTool& operator=(const SeedTool&) = delete;
@@ -122,7 +122,7 @@ class SeedTool {
   void finish_growing_anew();
 
   Workspace& workspace_;
-  Pulse& pulse_;
+  AnimationDriver& animations_;
   std::optional<Place> place_;
   bool over_ = false;       ///< the pointer is over place_
   std::int64_t asked_ = 0;  ///< previews so far

@@ -8,22 +8,22 @@
 namespace sonar {
 namespace {
 
-class SeedToolAnew : public testing::Test, protected SeedToolDesk {
+class SeedToolAnew : public testing::Test, protected SeedToolApp {
  protected:
-  void SetUp() override { desk_.look_at_bright(); }
+  void SetUp() override { app_.look_at_bright(); }
 };
 
 TEST_F(SeedToolAnew, AChangeOfToleranceGrowsTheLastSchoolAnew) {
   press();
-  desk_.settle();
+  app_.settle();
   const PingMask at_ten = mask_of(0);
   tool().leave();
   for (const double db : {9.0, 8.0, 7.0, 6.0}) {
     set_tolerance(db);
-    desk_.desk.pulse.tick(db);  // not yet at rest
-    desk_.desk.pulse.tick(db + 0.5 * SeedTool::kRest_s);
+    app_.app.animations.tick(db);  // not yet at rest
+    app_.app.animations.tick(db + 0.5 * SeedTool::kRest_s);
   }
-  desk_.settle();
+  app_.settle();
   ASSERT_TRUE(workspace().preview().mask);
   EXPECT_EQ(workspace().preview().instead_of, 1);
   EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
@@ -34,30 +34,30 @@ TEST_F(SeedToolAnew, AChangeOfToleranceGrowsTheLastSchoolAnew) {
   EXPECT_LT(mask_of(0).voxels(), at_ten.voxels());
   EXPECT_EQ(document().state().schools[0]->number, 1);
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
-  EXPECT_FALSE(desk_.desk.pulse.running());
+  EXPECT_FALSE(app_.app.animations.running());
   EXPECT_FALSE(workspace().preview().mask);
   document().undo();
-  desk_.settle();
+  app_.settle();
   EXPECT_TRUE(document().state().schools.empty()) << "undo knows one growth";
 }
 
 TEST_F(SeedToolAnew, WhatIsDoneNextComesAfterTheGrowthAnew) {
   press();
-  desk_.settle();
+  app_.settle();
   set_tolerance(6.0);
   tool().press({bright().fan, bright().beam, 0}, false, false, false);  // grows nothing
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(mask_of(0), fresh(bright()));
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
 }
 
 TEST_F(SeedToolAnew, AToleranceThatMovesAfterSomethingElseWasDoneChangesOnlyWhatIsSelected) {
   press();
-  desk_.settle();
+  app_.settle();
   const PingMask before = mask_of(0);
   document().undo();
   document().redo();
-  desk_.settle();
+  app_.settle();
   workspace().school.set(std::nullopt);
   set_tolerance(6.0);
   rest();
@@ -70,7 +70,7 @@ TEST_F(SeedToolAnew, AToleranceThatMovesAfterSomethingElseWasDoneChangesOnlyWhat
   EXPECT_EQ(mask_of(0), fresh(bright()));
   EXPECT_EQ(journal().size(), 4U);
   document().undo();
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(mask_of(0), before) << "an act of its own";
 }
 
@@ -82,7 +82,7 @@ class SeedToolOnFollowed : public SeedToolAnew {
     ASSERT_TRUE(workspace().select.set("reach_pings", 2));
     press();
     press(false, false, true);
-    desk_.settle();
+    app_.settle();
     tool().leave();
     ASSERT_EQ(journal(), (std::vector<std::string>{"grow", "propagate"}));
   }
@@ -91,7 +91,7 @@ class SeedToolOnFollowed : public SeedToolAnew {
   void expect_same(const std::vector<SchoolMasks::InPing>& wanted, const char* why) {
     const auto read = read_journal(document().journal_path().string());
     ASSERT_TRUE(read);
-    const JournalState replayed = fold(effective_lines(read->lines), {}, document().shown()->ground());
+    const JournalState replayed = fold(effective_lines(read->lines), {}, document().shown()->context());
     ASSERT_EQ(pings().size(), wanted.size()) << why;
     ASSERT_EQ(replayed.schools.at(0)->masks.pings.size(), wanted.size()) << why;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -110,11 +110,11 @@ class SeedToolOnFollowed : public SeedToolAnew {
     PropagateCommand on = propagation_as_set(workspace());
     on.grow = grow.grow;
     on.tracked.tolerance_db = db;
-    const CommandGround& ground = document().shown()->ground();
-    const TimeNs time = ground.times[static_cast<std::size_t>(SlicesDesk::bright().ping)];
+    const CommandContext& context = document().shown()->context();
+    const TimeNs time = context.times[static_cast<std::size_t>(SlicesApp::bright().ping)];
     on.school = SchoolKey{time, grow.seeds[0].channel, grow.seeds[0].sample};
     const std::vector<JournalLine> lines{line_of({1, 0, "", time, grow}), line_of({2, 0, "", time, on})};
-    const JournalState state = fold(lines, {}, ground);
+    const JournalState state = fold(lines, {}, context);
     return state.schools.at(0)->masks.pings;
   }
 };
@@ -122,7 +122,7 @@ class SeedToolOnFollowed : public SeedToolAnew {
 TEST_F(SeedToolOnFollowed, ToleranceGrowsItAnewAndCarriesItOnInOneStep) {
   const auto before = pings();
   for (const double db : {9.0, 7.0, 6.0}) set_tolerance(db);
-  desk_.settle();
+  app_.settle();
   ASSERT_TRUE(workspace().preview().mask) << "seen at once, in the ping that is looked at";
   EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
   EXPECT_EQ(workspace().preview().instead_of, 1);
@@ -141,22 +141,22 @@ TEST_F(SeedToolOnFollowed, ToleranceGrowsItAnewAndCarriesItOnInOneStep) {
   expect_same(double_pressed(8.0), "the slider went on");
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
   document().undo();
-  desk_.settle();
+  app_.settle();
   expect_same(before, "one step back");
   document().redo();
-  desk_.settle();
+  app_.settle();
   expect_same(double_pressed(8.0), "and forth");
 }
 
 TEST_F(SeedToolOnFollowed, AfterADecisionAndFromAnotherPingItStillGrowsAnew) {
   Decision decision;
-  decision.school = key_of(document().state().schools[0]->masks, document().shown()->ground());
+  decision.school = key_of(document().state().schools[0]->masks, document().shown()->context());
   decision.status = "accepted";
   document().act(DecideCommand{{decision}, {}});
   document().look_at(document().ping() + 1);
-  desk_.settle();
+  app_.settle();
   set_tolerance(6.0);
-  desk_.settle();
+  app_.settle();
   EXPECT_THAT(workspace().preview().text, testing::HasSubstr("grows anew from ping"));
   rest();
   expect_same(double_pressed(6.0), "from the seed that it was made from");
@@ -167,7 +167,7 @@ TEST_F(SeedToolOnFollowed, WhatWasShapedAfterwardsStays) {
   EraseCommand erase;
   erase.runs = {{seed_key(*document().shown(), bright()).channel, bright().sample + 1, 1}};
   document().act(erase);
-  desk_.settle();
+  app_.settle();
   const auto before = pings();
   set_tolerance(6.0);
   rest();
@@ -181,7 +181,7 @@ class SeedToolOnDetected : public SeedToolAnew {
   void SetUp() override {
     SeedToolAnew::SetUp();
     document().detect({0});
-    desk_.settle();
+    app_.settle();
     const auto under = tool().school_under(bright());
     ASSERT_TRUE(under);
     school_ = *under;
@@ -215,7 +215,7 @@ TEST_F(SeedToolOnDetected, ToleranceGrowsItAnewInThisPingAsOneActThatIsUndone) {
   const JournalStatePtr before = state_of(document(), 0);
   const std::size_t lines = journal().size();
   for (const double db : {9.0, 6.0, 4.0}) set_tolerance(db);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(workspace().preview().instead_of, number_);
   ASSERT_TRUE(workspace().preview().mask);
   const PingMask wanted = from_loudest(found);
@@ -239,17 +239,17 @@ TEST_F(SeedToolOnDetected, ToleranceGrowsItAnewInThisPingAsOneActThatIsUndone) {
   EXPECT_EQ(mask_of(school_), from_loudest(found));
   EXPECT_EQ(workspace().school(), (SchoolName{0, number_}));
   document().undo();
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(mask_of(school_), found);
   EXPECT_EQ(decided().status, "unreviewed");
 }
 
 TEST_F(SeedToolOnDetected, ToleranceLeavesWhatAHumanShapedAndSaysSo) {
   press(true);  // joins it
-  desk_.settle();
+  app_.settle();
   document().undo();
   document().redo();
-  desk_.settle();
+  app_.settle();
   const PingMask shaped = mask_of(school_);
   tool().leave();
   set_tolerance(4.0);
@@ -268,10 +268,10 @@ TEST_F(SeedToolOnDetected, WithThePointerElsewhereToleranceIsThatOfTheNextClick)
 
 TEST_F(SeedToolAnew, ToleranceGrowsWhatIsHoveredAnew) {
   tool().hover(bright(), false, false);
-  desk_.settle();
+  app_.settle();
   const std::size_t at_ten = workspace().preview().mask->voxels();
   set_tolerance(5.0);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
   EXPECT_LT(workspace().preview().mask->voxels(), at_ten);
 }

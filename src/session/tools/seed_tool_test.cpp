@@ -10,14 +10,14 @@
 namespace sonar {
 namespace {
 
-class SeedToolAtWork : public testing::Test, protected SeedToolDesk {
+class SeedToolAtWork : public testing::Test, protected SeedToolApp {
  protected:
-  void SetUp() override { desk_.look_at_bright(); }
+  void SetUp() override { app_.look_at_bright(); }
 };
 
 TEST_F(SeedToolAtWork, WhatHoversIsWhatAClickSelects) {
   tool().hover(bright(), false, false);
-  desk_.settle();
+  app_.settle();
   ASSERT_TRUE(workspace().preview().mask);
   const PingMask hovered = *workspace().preview().mask;
   EXPECT_EQ(workspace().preview().ping_index, document().ping());
@@ -25,7 +25,7 @@ TEST_F(SeedToolAtWork, WhatHoversIsWhatAClickSelects) {
   EXPECT_GT(hovered.voxels(), 100U);
   EXPECT_TRUE(journal().empty()) << "looking is no act";
   press();
-  desk_.settle();
+  app_.settle();
   ASSERT_EQ(document().state().schools.size(), 1U);
   EXPECT_EQ(mask_of(0), hovered);
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow"}));
@@ -34,10 +34,10 @@ TEST_F(SeedToolAtWork, WhatHoversIsWhatAClickSelects) {
 
 TEST_F(SeedToolAtWork, ThePreviewSaysWhatTheTableOfSchoolsWillSay) {
   tool().hover(bright(), false, false);
-  desk_.settle();
+  app_.settle();
   const std::string text = workspace().preview().text;
   press();
-  desk_.settle();
+  app_.settle();
   const ProductPtr product = document().product(0);
   ASSERT_TRUE(product);
   ASSERT_EQ(product->school_pings.size(), 1U);
@@ -48,11 +48,11 @@ TEST_F(SeedToolAtWork, ThePreviewSaysWhatTheTableOfSchoolsWillSay) {
 
 TEST_F(SeedToolAtWork, WhereNothingGrowsItSaysWhy) {
   tool().hover({bright().fan, bright().beam, 0}, false, false);  // in the near field
-  desk_.settle();
+  app_.settle();
   EXPECT_FALSE(workspace().preview().mask);
   EXPECT_THAT(workspace().preview().text, testing::HasSubstr("near field"));
   tool().hover(bright(), false, true);
-  desk_.settle();
+  app_.settle();
   EXPECT_THAT(workspace().preview().text, testing::HasSubstr("no school is selected"));
   tool().leave();
   EXPECT_EQ(workspace().preview(), Preview{});
@@ -75,10 +75,10 @@ TEST_F(SeedToolAtWork, OverPlainWaterItSaysSoInTheGrowthCurvesTermsAndAClickWrit
   const std::string said =
       fmt::format("too weak to grow from: the growth curve is 0 at {:.1f} dB", db_from_counts(samples[sample]));
   tool().hover(voxel, false, false);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(workspace().preview().text, said);
   tool().press(voxel, false, false, false);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(document().notices().back(), said);
   EXPECT_TRUE(journal().empty());
 }
@@ -87,7 +87,7 @@ TEST_F(SeedToolAtWork, AfterAThousandMovesThePreviewIsTheLastOnes) {
   const int samples = document().shown()->sector().range().count;
   for (int i = 0; i < 1000; ++i) tool().hover({bright().fan, bright().beam, (i * 37) % samples}, false, false);
   tool().hover(bright(), false, false);
-  desk_.settle();
+  app_.settle();
   ASSERT_TRUE(workspace().preview().mask);
   EXPECT_EQ(*workspace().preview().mask, fresh(bright()));
 }
@@ -96,7 +96,7 @@ TEST_F(SeedToolAtWork, WhatIsStillOnItsWayIsNotShownAfterThePointerLeft) {
   tool().hover(bright(), false, false);
   tool().wait();
   tool().leave();
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(workspace().preview(), Preview{});
 }
 
@@ -104,11 +104,11 @@ TEST_F(SeedToolAtWork, ADoublePressLeavesOneSchoolWithPingsBothWays) {
   ASSERT_TRUE(workspace().select.set("reach_pings", 2));
   press();
   press(false, false, true);  // before the first was carried out
-  desk_.settle();
+  app_.settle();
   ASSERT_EQ(document().state().schools.size(), 1U);
   std::vector<std::int64_t> pings;
   for (const auto& there : document().state().schools[0]->masks.pings) pings.push_back(there.ping_index);
-  const std::int64_t here = SlicesDesk::bright().ping;
+  const std::int64_t here = SlicesApp::bright().ping;
   EXPECT_THAT(pings, testing::Contains(here - 1));
   EXPECT_THAT(pings, testing::Contains(here));
   EXPECT_THAT(pings, testing::Contains(here + 1));
@@ -117,7 +117,7 @@ TEST_F(SeedToolAtWork, ADoublePressLeavesOneSchoolWithPingsBothWays) {
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "propagate"}));
   document().undo();
   document().undo();
-  desk_.settle();
+  app_.settle();
   EXPECT_TRUE(document().state().schools.empty());
 }
 
@@ -125,12 +125,12 @@ TEST_F(SeedToolAtWork, ASlowDoublePressIsTheSame) {
   ASSERT_TRUE(workspace().select.set("reach_pings", 2));
   ASSERT_TRUE(workspace().select.set("backwards", false));
   press();
-  desk_.settle();
+  app_.settle();
   press(false, false, true);
-  desk_.settle();
+  app_.settle();
   ASSERT_EQ(document().state().schools.size(), 1U);
   const auto& pings = document().state().schools[0]->masks.pings;
-  EXPECT_EQ(pings.front().ping_index, SlicesDesk::bright().ping) << "only forwards was asked for";
+  EXPECT_EQ(pings.front().ping_index, SlicesApp::bright().ping) << "only forwards was asked for";
   EXPECT_GT(pings.size(), 1U);
 }
 
@@ -138,19 +138,19 @@ TEST_F(SeedToolAtWork, ADoublePressUponNothingLeavesNothing) {
   const Voxel near{bright().fan, bright().beam, 0};
   tool().press(near, false, false, false);
   tool().press(near, false, false, true);
-  desk_.settle();
+  app_.settle();
   EXPECT_TRUE(document().state().schools.empty());
   EXPECT_TRUE(journal().empty());
 }
 
 TEST_F(SeedToolAtWork, APressUponASchoolSelectsItAndGrowsNothing) {
   press();
-  desk_.settle();
+  app_.settle();
   workspace().school.set(std::nullopt);
   tool().hover(bright(), false, false);
   EXPECT_THAT(workspace().preview().text, testing::HasSubstr("click selects, double click follows"));
   press();
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
   EXPECT_EQ(journal().size(), 1U);
   tool().select({bright().fan, bright().beam, 0});
@@ -160,35 +160,35 @@ TEST_F(SeedToolAtWork, APressUponASchoolSelectsItAndGrowsNothing) {
 TEST_F(SeedToolAtWork, ControlTakesAwayWhatHoversAndShiftAddsIt) {
   set_tolerance(12.0);
   press();
-  desk_.settle();
+  app_.settle();
   const PingMask whole = mask_of(0);
   document().undo();  // something else stands last
   document().redo();
-  desk_.settle();
+  app_.settle();
   workspace().school.set(std::nullopt);  // and nothing is selected: no school grows anew
   set_tolerance(4.0);
   workspace().school.set(SchoolName{0, 1});
   tool().hover(bright(), false, true);
-  desk_.settle();
+  app_.settle();
   ASSERT_TRUE(workspace().preview().mask);
   const PingMask core = *workspace().preview().mask;
   EXPECT_EQ(core.runs, fresh(bright()).runs);
   EXPECT_LT(core.voxels(), whole.voxels());
   press(false, true);
-  desk_.settle();
+  app_.settle();
   ASSERT_EQ(document().state().schools.size(), 1U);
   EXPECT_EQ(mask_of(0), subtract(whole, core));
   press(true);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(mask_of(0).runs, whole.runs);
   EXPECT_EQ(document().state().schools.size(), 1U);
 }
 
 TEST_F(SeedToolAtWork, ThePreviewFollowsThePingUnderThePointer) {
   tool().hover(bright(), false, false);
-  desk_.settle();
+  app_.settle();
   document().look_at(document().ping() + 1);
-  desk_.settle();
+  app_.settle();
   EXPECT_EQ(workspace().preview().ping_index, document().ping());
   EXPECT_EQ(workspace().preview().mask ? *workspace().preview().mask : PingMask{}, fresh(bright()));
 }

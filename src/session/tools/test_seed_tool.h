@@ -12,19 +12,19 @@
 namespace sonar {
 
 /// The tool of seeds at a bright school of the small simulated survey, for tests.
-class SeedToolDesk {
+class SeedToolApp {
  protected:
-  Workspace& workspace() { return desk_.workspace(); }
-  Document& document() { return desk_.document(); }
-  const Voxel& bright() { return SlicesDesk::bright().voxel; }
-  SeedTool& tool() { return *desk_.desk.seed_tool; }
+  Workspace& workspace() { return app_.workspace(); }
+  Document& document() { return app_.document(); }
+  const Voxel& bright() { return SlicesApp::bright().voxel; }
+  SeedTool& tool() { return *app_.app.seed_tool; }
 
   /// What grows from the voxel, by the science's own function.
   PingMask fresh(const Voxel& voxel) {
     FilteredPing ping;
     ping.volume = document().staged()->filtered;
     const SeedKey seed = seed_key(*document().shown(), voxel);
-    const auto grown = grow_seeds(document().shown()->ground(), ping, std::span(&seed, 1), workspace().growth_curve(),
+    const auto grown = grow_seeds(document().shown()->context(), ping, std::span(&seed, 1), workspace().growth_curve(),
                                   grow_params(workspace().select.values()));
     return grown ? *grown : PingMask{};
   }
@@ -45,16 +45,16 @@ class SeedToolDesk {
   }
   void set_tolerance(double db) {
     SONAR_CHECK(workspace().select.set("tolerance_db", db));
-    desk_.queue.drain();
+    app_.queue.drain();
   }
   /// As long as parameters rest before a growth is done anew.
   void rest() {
-    desk_.desk.pulse.tick(10.0);
-    desk_.desk.pulse.tick(10.0 + SeedTool::kRest_s);
-    desk_.settle();
+    app_.app.animations.tick(10.0);
+    app_.app.animations.tick(10.0 + SeedTool::kRest_s);
+    app_.settle();
   }
 
-  SlicesDesk desk_;
+  SlicesApp app_;
 };
 
 }  // namespace sonar

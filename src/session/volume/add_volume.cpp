@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "session/desk_parts.h"
+#include "session/app_parts.h"
 #include "session/tools/seed_tool.h"
 #include "session/volume/volume_model.h"
 
@@ -27,31 +27,31 @@ constexpr std::array<Side, 5> kSides{{
 
 }  // namespace
 
-void add_volume(Desk& desk) {
-  auto model = std::make_unique<VolumeModel>(desk.workspace);
+void add_volume(AppModel& app) {
+  auto model = std::make_unique<VolumeModel>(app.workspace);
   VolumeModel* volume = model.get();
   // Tools are made by whatever part comes first; they are there when somebody points.
-  volume->hooks.press = [&desk](const Voxel& voxel, bool shift, bool control, bool double_press) {
-    if (desk.seed_tool) desk.seed_tool->press(voxel, shift, control, double_press);
+  volume->hooks.press = [&app](const Voxel& voxel, bool shift, bool control, bool double_press) {
+    if (app.seed_tool) app.seed_tool->press(voxel, shift, control, double_press);
   };
-  volume->hooks.select = [&desk](const Voxel& voxel) {
-    if (desk.seed_tool) desk.seed_tool->select(voxel);
+  volume->hooks.select = [&app](const Voxel& voxel) {
+    if (app.seed_tool) app.seed_tool->select(voxel);
   };
-  volume->hooks.hover = [&desk](const Voxel& voxel, bool shift, bool control) {
-    if (desk.seed_tool) desk.seed_tool->hover(voxel, shift, control);
+  volume->hooks.hover = [&app](const Voxel& voxel, bool shift, bool control) {
+    if (app.seed_tool) app.seed_tool->hover(voxel, shift, control);
   };
-  volume->hooks.leave = [&desk] {
-    if (desk.seed_tool) desk.seed_tool->leave();
+  volume->hooks.leave = [&app] {
+    if (app.seed_tool) app.seed_tool->leave();
   };
-  desk.pictures.push_back({"volume", "Volume", DockPlace::centre, "volume", std::move(model)});
+  app.pictures.push_back({"volume", "Volume", DockPlace::centre, "volume", std::move(model)});
   for (const Side& side : kSides) {
-    desk.actions.add({side.id,
-                      "&View",
-                      side.text,
-                      {side.key},
-                      side.tip,
-                      [volume, side] { volume->look_from(side.side); },
-                      [volume] { return volume->seen(); }});
+    app.actions.add({side.id,
+                     "&View",
+                     side.text,
+                     {side.key},
+                     side.tip,
+                     [volume, side] { volume->look_from(side.side); },
+                     [volume] { return volume->seen(); }});
   }
 }
 

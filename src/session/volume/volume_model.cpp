@@ -91,8 +91,8 @@ LivePicture::Build VolumeModel::build() {
   better_ = std::make_shared<Work>(workspace_.document.options().threads);
   const auto way = std::make_shared<std::shared_ptr<const void>>(workspace_.document.right_of_way().take());
   return [live = live_, better = better_, way, scale = scale(), input = std::move(*input)](
-             PixelSize /*size*/, const Wanted& wanted, const Show& show) {
-    return live->draw(input, wanted, *better, [&](LiveVolume::Picture picture) {
+             PixelSize /*size*/, const CancelToken& token, const Show& show) {
+    return live->draw(input, token, *better, [&](LiveVolume::Picture picture) {
       way->reset();  // finer ones may take their time
       show({std::move(picture.frame), std::nullopt, std::move(picture.shown), scale});
     });

@@ -13,7 +13,7 @@
 
 #include "pipeline/stages/weak_samples.h"
 #include "publish/renderer_choice.h"
-#include "session/volume/volume_test_ground.h"
+#include "session/volume/test_volume.h"
 
 namespace sonar {
 namespace {
@@ -62,7 +62,7 @@ class WatchedRenderer : public VolumeRenderer {
   std::unique_ptr<VolumeRenderer> inner_;
 };
 
-class VolumeAtWork : public testing::Test, public VolumeGround {
+class VolumeAtWork : public testing::Test, public VolumeApp {
  protected:
   /// The ping's filtered Sv as the display's switches leave it, looked up one sample after another. Within rounding of the
   /// limit a sample may be on either side.

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "publish/volume_figure.h"
-#include "session/volume/volume_test_ground.h"
+#include "session/volume/test_volume.h"
 
 namespace sonar {
 namespace {
 
-class VolumePointer : public testing::Test, public VolumeGround {};
+class VolumePointer : public testing::Test, public VolumeApp {};
 
 TEST_F(VolumePointer, AClickIsAPressUponTheVoxelThatIsSeenThere) {
   std::vector<Voxel> pressed;

@@ -38,26 +38,35 @@ struct Elements {
 
 template <class Visitor>
 void describe(Visitor& v, Elements& p) {
-  v.field("columns", p.columns, {.min = 2, .max = 128, .text = "elements along the ship"});
-  v.field("rows", p.rows, {.min = 2, .max = 128, .text = "elements upright"});
-  v.field("column_spacing_mm", p.column_spacing_mm, {.unit = "mm", .min = 1, .max = 50, .text = "along the ship"});
-  v.field("row_spacing_mm", p.row_spacing_mm, {.unit = "mm", .min = 1, .max = 50, .text = "upright"});
-  v.choice("shading", p.shading, kShadingNames, "weights of the receiving elements");
+  v.field("columns", p.columns, {.min = 2, .max = 128, .text = "Number of elements along the ship."});
+  v.field("rows", p.rows, {.min = 2, .max = 128, .text = "Number of elements upright."});
+  v.field("column_spacing_mm", p.column_spacing_mm,
+          {.unit = "mm", .min = 1, .max = 50, .text = "Spacing of the elements along the ship."});
+  v.field("row_spacing_mm", p.row_spacing_mm,
+          {.unit = "mm", .min = 1, .max = 50, .text = "Spacing of the elements upright."});
+  v.choice("shading", p.shading, kShadingNames, "Weights of the receiving elements.");
   v.field("side_lobe_db", p.side_lobe_db,
-          {.unit = "dB", .min = -60, .max = -14, .text = "side lobes that taylor and dolph are made for"});
+          {.unit = "dB", .min = -60, .max = -14, .text = "Side lobes that the weights taylor and dolph are made for."});
   v.field("gain_scatter_db", p.gain_scatter_db,
-          {.unit = "dB", .min = 0, .max = 6, .text = "standard deviation of the elements' gains"});
+          {.unit = "dB", .min = 0, .max = 6, .text = "Standard deviation of the elements' gains."});
   v.field("phase_scatter_deg", p.phase_scatter_deg,
-          {.unit = "deg", .min = 0, .max = 60, .text = "standard deviation of the elements' phases"});
-  v.field("failed", p.failed, {.unit = "1", .min = 0, .max = 0.5, .text = "share of elements that do nothing"});
+          {.unit = "deg", .min = 0, .max = 60, .text = "Standard deviation of the elements' phases."});
+  v.field("failed", p.failed, {.unit = "1", .min = 0, .max = 0.5, .text = "Share of the elements that do nothing."});
   v.field("transmit_reach", p.transmit_reach,
-          {.unit = "1", .min = 0.3, .max = 1, .text = "direction cosine along the ship up to which a fan is sent"});
+          {.unit = "1", .min = 0.3, .max = 1, .text = "Direction cosine along the ship up to which a fan is sent."});
   v.field("transmit_taper", p.transmit_taper,
-          {.unit = "1", .min = 0, .max = 1, .text = "share of the columns with falling amplitude; less = more ripple"});
-  v.field("pulse_taper", p.pulse_taper, {.unit = "1", .min = 0, .max = 1, .text = "share of the pulse in its flanks"});
-  v.choice("psi_law", p.psi_law, kPsiLawNames, "whether the stated equivalent beam angle is the true one");
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .text = "Share of the columns with falling amplitude; less gives more ripple."});
+  v.field("pulse_taper", p.pulse_taper,
+          {.unit = "1", .min = 0, .max = 1, .text = "Share of the pulse that its rise and fall take."});
+  v.choice("psi_law", p.psi_law, kPsiLawNames, "Whether the equivalent beam angle stated in the file is the true one.");
   v.field("psi_excess_db", p.psi_excess_db,
-          {.unit = "dB", .min = -10, .max = 10, .text = "cos4: stated minus true at 45 degrees of elevation"});
+          {.unit = "dB",
+           .min = -10,
+           .max = 10,
+           .text = "Law cos4: stated minus true equivalent beam angle at 45 degrees of elevation."});
 }
 
 /// Single fish: their echoes and how they stand in the water.
@@ -77,26 +86,37 @@ struct FishParams {
 
 template <class Visitor>
 void describe(Visitor& v, FishParams& p) {
-  v.field("length_min_cm", p.length_min_cm, {.unit = "cm", .min = 2, .max = 200, .text = "least mean of a school"});
-  v.field("length_max_cm", p.length_max_cm, {.unit = "cm", .min = 2, .max = 200, .text = "largest mean of a school"});
+  v.field("length_min_cm", p.length_min_cm,
+          {.unit = "cm", .min = 2, .max = 200, .text = "Least mean length of the fish of a school."});
+  v.field("length_max_cm", p.length_max_cm,
+          {.unit = "cm", .min = 2, .max = 200, .text = "Largest mean length of the fish of a school."});
   v.field("length_spread", p.length_spread,
-          {.unit = "1", .min = 0, .max = 0.5, .text = "standard deviation within a school over its mean"});
+          {.unit = "1", .min = 0, .max = 0.5, .text = "Standard deviation of length within a school, over its mean."});
   v.field("ts_offset_db", p.ts_offset_db,
-          {.unit = "dB", .min = -100, .max = -40, .text = "broadside TS = 20 log10(length / 1 cm) + this"});
-  v.field("bladder", p.bladder,
-          {.unit = "1", .min = 0.01, .max = 1, .text = "length of the part that scatters as a line, over the fish's"});
-  v.field("floor", p.floor,
-          {.unit = "1", .min = 0, .max = 1, .text = "share of the broadside echo that comes back whatever the aspect"});
+          {.unit = "dB",
+           .min = -100,
+           .max = -40,
+           .text = "Broadside target strength is 20 log10(length / 1 cm) plus this."});
+  v.field(
+      "bladder", p.bladder,
+      {.unit = "1", .min = 0.01, .max = 1, .text = "Length of the part that scatters as a line, over the fish's own."});
+  v.field(
+      "floor", p.floor,
+      {.unit = "1", .min = 0, .max = 1, .text = "Share of the broadside echo that comes back whatever the aspect."});
   v.field("heading_sd_deg", p.heading_sd_deg,
-          {.unit = "deg", .min = 0, .max = 180, .text = "how the headings in a school differ"});
-  v.field("tilt_sd_deg", p.tilt_sd_deg, {.unit = "deg", .min = 0, .max = 90, .text = "how the tilts differ"});
-  v.field("per_m3_min", p.per_m3_min, {.unit = "m-3", .min = 0.001, .max = 50, .text = "thinnest school"});
-  v.field("per_m3_max", p.per_m3_max, {.unit = "m-3", .min = 0.001, .max = 50, .text = "densest school"});
+          {.unit = "deg", .min = 0, .max = 180, .text = "Standard deviation of the headings in a school."});
+  v.field("tilt_sd_deg", p.tilt_sd_deg,
+          {.unit = "deg", .min = 0, .max = 90, .text = "Standard deviation of the tilts in a school."});
+  v.field("per_m3_min", p.per_m3_min,
+          {.unit = "m-3", .min = 0.001, .max = 50, .text = "Density of the thinnest school."});
+  v.field("per_m3_max", p.per_m3_max,
+          {.unit = "m-3", .min = 0.001, .max = 50, .text = "Density of the densest school."});
   v.field(
       "most_echoes", p.most_echoes,
       {.min = 100,
        .max = 10000000,
-       .text = "of a school: with more fish, so many neighbours echo from one place with the amplitude of their sum"});
+       .text =
+           "Most echoes of a school: where there are more fish, that many places echo with the amplitude of the sum."});
 }
 
 /// The water's own company: strengths from 0 (none) to 1 (strong).
@@ -129,11 +149,12 @@ void describe(Visitor& v, Company& p) {
   strength("other_sounders", p.other_sounders, "transmissions of other vessels, each in one ping");
   strength("refraction", p.refraction, "bending by a gradient of sound speed, downwards or upwards");
   strength("unsteady", p.unsteady, "roll and pitch that the stabilisation leaves: 1 = 1 degree");
-  v.field("noise_power_db", p.noise_power_db,
-          {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "noise in every sample, differing over the beams"});
+  v.field(
+      "noise_power_db", p.noise_power_db,
+      {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "Noise power in every sample, differing over the beams."});
   v.field("reverberation_sv_db", p.reverberation_sv_db,
-          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself"});
-  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 30, .max = 3000, .text = "depth at the start"});
+          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself."});
+  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 30, .max = 3000, .text = "Depth at the start."});
 }
 
 enum class Waters { stated, random };
@@ -163,23 +184,29 @@ struct ArrayParams {
 
 template <class Visitor>
 void describe(Visitor& v, ArrayParams& p) {
-  v.field("seed", p.seed, {.min = 0, .max = 2147483647, .text = "every random number follows from it"});
-  v.field("observations", p.observations, {.min = 1, .max = 1000, .text = "number of observations"});
-  v.field("pings", p.pings, {.min = 1, .max = 100000, .text = "pings in each observation"});
-  v.field("schools", p.schools, {.min = 0, .max = 500, .text = "schools in each observation"});
+  v.field("seed", p.seed,
+          {.min = 0,
+           .max = 2147483647,
+           .text = "Seed of every random number; change it for another survey of the same kind."});
+  v.field("observations", p.observations, {.min = 1, .max = 1000, .text = "Number of observations."});
+  v.field("pings", p.pings, {.min = 1, .max = 100000, .text = "Number of pings in each observation."});
+  v.field("schools", p.schools, {.min = 0, .max = 500, .text = "Number of schools in each observation."});
   v.choice("waters", p.waters, kWatersNames,
-           "the company's strengths as they stand here, or drawn for each observation from the seed");
-  v.field("speed_knots", p.speed_knots, {.unit = "kn", .min = 0, .max = 25, .text = "the ship's speed over ground"});
-  v.field("ping_interval_s", p.ping_interval_s, {.unit = "s", .min = 1, .max = 60, .text = "time between pings"});
-  v.field("gap_s", p.gap_s, {.unit = "s", .min = 121, .max = 86400, .text = "time between observations"});
-  v.field("range_min_m", p.range_min_m, {.unit = "m", .min = 30, .max = 480, .text = "nearest school when abeam"});
-  v.field("range_max_m", p.range_max_m, {.unit = "m", .min = 30, .max = 480, .text = "farthest school when abeam"});
-  v.field("length_min_m", p.length_min_m, {.unit = "m", .min = 5, .max = 300, .text = "shortest school"});
-  v.field("length_max_m", p.length_max_m, {.unit = "m", .min = 5, .max = 300, .text = "longest school"});
-  v.field("own_speed_max_mps", p.own_speed_max_mps, {.unit = "m/s", .min = 0, .max = 5, .text = "fastest school"});
+           "Whether the company's strengths stand as given here or are drawn for each observation from the seed.");
+  v.field("speed_knots", p.speed_knots, {.unit = "kn", .min = 0, .max = 25, .text = "The ship's speed over ground."});
+  v.field("ping_interval_s", p.ping_interval_s, {.unit = "s", .min = 1, .max = 60, .text = "Time between pings."});
+  v.field("gap_s", p.gap_s, {.unit = "s", .min = 121, .max = 86400, .text = "Time between observations."});
+  v.field("range_min_m", p.range_min_m,
+          {.unit = "m", .min = 30, .max = 480, .text = "Range of the nearest school when it is abeam."});
+  v.field("range_max_m", p.range_max_m,
+          {.unit = "m", .min = 30, .max = 480, .text = "Range of the farthest school when it is abeam."});
+  v.field("length_min_m", p.length_min_m, {.unit = "m", .min = 5, .max = 300, .text = "Shortest school."});
+  v.field("length_max_m", p.length_max_m, {.unit = "m", .min = 5, .max = 300, .text = "Longest school."});
+  v.field("own_speed_max_mps", p.own_speed_max_mps,
+          {.unit = "m/s", .min = 0, .max = 5, .text = "Speed of the fastest school."});
   v.field("motion_deg", p.motion_deg,
-          {.unit = "deg", .min = 0, .max = 10, .text = "amplitude of yaw and pitch; roll is three times this"});
-  v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "a new file begins after this much"});
+          {.unit = "deg", .min = 0, .max = 10, .text = "Amplitude of yaw and pitch; roll is three times this."});
+  v.field("file_mb", p.file_mb, {.unit = "MB", .min = 1, .max = 4000, .text = "A new file begins after this much."});
   v.group("elements", p.elements, "the array that sends and receives");
   v.group("fish", p.fish, "single fish");
   v.group("company", p.company, "what is in the water besides schools, from 0 (none) to 1 (strong)");

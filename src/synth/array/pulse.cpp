@@ -14,11 +14,11 @@ constexpr int kBefore = Pulse::kTaps / 2 - 1;
 
 /// Envelope at x of 0..1 along the pulse.
 double envelope(double x, double taper) {
-  const double flank = taper / 2.0;
+  const double edge = taper / 2.0;
   const double inside = std::min(x, 1.0 - x);
   if (inside < 0.0) return 0.0;
-  if (inside >= flank) return 1.0;
-  return 0.5 * (1.0 - std::cos(std::numbers::pi * inside / flank));
+  if (inside >= edge) return 1.0;
+  return 0.5 * (1.0 - std::cos(std::numbers::pi * inside / edge));
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 
 namespace sonar::synth::array {
 
-/// What the receiver makes of a point's echo: the transmitted envelope (flanks of a raised cosine) through its own
+/// What the receiver makes of a point's echo: the transmitted envelope (edges of a raised cosine) through its own
 /// matched filter, 1 at the peak.
 class Pulse {
  public:
   static constexpr int kTaps = 8;
   using Taps = std::array<float, kTaps>;
 
-  /// taper  share of the pulse in its flanks, 0..1
+  /// taper  share of the pulse in its rise and fall, 0..1
   Pulse(double length_s, double sample_interval_s, double taper);
 
   /// Amplitude at a time from the peak; symmetric.

@@ -41,7 +41,7 @@ Point<Own> drawn_size(FormKind kind, const ArrayParams& p, RandomStream& random)
 /// A place, a course and a depth; tried until one is free.
 class Placing {
  public:
-  Placing(const Grounds& grounds, RandomStream& random) : g_(grounds), random_(random) {}
+  Placing(const SchoolSetting& setting, RandomStream& random) : g_(setting), random_(random) {}
 
   /// false  no room
   bool place(School& school, int index) {
@@ -104,7 +104,7 @@ class Placing {
     return true;
   }
 
-  const Grounds& g_;
+  const SchoolSetting& g_;
   RandomStream& random_;
   double abeam_s_ = 0.0;
   std::vector<std::pair<const School*, double>> placed_;
@@ -157,19 +157,19 @@ void fill_school(School& school, const FishParams& params, double wave_number, s
   school.mean_aspect.assign(1, MeanAspect(params, wave_number, school.fish_length_cm));
 }
 
-std::vector<School> make_schools(const Grounds& grounds, Work& work) {
-  const ArrayParams& p = grounds.params;
+std::vector<School> make_schools(const SchoolSetting& setting, Work& work) {
+  const ArrayParams& p = setting.params;
   const auto seed = static_cast<std::uint64_t>(p.seed);
-  RandomStream random(seed, Purpose::school, grounds.observation);
+  RandomStream random(seed, Purpose::school, setting.observation);
   const int first_kind = random.index(static_cast<int>(kFormNames.size()));
   std::vector<School> schools;
   schools.reserve(static_cast<std::size_t>(p.schools));
-  Placing placing(grounds, random);
+  Placing placing(setting, random);
   for (int i = 0; i < p.schools; ++i) {
     const auto kind = static_cast<FormKind>((first_kind + i) % static_cast<int>(kFormNames.size()));
     const Point<Own> size = drawn_size(kind, p, random);
     School school(
-        Form(kind, size, RandomStream(seed, Purpose::school, grounds.observation, static_cast<std::uint32_t>(i) + 1)));
+        Form(kind, size, RandomStream(seed, Purpose::school, setting.observation, static_cast<std::uint32_t>(i) + 1)));
     school.fish_length_cm = random.uniform(p.fish.length_min_cm, p.fish.length_max_cm);
     school.per_m3 = p.fish.per_m3_min * std::pow(p.fish.per_m3_max / p.fish.per_m3_min, random.uniform());
     if (!placing.place(school, i)) continue;
@@ -178,7 +178,7 @@ std::vector<School> make_schools(const Grounds& grounds, Work& work) {
     placing.keep(schools.back(), placing.abeam_s());
   }
   work.for_each(static_cast<std::int64_t>(schools.size()), [&](std::int64_t i) {
-    fill_school(schools[static_cast<std::size_t>(i)], p.fish, grounds.wave_number, seed, grounds.observation);
+    fill_school(schools[static_cast<std::size_t>(i)], p.fish, setting.wave_number, seed, setting.observation);
   });
   return schools;
 }

@@ -47,7 +47,7 @@ void fill_school(School& school, const FishParams& params, double wave_number, s
                  std::uint32_t observation);
 
 /// What schools are drawn for.
-struct Grounds {
+struct SchoolSetting {
   const ArrayParams& params;
   const Voyage& voyage;
   const Terrain& terrain;
@@ -56,6 +56,6 @@ struct Grounds {
 };
 /// Draws the schools of an observation: kinds in turn from one that the seed chooses, near the surface, between and near
 /// the seabed, each abeam at another time; fewer than asked for where there is no room.
-[[nodiscard]] std::vector<School> make_schools(const Grounds& grounds, Work& work);
+[[nodiscard]] std::vector<School> make_schools(const SchoolSetting& setting, Work& work);
 
 }  // namespace sonar::synth::array

@@ -91,7 +91,7 @@ void draw_layers(Sea& sea, const Voyage& voyage, RandomStream& random) {
     const double thickness = random.uniform(2.0, 10.0);
     const double sv_db = -82.0 + 20.0 * much + random.uniform(-3.0, 3.0);
     sea.layers.push_back({depth, thickness, linear_from_db(sv_db), Ripples(40.0, 300.0, 8, random)});
-    // Some of the layer's echo is from fish that stand out of it.
+    // Some of the layer's echo is from fish that are louder than it.
     const Stretch stretch = stretch_of(voyage);
     const int fish = static_cast<int>(1500.0 * much * sea.company.single_fish);
     for (int k = 0; k < fish; ++k) {

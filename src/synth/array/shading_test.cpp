@@ -66,7 +66,7 @@ TEST(Pulse, TapsSampleTheEchoAroundItsPeak) {
   const auto& taps = pulse.taps(peak);
   for (int t = 0; t < Pulse::kTaps; ++t) {
     const double offset = (Pulse::first_tap(peak) + t - peak) * 0.5e-3;
-    // A tap's phase is told to 1/64 of a sample; the steepest flank is about 1 / 0.5 ms.
+    // A tap's phase is told to 1/64 of a sample; the steepest slope is about 1 / 0.5 ms.
     EXPECT_NEAR(static_cast<double>(taps[static_cast<std::size_t>(t)]), pulse.amplitude(offset), 0.01) << t;
   }
 }

@@ -11,7 +11,7 @@
 
 #include "base/units.h"
 #include "io/csv.h"
-#include "io/product.h"
+#include "io/product_file.h"
 #include "synth/array/array_truth.h"
 
 namespace sonar::synth::array {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostBands = 9;
 constexpr int kContourStep = 3;  ///< pixels between the contours' lattice points
-/// Of the background in a band's colour: what lies over the sea must stand out, on a dark picture the more.
+/// Of the background in a band's colour: what lies over the sea must be clear, on a dark picture the more.
 constexpr double kMuted = 0.42;
 constexpr double kMutedDark = 0.62;
 

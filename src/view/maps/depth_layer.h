@@ -12,7 +12,7 @@
 
 namespace sonar {
 
-/// The seabed of a map: bands of depth, muted so that what lies over them stands out.
+/// The seabed of a map: bands of depth, muted so that what lies over them is clear.
 struct DepthBands {
   std::vector<double> levels_m;  ///< rising, round; the isobaths. Bands lie between neighbours
   ColourMap map;                 ///< stepped, one colour a band; pale = shallow

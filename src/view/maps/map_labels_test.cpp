@@ -13,7 +13,7 @@
 #include "view/maps/map_items.h"
 #include "view/maps/observation_map.h"
 #include "view/maps/survey_map.h"
-#include "view/school_numbers.h"
+#include "view/school_labels.h"
 #include "view/timelines/timeline.h"
 #include "view/volume/propagation_view.h"
 

@@ -8,8 +8,8 @@
 #include "view/label_room.h"
 #include "view/maps/graticule.h"
 #include "view/maps/observation_map.h"
+#include "view/school_labels.h"
 #include "view/school_look.h"
-#include "view/school_numbers.h"
 #include "view/shapes.h"
 
 namespace sonar {

@@ -68,7 +68,7 @@ struct MapSchool {
   std::string name{};              ///< that a human gave it, beside its number
 };
 /// The schools of a product with their places.
-/// selected  school_id that stands out; 0 = none
+/// selected  school_id that is highlighted; 0 = none
 /// rejected  those that were rejected, too
 [[nodiscard]] std::vector<MapSchool> map_schools(const ObservationProduct& product, std::int64_t selected = 0,
                                                  bool rejected = true);
@@ -80,7 +80,7 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
 
 /// Marks refused echoes, each where it was loudest. Over an observation map.
 /// rows    of the observation; those without a place are left out
-/// chosen  echo_id that stands out; 0 = none
+/// chosen  echo_id that is highlighted; 0 = none
 /// out     where they are
 std::vector<PlacedMark> add_map_refused(FrameDescription& frame, const ObservationMapBase& base,
                                         std::span<const RefusedEcho> rows, std::int64_t chosen = 0);

@@ -18,8 +18,8 @@
 #include "view/maps/map_items.h"
 #include "view/maps/survey_map_labels.h"
 #include "view/maps/survey_map_legend.h"
+#include "view/school_labels.h"
 #include "view/school_look.h"
-#include "view/school_numbers.h"
 #include "view/shapes.h"
 
 namespace sonar {

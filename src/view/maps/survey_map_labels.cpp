@@ -12,7 +12,7 @@
 #include "geo/geodesic.h"
 #include "view/label_room.h"
 #include "view/maps/graticule.h"
-#include "view/school_numbers.h"
+#include "view/school_labels.h"
 #include "view/shapes.h"
 
 namespace sonar {

@@ -104,10 +104,10 @@ std::string flag_text(SampleFlags flags) {
   static constexpr std::array<std::pair<SampleFlags, std::string_view>, 8> kNames = {
       {{SampleFlags::near_field, "near field"},
        {SampleFlags::surface, "surface"},
-       {SampleFlags::hot_beam, "hot beam"},
-       {SampleFlags::lost, "lost"},
-       {SampleFlags::wall, "wall"},
-       {SampleFlags::impulse, "impulse"},
+       {SampleFlags::corrupted, "corrupted packets"},
+       {SampleFlags::dropout, "dropout"},
+       {SampleFlags::interference, "interference"},
+       {SampleFlags::impulse, "impulse noise"},
        {SampleFlags::seabed, "seabed"},
        {SampleFlags::low_snr, "low signal"}}};
   std::string out;

@@ -44,12 +44,12 @@ TEST(SlicePicture, AKeySaysWhatIsNotDrawnAsRecorded) {
     const auto plain = words(style, size);
     EXPECT_EQ(plain, bare) << "nothing to explain";
     style.flags = {.hidden = SampleFlags::seabed,
-                   .hatched = SampleFlags::wall | SampleFlags::seabed,
+                   .hatched = SampleFlags::interference | SampleFlags::seabed,
                    .faded = SampleFlags::near_field | SampleFlags::low_snr};
     style.key->weak_below_db = 3.0;
     style.key->schools.push_back({{255, 0, 0, 255}, OutlineLine::dashed, "school 7, unreviewed"});
     const auto explained = words(style, size);
-    for (const char* expected : {"hatched: wall", "faded: near field", "faded: below 3 dB signal-to-noise",
+    for (const char* expected : {"hatched: interference", "faded: near field", "faded: below 3 dB signal-to-noise",
                                  "not drawn: seabed", "school 7, unreviewed"}) {
       EXPECT_TRUE(said(explained, expected)) << expected << " at " << size.width;
     }

@@ -54,7 +54,7 @@ struct SliceData {
 [[nodiscard]] Result<Image> slice_image(const SliceMap& map, const SliceData& data, const SvColours& colours,
                                         const FlagStyle& flags, const SliceMaskStyle& masks, const Theme& theme);
 
-/// Why a sample is flagged, for a status line: "wall, low signal"; empty for none.
+/// Why a sample is flagged, for a status line: "interference, low signal"; empty for none.
 [[nodiscard]] std::string flag_text(SampleFlags flags);
 
 /// The ping that a slice's title names.

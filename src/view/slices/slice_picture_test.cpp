@@ -52,10 +52,10 @@ TEST(SliceImage, NoDataAndHiddenSamplesAreNotWater) {
   const SliceMap map = hand_map();
   LitVolume volume(map.sector(), kLit, -30.0, -40.0);
   volume.sv(4, 3, 20) = kNoData;
-  volume.flags(4, 3, 30) = SampleFlags::wall | SampleFlags::low_snr;
+  volume.flags(4, 3, 30) = SampleFlags::interference | SampleFlags::low_snr;
   volume.flags(4, 3, 35) = SampleFlags::low_snr;
   const Theme theme = light_theme(kSize);
-  const FlagStyle flags{SampleFlags::wall, SampleFlags::none, SampleFlags::low_snr};
+  const FlagStyle flags{SampleFlags::interference, SampleFlags::none, SampleFlags::low_snr};
   const auto image = *slice_image(map, volume.data(), sv_colours(SvScale{}), flags, {}, theme);
   const auto pixel = [&](int sample) {
     const PixelPoint p = *map.place_of({4, 3, sample});
@@ -70,9 +70,9 @@ TEST(SliceImage, NoDataAndHiddenSamplesAreNotWater) {
 TEST(SliceImage, HatchKeepsMostOfTheColour) {
   const SliceMap map = hand_map();
   LitVolume volume(map.sector(), kLit, -40.0, -40.0);
-  for (auto& f : volume.flags.all()) f = SampleFlags::hot_beam;
+  for (auto& f : volume.flags.all()) f = SampleFlags::corrupted;
   const Theme theme = light_theme(kSize);
-  const FlagStyle flags{SampleFlags::none, SampleFlags::hot_beam, SampleFlags::none};
+  const FlagStyle flags{SampleFlags::none, SampleFlags::corrupted, SampleFlags::none};
   const auto image = *slice_image(map, volume.data(), sv_colours(SvScale{}), flags, {}, theme);
   const auto inside = std::count_if(map.voxels().begin(), map.voxels().end(), [](int v) { return v >= 0; });
   const auto kept = std::count(image.pixels.begin(), image.pixels.end(), Rgba8{255, 255, 0, 255});
@@ -332,7 +332,7 @@ TEST(SlicePicture, BadRequestsAreRefusedInOneLine) {
   EXPECT_EQ(error({horizontal_plane(900.0, 7.0)}, {640, 480}).text, "the slice does not meet the sonar's sector");
   EXPECT_EQ(error(kTop, {100, 100}).code, ErrorCode::bad_parameter);
   EXPECT_EQ(slice_picture(Sector{}, {}, {}, kTop, {}, theme, {640, 480}).error().code, ErrorCode::bad_parameter);
-  EXPECT_EQ(flag_text(SampleFlags::wall | SampleFlags::low_snr), "wall, low signal");
+  EXPECT_EQ(flag_text(SampleFlags::interference | SampleFlags::low_snr), "interference, low signal");
 }
 
 }  // namespace

@@ -70,9 +70,9 @@ struct TimelineObservation {
   const EchogramPyramid* echogram = nullptr;  ///< nullptr: no raw data, schools only
   std::vector<TimelineMark> marks = {};
   std::vector<TimelineInterval> bad = {};     ///< pings that take no part in measures
-  std::optional<std::int64_t> selected = {};  ///< school_id that stands out
+  std::optional<std::int64_t> selected = {};  ///< school_id that is highlighted
   std::span<const RefusedEcho> refused = {};  ///< marked, each echo where it was loudest
-  std::int64_t chosen_echo = 0;               ///< echo_id that stands out; 0 = none
+  std::int64_t chosen_echo = 0;               ///< echo_id that is highlighted; 0 = none
 };
 
 /// A raster of an echogram, and what it cost.

@@ -210,7 +210,7 @@ TEST(SeabedColours, SpanWhatLiesBelowTheSea) {
   EXPECT_FALSE(depth_span({2, 1, 0, 0, 1, {none, -1.0F}}));
 }
 
-// A ridge one metre high on a hundred: its flanks have the same depths, and the light tells one from the other.
+// A ridge one metre high on a hundred: its slopes have the same depths, and the light tells one from the other.
 TEST(SeabedRelief, AGentleRidgeIsSeenAndItsPlacesAreTrue) {
   SeabedPatch bed{21, 3, -100.0, -10.0, 10.0, {}};
   for (int iy = 0; iy < 3; ++iy) {

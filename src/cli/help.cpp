@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/help.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "cli/exit_codes.h"
+#include "cli/log.h"
+#include "cli/suggestion.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::string_view kManual = "Manual: " SONAR_MANUAL;
+
+struct Examples {
+  std::string_view verb;
+  std::string_view lines;
+};
+constexpr std::array kExamples = {
+    Examples{"info",
+             "  sonarx info SURVEY                       what the files hold, and what is damaged\n"
+             "  sonarx info SURVEY --json --checksum     the same for scripts\n"},
+    Examples{"simulate",
+             "  sonarx simulate SYNTHETIC --preset standard --seed 1\n"
+             "  sonarx simulate SYNTHETIC --physics array --waters random --seed 7\n"},
+    Examples{"run",
+             "  sonarx run SURVEY -o OUT\n"
+             "  sonarx run SURVEY -o OUT --recipe R.json -j 4\n"
+             "  sonarx run SURVEY -o OUT --only obs-0002 --why\n"},
+    Examples{"plan", "  sonarx plan SURVEY -o OUT\n  sonarx run --plan OUT/plan.json --task 0\n  sonarx merge OUT\n"},
+    Examples{"follow", "  sonarx follow SURVEY -o OUT --alarm \"volume_m3 > 20000, range_m < 150\"\n"},
+    Examples{"merge", "  sonarx merge OUT\n"},
+    Examples{"submit",
+             "  sonarx submit SURVEY -o OUT --partition long --account fish\n"
+             "  sonarx submit SURVEY -o OUT --dry-run     the scripts alone\n"},
+    Examples{"status", "  sonarx status OUT\n  sonarx status OUT --json\n"},
+    Examples{"propagate",
+             "  sonarx propagate SURVEY --observation obs-0001 --seed 111,12,12,218 --tolerance-db 10 -o ONE\n"},
+    Examples{"export",
+             "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
+             "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"},
+    Examples{"score", "  sonarx score OUT --truth SYNTHETIC/truth\n"},
+    Examples{"compare", "  sonarx compare OUT OTHER\n"},
+    Examples{"recipe", "  sonarx recipe --preset default > R.json\n  sonarx recipe --validate R.json\n"},
+    Examples{"render",
+             "  sonarx render slice-top SURVEY OUT -o top.png\n"
+             "  sonarx render survey-map OUT --depth-raster depth.tif -o map.pdf\n"},
+};
+
+/// "TEXT:{csv,gpkg}" -> "csv, gpkg"; empty of other types.
+std::string choices_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto first = type.find('{');
+  const auto last = type.rfind('}');
+  if (first == std::string::npos || last == std::string::npos) return {};
+  std::string choices;
+  for (const char c : type.substr(first + 1, last - first - 1))
+    choices += c == ',' ? std::string(", ") : std::string(1, c);
+  return choices;
+}
+
+/// Options in plain words: what kind of value stands there, and of choices what they are.
+class PlainFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text;
+    if (option->get_items_expected_max() > 0) {
+      const std::string type = option->get_type_name();
+      text = type.starts_with("INT")     ? " N"
+             : type.starts_with("FLOAT") ? " X"
+             : option->get_positional()  ? ""
+                                         : " TEXT";
+      if (option->get_expected_max() > 1) text += " ...";
+      if (!option->get_default_str().empty()) text += " (" + option->get_default_str() + ")";
+    }
+    return option->get_required() && !option->get_positional() ? text + " (required)" : text;
+  }
+  /// "--no-masks", without what a flag stands for.
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, positional);
+    return name.substr(0, name.find('{'));
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string choices = choices_of(*option);
+    const std::string text = option->get_description();
+    // Some list their choices themselves, each with what it is.
+    const bool lists = choices.empty() || text.find(choices.substr(0, choices.find(','))) != std::string::npos;
+    return lists ? text : text + ": " + choices;
+  }
+};
+
+std::vector<std::string> verb_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(verb->get_name());
+  return names;
+}
+
+int print_help(const CLI::App& app, const std::string& name) {
+  if (name.empty()) {
+    fmt::print("{}", app.help());
+    return kExitDone;
+  }
+  const auto named = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
+  if (!named.empty()) {
+    fmt::print("{}", named.front()->help("sonarx"));
+    return kExitDone;
+  }
+  const std::string meant = suggestion(name, verb_names(app));
+  return report({ErrorCode::usage,
+                 fmt::format("there is no verb '{}'{}", name, meant.empty() ? "" : "; did you mean " + meant + "?"),
+                 {}});
+}
+
+void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter) {
+  verb.formatter(formatter);
+  auto* quiet = verb.add_flag_callback(
+      "-q,--quiet", [] { set_log_level(LogLevel::quiet); }, "Tell errors alone, no notes and no progress");
+  verb.add_flag_callback(
+          "-v,--verbose", [] { set_log_level(LogLevel::verbose); }, "Tell each step on standard error")
+      ->excludes(quiet);
+  std::string footer = verb.get_footer();
+  if (!footer.empty()) footer += "\n";
+  for (const Examples& examples : kExamples) {
+    if (examples.verb == verb.get_name()) footer += fmt::format("Examples:\n{}\n", examples.lines);
+  }
+  verb.footer(footer + std::string(kManual));
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, VerbRunner& run) {
+  const auto formatter = std::make_shared<PlainFormatter>();
+  app.formatter(formatter);
+  app.footer(fmt::format("sonarx help VERB, or sonarx VERB --help, tells what a verb takes.\n{}", kManual));
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) finish_verb(*verb, formatter);
+  const auto name = std::make_shared<std::string>();
+  CLI::App* help = app.add_subcommand("help", "Tell what a verb does and takes");
+  help->formatter(formatter);
+  help->add_option("VERB", *name, "Verb; none = what all do in a line each");
+  help->callback([&app, name, &run] { run = [&app, name] { return print_help(app, *name); }; });
+}
+
+}  // namespace sonar

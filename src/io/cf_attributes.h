@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/time.h"
+#include "io/netcdf_file.h"
+
+// What the CF conventions (1.11) ask of a file beside its numbers. Units are UDUNITS', but for those of decibels.
+namespace sonar::cf {
+
+inline constexpr std::string_view kConventions = "CF-1.11";
+inline constexpr std::string_view kMicroseconds = "microseconds since 1970-01-01 00:00:00";
+
+/// Names a variable: long_name, and standard_name where there is one.
+void name(netcdf::Writer& out, int group, int variable, std::string_view long_name,
+          std::string_view standard_name = {});
+/// Where a variable's values lie: names of variables in its group, apart by blanks.
+void place(netcdf::Writer& out, int group, int variable, std::string_view coordinates);
+/// A variable of bytes that is 0 or 1.
+void flags(netcdf::Writer& out, int group, int variable, std::string_view meanings);
+
+/// Times as int64 microseconds, which every reader takes for dates.
+/// times  0 = unknown where `may_lack`: such variables have a _FillValue
+int times(netcdf::Writer& out, int group, const std::string& name, std::string_view long_name,
+          const netcdf::Dimension& dimension, std::span<const TimeNs> times, bool may_lack = false);
+/// The pings' times: `time` as above, and `time_ns` to the last nanosecond, the key by which journals know a ping. That is a
+/// number for its readers: UDUNITS takes "nanoseconds since" for no number at all ("nan"), and cftime knows none.
+void ping_times(netcdf::Writer& out, int group, const netcdf::Dimension& ping, std::span<const TimeNs> times);
+
+}  // namespace sonar::cf

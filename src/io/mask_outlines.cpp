@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mask_outlines.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/units.h"
+#include "geo/geodesic.h"
+#include "io/map_geometry.h"
+#include "model/outline.h"
+
+namespace sonar {
+namespace {
+
+void append(GeoArea& area, const OGRLinearRing& ring, const Geographic& origin) {
+  std::vector<Geographic>& places = area.rings.emplace_back();
+  for (int i = 0; i + 1 < ring.getNumPoints(); ++i) {
+    places.push_back(to_geographic(Point<Enu>{ring.getX(i), ring.getY(i), 0.0}, origin));
+  }
+}
+
+/// From the plane about a place to degrees.
+GeoArea area_of(const OGRMultiPolygon& polygons, const Geographic& origin) {
+  GeoArea area;
+  for (const OGRPolygon* polygon : polygons) {
+    for (const OGRLinearRing* ring : *polygon) append(area, *ring, origin);
+  }
+  return area;
+}
+
+bool placed(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
+
+GeoArea swept(const ObservationProduct& product, const Sector& sector) {
+  std::optional<Geographic> origin;
+  std::vector<Ring> footprints;
+  for (const PingNavigation& ping : product.pings) {
+    if (!placed(ping)) continue;
+    if (!origin) origin = ping.transducer;
+    const PlaneShift into(ping.transducer, *origin);
+    Ring ring = footprint(*product.grid, sector, rad_from_deg(ping.heading_deg));
+    for (PlanePoint& p : ring) p = into.apply(p);
+    footprints.push_back(std::move(ring));
+  }
+  return origin ? area_of(*united(footprints), *origin) : GeoArea{};
+}
+
+GeoArea school_area(const ObservationProduct& product, const Sector& sector, std::int64_t school_id) {
+  std::optional<Geographic> origin;
+  std::vector<std::unique_ptr<OGRMultiPolygon>> parts;
+  for (const SchoolMask& mask : product.masks) {
+    const auto pings = static_cast<std::int64_t>(product.pings.size());
+    if (mask.school_id != school_id || mask.ping_index < 0 || mask.ping_index >= pings) continue;
+    const PingNavigation& ping = product.pings[static_cast<std::size_t>(mask.ping_index)];
+    if (!placed(ping)) continue;
+    if (!origin) origin = ping.transducer;
+    auto outline = united(mask_rings(sector, mask.mask, rad_from_deg(ping.heading_deg)));
+    shift(*outline, PlaneShift(ping.transducer, *origin));
+    parts.push_back(std::move(outline));
+  }
+  return origin ? area_of(*united(parts), *origin) : GeoArea{};
+}
+
+}  // namespace
+
+ObservationOutlines map_outlines(const ObservationProduct& product) {
+  ObservationOutlines out;
+  out.observation = product.observation;
+  std::optional<Sector> sector;
+  if (product.grid) {
+    sector = product.grid->grid.sector(product.grid->range);
+    out.swept = swept(product, *sector);
+  }
+  for (const SchoolRow& school : product.schools) {
+    out.schools.push_back({school.school_id, sector ? school_area(product, *sector, school.school_id) : GeoArea{}});
+  }
+  return out;
+}
+
+GeoArea swept_outline(const ObservationProduct& product) {
+  return product.grid ? swept(product, product.grid->grid.sector(product.grid->range)) : GeoArea{};
+}
+
+GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id) {
+  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id) : GeoArea{};
+}
+
+}  // namespace sonar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/tasks/survey_numbers.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "pipeline/recipe/json_file.h"
+
+namespace sonar {
+namespace {
+
+bool is_same(const SurveyNumber& kept, const std::string& source, const SchoolRow& school) {
+  return kept.school_id == school.school_id && kept.source == source && kept.first_time <= school.last_time_utc &&
+         school.first_time_utc <= kept.last_time;
+}
+
+std::set<std::int64_t> provisional_schools(const ObservationProduct& product) {
+  std::set<std::int64_t> schools;
+  for (const SchoolPingRow& row : product.school_pings) {
+    if (row.provisional != 0) schools.insert(row.school_id);
+  }
+  return schools;
+}
+
+}  // namespace
+
+std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier) {
+  std::int64_t next = 1;
+  for (const SurveyNumber& kept : earlier) next = std::max(next, kept.number + 1);
+  std::map<std::pair<std::string, std::int64_t>, std::int64_t> numbers;
+  const std::vector<SurveyNumber> known = earlier;
+  for (ObservationProduct& product : survey.observations) {
+    const std::set<std::int64_t> provisional = provisional_schools(product);
+    for (SchoolRow& school : product.schools) {
+      const auto found =
+          std::ranges::find_if(known, [&](const SurveyNumber& kept) { return is_same(kept, product.source, school); });
+      school.survey_school = found != known.end() ? found->number : next++;
+      numbers[{product.observation, school.school_id}] = school.survey_school;
+      if (found == known.end() && !provisional.contains(school.school_id)) {
+        earlier.push_back(
+            {school.survey_school, product.source, school.school_id, school.first_time_utc, school.last_time_utc});
+      }
+    }
+    for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[{row.observation, row.school_id}];
+  }
+  for (SchoolRow& school : survey.schools) school.survey_school = numbers[{school.observation, school.school_id}];
+  for (SchoolPingRow& row : survey.school_pings) row.survey_school = numbers[{row.observation, row.school_id}];
+  return earlier;
+}
+
+std::vector<SurveyNumber> kept_numbers(const std::filesystem::path& out) {
+  const auto json = read_json_file((out / "survey.json").string());
+  if (!json || !json->is_object() || !json->contains("survey_schools")) return {};
+  std::vector<SurveyNumber> numbers;
+  for (const auto& kept : json->at("survey_schools")) {
+    const auto whole = [&](const char* member) {
+      const auto found = kept.is_object() ? kept.find(member) : kept.end();
+      return kept.is_object() && found != kept.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+    };
+    SurveyNumber number{whole("survey_school"), "", whole("school_id"), whole("first_time_ns"), whole("last_time_ns")};
+    if (kept.is_object() && kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
+    if (number.number > 0) numbers.push_back(std::move(number));
+  }
+  return numbers;
+}
+
+}  // namespace sonar

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "pipeline/tasks/merge.h"
+
+namespace sonar {
+
+/// A school's number in the survey, with what tells the school again when files, and so names of observations, were added.
+struct SurveyNumber {
+  std::int64_t number = 0;  ///< 1..
+  std::string source;       ///< the observation's
+  std::int64_t school_id = 0;
+  TimeNs first_time = 0;
+  TimeNs last_time = 0;
+  friend bool operator==(const SurveyNumber&, const SurveyNumber&) = default;
+};
+
+/// Gives every school its number in the survey, in its rows and in those of the observations: the one that it had, or the
+/// next that nobody had, in the order of the rows.
+/// earlier  as kept; a school is known by its number in the observation where its time overlaps
+/// out      those to be kept: of schools that are gone too, whose numbers nobody gets; not of schools that are provisional
+[[nodiscard]] std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier);
+
+/// Of a result's survey.json; empty where there is none, or it cannot be read.
+[[nodiscard]] std::vector<SurveyNumber> kept_numbers(const std::filesystem::path& out);
+
+}  // namespace sonar

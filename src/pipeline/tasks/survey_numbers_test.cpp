@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/tasks/survey_numbers.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sonar {
+namespace {
+
+using testing::ElementsAre;
+
+/// Two observations of one sounder, a minute each, with schools that are seen from `first` to `last` (s).
+struct Seen {
+  std::int64_t school_id;
+  int first;
+  int last;
+  bool provisional = false;
+};
+
+ObservationProduct observation(const std::string& name, const std::vector<Seen>& schools) {
+  ObservationProduct product;
+  product.observation = name;
+  product.source = "MS70";
+  for (const Seen& seen : schools) {
+    SchoolRow school;
+    school.observation = name;
+    school.school_id = seen.school_id;
+    school.first_time_utc = seen.first * kSecondNs;
+    school.last_time_utc = seen.last * kSecondNs;
+    product.schools.push_back(school);
+    SchoolPingRow row;
+    row.observation = name;
+    row.school_id = seen.school_id;
+    row.provisional = seen.provisional ? 1 : 0;
+    product.school_pings.push_back(row);
+  }
+  return product;
+}
+
+Survey survey_of(std::vector<ObservationProduct> products) {
+  auto survey = merge(std::move(products));
+  return survey ? std::move(*survey) : Survey{};
+}
+
+std::vector<std::int64_t> numbers_in(const Survey& survey) {
+  std::vector<std::int64_t> numbers;
+  for (const SchoolRow& school : survey.schools) numbers.push_back(school.survey_school);
+  return numbers;
+}
+
+TEST(SurveyNumbers, RiseWithTheRowsAndStandInAllTables) {
+  Survey survey = survey_of({observation("obs-0002", {{1, 70, 80}}), observation("obs-0001", {{1, 5, 9}, {2, 6, 20}})});
+  const auto kept = number_schools(survey, {});
+  EXPECT_THAT(numbers_in(survey), ElementsAre(1, 2, 3));
+  EXPECT_EQ(survey.school_pings[2].survey_school, 3);
+  EXPECT_EQ(survey.observations[1].schools[0].survey_school, 3);
+  EXPECT_EQ(survey.observations[1].school_pings[0].survey_school, 3);
+  EXPECT_EQ(kept.size(), 3U);
+}
+
+// A file was added before the others: observations have other names, schools keep their numbers.
+TEST(SurveyNumbers, StayWhenFilesAreAdded) {
+  Survey before = survey_of({observation("obs-0001", {{1, 105, 109}, {2, 106, 120}})});
+  const auto kept = number_schools(before, {});
+  Survey after =
+      survey_of({observation("obs-0001", {{1, 5, 9}}), observation("obs-0002", {{1, 105, 109}, {2, 104, 121}})});
+  const auto now = number_schools(after, kept);
+  EXPECT_THAT(numbers_in(after), ElementsAre(3, 1, 2));
+  EXPECT_EQ(now.size(), 3U);
+}
+
+TEST(SurveyNumbers, OfSchoolsThatAreGoneNobodyGets) {
+  Survey before = survey_of({observation("obs-0001", {{1, 5, 9}, {2, 6, 20}})});
+  auto kept = number_schools(before, {});
+  Survey without = survey_of({observation("obs-0001", {{1, 5, 9}})});
+  kept = number_schools(without, kept);
+  Survey another = survey_of({observation("obs-0001", {{1, 5, 9}, {3, 30, 40}})});
+  (void)number_schools(another, kept);
+  EXPECT_THAT(numbers_in(another), ElementsAre(1, 3));
+}
+
+TEST(SurveyNumbers, OfProvisionalSchoolsAreNotKept) {
+  Survey live = survey_of({observation("obs-0001", {{1, 5, 9, true}, {2, 6, 20, true}})});
+  const auto kept = number_schools(live, {});
+  EXPECT_THAT(numbers_in(live), ElementsAre(1, 2));
+  EXPECT_TRUE(kept.empty());
+  Survey over = survey_of({observation("obs-0001", {{2, 6, 20}})});
+  (void)number_schools(over, kept);
+  EXPECT_THAT(numbers_in(over), ElementsAre(1));
+}
+
+TEST(SurveyNumbers, AnotherSoundersSchoolIsAnotherOne) {
+  Survey first = survey_of({observation("obs-0001", {{1, 5, 9}})});
+  const auto kept = number_schools(first, {});
+  ObservationProduct other = observation("obs-0001", {{1, 5, 9}});
+  other.source = "ME70";
+  Survey second = survey_of({other});
+  (void)number_schools(second, kept);
+  EXPECT_THAT(numbers_in(second), ElementsAre(2));
+}
+
+}  // namespace
+}  // namespace sonar

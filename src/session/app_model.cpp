@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/app_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "session/app_parts.h"
+
+namespace sonar {
+
+AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
+    : workspace(queue, std::move(options)),
+      transfer(std::make_unique<TransferEditor>(workspace)),
+      panel(control_panel(workspace)) {
+  add_slices(*this);
+  add_volume(*this);
+  add_maps(*this);
+  add_lists(*this);
+  add_school_acts(*this);
+  add_exports(*this);
+  add_window_acts(*this);
+}
+
+AppModel::~AppModel() = default;
+
+LivePicture* AppModel::picture(const std::string& id) {
+  const auto found =
+      std::find_if(pictures.begin(), pictures.end(), [&](const PictureDock& dock) { return dock.id == id; });
+  return found == pictures.end() ? nullptr : found->picture.get();
+}
+
+Rows* AppModel::rows(const std::string& id) {
+  const auto found = std::find_if(lists.begin(), lists.end(), [&](const RowsDock& dock) { return dock.id == id; });
+  return found == lists.end() ? nullptr : found->rows.get();
+}
+
+std::string idle_text(const AppModel& app, const std::string& dock) {
+  const Document& document = app.workspace.document;
+  if (document.survey() != nullptr) return document.nothing_shown();
+  const Progress& now = document.progress();
+  if (dock == "top_slice" && !now.stage.empty()) {
+    const std::string words =
+        now.stage == "simulate" ? "Making the simulated survey" : "Reading the survey: " + now.stage;
+    const auto percent = now.total > 0 ? fmt::format(", {} %", 100 * now.done / now.total) : std::string{};
+    const std::string glanced = document.glance() ? "\nThe list and the survey map show what the files' ends tell;\n"
+                                                    "a double-click in the list opens a part alone."
+                                                  : "";
+    return words + percent + ".\nEsc, or Cancel below, stops it." + glanced;
+  }
+  return dock == "top_slice" ? "Open a survey (Ctrl+O), or drop a folder of raw files here." : "";
+}
+
+}  // namespace sonar

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "session/actions.h"
+#include "session/animation_driver.h"
+#include "session/control_panel.h"
+#include "session/live_picture.h"
+#include "session/preferences.h"
+#include "session/rows.h"
+#include "session/transfer_editor.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+class BrushTool;
+class LiveWatch;
+class Playback;
+class SeedTool;
+
+enum class DockPlace : std::uint8_t { centre, left, right, bottom };
+
+/// A dock with a picture in it.
+struct PictureDock {
+  std::string id;     ///< "top_slice"
+  std::string title;  ///< "Slice from above"
+  DockPlace place = DockPlace::centre;
+  std::string view_switch;  ///< property of ViewSwitches that turns it off; empty = always on
+  std::unique_ptr<LivePicture> picture;
+};
+
+/// A dock with a list in it.
+struct RowsDock {
+  std::string id;
+  std::string title;
+  DockPlace place = DockPlace::bottom;
+  std::unique_ptr<Rows> rows;
+  bool tree = false;
+};
+
+/// Everything that a window composes: the workspace, the models of its docks, what can be asked for. No window is needed to
+/// have one.
+class AppModel {
+ public:
+  AppModel(ChangeQueue& queue, DocumentOptions options);
+  ~AppModel();
+  AppModel(const AppModel&) = delete;
+  AppModel& operator=(const AppModel&) = delete;
+
+  Workspace workspace;
+  Preferences preferences;
+  Dialogs dialogs;
+  Actions actions;
+  AnimationDriver animations;  ///< what goes on by itself: a window ticks it while it runs
+  // Of all views together:
+  std::shared_ptr<SeedTool> seed_tool;
+  std::shared_ptr<BrushTool> brush_tool;
+  std::shared_ptr<Playback> playback;
+  std::shared_ptr<LiveWatch> live;
+  std::vector<PictureDock> pictures;
+  std::vector<RowsDock> lists;
+  std::unique_ptr<TransferEditor> transfer;  ///< on top of the control panel
+  std::vector<PanelSection> panel;
+
+  /// Null where there is none of that id.
+  [[nodiscard]] LivePicture* picture(const std::string& id);
+  [[nodiscard]] Rows* rows(const std::string& id);
+};
+
+/// What stands in a picture's dock while there is no picture and nothing wrong with it.
+[[nodiscard]] std::string idle_text(const AppModel& app, const std::string& dock);
+
+}  // namespace sonar

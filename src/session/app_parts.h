@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/app_model.h"
+
+namespace sonar {
+
+// What an app is put together from; each part adds its docks and its actions.
+void add_slices(AppModel& app);       ///< slices, the tools in them, stepping and playing through pings
+void add_volume(AppModel& app);       ///< the view in three dimensions
+void add_maps(AppModel& app);         ///< observation map, propagation strip, survey map, timelines
+void add_lists(AppModel& app);        ///< survey tree, tables of schools, review, journal, diagnostics
+void add_school_acts(AppModel& app);  ///< what is done to the selected school
+void add_window_acts(AppModel& app);  ///< views on and off, light and dark, help
+void add_exports(AppModel& app);      ///< opening; files, pictures and movies out of the program
+
+void add_pictures(AppModel& app);  ///< the part of them that makes pictures and movies
+
+/// Lets a human change some parameters first; what was there comes back where they decline.
+/// names  in order; empty = all
+template <class P>
+[[nodiscard]] bool asked(const AppModel& app, const std::string& title, Parameters<P>& parameters,
+                         std::vector<std::string> names = {}) {
+  if (!app.dialogs.parameters) return true;
+  const P before = parameters.values();
+  if (app.dialogs.parameters(title, {title, std::make_shared<SourceOf<P>>(parameters), std::move(names)})) return true;
+  parameters.assign(before);
+  return false;
+}
+
+/// Writes the preferences with what the window shows now; what hinders it is told once.
+void keep_preferences(AppModel& app);
+
+}  // namespace sonar

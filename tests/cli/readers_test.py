@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Products and maps as other people's programs read them: netCDF4, ncdump, UDUNITS, xarray, OGR, and R and QGIS where they are
+installed (tools/setup.sh readers)."""
+import re
+import shutil
+import sqlite3
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+import sonarx
+from sonarx import OUT, Case
+
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
+try:
+    import xarray
+except ImportError:
+    xarray = None
+
+PRODUCT = OUT / "products" / "obs-0001.nc"
+TIMES = {"pings": ["time"], "schools": ["first_time", "last_time", "decided_time"], "school_pings": ["time"]}
+
+
+def said(*words, **more):
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=300, check=False, **more)
+    return done.returncode, done.stdout, done.stderr
+
+
+@unittest.skipIf(netCDF4 is None, "python3-netcdf4 is not installed")
+class Netcdf(Case):
+    def setUp(self):
+        self.product = netCDF4.Dataset(PRODUCT)
+        self.addCleanup(self.product.close)
+
+    def variables(self):
+        for group in self.product.groups.values():
+            yield from ((group.name, name, v) for name, v in group.variables.items())
+
+    def test_says_that_it_keeps_to_cf(self):
+        self.assertEqual(self.product.Conventions, "CF-1.11")
+        self.assertEqual(int(self.product.product_version), 2)
+
+    def test_every_variable_has_a_name_for_people(self):
+        for group, name, variable in self.variables():
+            self.assertIn("long_name", variable.ncattrs(), f"{group}/{name}")
+
+    def test_what_may_be_unknown_says_so_and_keys_never_are(self):
+        for group, name, variable in self.variables():
+            if name in ("school_id", "ping_index", "time_ns") and group != "diagnostics":
+                self.assertNotIn("_FillValue", variable.ncattrs(), f"{group}/{name}")
+            if group in ("pings", "schools", "school_pings", "rejected") and variable.dtype == "float64":
+                self.assertIn("_FillValue", variable.ncattrs(), f"{group}/{name}")
+
+    def test_coordinates_name_variables_of_the_group(self):
+        for group, name, variable in self.variables():
+            if "coordinates" in variable.ncattrs():
+                for where in variable.coordinates.split():
+                    self.assertIn(where, self.product[group].variables, f"{group}/{name}")
+                    self.assertNotEqual(where, name)
+
+    def test_flags_have_as_many_meanings_as_values(self):
+        for group, name, variable in self.variables():
+            if "flag_meanings" in variable.ncattrs():
+                values = variable.flag_masks if "flag_masks" in variable.ncattrs() else variable.flag_values
+                self.assertEqual(len(values), len(variable.flag_meanings.split()), f"{group}/{name}")
+                self.assertEqual(values.dtype, variable.dtype)
+        edges = self.product["school_pings"]["edge_flags"]
+        self.assertEqual(edges.flag_masks.tolist(), [2 ** i for i in range(9)])
+
+    def test_times_are_dates_to_every_reader(self):
+        rows = sonarx.read_csv(OUT / "school_pings.csv")
+        of_pings = [r["time_utc"] for r in rows if r["observation"] == "obs-0001"]
+        times = self.product["school_pings"]["time"]
+        dates = netCDF4.num2date(times[:], times.units, times.calendar, only_use_cftime_datetimes=False)
+        self.assertEqual([d.isoformat(timespec="milliseconds") + "Z" for d in dates], of_pings)
+        # numpy's rounding of the milliseconds is to the even; the key is exact
+        exact = self.product["pings"]["time_ns"][:]
+        self.assertTrue((exact // 1000 == self.product["pings"]["time"][:]).all())
+
+    def test_no_time_is_no_date(self):
+        decided = self.product["schools"]["decided_time"][:]
+        self.assertTrue(decided.mask.all(), "nobody has decided anything")
+
+    def test_masks_are_a_ragged_array(self):
+        count = self.product["mask"]["sample_count"]
+        self.assertEqual(count.sample_dimension, "voxel")
+        self.assertEqual(int(count[:].sum()), len(self.product["mask"].dimensions["voxel"]))
+
+    @unittest.skipUnless(shutil.which("udunits2"), "udunits-bin is not installed")
+    def test_units_are_those_of_udunits(self):
+        units = {v.units for _, _, v in self.variables() if "units" in v.ncattrs()}
+        for unit in sorted(units):
+            if unit.startswith("dB"):  # a ratio, which UDUNITS does not write so: the exception that the docs list
+                continue
+            code, told, error = said("udunits2", "-H", unit, "-W", "")
+            self.assertEqual(code, 0, f"{unit}: {told}{error}")
+        self.assertIn("nautical_mile", units)
+        self.assertIn("1852 m", said("udunits2", "-H", "nautical_mile", "-W", "m")[1])
+
+    @unittest.skipUnless(shutil.which("ncdump"), "netcdf-bin is not installed")
+    def test_ncdump_reads_it_without_a_word(self):
+        """Its -t knows no unit shorter than a second: it shows the numbers."""
+        code, told, error = said("ncdump", "-t", "-v", "/pings/time", PRODUCT)
+        self.assertEqual((code, error), (0, ""))
+        first = int(self.product["pings"]["time"][0])
+        self.assertTrue(f" time = {first}," in told, "the first ping's time")
+
+
+@unittest.skipIf(xarray is None, "python3-xarray is not installed")
+class Xarray(Case):
+    def test_groups_open_with_dates_and_missing_values(self):
+        for group, names in TIMES.items():
+            with xarray.open_dataset(PRODUCT, group=group) as opened:
+                for name in names:
+                    self.assertEqual(opened[name].dtype.kind, "M", f"{group}/{name}")
+        with xarray.open_dataset(PRODUCT, group="school_pings") as opened:
+            self.assertIn("latitude", opened.coords)
+            rows = [r for r in sonarx.read_csv(OUT / "school_pings.csv") if r["observation"] == "obs-0001"]
+            for row, sv in zip(rows, opened["sv_mean_db"].values):
+                self.assertEqual(float(row["sv_mean_db"] or "nan") == sv or sv != sv, True)
+
+
+class Map(Case):
+    def setUp(self):
+        self.map = sqlite3.connect(f"file:{OUT / 'survey.gpkg'}?mode=ro", uri=True)
+        self.addCleanup(self.map.close)
+        self.layers = [r[0] for r in self.map.execute("SELECT table_name FROM gpkg_geometry_columns")]
+
+    def test_every_layer_has_a_style_that_is_its_default(self):
+        styles = dict(self.map.execute("SELECT f_table_name, styleQML FROM layer_styles WHERE useAsDefault = 1"))
+        self.assertEqual(sorted(styles), sorted(self.layers))
+        for layer, qml in styles.items():
+            root = xml.etree.ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>]*>", "", qml))
+            self.assertEqual(root.tag, "qgis", layer)
+            self.assertIsNotNone(root.find("renderer-v2/symbols/symbol/layer"), layer)
+        self.assertIn('attr="sv_mean_db"', styles["schools"])
+        for symbol, range_ in zip(*(xml.etree.ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>]*>", "", styles["schools"]))
+                                    .findall(p) for p in ("renderer-v2/symbols/symbol", "renderer-v2/ranges/range"))):
+            self.assertEqual(symbol.get("name"), range_.get("symbol"))
+
+    def test_columns_are_described_with_their_units(self):
+        described = dict(self.map.execute(
+            "SELECT column_name, description FROM gpkg_data_columns WHERE table_name = 'schools'"))
+        names = [r[1] for r in self.map.execute("PRAGMA table_info(schools)") if r[1] not in ("fid", "geom")]
+        self.assertEqual(sorted(described), sorted(names))
+        self.assertTrue(described["backscatter_m2"].endswith("[m2]"))
+        self.assertIn("sigma_bs", described["backscatter_m2"])
+        extensions = {r[0] for r in self.map.execute("SELECT extension_name FROM gpkg_extensions")}
+        self.assertIn("gpkg_schema", extensions)
+
+    @unittest.skipUnless(shutil.which("ogrinfo"), "gdal-bin is not installed")
+    def test_ogr_reads_it_without_a_word(self):
+        code, told, error = said("ogrinfo", "-ro", "-al", "-so", OUT / "survey.gpkg")
+        self.assertEqual((code, error), (0, ""))
+        for layer in self.layers:
+            self.assertIn(f"Layer name: {layer}", told)
+
+    def test_schools_have_numbers_that_are_unique_in_the_survey(self):
+        schools = sonarx.read_csv(OUT / "schools.csv")
+        numbers = [int(s["survey_school"]) for s in schools]
+        self.assertEqual(numbers, list(range(1, len(schools) + 1)))
+        known = {(s["observation"], s["school_id"]): s["survey_school"] for s in schools}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            self.assertEqual(row["survey_school"], known[row["observation"], row["school_id"]])
+        self.assertEqual(sorted(r[0] for r in self.map.execute("SELECT survey_school FROM schools")), numbers)
+
+    def test_numbers_stay_when_a_file_is_added(self):
+        """The second observation's file first, then both: the first one's schools get the numbers behind."""
+        folder = self.fresh("numbers")
+        files = sorted(sonarx.SURVEY.glob("*.raw"))
+        (folder / "survey").mkdir()
+        (folder / "survey" / files[1].name).symlink_to(files[1])
+        self.sonarx("run", folder / "survey", "--out", folder / "out")
+        before = [r["survey_school"] for r in sonarx.read_csv(folder / "out" / "schools.csv")]
+        (folder / "survey" / files[0].name).symlink_to(files[0])
+        self.sonarx("run", folder / "survey", "--out", folder / "out")
+        after = sonarx.read_csv(folder / "out" / "schools.csv")
+        self.assertEqual([r["survey_school"] for r in after if r["observation"] == "obs-0002"], before)
+        self.assertEqual(sorted(int(r["survey_school"]) for r in after), list(range(1, len(after) + 1)))
+
+
+if __name__ == "__main__":
+    sonarx.main()
