@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sonar_explorer/product.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "api/throwing.h"
+#include "io/column_words.h"
+#include "io/product_file.h"
+#include "io/table_columns.h"
+#include "model/product.h"
+
+namespace sonar_explorer {
+namespace {
+
+template <class Row>
+Table table_of(const std::vector<Row>& rows) {
+  Table table;
+  for (sonar::TableColumn& column : sonar::columns_of(rows)) {
+    const sonar::ColumnWords* words = sonar::words_of(column.name);
+    Column out{column.name, column.unit, words != nullptr ? std::string(words->long_name) : std::string{}, {}};
+    std::visit([&](auto& values) { out.values = std::move(values); }, column.values);
+    table.push_back(std::move(out));
+  }
+  return table;
+}
+
+sonar::SchoolMask own_mask(const Mask& mask, const sonar::ObservationProduct& product) {
+  const auto wrong = [&](const char* what) {
+    raise({sonar::ErrorCode::bad_parameter,
+           fmt::format("mask of school {} in ping {}: {}", mask.school_id, mask.ping_index, what),
+           {}});
+  };
+  if (!product.grid) wrong("the product has no grid");
+  const sonar::BeamGrid& grid = product.grid->grid;
+  const bool known = std::any_of(product.schools.begin(), product.schools.end(),
+                                 [&](const sonar::SchoolRow& row) { return row.school_id == mask.school_id; });
+  if (!known) wrong("the product has no such school");
+  if (mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings)) wrong("there is no such ping");
+  sonar::SchoolMask own{mask.school_id, mask.ping_index, {{}, mask.confidence}};
+  std::size_t voxels = 0;
+  for (const MaskRun& run : mask.runs) {
+    const bool inside = run.fan >= 0 && run.fan < grid.fans() && run.beam >= 0 && run.beam < grid.beams() &&
+                        run.first_sample >= 0 && run.count > 0 &&
+                        run.first_sample <= product.grid->range.count - run.count;
+    if (!inside) wrong("a run outside the grid");
+    const sonar::Run next{run.fan * grid.beams() + run.beam, run.first_sample, run.count};
+    const bool behind = own.mask.runs.empty() || own.mask.runs.back().row < next.row ||
+                        (own.mask.runs.back().row == next.row && own.mask.runs.back().end() <= next.first_sample);
+    if (!behind) wrong("runs are not sorted, or overlap");
+    own.mask.runs.push_back(next);
+    voxels += static_cast<std::size_t>(run.count);
+  }
+  if (voxels != mask.confidence.size()) wrong("as many confidences as voxels were expected");
+  if (std::find(mask.confidence.begin(), mask.confidence.end(), 0) != mask.confidence.end()) {
+    wrong("a confidence of 0 is no member");
+  }
+  return own;
+}
+
+}  // namespace
+
+Product Product::read(const std::filesystem::path& file) {
+  return Product(std::make_shared<const sonar::ObservationProduct>(value_or_throw(sonar::read_product(file))));
+}
+
+void Product::write(const std::filesystem::path& file) const { value_or_throw(sonar::write_product(*own_, file)); }
+
+const std::string& Product::observation() const { return own_->observation; }
+const std::string& Product::recipe_json() const { return own_->recipe_json; }
+Table Product::schools() const { return table_of(own_->schools); }
+Table Product::school_pings() const { return table_of(own_->school_pings); }
+Table Product::rejected() const { return table_of(own_->rejected); }
+
+std::vector<Mask> Product::masks() const {
+  std::vector<Mask> masks;
+  for (const sonar::SchoolMask& own : own_->masks) {
+    Mask mask{own.school_id, own.ping_index, {}, own.mask.confidence};
+    const int beams = own_->grid ? own_->grid->grid.beams() : 1;
+    for (const sonar::Run& run : own.mask.runs) {
+      mask.runs.push_back({run.row / beams, run.row % beams, run.first_sample, run.count});
+    }
+    masks.push_back(std::move(mask));
+  }
+  return masks;
+}
+
+std::vector<std::string> Product::notes() const {
+  std::vector<std::string> notes;
+  for (const sonar::Diagnostic& note : own_->diagnostics) {
+    notes.push_back(
+        fmt::format("{}: {}", sonar::name(note.code),
+                    sonar::to_line({sonar::ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}})));
+  }
+  return notes;
+}
+
+Product Product::with_masks(const std::vector<Mask>& masks) const {
+  auto other = std::make_shared<sonar::ObservationProduct>(*own_);
+  other->masks.clear();
+  for (const Mask& mask : masks) other->masks.push_back(own_mask(mask, *own_));
+  const auto key = [](const sonar::SchoolMask& mask) { return std::pair(mask.school_id, mask.ping_index); };
+  std::sort(other->masks.begin(), other->masks.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < other->masks.size(); ++i) {
+    if (key(other->masks[i - 1]) != key(other->masks[i])) continue;
+    raise({sonar::ErrorCode::bad_parameter,
+           fmt::format("two masks of school {} in ping {}", other->masks[i].school_id, other->masks[i].ping_index),
+           {}});
+  }
+  const auto kept = [&](std::int64_t school) {
+    return std::any_of(masks.begin(), masks.end(), [&](const Mask& mask) { return mask.school_id == school; });
+  };
+  std::erase_if(other->schools, [&](const sonar::SchoolRow& row) { return !kept(row.school_id); });
+  std::erase_if(other->school_pings, [&](const sonar::SchoolPingRow& row) { return !kept(row.school_id); });
+  return Product(std::move(other));
+}
+
+}  // namespace sonar_explorer

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sonar_explorer/schools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/state.h"
+#include "api/throwing.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/journal/manual.h"
+#include "pipeline/recipe/recipe.h"
+#include "pipeline/stages/observe.h"
+#include "sonar_explorer/version.h"
+
+namespace sonar_explorer {
+namespace {
+
+Product shared(sonar::ObservationProduct product) {
+  return Product(std::make_shared<const sonar::ObservationProduct>(std::move(product)));
+}
+
+sonar::PropagateCommand command_of(Observation::State& state, std::size_t ping, const std::vector<Seed>& seeds,
+                                   const GrowOptions& options) {
+  const sonar::Recipe& recipe = state.recipe.own();
+  const sonar::BeamGrid& grid = state.engine_or_throw().grid();
+  const auto wrong = [](std::string text) { raise({sonar::ErrorCode::bad_parameter, std::move(text), {}}); };
+  if (ping >= state.files->pings.size()) {
+    wrong(fmt::format("no ping {}: {} has pings 0 to {}", ping, state.files->name, state.files->pings.size() - 1));
+  }
+  if (seeds.empty()) wrong("no seed is given");
+  sonar::PropagateCommand command;
+  command.grow = recipe.grow;
+  command.paper = recipe.propagate_paper;
+  command.tracked = recipe.propagate_tracked;
+  command.growth_curve = recipe.growth_curve;
+  if (options.mode && *options.mode != "tracked" && *options.mode != "paper") {
+    wrong(fmt::format("mode '{}' is none of tracked, paper", *options.mode));
+  }
+  if (options.mode) command.grow.mode = *options.mode == "paper" ? sonar::GrowMode::paper : sonar::GrowMode::tracked;
+  command.mode = command.grow.mode;
+  if (options.tolerance_db) command.grow.tolerance_db = command.tracked.tolerance_db = *options.tolerance_db;
+  if (options.tolerance_opacity) command.grow.tolerance_opacity = *options.tolerance_opacity;
+  if (command.grow.connectivity == sonar::Connectivity::all) {
+    command.paper.connectivity = command.tracked.connectivity = sonar::Connectivity::all;
+  }
+  value_or_throw(sonar::validate(command.grow));
+  value_or_throw(sonar::validate(command.tracked));
+  for (const Seed& seed : seeds) {
+    if (seed.fan < 0 || seed.fan >= grid.fans() || seed.beam < 0 || seed.beam >= grid.beams() || seed.sample < 0 ||
+        seed.sample >= state.files->range.count) {
+      wrong(fmt::format("seed {}, {}, {}: the grid has {} fans, {} beams, {} samples", seed.fan, seed.beam, seed.sample,
+                        grid.fans(), grid.beams(), state.files->range.count));
+    }
+    command.seeds.push_back({grid.channel[static_cast<std::size_t>(seed.fan * grid.beams() + seed.beam)], seed.sample});
+  }
+  return command;
+}
+
+/// What a journal with this one line makes of the observation, nothing detected.
+Product selected(Observation::State& state, std::size_t ping, const sonar::PropagateCommand& command) {
+  sonar::Recipe recipe = state.recipe.own();
+  recipe.automatic = false;
+  sonar::JournalLine line;
+  line.n = 1;
+  line.command = "propagate";
+  line.ping_time = state.survey->ping_time(*state.files, ping);
+  line.args = sonar::to_json(command);
+  sonar::Work work(state.threads);
+  auto product = value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, work));
+  for (const sonar::Diagnostic& note : product.diagnostics) {
+    if (note.code == sonar::DiagnosticCode::decision_lost) {
+      raise({sonar::ErrorCode::bad_parameter, note.text, {"", -1, note.ping_index}});
+    }
+  }
+  return shared(std::move(product));
+}
+
+}  // namespace
+
+Product detect(const Observation& observation) {
+  Observation::State& state = observation.state();
+  (void)state.engine_or_throw();
+  sonar::Work work(state.threads);
+  return shared(
+      value_or_throw(sonar::observe(*state.survey, *state.files, state.recipe.own(), {{}, {}, version()}, work)));
+}
+
+Product grow(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,
+             const GrowOptions& options) {
+  return propagate(observation, ping, seeds, 0, options);
+}
+
+Product propagate(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds, std::int64_t reach,
+                  const GrowOptions& options) {
+  sonar::PropagateCommand command = command_of(observation.state(), ping, seeds, options);
+  command.reach = reach < 0 ? -1 : reach;
+  return selected(observation.state(), ping, command);
+}
+
+Product measure(const Observation& observation, const Product& product) {
+  Observation::State& state = observation.state();
+  sonar::Work work(state.threads);
+  return shared(value_or_throw(
+      sonar::remeasure(*state.survey, *state.files, product.own(), state.recipe.own(), {{}, {}, version()}, work)));
+}
+
+}  // namespace sonar_explorer

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/result.h"
+#include "sonar_explorer/error.h"
+
+// Outside, what cannot be done is an exception; inside, it is a Result.
+namespace sonar_explorer {
+
+[[noreturn]] inline void raise(const sonar::Error& error) {
+  std::string kind(sonar::name(error.code));
+  std::replace(kind.begin(), kind.end(), ' ', '_');
+  throw Error(sonar::to_line(error), std::move(kind));
+}
+
+template <class T>
+T value_or_throw(sonar::Result<T> result) {
+  if (!result) raise(result.error());
+  return std::move(*result);
+}
+inline void value_or_throw(const sonar::Result<void>& result) {
+  if (!result) raise(result.error());
+}
+
+}  // namespace sonar_explorer
