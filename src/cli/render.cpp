@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cli/exit_codes.h"
@@ -19,6 +21,9 @@
 namespace sonar {
 namespace {
 
+/// The name that means standard output, as PNG.
+constexpr std::string_view kStandardOutput = "-";
+
 /// What would be found out only after the drawing.
 Result<void> check_output(const RenderArguments& arguments) {
   namespace fs = std::filesystem;
@@ -29,7 +34,7 @@ Result<void> check_output(const RenderArguments& arguments) {
       return fail(ErrorCode::not_found, "no such folder to write to", {folder.string()});
     }
   }
-  if (!arguments.out.empty() && !is_picture_file(arguments.out)) {
+  if (!arguments.out.empty() && arguments.out != kStandardOutput && !is_picture_file(arguments.out)) {
     return fail(ErrorCode::usage, "expected a name that ends in .png, .svg or .pdf", {arguments.out});
   }
   if (!arguments.reference.empty() && !fs::is_regular_file(arguments.reference, absent)) {
@@ -54,7 +59,7 @@ Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) 
   if (!source) return pass_on(source);
   // Nothing is ever written into the folder of the raw files.
   for (const std::string& file : {arguments.out, arguments.difference}) {
-    if (file.empty()) continue;
+    if (file.empty() || file == kStandardOutput) continue;
     if (auto outside = (*source)->require_outside_raw(file); !outside) return pass_on(outside);
   }
   PictureKind kind = PictureKind::slice_top;
@@ -82,6 +87,15 @@ int compare_frame(const RenderArguments& arguments, const FrameDescription& fram
   return verdict->equal ? kExitDone : kExitFailed;
 }
 
+Result<void> print_picture(const FrameDescription& frame, double scale) {
+  const auto bytes = picture_bytes(frame, "picture.png", scale);
+  if (!bytes) return pass_on(bytes);
+  if (std::fwrite(bytes->data(), 1, bytes->size(), stdout) != bytes->size() || std::fflush(stdout) != 0) {
+    return fail(ErrorCode::io, "cannot be written", {"standard output"});
+  }
+  return {};
+}
+
 int render_verb(const RenderArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
@@ -89,7 +103,9 @@ int render_verb(const RenderArguments& arguments) {
   const auto frame = frame_of(arguments, work);
   clear_progress();
   if (!frame) return report(frame.error());
-  if (!arguments.out.empty()) {
+  if (arguments.out == kStandardOutput) {
+    if (const auto printed = print_picture(*frame, arguments.scale); !printed) return report(printed.error());
+  } else if (!arguments.out.empty()) {
     if (auto written = write_picture(*frame, arguments.out, arguments.scale); !written) return report(written.error());
     if (arguments.reference.empty()) fmt::print("{}\n", arguments.out);
   }

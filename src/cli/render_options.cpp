@@ -278,7 +278,7 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("KIND", a.kind, kinds)->required()->check(CLI::IsMember(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
-  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf");
+  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf; - = PNG on standard output");
   verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")
       ->group("Comparing");
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <span>
 #include <string_view>
@@ -60,13 +61,26 @@ bool asks_for_text(int argc, char** argv) {
   });
 }
 
+/// Qt says several lines and aborts where it finds no display.
+void end_without_display(QtMsgType type, const QMessageLogContext& /*where*/, const QString& /*text*/) {
+  if (type != QtFatalMsg) return;
+  const char* display = std::getenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  std::fprintf(stderr,
+               "sonar-explorer: no display to open a window on (DISPLAY is '%s'); expected a desktop, or ssh -X. "
+               "sonarx works without one\n",
+               display != nullptr ? display : "");
+  std::_Exit(1);
+}
+
 int run_program(int argc, char** argv) {
   if (asks_for_text(argc, argv)) {
     QCoreApplication plain(argc, argv);
     CommandLine().parser.process(plain);
     return 0;
   }
-  QApplication application(argc, argv);
+  qInstallMessageHandler(end_without_display);
+  const QApplication application(argc, argv);
+  qInstallMessageHandler(nullptr);
   CommandLine line;
   QCommandLineParser& parser = line.parser;
   const QCommandLineOption& demo = line.demo;

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/picture.h"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/time.h"
+#include "pipeline/recipe/recipe.h"
 #include "publish/map_pictures.h"
 #include "publish/slice_pictures.h"
 #include "publish/volume_picture.h"
@@ -17,26 +24,53 @@ Result<FrameDescription> observation_frame(PictureKind kind, DrawnObservation& o
       return propagation_frame(observation, options);
     case PictureKind::observation_map:
       return observation_map_frame(observation, options);
-    case PictureKind::timeline:
-      return timeline_frame({&observation}, options, work);
     default:
       return slice_frame(kind, observation, options, work);
   }
+}
+
+/// From the first ping of the observations to the last; empty without pings.
+std::string time_of(const std::vector<DrawnObservation*>& observations) {
+  std::optional<std::pair<TimeNs, TimeNs>> span;
+  for (const DrawnObservation* one : observations) {
+    const auto& pings = one->product().pings;
+    if (pings.empty()) continue;
+    if (!span) span = {pings.front().time, pings.back().time};
+    span->first = std::min(span->first, pings.front().time);
+    span->second = std::max(span->second, pings.back().time);
+  }
+  return span ? iso_time(span->first) + "/" + iso_time(span->second) : "";
+}
+
+Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
+                                                const PictureOptions& options) {
+  std::vector<DrawnObservation*> drawn;
+  if (kind == PictureKind::survey_map || (kind == PictureKind::timeline && options.whole_survey)) {
+    for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
+    return drawn;
+  }
+  const auto chosen = source.observation(observation);
+  if (!chosen) return pass_on(chosen);
+  drawn.push_back(*chosen);
+  return drawn;
+}
+
+Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const std::vector<DrawnObservation*>& drawn,
+                                  const PictureOptions& options, Work& work) {
+  if (kind == PictureKind::survey_map) return survey_map_frame(source.observations(), options, work);
+  if (kind == PictureKind::timeline) return timeline_frame(drawn, options, work);
+  return observation_frame(kind, *drawn.front(), options, work);
 }
 
 }  // namespace
 
 Result<FrameDescription> picture_frame(PictureKind kind, PictureSource& source, const std::string& observation,
                                        const PictureOptions& options, Work& work) {
-  if (kind == PictureKind::survey_map) return survey_map_frame(source.observations(), options, work);
-  if (kind == PictureKind::timeline && options.whole_survey) {
-    std::vector<DrawnObservation*> all;
-    for (DrawnObservation& one : source.observations()) all.push_back(&one);
-    return timeline_frame(all, options, work);
-  }
-  const auto chosen = source.observation(observation);
-  if (!chosen) return pass_on(chosen);
-  return observation_frame(kind, **chosen, options, work);
+  const auto drawn = drawn_of(kind, source, observation, options);
+  if (!drawn) return pass_on(drawn);
+  auto frame = frame_of(kind, source, *drawn, options, work);
+  if (frame) frame->origin = {"Sonar Explorer " SONAR_VERSION, recipe_hash(source.recipe()), time_of(*drawn)};
+  return frame;
 }
 
 }  // namespace sonar

@@ -12,6 +12,7 @@
 #include "pipeline/tasks/join_tracks.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/survey_numbers.h"
 
 namespace sonar {
 namespace {
@@ -27,7 +28,8 @@ bool is_work_folder(const fs::path& path) {
 struct Inputs {
   std::vector<fs::path> raw;
   std::vector<fs::path> products;
-  std::vector<fs::path> run_on;  ///< the raw files that the products were made of
+  std::vector<fs::path> run_on;       ///< the raw files that the products were made of
+  std::vector<SurveyNumber> numbers;  ///< of schools in the survey
 };
 
 Result<Inputs> sorted_inputs(std::span<const fs::path> paths) {
@@ -39,6 +41,7 @@ Result<Inputs> sorted_inputs(std::span<const fs::path> paths) {
       const auto files = product_files(path);
       if (!files) return pass_on(files);
       inputs.products.insert(inputs.products.end(), files->begin(), files->end());
+      for (SurveyNumber& kept : kept_numbers(path)) inputs.numbers.push_back(std::move(kept));
       // A newer program's plan keeps nobody from drawing.
       const auto run_on = planned_survey(path).value_or(std::vector<fs::path>{});
       inputs.run_on.insert(inputs.run_on.end(), run_on.begin(), run_on.end());
@@ -152,6 +155,7 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(std::span<const fs::p
   auto products = read_products(inputs->products, work);
   if (!products) return pass_on(products);
   source->products_ = std::move(*products);
+  recall_numbers(source->products_, inputs->numbers);
   source->run_on_ = std::move(inputs->run_on);
   if (recipe) {
     source->recipe_ = *recipe;

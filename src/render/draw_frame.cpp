@@ -15,14 +15,16 @@
 
 #include "render/cairo_values.h"
 #include "render/frame_drawing.h"
+#include "render/png_chunks.h"
 #include "render/svg_names.h"
 #include "render/svg_text.h"
 
 namespace sonar {
 namespace {
 
-constexpr int kMostPixels = 16384;  ///< a side
-constexpr double kPointsPerPixel = 0.75;
+constexpr int kMostPixels = 16384;     ///< a side
+constexpr double kDotsPerInch = 96.0;  ///< of a pixel of the description, as on the web and in SVG
+constexpr double kPointsPerPixel = 72.0 / kDotsPerInch;
 
 Result<PixelSize> scaled_size(const FrameDescription& frame, double scale) {
   const double width = std::round(frame.size.width * scale);
@@ -67,13 +69,20 @@ bool any_smooth(const FrameDescription& frame) {
   });
 }
 
+/// For formats that have no fields of their own for it; empty without an origin.
+std::string origin_sentence(const PictureOrigin& origin) {
+  if (origin.program.empty()) return {};
+  return fmt::format("Made by {}; recipe {}; data {}", origin.program, origin.recipe_hash, origin.data_time);
+}
+
 Result<std::string> svg_of(const FrameDescription& frame, PixelSize size, double scale) {
   std::string bytes;
   CairoSurface surface(cairo_svg_surface_create_for_stream(append, &bytes, size.width, size.height));
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   auto svg = drawn(std::move(surface), frame, scale, bytes);
   if (!svg) return svg;
-  const std::string named = searchable_svg(titled_svg(renumbered_svg(*svg), frame.title), frame, scale);
+  const std::string named =
+      searchable_svg(titled_svg(renumbered_svg(*svg), frame.title, origin_sentence(frame.origin)), frame, scale);
   return any_smooth(frame) ? named : pixelated_svg(named);
 }
 
@@ -82,6 +91,8 @@ Result<std::string> pdf_of(const FrameDescription& frame, PixelSize size, double
   CairoSurface surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, size.width * kPointsPerPixel, size.height * kPointsPerPixel));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, frame.title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, frame.origin.program.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, origin_sentence(frame.origin).c_str());
   auto pdf = drawn(std::move(surface), frame, scale * kPointsPerPixel, bytes);
   if (!pdf) return pdf;
   return undated_pdf(std::move(*pdf));
@@ -124,7 +135,13 @@ Result<std::string> picture_bytes(const FrameDescription& frame, const std::file
   if (ending == ".png") {
     const auto image = draw_frame(frame, scale);
     if (!image) return pass_on(image);
-    return png_bytes(*image);
+    const auto png = png_bytes(*image);
+    if (!png) return png;
+    return described_png(*png, kDotsPerInch * scale,
+                         {{"Title", frame.title},
+                          {"Software", frame.origin.program},
+                          {"Recipe", frame.origin.recipe_hash},
+                          {"Data Time", frame.origin.data_time}});
   }
   return ending == ".svg" ? svg_of(frame, *size, scale) : pdf_of(frame, *size, scale);
 }

@@ -86,11 +86,12 @@ std::string renumbered_svg(const std::string& svg) {
   return out;
 }
 
-std::string titled_svg(const std::string& svg, const std::string& title) {
+std::string titled_svg(const std::string& svg, const std::string& title, const std::string& description) {
   const std::size_t root = svg.find("<svg");
   const std::size_t end = root == std::string::npos ? root : svg.find('>', root);
   if (title.empty() || end == std::string::npos) return svg;
-  return svg.substr(0, end + 1) + "\n<title>" + escaped_xml(title) + "</title>" + svg.substr(end + 1);
+  const std::string desc = description.empty() ? "" : "\n<desc>" + escaped_xml(description) + "</desc>";
+  return svg.substr(0, end + 1) + "\n<title>" + escaped_xml(title) + "</title>" + desc + svg.substr(end + 1);
 }
 
 std::string pixelated_svg(const std::string& svg) {

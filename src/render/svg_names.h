@@ -12,8 +12,8 @@ namespace sonar {
 /// A text as XML holds it.
 [[nodiscard]] std::string escaped_xml(const std::string& text);
 
-/// With a <title> as the first child of <svg>.
-[[nodiscard]] std::string titled_svg(const std::string& svg, const std::string& title);
+/// With a <title> as the first child of <svg>, and a <desc> behind it where there is a description.
+[[nodiscard]] std::string titled_svg(const std::string& svg, const std::string& title, const std::string& description);
 
 /// Every raster with "draw my pixels as blocks when enlarged".
 [[nodiscard]] std::string pixelated_svg(const std::string& svg);

@@ -71,12 +71,20 @@ struct ClipItem {
   PixelRect place;
 };
 
+/// Where a picture is from, for whoever finds its file later.
+struct PictureOrigin {
+  std::string program;      ///< "Sonar Explorer 0.2.0"
+  std::string recipe_hash;  ///< of what the echoes were processed with
+  std::string data_time;    ///< "FIRST/LAST", ISO 8601, UTC: of the pings that the picture is of
+};
+
 /// A 2-D picture as a list of things to draw, in order. What `view` builds, and `render` turns into pixels, SVG or PDF.
 struct FrameDescription {
   PixelSize size;
   Rgba8 background{255, 255, 255, 255};
-  std::string title;  ///< of the document (SVG, PDF); what is seen stands in a TextItem
+  std::string title;  ///< of the document; what is seen stands in a TextItem
   std::vector<std::variant<ImageItem, PathItem, TextItem, ClipItem>> items;
+  PictureOrigin origin{};  ///< what a file says of where it is from; empty = nothing
 };
 
 }  // namespace sonar

@@ -8,12 +8,32 @@ import os
 import re
 import shutil
 import struct
+import subprocess
 import sys
 import unittest
+import zlib
 from pathlib import Path
 
+import netCDF4
 import sonarx
 from rendering import BOTH, DEPTHS, SIZE, render
+
+
+def png_texts(data):
+    """iTXt chunks by keyword, and pixels a metre."""
+    texts, per_metre, at = {}, None, 8
+    while at < len(data):
+        (length,) = struct.unpack_from(">I", data, at)
+        kind, body = data[at + 4:at + 8], data[at + 8:at + 8 + length]
+        assert struct.unpack_from(">I", data, at + 8 + length)[0] == zlib.crc32(kind + body)
+        if kind == b"pHYs":
+            per_metre = struct.unpack(">IIB", body)[0]
+        if kind == b"iTXt":
+            keyword, text = body.split(b"\0", 1)
+            texts[keyword.decode()] = text[4:].decode()
+        at += 12 + length
+    return texts, per_metre
+
 
 GOLDEN = sonarx.PROJECT / "tests" / "golden"
 
@@ -141,7 +161,7 @@ class Goldens(unittest.TestCase):
                 self.assertEqual((code, error), (0, ""), out)
 
 
-class Files(unittest.TestCase):
+class Files(sonarx.Case):
     def test_png_svg_and_pdf(self):
         for ending, start in ((".png", b"\x89PNG\r\n\x1a\n"), (".svg", b"<?xml"), (".pdf", b"%PDF-1.")):
             file = sonarx.WORK / ("map" + ending)
@@ -222,6 +242,36 @@ class Files(unittest.TestCase):
         file = sonarx.WORK / "scaled.png"
         self.assertEqual(render("propagation", sonarx.OUT, *SIZE, "--scale", "2", "--out", file)[0], 0)
         self.assertEqual(struct.unpack(">II", file.read_bytes()[16:24]), (1280, 960))
+
+    def test_files_say_where_they_are_from(self):
+        """Program, recipe and the data's time in every format, and how large a pixel is in PNG; no more than that."""
+        with netCDF4.Dataset(sonarx.OUT / "products" / "obs-0001.nc") as product:
+            recipe = product.recipe_hash
+        rows = sonarx.read_csv(sonarx.OUT / "school_pings.csv")
+        first = min(r["time_utc"] for r in rows if r["observation"] == "obs-0001")
+        folder = self.fresh("origins")
+        for ending in ("png", "svg", "pdf"):
+            self.sonarx("render", "slice-top", *BOTH, "--out", folder / f"slice.{ending}", "--scale", "2")
+        texts, dots_per_m = png_texts((folder / "slice.png").read_bytes())
+        self.assertEqual(dots_per_m, round(192 / 0.0254))
+        self.assertEqual(set(texts), {"Title", "Software", "Recipe", "Data Time"})
+        self.assertRegex(texts["Software"], r"^Sonar Explorer \d+\.\d+\.\d+$")
+        self.assertEqual(texts["Recipe"], recipe)
+        begin, end = texts["Data Time"].split("/")
+        self.assertLessEqual(begin, first)
+        self.assertLess(begin, end)
+        svg = (folder / "slice.svg").read_text()
+        self.assertIn(f"<desc>Made by {texts['Software']}; recipe {recipe}; data {begin}/{end}</desc>", svg)
+        pdf = (folder / "slice.pdf").read_bytes()
+        self.assertIn(b"/Subject", pdf)
+        self.assertIn(texts["Software"].encode(), pdf)
+
+    def test_a_dash_is_standard_output(self):
+        file = self.fresh("dash") / "map.png"
+        self.sonarx("render", "survey-map", sonarx.OUT, *SIZE, "--out", file)
+        done = subprocess.run([sonarx.PROGRAM, "render", "survey-map", sonarx.OUT, *SIZE, "--out", "-"], check=True,
+                              capture_output=True, timeout=300)
+        self.assertEqual(done.stdout, file.read_bytes())
 
     def test_what_contradicts_itself_is_refused(self):
         empty = sonarx.WORK / "empty-tf.json"

@@ -25,7 +25,19 @@ std::set<std::int64_t> provisional_schools(const ObservationProduct& product) {
   return schools;
 }
 
+std::int64_t number_of(const std::vector<SurveyNumber>& known, const std::string& source, const SchoolRow& school) {
+  const auto found =
+      std::ranges::find_if(known, [&](const SurveyNumber& kept) { return is_same(kept, source, school); });
+  return found != known.end() ? found->number : 0;
+}
+
 }  // namespace
+
+void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept) {
+  for (ObservationProduct& product : products) {
+    for (SchoolRow& school : product.schools) school.survey_school = number_of(kept, product.source, school);
+  }
+}
 
 std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier) {
   std::int64_t next = 1;
@@ -35,11 +47,10 @@ std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumbe
   for (ObservationProduct& product : survey.observations) {
     const std::set<std::int64_t> provisional = provisional_schools(product);
     for (SchoolRow& school : product.schools) {
-      const auto found =
-          std::ranges::find_if(known, [&](const SurveyNumber& kept) { return is_same(kept, product.source, school); });
-      school.survey_school = found != known.end() ? found->number : next++;
+      const std::int64_t had = number_of(known, product.source, school);
+      school.survey_school = had > 0 ? had : next++;
       numbers[{product.observation, school.school_id}] = school.survey_school;
-      if (found == known.end() && !provisional.contains(school.school_id)) {
+      if (had == 0 && !provisional.contains(school.school_id)) {
         earlier.push_back(
             {school.survey_school, product.source, school.school_id, school.first_time_utc, school.last_time_utc});
       }

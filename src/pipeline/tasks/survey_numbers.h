@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct SurveyNumber {
 /// earlier  as kept; a school is known by its number in the observation where its time overlaps
 /// out      those to be kept: of schools that are gone too, whose numbers nobody gets; not of schools that are provisional
 [[nodiscard]] std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier);
+
+/// Gives the schools of products the numbers that a merge gave them; 0 where it knows nothing of them.
+void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept);
 
 /// Of a result's survey.json; empty where there is none, or it cannot be read.
 [[nodiscard]] std::vector<SurveyNumber> kept_numbers(const std::filesystem::path& out);

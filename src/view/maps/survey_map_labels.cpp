@@ -69,16 +69,21 @@ double free_side(const SurveyMapDrawing& d, const ObservationProduct& product, c
   return next && next->x > start.x ? -1.0 : 1.0;
 }
 
+/// In the survey, as tables and map have it; in the observation where nobody merged.
+std::int64_t number_of(const SchoolRow& school) {
+  return school.survey_school > 0 ? school.survey_school : school.school_id;
+}
+
 /// "3 Big one, 4" for schools that share a marker; empty where none has a name or there are too many.
 std::string names_text(std::vector<const SchoolRow*> schools, const Theme& theme) {
   constexpr std::size_t kMostNamed = 3;
   const bool any = std::any_of(schools.begin(), schools.end(), [](const SchoolRow* s) { return !s->name.empty(); });
   if (!any || schools.size() > kMostNamed) return {};
-  std::sort(schools.begin(), schools.end(), [](auto* a, auto* b) { return a->school_id < b->school_id; });
+  std::sort(schools.begin(), schools.end(), [](auto* a, auto* b) { return number_of(*a) < number_of(*b); });
   std::string out;
   for (const SchoolRow* school : schools) {
-    const std::string one = school->name.empty() ? fmt::format("{}", school->school_id)
-                                                 : named_text(school->school_id, school->name, theme);
+    const std::string one = school->name.empty() ? fmt::format("{}", number_of(*school))
+                                                 : named_text(number_of(*school), school->name, theme);
     out += (out.empty() ? "" : ", ") + one;
   }
   return out;
@@ -118,7 +123,7 @@ std::vector<NumberedPlace> numbered_schools(const SurveyMapDrawing& d,
       Marker& marker = shared != markers.end() ? *shared : markers.emplace_back(Marker{*centre, 0.0, 0.0, {}, {}});
       marker.radius_px = std::max(marker.radius_px, d.look.radius_px(echo_m2));
       marker.backscatter_m2 += std::isfinite(echo_m2) ? echo_m2 : 0.0;
-      marker.numbers.push_back(school.school_id);
+      marker.numbers.push_back(number_of(school));
       marker.schools.push_back(&school);
     }
   }

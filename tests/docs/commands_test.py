@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every sonarx command of README and manual, executed in the order of the page, on the survey that the page tells to make.
+A folder, a recipe or a picture that a page names is that of the page."""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+import sonarx
+from sonarx import WORK, Case
+
+PROJECT = Path(__file__).resolve().parent.parent.parent
+# Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
+ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)")
+# What the reader brings.
+BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n"}
+
+
+def commands(page):
+    """(number of the line, command) of the shell blocks, comments taken off."""
+    shell = False
+    for number, line in enumerate((PROJECT / page).read_text().splitlines(), 1):
+        if line.startswith("```"):
+            shell = line == "```sh"
+        elif shell and line.startswith("sonarx "):
+            yield number, re.sub(r"\s+#.*$", "", line)
+
+
+class Commands(Case):
+    def executed(self, page):
+        folder = self.fresh(f"commands-{Path(page).stem}")
+        for name, text in BROUGHT.items():
+            (folder / name).write_text(text)
+        environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache"),
+                       "PATH": f"{Path(sonarx.PROGRAM).parent}:{os.environ['PATH']}"}
+        environment.pop("DISPLAY", None)
+        done = 0
+        for number, command in commands(page):
+            if ELSEWHERE.match(command):
+                continue
+            ran = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True,
+                                 timeout=600, check=False)
+            self.assertEqual(ran.returncode, 0, f"{page}:{number}: {command}\n{ran.stdout[-1000:]}\n{ran.stderr[-2000:]}")
+            for option, made in zip(shlex.split(command), shlex.split(command)[1:]):
+                if option in ("--out", "-o", "--dest"):
+                    self.assertTrue((folder / made).exists() or "--dry-run" in command, f"{page}:{number}: no {made}")
+            done += 1
+        return done
+
+    def test_readme(self):
+        self.assertGreater(self.executed("README.md"), 10)
+
+    def test_user_guide(self):
+        self.assertGreater(self.executed("docs/user-guide.md"), 20)
+
+    def test_cluster(self):
+        self.assertGreater(self.executed("docs/cluster.md"), 3)
+
+
+if __name__ == "__main__":
+    sonarx.main()
