@@ -6,11 +6,12 @@
 # It needs two programs that Debian has not packaged. Download them first:
 #   linuxdeploy-x86_64.AppImage             github.com/linuxdeploy/linuxdeploy, Releases
 #   linuxdeploy-plugin-qt-x86_64.AppImage   github.com/linuxdeploy/linuxdeploy-plugin-qt, Releases
-# Without them it stops when the AppDir is complete but for the libraries.
+# Without them it stops when the AppDir is complete but for the libraries. So far this alone has been tried, and the programs
+# started from the AppDir; the last step has not.
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 exec </dev/null
-case "${1:-}" in -h | --help) sed -n '3,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
+case "${1:-}" in -h | --help) sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
 tools=$(readlink -m "${1:-$HOME/Downloads}")
 cd "$here"
 appdir=$here/build/AppDir
@@ -24,7 +25,8 @@ cmake --build --preset packages
 echo "== AppDir"
 rm -rf "$appdir"
 cmake --install build/packages --prefix "$appdir/usr" --strip >build/AppDir.log
-# Linked into one file the programs are found by the name under which it is called: sonarx, else the desktop.
+# One file, two programs: `FILE sonarx ...`, or a link to it that is named sonarx, is the command line; else the desktop.
+# Its --help still names /usr/share/doc/sonarx, where an AppImage installs nothing.
 cat >"$appdir/AppRun" <<'END'
 #!/bin/sh
 here=$(dirname "$(readlink -f "$0")")
