@@ -63,6 +63,8 @@ if(SONAR_MKDOCS)
                      COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/html/sitemap.xml ${made}/html/sitemap.xml.gz ${made}/html/404.html
                              ${made}/html/css/fonts
                      COMMAND find ${made}/html/fonts -type f ! -name *.woff2 -delete
+                     # In an older build folder it would be another time than the package's.
+                     COMMAND sed -i "/^Build Date UTC/d" ${made}/html/index.html
                      COMMAND ${CMAKE_COMMAND} -E touch ${made}/html.stamp
                      DEPENDS ${made}/pages.stamp ${made}/mkdocs.yml COMMENT "manual" VERBATIM)
   add_custom_target(manual ALL DEPENDS ${made}/html.stamp)
