@@ -2,24 +2,34 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sets everything up and does the main job: simulates a survey of raw files, finds the schools in it, prints what was
 # found and where the tables and the map are. Where there is a display the survey is opened on it at the end.
+# A program of the same version that is installed is used; else it is built first.
 #   tools/demo.sh [FOLDER]      (default: build/demo in the project)
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 exec </dev/null
 export LC_ALL=C
-case "${1:-}" in -h | --help) sed -n '3,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
+case "${1:-}" in -h | --help) sed -n '3,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
 folder=${1:-$here/build/demo}
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$here"
 
-echo "== packages"
-tools/setup.sh build
-echo "== build"
-mkdir -p build
-cmake --preset release -DSONAR_TESTS=OFF >build/release.configure.log 2>&1 || { cat build/release.configure.log; exit 1; }
-cmake --build --preset release --target sonarx sonar-explorer
-sonarx=$here/build/release/src/cli/sonarx
+version=$(sed -n 's/^project(sonar-explorer VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+sonarx=$(command -v sonarx || true)
+explorer=$(command -v sonar-explorer || true)
+if [[ -n $sonarx && $("$sonarx" --version 2>/dev/null) == "sonarx $version" ]]; then
+  echo "== program"
+  echo "$sonarx is installed and has this tree's version, $version: nothing is built"
+else
+  echo "== packages"
+  tools/setup.sh build
+  echo "== build"
+  mkdir -p build
+  cmake --preset release -DSONAR_TESTS=OFF >build/release.configure.log 2>&1 || { cat build/release.configure.log; exit 1; }
+  cmake --build --preset release --target sonarx sonar-explorer
+  sonarx=$here/build/release/src/cli/sonarx
+  explorer=$here/build/release/src/gui/sonar-explorer
+fi
 
 echo "== survey"
 # The truth is written last, so its presence means a whole survey.
@@ -62,6 +72,9 @@ echo "map for QGIS       $folder/out/survey.gpkg"
 echo "masks              $folder/out/products"
 echo "pictures           $pictures"
 echo "command line       $sonarx --help"
-explorer=$here/build/release/src/gui/sonar-explorer
+if [[ -z $explorer ]]; then
+  echo "desktop            not installed (package sonar-explorer)"
+  exit 0
+fi
 echo "desktop            $explorer $folder/survey"
 if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then exec "$explorer" "$folder/survey"; fi

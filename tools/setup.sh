@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian 12 packages that the project needs; does nothing, quickly, where they are there.
-#   tools/setup.sh [build | test | full | bench | readers | cluster]...     (default: build)
+#   tools/setup.sh [build | test | full | bench | readers | cluster | packages]...     (default: build)
 # build  to build and run sonarx      test   build + unit, data and command-line tests, format check
 # full   test + clang, clang-tidy, sanitizers, fuzzing      bench  build + the rivals that the benchmarks measure
 # readers  test + other people's programs that read our files: xarray, OGR, R, QGIS      cluster  test + Slurm
+# packages  build + what makes the Debian packages and the manual, and tries them in a bare root
 set -euo pipefail
 
 build=(g++ cmake ninja-build ccache pkg-config ca-certificates
@@ -15,6 +16,7 @@ test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-nump
       pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth)
 readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
 cluster=(munge slurmctld slurmd slurm-client)
+packages=(dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 
@@ -27,7 +29,8 @@ for group in "${@:-build}"; do
     bench) wanted+=("${bench[@]}") ;;
     readers) wanted+=("${test[@]}" "${readers[@]}") ;;
     cluster) wanted+=("${test[@]}" "${cluster[@]}") ;;
-    *) echo "setup.sh: '$group' is none of build, test, full, bench, readers, cluster" >&2; exit 2 ;;
+    packages) wanted+=("${packages[@]}") ;;
+    *) echo "setup.sh: '$group' is none of build, test, full, bench, readers, cluster, packages" >&2; exit 2 ;;
   esac
 done
 

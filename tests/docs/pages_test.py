@@ -30,7 +30,7 @@ class Pages(unittest.TestCase):
     def test_every_installed_package_is_described(self):
         setup = (PROJECT / "tools/setup.sh").read_text()
         described = (PROJECT / "docs/dependencies.md").read_text()
-        for group in re.findall(r"^(?:build|test|full|bench|readers|cluster)=\(([^)]*)\)", setup, re.MULTILINE):
+        for group in re.findall(r"^(?:build|test|full|bench|readers|cluster|packages)=\(([^)]*)\)", setup, re.MULTILINE):
             for package in group.split():
                 self.assertIn(f"`{package}`", described)
 

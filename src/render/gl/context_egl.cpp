@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gl/context_egl.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -10,6 +11,12 @@
 
 namespace sonar {
 namespace {
+
+/// libepoxy ends the whole program where it looks for these and finds none.
+bool libraries_are_installed() {
+  const auto opens = [](const char* library) { return dlopen(library, RTLD_LAZY | RTLD_LOCAL) != nullptr; };
+  return opens("libEGL.so.1") && (opens("libOpenGL.so.0") || opens("libGL.so.1"));
+}
 
 /// What version a driver without `kLeastGl` has, for the message.
 std::string best_found(EGLDisplay display) {
@@ -41,6 +48,9 @@ EGLContext create(EGLDisplay display, GlVersion version) {
 }  // namespace
 
 Result<ContextEgl> ContextEgl::make(GlVersion wanted) {
+  if (!libraries_are_installed()) {
+    return fail(ErrorCode::unsupported, "OpenGL is not installed; expected libEGL.so.1 and libOpenGL.so.0");
+  }
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     return fail(ErrorCode::unsupported, "EGL offers no surfaceless platform; expected EGL_MESA_platform_surfaceless");
   }

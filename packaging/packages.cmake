@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+# What is installed beside the programs, and the packages: `sonarx` (the command line, its pages, the manual) and
+# `sonar-explorer` (the desktop). Everything that has to be made is made with SONAR_PACKAGES alone.
+set(packaging ${PROJECT_SOURCE_DIR}/packaging)
+set(made ${PROJECT_BINARY_DIR}/packaging)
+
+if(NOT SONAR_PACKAGES)
+  # Every --help names the user guide: a program that is installed by hand has it too.
+  file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
+  install(FILES ${pages} ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
+  return()
+endif()
+
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+string(TIMESTAMP SONAR_DATE "%Y-%m-%d" UTC)  # SOURCE_DATE_EPOCH, where it is set
+
+# --- man pages, completion, pages
+set(programs --sonarx $<TARGET_FILE:sonarx>)
+set(built sonarx)
+if(TARGET sonar-explorer)
+  list(APPEND programs --explorer $<TARGET_FILE:sonar-explorer>)
+  list(APPEND built sonar-explorer)
+endif()
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/docs/*.md
+     ${PROJECT_SOURCE_DIR}/docs/pictures/*)
+add_custom_command(OUTPUT ${made}/words.stamp
+                   COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/words
+                   COMMAND Python3::Interpreter -B ${packaging}/make_man ${programs} --out ${made}/words --date ${SONAR_DATE}
+                   COMMAND gzip -9n -r ${made}/words/man
+                   COMMAND ${CMAKE_COMMAND} -E touch ${made}/words.stamp
+                   DEPENDS ${built} ${packaging}/make_man COMMENT "man pages and completion" VERBATIM)
+add_custom_command(OUTPUT ${made}/pages.stamp
+                   COMMAND Python3::Interpreter -B ${packaging}/make_pages --out ${made}/pages
+                           --commands ${made}/words/commands.md
+                   COMMAND ${CMAKE_COMMAND} -E touch ${made}/pages.stamp
+                   DEPENDS ${made}/words.stamp ${packaging}/make_pages ${pages} COMMENT "pages" VERBATIM)
+add_custom_target(package_words ALL DEPENDS ${made}/words.stamp ${made}/pages.stamp)
+install(DIRECTORY ${made}/words/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT cli
+        PATTERN sonar-explorer.1.gz EXCLUDE)
+install(FILES ${made}/words/bash/sonarx DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT cli)
+# Debian's zsh looks for packages' completion in vendor-completions alone, and under /usr/local in site-functions.
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(zsh_folder vendor-completions)
+else()
+  set(zsh_folder site-functions)
+endif()
+install(FILES ${made}/words/zsh/_sonarx DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT cli)
+install(FILES ${made}/words/fish/sonarx.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT cli)
+install(DIRECTORY ${made}/pages/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
+install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
+
+# --- the manual
+find_program(SONAR_MKDOCS mkdocs)
+if(SONAR_MKDOCS)
+  set(SONAR_PAGES ${made}/pages)
+  set(SONAR_MANUAL_HTML ${made}/html)
+  configure_file(${packaging}/mkdocs.yml.in ${made}/mkdocs.yml @ONLY)
+  add_custom_command(OUTPUT ${made}/html.stamp
+                     COMMAND ${SONAR_MKDOCS} build --quiet --clean --config-file ${made}/mkdocs.yml
+                     # For a server, and fonts in the forms of old browsers: three times the size of all the pages.
+                     COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/html/sitemap.xml ${made}/html/sitemap.xml.gz ${made}/html/404.html
+                             ${made}/html/css/fonts
+                     COMMAND find ${made}/html/fonts -type f ! -name *.woff2 -delete
+                     # In an older build folder it would be another time than the package's.
+                     COMMAND sed -i "/^Build Date UTC/d" ${made}/html/index.html
+                     COMMAND ${CMAKE_COMMAND} -E touch ${made}/html.stamp
+                     DEPENDS ${made}/pages.stamp ${made}/mkdocs.yml COMMENT "manual" VERBATIM)
+  add_custom_target(manual ALL DEPENDS ${made}/html.stamp)
+  # The pages beside it have the same pictures.
+  file(MAKE_DIRECTORY ${made}/link)
+  file(CREATE_LINK ../pictures ${made}/link/pictures SYMBOLIC)
+  install(DIRECTORY ${made}/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli REGEX "html/pictures" EXCLUDE)
+  install(FILES ${made}/link/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT cli)
+else()
+  message(STATUS "mkdocs is not here: the manual is left out of the packages (tools/setup.sh packages)")
+endif()
+
+# --- the desktop's place among other programs
+if(TARGET sonar-explorer)
+  set(data ${CMAKE_INSTALL_DATADIR})
+  configure_file(${packaging}/desktop/sonar-explorer.metainfo.xml.in ${made}/sonar-explorer.metainfo.xml @ONLY)
+  install(FILES ${made}/words/man/sonar-explorer.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT desktop)
+  install(FILES ${packaging}/desktop/sonar-explorer.desktop DESTINATION ${data}/applications COMPONENT desktop)
+  install(FILES ${packaging}/desktop/sonar-explorer.xml DESTINATION ${data}/mime/packages COMPONENT desktop)
+  install(FILES ${made}/sonar-explorer.metainfo.xml DESTINATION ${data}/metainfo COMPONENT desktop)
+  install(FILES ${packaging}/desktop/sonar-explorer.svg DESTINATION ${data}/icons/hicolor/scalable/apps COMPONENT desktop)
+  foreach(size 48 128)
+    install(FILES ${packaging}/desktop/sonar-explorer-${size}.png RENAME sonar-explorer.png
+            DESTINATION ${data}/icons/hicolor/${size}x${size}/apps COMPONENT desktop)
+  endforeach()
+  install(FILES ${packaging}/copyright DESTINATION ${data}/doc/sonar-explorer COMPONENT desktop)
+endif()
+
+# --- the packages
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_PACKAGE_VENDOR "Sonar Explorer developers")
+set(CPACK_PACKAGE_CONTACT "Sonar Explorer developers")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+    WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS ${packaging}/clamp_times.cmake)
+set(CPACK_COMPONENTS_ALL cli)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+
+set(CPACK_DEBIAN_CLI_PACKAGE_NAME sonarx)
+set(CPACK_COMPONENT_CLI_DESCRIPTION
+    "find fish schools in fishery-sonar surveys (command line)
+Reads raw Simrad files of a 4D fishery sonar (MS70) and produces the schools in
+them: their masks through time, tables of measurements and a map for QGIS.
+
+This package holds the command line, its pages and the manual. It needs neither
+Qt nor a display.")
+# Volumes are drawn with OpenGL where it is there, and else without; text is drawn with whatever fonts there are.
+set(CPACK_DEBIAN_CLI_PACKAGE_RECOMMENDS "fonts-dejavu-core")
+set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "libegl1, libopengl0, libgl1-mesa-dri")
+if(TARGET sonar-explorer)
+  list(APPEND CPACK_COMPONENTS_ALL desktop)
+  set(CPACK_DEBIAN_DESKTOP_PACKAGE_NAME sonar-explorer)
+  set(CPACK_DEBIAN_DESKTOP_PACKAGE_DEPENDS "sonarx (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_DESKTOP_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+  set(CPACK_DEBIAN_DESKTOP_PACKAGE_SUGGESTS "qt6-wayland")
+  set(CPACK_COMPONENT_DESKTOP_DESCRIPTION
+      "find fish schools in fishery-sonar surveys (desktop)
+Shows surveys of a 4D fishery sonar (MS70) in slices, volumes, maps and a
+timeline. A click selects a school, a double click follows it through time.")
+endif()
+include(CPack)
