@@ -135,4 +135,36 @@ if(TARGET sonar-explorer)
 Shows surveys of a 4D fishery sonar (MS70) in slices, volumes, maps and a
 timeline. A click selects a school, a double click follows it through time.")
 endif()
+if(TARGET sonar_explorer)
+  list(APPEND CPACK_COMPONENTS_ALL runtime library)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libsonar-explorer)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+  set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+      "find fish schools in fishery-sonar surveys (shared library)
+What programs and the Python module need that open surveys, detect, select and
+measure schools.")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libsonar-explorer-dev)
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libsonar-explorer (= ${PROJECT_VERSION})")
+  set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+      "find fish schools in fishery-sonar surveys (headers)
+C++ headers, and what CMake's find_package(SonarExplorer) reads.")
+  install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsonar-explorer COMPONENT runtime)
+  install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsonar-explorer-dev COMPONENT library)
+endif()
+if(TARGET sonar_explorer_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-sonar-explorer COMPONENT python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sonar-explorer)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "libsonar-explorer (= ${PROJECT_VERSION}), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray, python3-matplotlib")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/api)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+      "find fish schools in fishery-sonar surveys (Python)
+The module sonar_explorer: a survey's pings as NumPy arrays, schools detected,
+selected, propagated and measured, results read.")
+endif()
 include(CPack)

@@ -31,7 +31,8 @@ class Installed(Case):
             shutil.rmtree(folder, ignore_errors=True)
         # What lies in the project must not help: the example is copied away from it.
         shutil.copytree(PROJECT / "examples" / "cpp", EXAMPLE / "source")
-        for words in (("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", "library"),
+        for words in (("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", "runtime"),
+                      ("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", "library"),
                       ("cmake", "-S", EXAMPLE / "source", "-B", EXAMPLE / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
                        "-DCMAKE_CXX_FLAGS=-std=c++20 -Wall -Wextra -Wpedantic -Werror"),
                       ("cmake", "--build", EXAMPLE / "build")):

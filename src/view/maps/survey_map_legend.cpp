@@ -123,9 +123,7 @@ void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const 
   legend.gap();
   // An empty circle alone would be a school without echo.
   if (schools) {
-    legend.small(
-        "Circles have their school's colour, empty where its outline is seen; numbers: survey_school; before merging, "
-        "school_id.");
+    legend.small("Circles have their school's colour, empty where its outline is seen; numbers as in the tables.");
   }
   legend.small(d.map.projection.name());
   if (depths != nullptr) {
