@@ -159,7 +159,7 @@ if(TARGET sonar_explorer_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sonar-explorer)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "libsonar-explorer (= ${PROJECT_VERSION}), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3-numpy")
+      "libsonar-explorer (= ${PROJECT_VERSION}), ${SONAR_PYTHON_DEPENDS}, python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray, python3-matplotlib")
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/api)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
