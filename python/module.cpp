@@ -100,8 +100,8 @@ se::GrowOptions options_of(std::optional<double> tolerance_db, std::optional<dou
 }
 
 /// [ping][fan][beam][sample] would be large: one ping's masks as an array of school numbers.
-py::array_t<std::int32_t> school_ids(const se::Product& product, std::int64_t ping, const se::Grid& grid) {
-  const se::Shape shape = grid.shape();
+py::array_t<std::int32_t> school_ids(const se::Product& product, std::int64_t ping) {
+  const se::Shape shape = product.shape().value_or(se::Shape{});
   std::vector<std::int32_t> ids(shape.size(), 0);
   for (const se::Mask& mask : product.masks()) {
     if (mask.ping_index != ping) continue;
@@ -279,7 +279,7 @@ void bind_product(py::module_& m) {
           "school_pings_dataset", [](const se::Product& p) { return dataset_of(p.school_pings(), "row"); },
           "xarray.Dataset of schools in pings, with units")
       .def_property_readonly("masks", &se::Product::masks, "a list of Mask, by ping and school")
-      .def("school_ids", &school_ids, py::arg("ping"), py::arg("grid"),
+      .def("school_ids", &school_ids, py::arg("ping"),
            "int32 [fan][beam][sample]: the school of each voxel of a ping; 0 = none")
       .def_property_readonly("notes", &se::Product::notes, "what is worth knowing, a line each")
       .def("with_masks", &se::Product::with_masks, py::arg("masks"),

@@ -87,15 +87,12 @@ std::vector<Mask> Product::masks() const {
   return masks;
 }
 
-std::vector<std::string> Product::notes() const {
-  std::vector<std::string> notes;
-  for (const sonar::Diagnostic& note : own_->diagnostics) {
-    notes.push_back(
-        fmt::format("{}: {}", sonar::name(note.code),
-                    sonar::to_line({sonar::ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}})));
-  }
-  return notes;
+std::optional<Shape> Product::shape() const {
+  if (!own_->grid) return std::nullopt;
+  return Shape{own_->grid->grid.fans(), own_->grid->grid.beams(), own_->grid->range.count};
 }
+
+std::vector<std::string> Product::notes() const { return lines_of(own_->diagnostics); }
 
 Product Product::with_masks(const std::vector<Mask>& masks) const {
   auto other = std::make_shared<sonar::ObservationProduct>(*own_);

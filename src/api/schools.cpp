@@ -11,6 +11,7 @@
 #include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
+#include "pipeline/commands/recipe_propagation.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/observe.h"
@@ -32,23 +33,20 @@ sonar::PropagateCommand command_of(Observation::State& state, std::size_t ping, 
     wrong(fmt::format("no ping {}: {} has pings 0 to {}", ping, state.files->name, state.files->pings.size() - 1));
   }
   if (seeds.empty()) wrong("no seed is given");
-  sonar::PropagateCommand command;
-  command.grow = recipe.grow;
-  command.paper = recipe.propagate_paper;
-  command.tracked = recipe.propagate_tracked;
-  command.growth_curve = recipe.growth_curve;
   if (options.mode && *options.mode != "tracked" && *options.mode != "paper") {
     wrong(fmt::format("mode '{}' is none of tracked, paper", *options.mode));
   }
-  if (options.mode) command.grow.mode = *options.mode == "paper" ? sonar::GrowMode::paper : sonar::GrowMode::tracked;
-  command.mode = command.grow.mode;
+  std::optional<sonar::GrowMode> mode;
+  if (options.mode) mode = *options.mode == "paper" ? sonar::GrowMode::paper : sonar::GrowMode::tracked;
+  sonar::PropagateCommand command = sonar::recipe_propagation(recipe, mode);
+  const bool paper = command.mode == sonar::GrowMode::paper;
+  if (paper && options.tolerance_db) wrong("tolerance_db is of mode tracked; expected tolerance_opacity in mode paper");
+  if (!paper && options.tolerance_opacity) {
+    wrong("tolerance_opacity is of mode paper; expected tolerance_db in mode tracked");
+  }
   if (options.tolerance_db) command.grow.tolerance_db = command.tracked.tolerance_db = *options.tolerance_db;
   if (options.tolerance_opacity) command.grow.tolerance_opacity = *options.tolerance_opacity;
-  if (command.grow.connectivity == sonar::Connectivity::all) {
-    command.paper.connectivity = command.tracked.connectivity = sonar::Connectivity::all;
-  }
-  value_or_throw(sonar::validate(command.grow));
-  value_or_throw(sonar::validate(command.tracked));
+  command = value_or_throw(sonar::completed(std::move(command)));
   for (const Seed& seed : seeds) {
     if (seed.fan < 0 || seed.fan >= grid.fans() || seed.beam < 0 || seed.beam >= grid.beams() || seed.sample < 0 ||
         seed.sample >= state.files->range.count) {

@@ -96,11 +96,7 @@ Survey Survey::open(const std::vector<std::filesystem::path>& paths, const Recip
     if (observation.grid) state->engine.emplace(*files, observation, recipe.own());
     survey.observations_.emplace_back(std::move(state));
   }
-  for (const sonar::Diagnostic& note : files->diagnostics) {
-    survey.notes_.push_back(
-        fmt::format("{}: {}", sonar::name(note.code),
-                    sonar::to_line({sonar::ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}})));
-  }
+  survey.notes_ = lines_of(files->diagnostics);
   return survey;
 }
 

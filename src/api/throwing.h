@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "base/diagnostics.h"
 #include "base/result.h"
 #include "sonar_explorer/error.h"
 
@@ -24,6 +26,16 @@ T value_or_throw(sonar::Result<T> result) {
 }
 inline void value_or_throw(const sonar::Result<void>& result) {
   if (!result) raise(result.error());
+}
+
+/// Notes, a line each.
+inline std::vector<std::string> lines_of(const sonar::Diagnostics& notes) {
+  std::vector<std::string> lines;
+  for (const sonar::Diagnostic& note : notes) {
+    lines.push_back(std::string(sonar::name(note.code)) + ": " +
+                    sonar::to_line({sonar::ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}}));
+  }
+  return lines;
 }
 
 }  // namespace sonar_explorer

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "io/atomic_file.h"
 #include "io/product_file.h"
 #include "model/school_totals.h"
+#include "pipeline/commands/recipe_propagation.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/tasks/merge.h"
@@ -119,29 +121,17 @@ Result<void> take_tolerance(const PropagateArguments& arguments, PropagateComman
 }
 
 Result<PropagateCommand> make_command(const PropagateArguments& arguments, const Recipe& recipe) {
-  PropagateCommand command;
-  command.mode = recipe.grow.mode;
-  if (!arguments.mode.empty()) command.mode = arguments.mode == "paper" ? GrowMode::paper : GrowMode::tracked;
-  command.grow = recipe.grow;
-  command.paper = recipe.propagate_paper;
-  command.tracked = recipe.propagate_tracked;
-  command.growth_curve = recipe.growth_curve;
+  std::optional<GrowMode> mode;
+  if (!arguments.mode.empty()) mode = arguments.mode == "paper" ? GrowMode::paper : GrowMode::tracked;
+  PropagateCommand command = recipe_propagation(recipe, mode);
   command.reach = arguments.reach;
   if (!arguments.curve.empty()) {
     auto curve = read_transfer_function(arguments.curve);
     if (!curve) return pass_on(curve);
     command.growth_curve = std::move(*curve);
   }
-  command.grow.mode = command.mode;
   if (auto taken = take_tolerance(arguments, command); !taken) return pass_on(taken);
-  // What is selected with all 26 neighbours is followed with them.
-  if (command.grow.connectivity == Connectivity::all) {
-    command.paper.connectivity = command.tracked.connectivity = Connectivity::all;
-  }
-  for (const auto& valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
-    if (!valid) return pass_on(valid);
-  }
-  return command;
+  return completed(std::move(command));
 }
 
 void print_school(const ObservationProduct& product, std::int64_t reach) {

@@ -121,7 +121,7 @@ class Schools(Opened):
 
     def test_school_ids_are_the_masks(self):
         mask, (fan, beam, sample) = self.seed()
-        ids = self.product.school_ids(mask.ping_index, self.observation.grid)
+        ids = self.product.school_ids(mask.ping_index)
         self.assertEqual(ids[fan, beam, sample], mask.school_id)
         of_ping = sum(len(m.confidence) for m in self.product.masks if m.ping_index == mask.ping_index)
         self.assertEqual(int((ids > 0).sum()), of_ping)
@@ -129,12 +129,11 @@ class Schools(Opened):
     def test_grow_takes_the_seed_and_propagate_reaches_further(self):
         mask, seed = self.seed()
         grown = se.grow(self.observation, mask.ping_index, seed)
-        ids = grown.school_ids(mask.ping_index, self.observation.grid)
+        ids = grown.school_ids(mask.ping_index)
         self.assertGreater(ids[seed], 0)
         self.assertEqual({m.ping_index for m in grown.masks}, {mask.ping_index})
         wider = se.grow(self.observation, mask.ping_index, [seed], tolerance_db=30.0)
-        self.assertGreater(wider.masks[0].runs.__len__(), 0)
-        self.assertGreater(len(wider.masks[0].confidence), len(grown.masks[0].confidence) // 2)
+        self.assertGreater(len(wider.masks[0].confidence), len(grown.masks[0].confidence))
         followed = se.propagate(self.observation, mask.ping_index, seed, reach=1)
         pings = {m.ping_index for m in followed.masks}
         self.assertLessEqual(pings, {mask.ping_index + d for d in (-1, 0, 1)})
@@ -179,6 +178,7 @@ class Errors(Opened):
         self.refused("bad_parameter", "0.1 .. 60", se.Recipe().with_value, "detect.tolerance_db", -3)
         self.refused("usage", "99", self.observation.ping, 99)
         self.refused("bad_parameter", "25", se.grow, self.observation, 0, (0, 25, 10))
+        self.refused("bad_parameter", "mode paper", se.grow, self.observation, 0, (9, 9, 400), tolerance_opacity=0.2)
         self.refused("mismatch", "obs-000", se.measure, self.survey.observation("obs-0002"), self.product)
 
     def test_a_seed_of_two_numbers(self):

@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "sonar_explorer/ping.h"
 
 namespace sonar {
 struct ObservationProduct;
@@ -53,6 +56,8 @@ class Product {
 
   [[nodiscard]] const std::string& observation() const;
   [[nodiscard]] const std::string& recipe_json() const;
+  /// Of the grid that masks lie on; empty without one.
+  [[nodiscard]] std::optional<Shape> shape() const;
   [[nodiscard]] Table schools() const;       ///< a row for each school
   [[nodiscard]] Table school_pings() const;  ///< a row for each school and ping
   [[nodiscard]] Table rejected() const;      ///< echoes that were judged not to be schools
