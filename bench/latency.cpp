@@ -94,7 +94,7 @@ class Bench {
   void step_with_volume(int repetitions) {
     LivePicture& volume = *app_.picture("volume");
     VolumeParams params;
-    params.renderer = VolumeRendererName::cpu;
+    params.renderer = RendererChoice::cpu;
     app_.workspace.volume.assign(params);
     volume.resize(kVolumeSize, 1.0);
     volume.set_seen(true);

@@ -29,7 +29,7 @@ class Bench {
  public:
   explicit Bench(const std::filesystem::path& folder) : workspace_(queue_, options(folder / "journal")) {
     VolumeParams params;
-    params.renderer = VolumeRendererName::cpu;
+    params.renderer = RendererChoice::cpu;
     workspace_.volume.assign(params);
     workspace_.document.open({folder / "raw"});
     workspace_.document.settle();

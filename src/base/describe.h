@@ -34,14 +34,22 @@ struct FieldInfo {
   double max = std::numeric_limits<double>::infinity();
   std::string_view text = {};  ///< a sentence that can be read alone and says when one would change it
   Tier tier = Tier::expert;
+  /// On a command line, where it is not the name with dashes; of a switch that is on, what turns it off.
+  std::string_view flag = {};
+  std::string_view suits = {};  ///< what it has an effect on, names between blanks; empty = all that its struct is for
 };
+
+/// Flag of a field that no command line has.
+inline constexpr std::string_view kNoFlag = "-";
 
 /// Of a choice: as FieldInfo.
 struct ChoiceInfo {
-  constexpr ChoiceInfo(const char* sentence, Tier whose = Tier::expert)  // NOLINT(google-explicit-constructor)
-      : text(sentence), tier(whose) {}
+  constexpr ChoiceInfo(const char* sentence, Tier whose = Tier::expert,  // NOLINT(google-explicit-constructor)
+                       std::string_view where = {})
+      : text(sentence), tier(whose), suits(where) {}
   std::string_view text;
   Tier tier;
+  std::string_view suits;
 };
 
 using ChoiceNames = std::span<const std::string_view>;

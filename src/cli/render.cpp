@@ -120,9 +120,10 @@ void add_render(CLI::App& app, VerbRunner& run) {
   add_render_options(*verb, *arguments);
   verb->callback([arguments, verb, &run] {
     if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");
-    if (const auto unsuited = unsuited_option(*verb, arguments->kind)) {
+    if (const auto unsuited = unsuited_option(*verb, *arguments)) {
       throw CLI::ValidationError(unsuited->option, unsuited->why);
     }
+    settle_options(*verb, *arguments);
     run = [arguments] { return render_verb(*arguments); };
   });
 }

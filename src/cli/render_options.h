@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "cli/described_flags.h"
 #include "publish/picture_options.h"
 
 namespace sonar {
@@ -28,24 +29,12 @@ struct RenderArguments {
 
   std::string size = "1200x900";
   double scale = 1.0;
-  std::string map = "ek500";
   bool filtered = false;
   bool unfiltered = false;
-  std::string removed = "shown";
-  std::string weak = "shown";
-  double weak_db = 3.0;
-  std::optional<double> low_db;
-  std::optional<double> span_db;
   std::string transfer;
-  std::string plane_through;
-  std::string plane_point;
-  std::string plane_normal;
-  std::string eye;
-  std::string target;
-  std::string mode = "accumulate";
-  std::string renderer = "auto";
   std::string schools;
   PictureOptions picture;
+  std::vector<DescribedFlags::Made> suits;  ///< of every option that not all kinds have a use for
 };
 
 /// Adds every option of the verb, in groups.
@@ -55,8 +44,12 @@ struct UnsuitedOption {
   std::string option;
   std::string why;  ///< with the kinds of picture that it suits
 };
-/// The first option given that has no effect on this kind of picture; none where all suit.
-[[nodiscard]] std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const std::string& kind);
+/// The first option given that has no effect on this picture; none where all suit.
+[[nodiscard]] std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const RenderArguments& arguments);
+
+/// What follows from which options were given, once all are known: the plane and the looks that are meant.
+/// errors  throws CLI::ValidationError, as the parser does
+void settle_options(const CLI::App& verb, RenderArguments& arguments);
 
 /// The texts turned into values.
 /// errors  usage, naming the option and what was expected; as read_transfer_function()

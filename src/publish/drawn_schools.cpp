@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "model/school_totals.h"
@@ -13,9 +14,20 @@
 
 namespace sonar {
 
-bool wanted(std::int64_t school_id, const PictureOptions& options) {
+namespace {
+
+bool wanted(std::int64_t school_id, std::string_view status, const PictureOptions& options) {
+  if (status == "rejected" && !options.display.rejected) return false;
   return options.schools.empty() ||
          std::find(options.schools.begin(), options.schools.end(), school_id) != options.schools.end();
+}
+
+}  // namespace
+
+bool wanted(const ObservationProduct& product, std::int64_t school_id, const PictureOptions& options) {
+  const auto row = std::find_if(product.schools.begin(), product.schools.end(),
+                                [school_id](const SchoolRow& r) { return r.school_id == school_id; });
+  return wanted(school_id, row == product.schools.end() ? std::string_view() : row->status, options);
 }
 
 Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options) {
@@ -27,9 +39,9 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
                 fmt::format("no ping {} in {}: it has pings 0 to {}", *options.ping, observation.name(), count - 1));
   }
   std::int64_t first = count;
-  if (options.masks) {
+  if (options.display.masks) {
     for (const SchoolMask& mask : observation.product().masks) {
-      if (wanted(mask.school_id, options)) first = std::min(first, mask.ping_index);
+      if (wanted(observation.product(), mask.school_id, options)) first = std::min(first, mask.ping_index);
     }
   }
   return first < count ? first : count / 2;
@@ -45,9 +57,9 @@ Rgba8 colour_of(const DrawnMask& drawn, const PictureOptions& options) {
 
 std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<SchoolKey> keys;
-  if (!options.masks) return keys;
+  if (!options.display.masks) return keys;
   for (const DrawnMask& drawn : ping.masks) {
-    if (!wanted(drawn.school_id, options)) continue;
+    if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const char* comma = drawn.status.empty() ? "" : ", ";
     keys.push_back(
         {colour_of(drawn, options), drawn.status, fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status)});
@@ -57,9 +69,9 @@ std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& 
 
 std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<MaskLayer> layers;
-  if (!options.masks) return layers;
+  if (!options.display.masks) return layers;
   for (const DrawnMask& drawn : ping.masks) {
-    if (!wanted(drawn.school_id, options)) continue;
+    if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const Rgba8 colour = colour_of(drawn, options);
     const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
     layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}, status_line(drawn.status)});
@@ -70,7 +82,7 @@ std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& 
 std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,
                                        std::int64_t ping_index, const PictureOptions& options) {
   const ObservationProduct& product = observation.product();
-  if (!options.refused || !product.grid) return {};
+  if (!options.display.refused_echoes || !product.grid) return {};
   return refused_marks(product.rejected, ping_index, product.grid->grid, sector);
 }
 
@@ -106,12 +118,12 @@ void hang_together(std::span<ObservationProduct> products, const PictureOptions&
   const std::vector<int> chains = chains_of(std::vector<const SchoolRow*>(rows.begin(), rows.end()));
   std::map<int, SchoolRow*> heads;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!wanted(rows[i]->school_id, options)) continue;
+    if (!wanted(rows[i]->school_id, rows[i]->status, options)) continue;
     SchoolRow*& head = heads[chains[i]];
     if (head == nullptr || (rows[i]->continues.empty() && !head->continues.empty())) head = rows[i];
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!wanted(rows[i]->school_id, options)) continue;
+    if (!wanted(rows[i]->school_id, rows[i]->status, options)) continue;
     const SchoolRow* head = heads[chains[i]];
     rows[i]->continues = rows[i] == head ? std::string{} : school_name(head->observation, head->school_id);
   }
@@ -122,11 +134,13 @@ void hang_together(std::span<ObservationProduct> products, const PictureOptions&
 std::vector<ObservationProduct> with_chosen_schools(std::vector<ObservationProduct> products,
                                                     const PictureOptions& options) {
   hang_together(products, options);
-  const auto unwanted = [&](std::int64_t id) { return !options.masks || !wanted(id, options); };
   for (ObservationProduct& chosen : products) {
-    std::erase_if(chosen.schools, [&](const SchoolRow& row) { return unwanted(row.school_id); });
-    std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
+    const auto unwanted = [&](std::int64_t id) { return !options.display.masks || !wanted(chosen, id, options); };
     std::erase_if(chosen.masks, [&](const SchoolMask& mask) { return unwanted(mask.school_id); });
+    std::erase_if(chosen.school_pings, [&](const SchoolPingRow& row) { return unwanted(row.school_id); });
+    std::erase_if(chosen.schools, [&](const SchoolRow& row) {
+      return !options.display.masks || !wanted(row.school_id, row.status, options);
+    });
   }
   return products;
 }

@@ -8,11 +8,12 @@
 
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
+#include "view/refused_marks.h"
 
 namespace sonar {
 
-/// Whether the options ask for a school.
-[[nodiscard]] bool wanted(std::int64_t school_id, const PictureOptions& options);
+/// Whether the options ask for a school of an observation.
+[[nodiscard]] bool wanted(const ObservationProduct& product, std::int64_t school_id, const PictureOptions& options);
 
 /// The ping to draw: the one asked for, else the first with a school that is drawn, else the middle one.
 /// errors  usage: no such ping

@@ -128,7 +128,8 @@ Result<void> LiveVolume::State::set(const LiveVolumeInput& input, bool outlined)
     masks_set = false;
     if (auto done = renderer.set_volume(volume); !done) return done;
   }
-  if (!table || !(drawn.options.transfer == options.transfer) || !(drawn.options.scale == options.scale)) {
+  if (!table || !(drawn.options.transfer == options.transfer) ||
+      !(drawn.options.display.scale == options.display.scale)) {
     auto made = volume_table(options);
     if (!made) return pass_on(made);
     table = std::make_shared<const OpticalTable>(std::move(*made));
@@ -141,9 +142,9 @@ Result<void> LiveVolume::State::set(const LiveVolumeInput& input, bool outlined)
     masks_outlined = outlined;
   }
   drawn = input;
-  if (!refinement || budget_s != input.moving_budget_s || frames != options.frames) {
+  if (!refinement || budget_s != input.moving_budget_s || frames != options.volume.frames) {
     budget_s = input.moving_budget_s;
-    frames = options.frames;
+    frames = options.volume.frames;
     refinement.emplace(renderer,
                        RefinementParams{.moving_budget_s = budget_s, .most_frames = frames, .pace_s = kFirstPace_s});
   }
@@ -158,8 +159,8 @@ void LiveVolume::State::draw_context(const VolumeFigure& figure, const LiveVolum
                        place.rays,
                        place.theme,
                        place.scale,
-                       input.options.context,
-                       input.options.ship_length_m,
+                       input.options.volume.context,
+                       input.options.volume.ship_length_m,
                        navigation.transducer_depth_m,
                        heading};
   if (context_key == key && drawn.sector == input.sector) return;
@@ -181,9 +182,10 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
     return done;
   }
   figure.volume = volume;
-  const Camera camera = volume_camera(*input.sector, input.options, place.rays);
-  draw_context(figure, input, place, camera);
-  const VolumeView view = volume_view(figure, input.options, place, camera, context);
+  const auto camera = volume_camera(*input.sector, input.options, place.rays);
+  if (!camera) return pass_on(camera);
+  draw_context(figure, input, place, *camera);
+  const VolumeView view = volume_view(figure, input.options, place, *camera, context);
   const std::vector<MaskLayer> met(
       input.masks.begin(), input.masks.end() - static_cast<std::ptrdiff_t>(std::min(input.tried, input.masks.size())));
   PictureOptions labelled = input.options;
@@ -228,7 +230,7 @@ LiveVolume::~LiveVolume() { state_->let_go(); }
 Result<void> LiveVolume::draw(const LiveVolumeInput& input, const CancelToken& token, Work& better, const Show& show) {
   const auto place = volume_place(input.options, input.scale);
   if (!place) return pass_on(place);
-  if (auto begun = state_->begin(input.options.renderer); !begun) return begun;
+  if (auto begun = state_->begin(input.options.volume.renderer); !begun) return begun;
   auto done = state_->draw(input, *place, token, better, show);
   if (done || done.error().code == ErrorCode::cancelled || done.error().code == ErrorCode::bad_parameter) return done;
   if (state_->offscreen->context == nullptr) return done;

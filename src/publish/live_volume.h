@@ -17,6 +17,7 @@
 #include "pipeline/stages/engine.h"
 #include "publish/picture_options.h"
 #include "view/frame_description.h"
+#include "view/refused_marks.h"
 #include "view/volume/pick.h"
 
 namespace sonar {

@@ -38,9 +38,9 @@ LiveVolumeInput block_of_echo() {
   input.masks = {{std::move(mask), {1.0F, 0.0F, 1.0F}}};
   input.legend = {{{255, 0, 255, 255}, "school 1"}};
   input.options.size = {400, 300};
-  input.options.frames = 2;
-  input.options.context = false;
-  input.options.renderer = RendererChoice::cpu;
+  input.options.volume.frames = 2;
+  input.options.volume.context = false;
+  input.options.volume.renderer = RendererChoice::cpu;
   return input;
 }
 
@@ -67,7 +67,7 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   const Rgba8 rim = theme_of(input.options).text;
   for (const RayMode mode : {RayMode::maximum, RayMode::first_hit}) {
     LiveVolumeInput with = input;
-    with.options.mode = mode;
+    with.options.volume.mode = mode;
     LiveVolumeInput without = with;
     without.masks.clear();
     without.legend.clear();
@@ -87,7 +87,7 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   // Accumulated, schools are a tint unless lines are asked for.
   LiveVolumeInput tinted = input;
   const Image tint = settled(live, tinted);
-  tinted.options.mask_outline = true;
+  tinted.options.volume.mask_outline = true;
   EXPECT_NE(settled(live, tinted), tint);
 }
 
@@ -96,7 +96,7 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
 TEST(LiveVolume, OutlinesAFewSchoolsWhileSomethingMoves) {
   LiveVolume live;
   LiveVolumeInput input = block_of_echo();
-  input.options.mode = RayMode::maximum;
+  input.options.volume.mode = RayMode::maximum;
   input.moving_budget_s = 1e-9;
   const Rgba8 colour{255, 0, 255, 255};
   const auto lines = [&](const Image& image) {

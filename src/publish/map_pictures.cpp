@@ -21,7 +21,7 @@ namespace {
 /// Schools in their own colours, rejected ones grey.
 MaskPalette palette_of(const ObservationProduct& product, const PictureOptions& options) {
   MaskPalette palette;
-  palette.core_at = static_cast<double>(options.mask_style.core_at);
+  palette.core_at = options.display.core_at;
   palette.rejected.assign(MaskMosaic::kSchools, false);
   for (const SchoolRow& school : product.schools) {
     palette.rejected[static_cast<std::size_t>(school.school_id) % palette.rejected.size()] =
@@ -37,7 +37,7 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const auto ping = chosen_ping(observation, options);
   if (!ping) return pass_on(ping);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
-  auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.refused);
+  auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.display.refused_echoes);
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
   base->left_out = static_cast<std::size_t>(school_count(observation.product()) - school_count(product));
@@ -46,7 +46,7 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const PingNavigation& current = product.pings[static_cast<std::size_t>(*ping)];
   add_map_schools(frame, *base, map_schools(product),
                   current.has_position() ? base->map.at(current.transducer) : std::nullopt);
-  if (options.refused) add_map_refused(frame, *base, product.rejected);
+  if (options.display.refused_echoes) add_map_refused(frame, *base, product.rejected);
   return frame;
 }
 
@@ -59,14 +59,15 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
   PropagationStyle style;
   style.dates = true;
-  style.before = style.after = options.neighbours;
-  style.aspect = options.side_view ? MaskAspect::side : MaskAspect::above;
-  style.palette.core_at = static_cast<double>(options.mask_style.core_at);
+  style.before = style.after = options.kind.propagation.neighbours;
+  style.aspect = options.kind.propagation.side_view ? MaskAspect::side : MaskAspect::above;
+  style.palette.core_at = options.display.core_at;
   auto panels = propagation_panels(product, *ping, style, observation.has_product());
   for (PropagationPanel& panel : panels) {
     const auto& masks = observation.product().masks;
     panel.left_out = std::any_of(masks.begin(), masks.end(), [&](const SchoolMask& mask) {
-      return mask.ping_index == panel.ping_index && !(options.masks && wanted(mask.school_id, options));
+      return mask.ping_index == panel.ping_index &&
+             !(options.display.masks && wanted(observation.product(), mask.school_id, options));
     });
   }
   return propagation_view(*sector, panels, style, options.size, theme_of(options), observation.title());
@@ -92,8 +93,8 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
     outlines[static_cast<std::size_t>(i)] = map_outlines(products[static_cast<std::size_t>(i)]);
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-  style.sv_low_db = options.scale.low_db;
-  style.sv_high_db = options.scale.high_db();
+  style.sv_low_db = options.display.scale.low_db;
+  style.sv_high_db = options.display.scale.high_db();
   style.unsearched = static_cast<int>(std::count_if(observations.begin(), observations.end(),
                                                     [](const DrawnObservation& o) { return !o.has_product(); }));
   std::optional<DepthGrid> depths;

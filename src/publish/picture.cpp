@@ -45,7 +45,7 @@ std::string time_of(const std::vector<DrawnObservation*>& observations) {
 Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
                                                 const PictureOptions& options) {
   std::vector<DrawnObservation*> drawn;
-  if (kind == PictureKind::survey_map || (kind == PictureKind::timeline && options.whole_survey)) {
+  if (kind == PictureKind::survey_map || (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
     for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
     return drawn;
   }
@@ -66,6 +66,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
 
 Result<FrameDescription> picture_frame(PictureKind kind, PictureSource& source, const std::string& observation,
                                        const PictureOptions& options, Work& work) {
+  if (auto valid = validate_options(options); !valid) return pass_on(valid);
   const auto drawn = drawn_of(kind, source, observation, options);
   if (!drawn) return pass_on(drawn);
   auto frame = frame_of(kind, source, *drawn, options, work);

@@ -5,108 +5,46 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "model/transfer_function.h"
-#include "view/slices/slice_picture.h"
-#include "view/sv_scale.h"
+#include "publish/picture_kind.h"
+#include "publish/picture_params.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
-#include "view/volume/context_scene.h"
-#include "view/volume/volume_scene.h"
 
 namespace sonar {
 
-/// The kinds of picture, in the order of picture_kinds().
-enum class PictureKind : std::uint8_t {
-  slice_top,
-  slice_side,
-  slice_range,
-  slice_plane,
-  volume,
-  propagation,
-  observation_map,
-  survey_map,
-  timeline,
-};
-
-struct PictureKindInfo {
-  std::string_view name;
-  std::string_view text;
-};
-[[nodiscard]] std::span<const PictureKindInfo> picture_kinds();
-
-/// Which back-end draws volumes.
-enum class RendererChoice : std::uint8_t {
-  automatic,  ///< OpenGL where it is a real GPU's, else the processor
-  cpu,
-  gl,
-};
-
-/// Where a plane slice lies; the first that is given counts.
-struct PlaneChoice {
-  std::optional<double> depth_m;                 ///< horizontal, below the sea surface
-  std::optional<double> bearing_deg;             ///< vertical through the sonar, true where the heading is known
-  std::optional<std::array<double, 4>> through;  ///< vertical through two places, x y x y, m (bow, starboard)
-  std::optional<std::array<double, 6>> oblique;  ///< a point and a normal, x y z x y z, m (bow, starboard, down)
-};
+/// Every sample with its own value, nothing marked but schools; a window begins otherwise.
+[[nodiscard]] inline DisplayParams plain_display() {
+  DisplayParams display;
+  display.removed = display.weak = NoiseLook::shown;
+  display.refused_echoes = false;
+  return display;
+}
 
 /// Everything that a picture depends on beside its source. What a kind does not know it passes over.
 struct PictureOptions {
   PixelSize size{1200, 900};
   bool dark = false;
-  SvScale scale;
-  bool limits_given = false;  ///< scale's limits are a choice: kinds with limits of their own take them too
+  DisplayParams display = plain_display();
+  bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
   std::optional<int> ping;                   ///< empty = the first with a school, else the middle one
   std::vector<std::int64_t> schools;         ///< empty = all
-  bool masks = true;
-  bool refused = false;          ///< echoes that the product tells as refused are marked; not in strips and survey maps
-  std::optional<bool> filtered;  ///< noise removed; empty = in volumes yes, in slices no
-  bool north_up = false;
-
-  // slices
-  std::optional<int> fan;  ///< empty = through the largest school, else the middle
+  std::optional<int> fan;                    ///< of slices; empty = through the largest school, else the middle
   std::optional<int> beam;
-  std::optional<double> range_m;
-  PlaneChoice plane;
-  FlagStyle flags;  ///< none: each cell with its own value; else the picture has a key of what is drawn otherwise
-  bool grid_lines = false;
-  std::optional<double>
-      weak_below_db;  ///< samples with less signal-to-noise carry low_snr; empty = none do. Volumes too
-
-  /// Samples that were taken out for these reasons alone are shown as recorded. Volumes too
-  SampleFlags put_back = SampleFlags::none;
-
-  // volumes
-  SampleFlags left_out = kNotFiltered | SampleFlags::low_snr;  ///< samples with one of these are not drawn
-  std::optional<Camera> camera;                                ///< empty = an overview
-  double orbit_deg = 0.0;                                      ///< added to the camera: azimuth about its target
-  double rise_deg = 0.0;                                       ///< and elevation
-  double zoom = 1.0;                                           ///< above 1 = nearer
-  RayMode mode = RayMode::accumulate;
-  double first_hit_db = -50.0;
-  bool lighting = false;
-  MaskStyle mask_style;
-  bool mask_outline = false;  ///< schools as outlines, not as a tint; maximum and first hit always have outlines
-  int table_entries = kMostTableEntries;
-  int frames = 8;        ///< jittered frames that are averaged; 0 = one plain frame
-  double seconds = 0.0;  ///< no new frame is begun after this time; 0 = no limit
-  RendererChoice renderer = RendererChoice::automatic;
-  bool context = true;  ///< sector frame, rings, sea surface, ship, axes
-  double ship_length_m = 60.0;
+  VolumeParams volume;
+  std::optional<Camera> camera;        ///< in place of the one that `kind` names
+  PictureParams kind;                  ///< what is asked for one kind alone
   std::filesystem::path depth_raster;  ///< seabed of volumes and maps; empty = none
-
-  // propagation, maps, timeline
-  int neighbours = 2;         ///< pings before and after
-  bool side_view = false;     ///< propagation: from the side instead of from above
-  bool along_log = false;     ///< timeline: against the log instead of time
-  bool maximum = false;       ///< timeline: maximum over beams instead of mean
-  bool whole_survey = false;  ///< timeline: all observations
 };
+
+/// Refuses what no picture can be made of, before anything is read.
+/// scale   pixels of the file per pixel of the size
+/// errors  bad_parameter: out of range, too many pixels, places that are no numbers or make no plane or camera
+[[nodiscard]] Result<void> validate_options(const PictureOptions& options, double scale = 1.0);
 
 [[nodiscard]] Theme theme_of(const PictureOptions& options);
 /// The view curve: the transfer function given, else the scale's.
@@ -114,5 +52,20 @@ struct PictureOptions {
 [[nodiscard]] Result<TransferFunction> view_curve(const PictureOptions& options);
 /// Colours of slices and timelines.
 [[nodiscard]] SvColours colours_of(const PictureOptions& options);
+/// How schools look in volumes.
+[[nodiscard]] MaskStyle mask_style(const DisplayParams& display, const VolumeParams& volume);
+
+/// A plane through the water, m (bow, starboard, down).
+struct PlanePlaces {
+  std::array<double, 4> through{};  ///< two places on it, x y x y
+  std::array<double, 3> point{};
+  std::array<double, 3> normal{};
+};
+/// The places that a plane's texts name.
+/// errors  bad_parameter: no numbers
+[[nodiscard]] Result<PlanePlaces> places_of(const PlaneSliceParams& params);
+/// The camera that is named; empty where none is.
+/// errors  bad_parameter: no numbers, an eye without a target, both in one place
+[[nodiscard]] Result<std::optional<Camera>> named_camera(const CameraParams& params);
 
 }  // namespace sonar

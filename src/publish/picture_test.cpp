@@ -15,6 +15,7 @@
 #include "base/test_paths.h"
 #include "io/depth_raster.h"
 #include "io/product_example.h"
+#include "publish/sample_looks.h"
 
 namespace sonar {
 namespace {
@@ -35,8 +36,8 @@ class Pictures : public testing::Test {
     example::add_school(product, 2, 2, 4, example::block(0, 0, 3, 40, 5));
     source_ = PictureSource::of(nullptr, {product}, Recipe{});
     options_.size = kSize;
-    options_.frames = 0;
-    options_.renderer = RendererChoice::cpu;
+    options_.volume.frames = 0;
+    options_.volume.renderer = RendererChoice::cpu;
   }
   Result<FrameDescription> picture(PictureKind kind, const std::string& observation = "") {
     return picture_frame(kind, *source_, observation, options_, work_);
@@ -97,9 +98,12 @@ TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
       slice_top, "obs-0009", [](PictureOptions&) {}, "obs-0009");
   refused(slice_top, "no fan 3", [](PictureOptions& o) { o.fan = 3; });
   refused(slice_side, "no beam 4", [](PictureOptions& o) { o.beam = 4; });
-  refused(slice_range, "900", [](PictureOptions& o) { o.range_m = 900.0; });
-  refused(slice_plane, "does not meet", [](PictureOptions& o) { o.plane.depth_m = 900.0; });
-  refused(volume, "pixels", [](PictureOptions& o) { o.size = {40, 30}; });
+  refused(slice_range, "900", [](PictureOptions& o) { o.kind.slice_range.range_m = 900.0; });
+  refused(slice_plane, "does not meet", [](PictureOptions& o) {
+    o.kind.slice_plane.plane = PlaneLies::horizontal;
+    o.kind.slice_plane.depth_m = 900.0;
+  });
+  refused(volume, "width_px = 40", [](PictureOptions& o) { o.size = {40, 30}; });
   for (const PictureKind kind : {volume, survey_map}) {
     refused(kind, "no such depth raster", [](PictureOptions& o) { o.depth_raster = "nowhere.tif"; });
   }
@@ -120,8 +124,8 @@ TEST_F(Pictures, WhyThereIsNoGridIsSaid) {
 
 // The default draws every cell with its own value; what is asked for beside that is said in a key.
 TEST_F(Pictures, SlicesArePlainAndNameTheirSchools) {
-  EXPECT_EQ(PictureOptions{}.flags, FlagStyle{});
-  EXPECT_FALSE(PictureOptions{}.weak_below_db);
+  EXPECT_EQ(flag_style(PictureOptions{}.display), FlagStyle{});
+  EXPECT_FALSE(weak_below(PictureOptions{}.display));
   options_.ping = 2;
   options_.fan = 0;  // where school 2 is; school 1 is in the next one
   EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Not(testing::Contains("school 1, unreviewed")));
@@ -131,8 +135,8 @@ TEST_F(Pictures, SlicesArePlainAndNameTheirSchools) {
   EXPECT_THAT(plain, testing::Contains("school 1, unreviewed"));
   EXPECT_THAT(plain, testing::Not(testing::Contains("school 2, unreviewed")));
   EXPECT_THAT(plain, testing::Not(testing::Contains(testing::HasSubstr("near field"))));
-  options_.flags.faded = SampleFlags::near_field;
-  EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Contains("faded: near field"));
+  options_.display.removed = NoiseLook::hatched;
+  EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Contains("faded: near field, surface, seabed"));
   options_.schools = {2};
   EXPECT_THAT(texts(*picture(PictureKind::slice_top)), testing::Not(testing::Contains("school 1, unreviewed")));
 }
@@ -220,7 +224,7 @@ TEST_F(Pictures, AVolumeSaysHowMuchOfTheSeabedIsKnown) {
 
 // Masks alone of a ping that has none would be an empty frame: it says why it is empty.
 TEST_F(Pictures, MasksAloneOfAPingWithoutASchoolSaySo) {
-  options_.mask_style.data_too = false;
+  options_.volume.data = false;
   options_.schools = {1};
   options_.ping = 2;
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Not(testing::Contains(testing::StartsWith("no masks"))));
@@ -232,14 +236,14 @@ TEST_F(Pictures, AVolumesLegendNamesCoreAndFuzzyAreaAndTheSchools) {
   options_.ping = 2;
   EXPECT_THAT(texts(*picture(PictureKind::volume)),
               testing::IsSupersetOf({"core, confidence 0.64 and more", "fuzzy area", "school 1, unreviewed"}));
-  options_.masks = false;
+  options_.display.masks = false;
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Not(testing::Contains("fuzzy area")));
 }
 
 // The heading is known: it is 0.
 TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools; true bearings"));
-  options_.context = false;
+  options_.volume.context = false;
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools"));
 }
 

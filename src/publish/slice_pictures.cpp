@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/drawn_schools.h"
+#include "publish/sample_looks.h"
 #include "view/school_look.h"
 
 namespace sonar {
@@ -28,8 +29,8 @@ struct Chosen {
 /// What of the picture is not as recorded, and the schools in it.
 SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
   SliceKey key;
-  key.filtered = ping.staged != nullptr && options.filtered.value_or(false);
-  key.weak_below_db = options.weak_below_db;
+  key.filtered = ping.staged != nullptr && options.display.filtered;
+  key.weak_below_db = weak_below(options.display);
   // Keys and masks are in one order.
   for (const SchoolKey& school : school_keys(ping, options)) {
     key.schools.push_back({school.colour, status_line(school.status), school.name, key.schools.size()});
@@ -39,36 +40,48 @@ SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
 
 Result<Slice> range_slice(const Chosen& chosen) {
   const RangeAxis& range = chosen.sector.range();
-  if (!chosen.options.range_m) return Slice{RangeSlice{chosen.school ? chosen.school->sample : range.count / 2}};
-  const double sample = std::round(range.sample_at(*chosen.options.range_m));
+  const double range_m = chosen.options.kind.slice_range.range_m;
+  if (range_m == 0.0) return Slice{RangeSlice{chosen.school ? chosen.school->sample : range.count / 2}};
+  const double sample = std::round(range.sample_at(range_m));
   if (!(sample >= 0 && sample <= range.count - 1)) {
-    return fail(ErrorCode::usage,
-                fmt::format("no samples at a range of {} m: they reach from {:.2f} to {:.2f} m",
-                            *chosen.options.range_m, range.range_m(0), range.range_m(range.count - 1)));
+    return fail(ErrorCode::usage, fmt::format("no samples at a range of {} m: they reach from {:.2f} to {:.2f} m",
+                                              range_m, range.range_m(0), range.range_m(range.count - 1)));
   }
   return Slice{RangeSlice{static_cast<int>(sample)}};
 }
 
-Result<Slice> plane_slice(const Chosen& chosen) {
-  const PlaneChoice& plane = chosen.options.plane;
-  const double depth = chosen.navigation.transducer_depth_m;
-  if (plane.depth_m) return Slice{horizontal_plane(*plane.depth_m, depth)};
-  if (plane.bearing_deg) return Slice{vertical_plane(rad_from_deg(*plane.bearing_deg) - chosen.heading_rad())};
-  if (plane.through) {
-    const auto& t = *plane.through;
-    const auto made = vertical_plane({t[0], t[1], 0.0}, {t[2], t[3], 0.0});
-    return made ? Result<Slice>(Slice{*made}) : pass_on(made);
-  }
-  if (plane.oblique) {
-    const auto& o = *plane.oblique;
-    const auto made = oblique_plane({o[0], o[1], o[2]}, {o[3], o[4], o[5]});
-    return made ? Result<Slice>(Slice{*made}) : pass_on(made);
-  }
-  // Through the school, or half way out: what one would look at first.
+/// Through the school, or half way out: what one would look at first.
+Slice plane_of_school(const Chosen& chosen) {
   const Sector& s = chosen.sector;
   const Point<Sonar> at = chosen.school ? s.centre(chosen.school->fan, chosen.school->beam, chosen.school->sample)
                                         : s.centre(s.fans() / 2, s.beams() / 2, s.range().count / 2);
+  const double depth = chosen.navigation.transducer_depth_m;
   return Slice{horizontal_plane(at.z + depth, depth)};
+}
+
+Result<Slice> plane_slice(const Chosen& chosen) {
+  const PlaneSliceParams& params = chosen.options.kind.slice_plane;
+  const auto places = places_of(params);
+  if (!places) return pass_on(places);
+  const auto slice = [](const auto& made) { return made ? Result<Slice>(Slice{*made}) : pass_on(made); };
+  switch (params.plane) {
+    case PlaneLies::through_school:
+      break;
+    case PlaneLies::horizontal:
+      return Slice{horizontal_plane(params.depth_m, chosen.navigation.transducer_depth_m)};
+    case PlaneLies::along_bearing:
+      return Slice{vertical_plane(rad_from_deg(params.bearing_deg) - chosen.heading_rad())};
+    case PlaneLies::through_places: {
+      const auto& t = places->through;
+      return slice(vertical_plane({t[0], t[1], 0.0}, {t[2], t[3], 0.0}));
+    }
+    case PlaneLies::oblique: {
+      const auto& p = places->point;
+      const auto& n = places->normal;
+      return slice(oblique_plane({p[0], p[1], p[2]}, {n[0], n[1], n[2]}));
+    }
+  }
+  return plane_of_school(chosen);
 }
 
 Result<Slice> slice_of(PictureKind kind, const Chosen& chosen) {
@@ -104,18 +117,18 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   const Array3<std::int16_t> nothing(ping->staged ? Shape3{} : shape, kNoData);
   SliceData data;
   Array3<SampleFlags> flags;
-  Array3<std::int16_t> put_back;
+  Array3<std::int16_t> restored;
   if (ping->staged) {
-    const Volume& volume = options.filtered.value_or(false) ? *ping->staged->filtered : ping->staged->sv;
-    data.sv = volume.counts.view();
-    if (options.filtered.value_or(false) && any(options.put_back)) {
-      put_back = counts_put_back(*ping->staged, options.put_back);
-      data.sv = View3<const std::int16_t>(put_back.view());
+    const DisplayParams& display = options.display;
+    data.sv = (display.filtered ? *ping->staged->filtered : ping->staged->sv).counts.view();
+    if (const SampleFlags reasons = put_back(display); display.filtered && any(reasons)) {
+      restored = counts_put_back(*ping->staged, reasons);
+      data.sv = View3<const std::int16_t>(restored.view());
     }
     data.flags = ping->staged->filtered->flags.view();
-    if (options.weak_below_db) {
+    if (const auto below_db = weak_below(display)) {
       flags = Array3<SampleFlags>(data.flags.shape());
-      flag_weak(*ping->staged, *options.weak_below_db, flags.view());
+      flag_weak(*ping->staged, *below_db, flags.view());
       data.flags = View3<const SampleFlags>(flags.view());
     }
   } else {
@@ -130,18 +143,13 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   titled.heading_rad = rad_from_deg(ping->navigation.heading_deg);
   titled.transducer_depth_m = ping->navigation.transducer_depth_m;
   titled.frequency_hz = observation.frequency_hz();
-  SliceView view{*slice, options.north_up ? -chosen.heading_rad() : 0.0, std::nullopt};
+  SliceView view{*slice, options.display.north_up ? -chosen.heading_rad() : 0.0, std::nullopt};
   SliceStyle style;
   style.colours = colours_of(options);
-  style.flags = options.flags;
-  if (ping->staged && options.filtered.value_or(false)) {
-    // The median passes over flagged samples and keeps what they held: taken out means not drawn, as in volumes.
-    const auto taken_out = static_cast<unsigned>(options.left_out & kNotFiltered);
-    style.flags.hidden |= static_cast<SampleFlags>(taken_out & ~static_cast<unsigned>(options.put_back));
-  }
-  style.masks.core_at = static_cast<double>(options.mask_style.core_at);
-  style.grid = options.grid_lines;
-  style.north_up = options.north_up;
+  style.flags = flag_style(options.display);
+  style.masks.core_at = options.display.core_at;
+  style.grid = options.display.grid_lines;
+  style.north_up = options.display.north_up;
   style.key = slice_key_of(*ping, options);
   auto picture = slice_picture(*sector, data, titled, view, style, theme_of(options), options.size);
   if (!picture) return pass_on(picture);

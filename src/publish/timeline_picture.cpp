@@ -80,7 +80,7 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
     // Among several observations those without a grid have nothing to show; alone they are told about.
     const bool drawable = !observation->has_raw() || observation->engine() != nullptr;
     if (!drawable && observations.size() > 1) continue;
-    auto made = echogram(*observation, options.filtered.value_or(false), level, work);
+    auto made = echogram(*observation, options.display.filtered, level, work);
     if (observation->engine() != nullptr) observation->engine()->rest();
     if (!made) return pass_on(made);
     echograms.push_back(std::move(*made));
@@ -90,25 +90,25 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
   std::vector<TimelineObservation> drawn;
   for (std::size_t i = 0; i < products.size(); ++i) {
     TimelineObservation& one = drawn.emplace_back(TimelineObservation{&products[i], echograms[i].get()});
-    if (options.refused) one.refused = products[i].rejected;
+    if (options.display.refused_echoes) one.refused = products[i].rejected;
   }
   TimelineStyle style;
-  style.value = options.maximum ? EchogramValue::maximum : EchogramValue::mean;
-  style.axis = options.along_log ? TimelineAxis::log : TimelineAxis::time;
-  style.schools = options.masks;
-  style.filtered = options.filtered.value_or(false);
+  style.value = options.kind.timeline.maximum ? EchogramValue::maximum : EchogramValue::mean;
+  style.axis = options.kind.timeline.along_log ? TimelineAxis::log : TimelineAxis::time;
+  style.schools = options.display.masks;
+  style.filtered = options.display.filtered;
   style.searched =
       std::any_of(observations.begin(), observations.end(), [](const DrawnObservation* o) { return o->has_product(); });
   // Means over all beams are weaker than a beam's own Sv: the timeline has limits of its own unless some were chosen.
   if (options.transfer) {
-    style.scale = sv_scale(*options.transfer, options.scale.map);
+    style.scale = sv_scale(*options.transfer, options.display.scale.map);
   } else if (options.limits_given) {
-    style.scale = options.scale;
-  } else if (options.maximum) {
+    style.scale = options.display.scale;
+  } else if (options.kind.timeline.maximum) {
     style.scale = SvScale{};  // a beam's own Sv, as in slices
   }
-  style.scale.map = options.scale.map;
-  style.scale.threshold_db = options.scale.threshold_db;
+  style.scale.map = options.display.scale.map;
+  style.scale.threshold_db = options.display.scale.threshold_db;
   return timeline(drawn, style, options.size, theme_of(options));
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
+#include "publish/sample_looks.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/time_text.h"
@@ -40,19 +41,19 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
                       bool data_too) {
   std::string line = "masks of schools";
   if (data_too) {
-    line = options.filtered.value_or(true) ? "noise removed" : "as recorded";
-    if (options.mode == RayMode::accumulate) line += ", accumulated";
-    if (options.mode == RayMode::maximum) line += ", maximum along each ray";
-    if (options.mode == RayMode::first_hit) {
-      line += fmt::format(", surface at {}{:g} dB", options.first_hit_db < 0.0 ? "\u2212" : "",
-                          std::abs(options.first_hit_db));
+    line = options.volume.filtered ? "noise removed" : "as recorded";
+    if (options.volume.mode == RayMode::accumulate) line += ", accumulated";
+    if (options.volume.mode == RayMode::maximum) line += ", maximum along each ray";
+    if (options.volume.mode == RayMode::first_hit) {
+      line += fmt::format(", surface at {}{:g} dB", options.volume.first_hit_db < 0.0 ? "\u2212" : "",
+                          std::abs(options.volume.first_hit_db));
     }
-    if (options.lighting) line += ", lit";
+    if (options.volume.lighting) line += ", lit";
   }
   if (figure.seabed && known_percent(*figure.seabed) < 100) {
     line += fmt::format("; depths known of {} % of the seabed", known_percent(*figure.seabed));
   }
-  if (options.context) {
+  if (options.volume.context) {
     line += std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings";
   }
   if (figure.seabed) {
@@ -124,18 +125,20 @@ class SchoolLegend {
 void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
                        const PixelRect& place, const Theme& theme) {
   constexpr std::size_t kMostEntries = 12;
-  const bool schools = options.masks && !figure.legend.empty() && figure.legend.size() <= kMostEntries;
+  const bool schools = options.display.masks && !figure.legend.empty() && figure.legend.size() <= kMostEntries;
   const bool refused = !figure.refused.empty();
   SchoolLegend legend(frame, place, theme, (schools ? figure.legend.size() + 2 : 0) + (refused ? 1 : 0));
   if (refused) legend.mark(kRefusedWords);
   if (!schools) return;
-  const std::string core = fmt::format("core, confidence {:g} and more", options.mask_style.core_at);
+  const std::string core = fmt::format("core, confidence {:g} and more", options.display.core_at);
   if (figure.outlined) {
     legend.outline(true, core);
     legend.outline(false, "fuzzy area");
   } else {
     legend.area(theme.text, core);
-    legend.area(with_alpha(theme.text, static_cast<int>(255.0F * options.mask_style.fuzzy_opacity)), "fuzzy area");
+    legend.area(
+        with_alpha(theme.text, static_cast<int>(255.0F * mask_style(options.display, options.volume).fuzzy_opacity)),
+        "fuzzy area");
   }
   for (const auto& [colour, name] : figure.legend) legend.area(colour, name);
 }
@@ -155,25 +158,25 @@ void add_refused(FrameDescription& frame, const VolumeFigure& figure, const Volu
 
 std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
                                                const PictureOptions& options, double transducer_depth_m) {
-  const bool filtered = options.filtered.value_or(true);
-  Volume shown{!filtered               ? staged.sv.counts
-               : any(options.put_back) ? counts_put_back(staged, options.put_back)
-                                       : staged.filtered->counts,
+  const SampleFlags reasons = put_back(options.display);
+  Volume shown{!options.volume.filtered ? staged.sv.counts
+               : any(reasons)           ? counts_put_back(staged, reasons)
+                                        : staged.filtered->counts,
                staged.filtered->flags};
-  if (options.weak_below_db && any(options.left_out & SampleFlags::low_snr)) {
-    flag_weak(staged, *options.weak_below_db, shown.flags.view());
-  }
-  return std::make_shared<const VolumeData>(volume_data(sector, shown, options.left_out, transducer_depth_m));
+  if (const auto below_db = weak_below(options.display)) flag_weak(staged, *below_db, shown.flags.view());
+  const SampleFlags left_out = left_out_of_volume(options.display);
+  return std::make_shared<const VolumeData>(volume_data(sector, shown, left_out, transducer_depth_m));
 }
 
 bool wants_outlines(const VolumeFigure& figure, const PictureOptions& options) {
-  return (options.mode != RayMode::accumulate || options.mask_outline) && options.mask_style.data_too &&
+  return (options.volume.mode != RayMode::accumulate || options.volume.mask_outline) && options.volume.data &&
          figure.samples && !figure.masks.empty();
 }
 
 bool same_volume(const PictureOptions& a, const PictureOptions& b) {
-  return a.filtered == b.filtered && a.put_back == b.put_back && a.left_out == b.left_out &&
-         a.weak_below_db == b.weak_below_db;
+  return a.volume.filtered == b.volume.filtered && put_back(a.display) == put_back(b.display) &&
+         left_out_of_volume(a.display) == left_out_of_volume(b.display) &&
+         weak_below(a.display) == weak_below(b.display);
 }
 
 Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {
@@ -192,21 +195,25 @@ Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {
   return out;
 }
 
-Camera volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size) {
-  const Camera camera = options.camera ? *options.camera : overview(sector, size);
-  return zoomed(orbited(camera, rad_from_deg(options.orbit_deg), rad_from_deg(options.rise_deg)), 1.0 / options.zoom);
+Result<Camera> volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size) {
+  const CameraParams& params = options.kind.volume;
+  const auto named = named_camera(params);
+  if (!named) return pass_on(named);
+  const Camera from = options.camera ? *options.camera : named->has_value() ? **named : overview(sector, size);
+  return zoomed(orbited(from, rad_from_deg(params.orbit_deg), rad_from_deg(params.rise_deg)), 1.0 / params.zoom);
 }
 
 Result<OpticalTable> volume_table(const PictureOptions& options) {
   const auto curve = view_curve(options);
   if (!curve) return pass_on(curve);
   const double first = curve->points().front().sv_db;
-  auto table = optical_table(*curve, options.table_entries, first, std::max(first + 1.0, curve->points().back().sv_db));
+  auto table =
+      optical_table(*curve, options.volume.table_entries, first, std::max(first + 1.0, curve->points().back().sv_db));
   if (!table) return table;
   // What lies below the analysis threshold is not shown, whatever curve is given.
-  const double step_db = (table->last_db - table->first_db) / (options.table_entries - 1);
+  const double step_db = (table->last_db - table->first_db) / (options.volume.table_entries - 1);
   for (std::size_t i = 0; i < table->rgb_extinction.size(); ++i) {
-    if (table->first_db + step_db * static_cast<double>(i) < options.scale.threshold_db)
+    if (table->first_db + step_db * static_cast<double>(i) < options.display.scale.threshold_db)
       table->rgb_extinction[i][3] = 0.0F;
   }
   return table;
@@ -214,8 +221,9 @@ Result<OpticalTable> volume_table(const PictureOptions& options) {
 
 ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options) {
   ContextParams params;
-  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis = options.context;
-  params.ship_length_m = options.ship_length_m;
+  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis =
+      options.volume.context;
+  params.ship_length_m = options.volume.ship_length_m;
   params.transducer_depth_m = navigation.transducer_depth_m;
   if (const double heading = navigation.heading_deg; !std::isnan(heading)) params.heading_deg = heading;
   return params;
@@ -236,10 +244,10 @@ VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options
   VolumeView view;
   view.camera = camera;
   view.size = place.rays;
-  view.mode = options.mode;
-  view.first_hit_db = options.first_hit_db;
-  view.lighting.on = options.lighting;
-  view.masks = options.mask_style;
+  view.mode = options.volume.mode;
+  view.first_hit_db = options.volume.first_hit_db;
+  view.lighting.on = options.volume.lighting;
+  view.masks = mask_style(options.display, options.volume);
   view.masks.data_too = view.masks.data_too && figure.samples;
   view.opaque_m = context.opaque_m;
   return view;
@@ -253,7 +261,7 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   frame.items.emplace_back(ImageItem{place.rect, std::make_shared<const Image>(between(context, rays, work)), false});
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
   FrameDescription labels{size, theme.background, {}, {}};
-  if (options.context) {
+  if (options.volume.context) {
     OpaqueView opaque{view.size, {}};
     if (view.opaque_m) opaque.metres = *view.opaque_m;
     add_context_labels(labels, figure.sector(), volume_surroundings(figure.navigation, options),

@@ -15,6 +15,8 @@
 #include "render/context_picture.h"
 #include "render/volume_renderer.h"
 #include "view/axes.h"
+#include "view/refused_marks.h"
+#include "view/volume/context_scene.h"
 
 namespace sonar {
 
@@ -57,7 +59,8 @@ struct VolumePlace {
 [[nodiscard]] Result<VolumePlace> volume_place(const PictureOptions& options, double scale = 1.0);
 
 /// The camera asked for, else the overview; orbit, rise and zoom added.
-[[nodiscard]] Camera volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size);
+/// errors  as named_camera()
+[[nodiscard]] Result<Camera> volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size);
 /// The view curve's colours and extinctions. errors: bad_parameter
 [[nodiscard]] Result<OpticalTable> volume_table(const PictureOptions& options);
 /// What stands round the volume, and how it is labelled.

@@ -70,22 +70,22 @@ Result<std::optional<SeabedPatch>> seabed(const VolumeFigure& figure, const Pict
 }
 
 Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const PictureOptions& options, Work& work) {
-  if (options.frames <= 0) return renderer.draw(view, {}, work);
-  Refinement refinement(renderer, {.most_frames = options.frames, .rest_budget_s = options.seconds});
+  if (options.volume.frames <= 0) return renderer.draw(view, {}, work);
+  Refinement refinement(renderer, {.most_frames = options.volume.frames, .rest_budget_s = options.kind.volume.seconds});
   refinement.restart(view);
   for (;;) {
     auto frame = refinement.next(work);
     if (!frame) return pass_on(frame);
     if (frame->done) return std::move(frame->image);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    work.progress("drawing", frame->averaged, options.frames);
+    work.progress("drawing", frame->averaged, options.volume.frames);
   }
 }
 
 Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
   const auto table = volume_table(options);
   if (!table) return pass_on(table);
-  auto offscreen = offscreen_renderer(options.renderer);
+  auto offscreen = offscreen_renderer(options.volume.renderer);
   if (!offscreen) return pass_on(offscreen);
   VolumeRenderer& renderer = *offscreen->renderer;
   if (auto set = renderer.set_volume(figure.volume); !set) return pass_on(set);
@@ -130,9 +130,10 @@ Result<FrameDescription> volume_frame(DrawnObservation& observation, const Pictu
   if (!patch) return pass_on(patch);
   figure->seabed = std::move(*patch);
   figure->outlined = wants_outlines(*figure, options);
-  const Camera camera = volume_camera(figure->sector(), options, place->rays);
-  const ContextPicture context = volume_context(*figure, options, *place, camera, work);
-  const VolumeView view = volume_view(*figure, options, *place, camera, context);
+  const auto camera = volume_camera(figure->sector(), options, place->rays);
+  if (!camera) return pass_on(camera);
+  const ContextPicture context = volume_context(*figure, options, *place, *camera, work);
+  const VolumeView view = volume_view(*figure, options, *place, *camera, context);
   const auto rays = traced(*figure, view, options, work);
   if (!rays) return pass_on(rays);
   return volume_figure_frame(*figure, options, *place, view, context, *rays, work);

@@ -10,6 +10,7 @@
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/volume_renderer.h"
+#include "view/volume/context_scene.h"
 
 namespace sonar {
 

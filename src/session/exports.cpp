@@ -17,7 +17,6 @@
 #include "pipeline/survey/write_survey.h"
 #include "publish/picture.h"
 #include "publish/picture_files.h"
-#include "session/slices/slice_look.h"
 #include "session/survey_schools.h"
 
 namespace sonar {
@@ -196,12 +195,13 @@ void export_as(Workspace& workspace, const std::string& format, const fs::path& 
 }
 
 Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind kind) {
-  const DisplayParams& display = workspace.display.values();
-  const VolumeParams& volume = workspace.volume.values();
   const PictureFileParams& file = workspace.picture_file.values();
   PictureOptions options;
+  options.size = {file.paper.width_px, file.paper.height_px};
   options.dark = workspace.dark();
-  options.scale = display.scale;
+  options.display = workspace.display.values();
+  options.volume = workspace.volume.values();
+  options.kind = file.kind;
   options.limits_given = true;
   if (!workspace.curve_follows_scale()) options.transfer = workspace.view_curve();
   if (workspace.document.shown()) {
@@ -209,31 +209,13 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.fan = workspace.slices().fan;
     options.beam = workspace.slices().beam;
   }
-  options.masks = display.masks;
-  options.refused = display.refused_echoes;
-  options.filtered = kind == PictureKind::volume ? volume.filtered : display.filtered;
-  options.put_back = put_back(display);
-  options.flags = flag_style(display);
-  options.left_out = left_out_of_volume(display);
-  if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;
-  options.north_up = display.north_up;
-  options.grid_lines = display.grid_lines;
-  options.mode = static_cast<RayMode>(volume.mode);
-  options.first_hit_db = volume.first_hit_db;
-  options.lighting = volume.lighting;
-  options.mask_style.core_at = static_cast<float>(display.core_at);
-  options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
-  options.mask_style.data_too = volume.data;
-  options.mask_outline = volume.mask_outline;
-  options.context = volume.context;
-  options.frames = volume.frames;
-  options.renderer = static_cast<RendererChoice>(volume.renderer);
-  options.camera = workspace.camera();
-  options.depth_raster = workspace.depth_raster();
+  if (file.camera_of_window) options.camera = workspace.camera();
+  if (kind != PictureKind::volume || file.seabed) options.depth_raster = workspace.depth_raster();
   if (const auto school = selected_school(workspace); school && file.selected_school_alone) {
     options.schools = {school->name.number};
   }
-  return with(file, kind, std::move(options));
+  if (auto valid = validate_options(options, file.paper.scale); !valid) return pass_on(valid);
+  return options;
 }
 
 namespace {
@@ -242,7 +224,7 @@ Result<PictureJob> picture_job(const Workspace& workspace, PictureKind kind) {
   auto options = picture_options(workspace, kind);
   if (!options) return pass_on(options);
   const PictureFileParams& file = workspace.picture_file.values();
-  return PictureJob{kind, shown_name(workspace), std::move(*options), file.scale, file.frame_s};
+  return PictureJob{kind, shown_name(workspace), std::move(*options), file.paper.scale, file.frame_s};
 }
 
 }  // namespace

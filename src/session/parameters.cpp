@@ -18,8 +18,8 @@ std::string label_of(std::string_view name, std::string_view unit) {
       break;
     }
   }
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kProper{
-      {{"ek500", "EK500"}, {"cpu", "Processor"}, {"gl", "OpenGL"}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kProper{
+      {{"ek500", "EK500"}, {"auto", "Automatic"}, {"cpu", "Processor"}, {"gl", "OpenGL"}}};
   for (const auto& [written, spoken] : kProper) {
     if (name == written) return std::string(spoken);
   }

@@ -39,6 +39,8 @@ struct Property {
   std::string at_min;     ///< what the minimum means, "none"; empty = the number
   /// Where a slider ends, of numbers whose own range helps no hand; at its lower end it gives the minimum.
   std::optional<std::pair<double, double>> slider;
+  std::string suits;   ///< as FieldInfo's
+  bool basic = false;  ///< every user sets it; else an expert does
 };
 
 /// "tolerance_db" with unit "dB" -> "Tolerance": the unit stands beside the control.
@@ -58,7 +60,9 @@ class PropertyLister {
                      {},
                      value,
                      {},
-                     {}});
+                     {},
+                     std::string(info.suits),
+                     info.tier == Tier::basic});
   }
   template <class E>
   void choice(std::string_view name, E& value, ChoiceNames names, const ChoiceInfo& info) {
@@ -71,7 +75,9 @@ class PropertyLister {
                      {names.begin(), names.end()},
                      Choice{static_cast<std::size_t>(value)},
                      {},
-                     {}});
+                     {},
+                     std::string(info.suits),
+                     info.tier == Tier::basic});
   }
   template <class P>
   void group(std::string_view name, P& p, std::string_view) {

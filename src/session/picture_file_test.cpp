@@ -70,14 +70,14 @@ TEST_F(PictureFile, HasTheSizeThatWasAskedFor) {
   const auto image = made("slice-top");
   ASSERT_TRUE(image) << told();
   EXPECT_EQ(*image, (PixelSize{960, 720}));
-  EXPECT_THAT(asked_, Not(Contains("range_m")));
+  EXPECT_THAT(asked_, Not(Contains("slice-range.range_m")));
 }
 
 TEST_F(PictureFile, IsNotMadeWhereTheHumanDeclines) {
   accept_ = false;
   answer([](ParameterSource& source) { (void)source.set("width_px", 640); });
   EXPECT_FALSE(made("slice-top"));
-  EXPECT_EQ(workspace().picture_file.values().width_px, 1600) << "what was there comes back";
+  EXPECT_EQ(workspace().picture_file.values().paper.width_px, 1600) << "what was there comes back";
 }
 
 TEST_F(PictureFile, EveryKindAsksForWhatItNeedsAndIsMade) {
@@ -94,13 +94,11 @@ TEST_F(PictureFile, EveryKindAsksForWhatItNeedsAndIsMade) {
 
 TEST_F(PictureFile, AllPlanesOfTheCommandLineCanBeHad) {
   for (std::size_t i = 0; i < kPlaneLiesNames.size(); ++i) {
-    answer([i](ParameterSource& source) { (void)source.set("plane", Choice{i}); });
+    answer([i](ParameterSource& source) { (void)source.set("slice-plane.plane", Choice{i}); });
     EXPECT_TRUE(made("slice-plane")) << kPlaneLiesNames[i] << ": " << told();
     fs::remove(saved_);
   }
-  answer([](ParameterSource& source) {
-    for (const char* name : {"normal_bow", "normal_starboard", "normal_down"}) (void)source.set(name, 0.0);
-  });
+  answer([](ParameterSource& source) { (void)source.set("slice-plane.normal", std::string("0,0,0")); });
   EXPECT_FALSE(made("slice-plane"));
   EXPECT_THAT(told(), HasSubstr("make no plane"));
 }
@@ -131,7 +129,7 @@ TEST_F(PictureFile, OfAVolumeHasSchoolsAsTheWindowDoes) {
     VolumeParams params;
     params.mask_outline = outline;
     workspace().volume.assign(params);
-    EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->mask_outline, outline);
+    EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->volume.mask_outline, outline);
   }
 }
 
@@ -140,8 +138,8 @@ TEST_F(PictureFile, ShowsTheSelectedSchoolAloneWhereThatIsAsked) {
   paint(2, 4, 10, 10, 400);
   document().settle();
   select(2);
-  EXPECT_EQ(picture_options(workspace(), PictureKind::slice_top)->filtered, false) << "as the window's slices";
-  EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->filtered, true) << "as the window's volume";
+  EXPECT_EQ(picture_options(workspace(), PictureKind::slice_top)->display.filtered, false) << "as the window's slices";
+  EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->volume.filtered, true) << "as the window's volume";
   EXPECT_TRUE(picture_options(workspace(), PictureKind::slice_top)->schools.empty());
   PictureFileParams params;
   params.selected_school_alone = true;
@@ -151,13 +149,14 @@ TEST_F(PictureFile, ShowsTheSelectedSchoolAloneWhereThatIsAsked) {
 
 TEST_F(PictureFile, OfATimelineMayBeOfTheWholeSurveyAgainstTheLog) {
   answer([](ParameterSource& source) {
-    (void)source.set("whole_survey", true);
-    (void)source.set("along_log", true);
-    (void)source.set("maximum", true);
+    (void)source.set("timeline.whole_survey", true);
+    (void)source.set("timeline.along_log", true);
+    (void)source.set("timeline.maximum", true);
   });
   EXPECT_TRUE(made("timeline")) << told();
   const auto options = picture_options(workspace(), PictureKind::timeline);
-  EXPECT_TRUE(options->whole_survey && options->along_log && options->maximum);
+  const TimelineParams& timeline = options->kind.timeline;
+  EXPECT_TRUE(timeline.whole_survey && timeline.along_log && timeline.maximum);
 }
 
 TEST_F(PictureFile, AMovieIsAskedForItsPace) {

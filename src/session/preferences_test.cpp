@@ -36,7 +36,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.volume.frames = 3;
   out.views.volume = false;
   out.display.take_out.interference = false;
-  out.picture_file.width_px = 777;
+  out.picture_file.paper.width_px = 777;
   out.reduce.margin_beams = 3;
   out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
   out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
@@ -73,7 +73,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   EXPECT_EQ(taken.select.tolerance_db, 12.5);
   EXPECT_EQ(taken.volume.frames, 3);
   EXPECT_FALSE(taken.display.take_out.interference);
-  EXPECT_EQ(taken.picture_file.width_px, 777);
+  EXPECT_EQ(taken.picture_file.paper.width_px, 777);
   EXPECT_EQ(taken.reduce.margin_beams, 3);
   EXPECT_EQ(taken.view_curve, out.view_curve);
   EXPECT_EQ(taken.growth_curve, out.growth_curve);

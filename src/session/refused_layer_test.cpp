@@ -269,7 +269,7 @@ TEST_F(Refused, MapsAndTimelinesMarkItToo) {
 
 TEST_F(Refused, TheVolumeMarksItWhateverStandsBeforeIt) {
   VolumeParams quick;
-  quick.renderer = VolumeRendererName::cpu;
+  quick.renderer = RendererChoice::cpu;
   quick.frames = 0;
   workspace().volume.assign(quick);
   auto& volume = dynamic_cast<VolumeModel&>(*app_.app.picture("volume"));

@@ -10,9 +10,9 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "publish/sample_looks.h"
 #include "session/curves.h"
 #include "session/place_text.h"
-#include "session/slices/slice_look.h"
 #include "view/slices/slice_picture.h"
 #include "view/time_text.h"
 

@@ -33,13 +33,23 @@ struct SvScale {
 
 template <class Visitor>
 void describe(Visitor& v, SvScale& p) {
-  v.choice("map", p.map, colour_map_names(), "colour map");
+  constexpr std::string_view kOfSv = "slice- volume timeline";
+  constexpr std::string_view kScaled = "slice- volume timeline survey-map";
+  v.choice("map", p.map, colour_map_names(), {"colour map", Tier::expert, kOfSv});
   v.field("low_db", p.low_db,
-          {.unit = "dB", .min = -190, .max = 100, .text = "display limit: first colour begins here"});
-  v.field("span_db", p.span_db, {.unit = "dB", .min = 1, .max = 200, .text = "from the first colour to the last"});
-  v.field(
-      "threshold_db", p.threshold_db,
-      {.unit = "dB", .min = -400, .max = 100, .text = "analysis threshold: below it nothing is shown or integrated"});
+          {.unit = "dB",
+           .min = -190,
+           .max = 100,
+           .text = "display limit: the first colour begins here; a timeline of means begins at -75 until it is set",
+           .suits = kScaled});
+  v.field("span_db", p.span_db,
+          {.unit = "dB", .min = 1, .max = 200, .text = "from the first colour to the last", .suits = kScaled});
+  v.field("threshold_db", p.threshold_db,
+          {.unit = "dB",
+           .min = kNoThreshold_db,
+           .max = 100,
+           .text = "analysis threshold: below it nothing is shown or integrated",
+           .suits = kOfSv});
 }
 
 /// Colour of every Sv count, and what a colour bar must say about it. Made from a scale or from a transfer function, so

@@ -140,7 +140,7 @@ class BadInput(unittest.TestCase):
         self.refused("slice-top", *BOTH, "--size", "huge", *picture, code=2, says="--size huge")
         self.refused("slice-plane", *BOTH, "--point", "1,2", "--normal", "0,0,1", *picture, code=2, says="--point")
         self.refused("slice-plane", *BOTH, "--point", "1,2,3", *picture, code=2, says="--normal")
-        self.refused("volume", *BOTH, "--eye", "1,2,3", *picture, code=2, says="--target")
+        self.refused("volume", *BOTH, "--eye", "1,2,3", *picture, code=2, says="--eye and target")
         self.refused("volume", *BOTH, "--eye", "1,2,nan", "--target", "0,0,0", *picture, code=2, says="--eye")
         self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "bad.gif", code=2, says=".png")
         self.refused("slice-top", *BOTH, code=2, says="--out")
@@ -160,7 +160,9 @@ class BadInput(unittest.TestCase):
             (["--transfer-function", "curve.json"], "survey-map", "timeline"),
             (["--transfer-function", "curve.json"], "propagation", "volume"),
             (["--north-up"], "slice-side", "slice-top"),
-            (["--removed", "hatched"], "volume", "slice-range"),
+            (["--removed", "hatched"], "timeline", "volume"),
+            (["--keep-seabed"], "timeline", "slice-range"),
+            (["--plane", "oblique"], "slice-top", "slice-plane"),
             (["--weak", "hatched"], "timeline", "slice-plane"),
             (["--grid"], "volume", "slice-range"),
             (["--core", "0.5"], "timeline", "propagation"),

@@ -277,7 +277,7 @@ class Files(sonarx.Case):
         empty = sonarx.WORK / "empty-tf.json"
         empty.write_text('{"points": []}')
         for arguments, said in [(("slice-plane", *BOTH, "--depth-m", "50", "--bearing-deg", "3"), "one plane at a time"),
-                                (("volume", *BOTH, "--core", "0.1", "--fuzzy", "0.9"), "--fuzzy 0.9 lies above --core 0.1"),
+                                (("volume", *BOTH, "--core", "0.1", "--fuzzy", "0.9"), "--fuzzy 0.9 lies above core 0.1"),
                                 (("slice-top", *BOTH, "--transfer-function", empty), "needs at least one point")]:
             with self.subTest(arguments):
                 code, _, error = render(*arguments, *SIZE, "--out", sonarx.WORK / "x.png")

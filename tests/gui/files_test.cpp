@@ -86,7 +86,7 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
     QTest::keyClicks(width, "640");
     keep_dialog(dialog);
     QTest::keyClick(width, Qt::Key_Return);
-    EXPECT_EQ(workspace().picture_file.values().width_px, 640);
+    EXPECT_EQ(workspace().picture_file.values().paper.width_px, 640);
   });
   const auto picture = read_png(saved_);
   ASSERT_TRUE(picture) << told();
@@ -96,7 +96,7 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
     dialog.findChild<QSpinBox*>("width_px")->setValue(999);
     QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel), Qt::LeftButton);
   });
-  EXPECT_EQ(workspace().picture_file.values().width_px, 640);
+  EXPECT_EQ(workspace().picture_file.values().paper.width_px, 640);
   EXPECT_FALSE(fs::exists(saved_));
 }
 

@@ -73,7 +73,7 @@ class Pictures : public WindowAtWork {
     WindowAtWork::SetUp();
     VolumeParams volume;
     volume.frames = 2;
-    volume.renderer = VolumeRendererName::cpu;
+    volume.renderer = RendererChoice::cpu;
     workspace().volume.assign(volume);
     window_->resize(1600, 1000);
     settle();

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
+#include "publish/sample_looks.h"
 #include "session/screen_theme.h"
 
 namespace sonar {
@@ -63,6 +64,12 @@ void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& th
 
 }  // namespace
 
+SvColours slice_colours(const Workspace& workspace) {
+  const SvScale& scale = workspace.display.values().scale;
+  if (workspace.curve_follows_scale()) return sv_colours(scale);
+  return sv_colours(workspace.view_curve(), scale.threshold_db, scale.no_data);
+}
+
 Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   const Volume& volume = wish.display.filtered ? *wish.ping->filtered : wish.ping->sv;
   SliceData data;
@@ -73,10 +80,9 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
     data.sv = View3<const std::int16_t>(restored.view());
   }
   data.flags = wish.ping->filtered->flags.view();
-  if (wish.display.weak != NoiseLook::shown) {
+  if (const auto below_db = weak_below(wish.display)) {
     if (wish.flags->shape() != data.flags.shape()) *wish.flags = Array3<SampleFlags>(data.flags.shape());
-    flag_weak_rows(*wish.ping, rows_of(wish.view.slice, wish.observation->sector()), wish.display.weak_below_db,
-                   wish.flags->view());
+    flag_weak_rows(*wish.ping, rows_of(wish.view.slice, wish.observation->sector()), *below_db, wish.flags->view());
     data.flags = View3<const SampleFlags>(wish.flags->view());
   }
   for (const SchoolLayer& school : wish.layers) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "session/slices/school_layers.h"
-#include "session/slices/slice_look.h"
+#include "session/workspace.h"
 #include "view/slices/slice_picture.h"
 
 namespace sonar {
@@ -25,6 +25,9 @@ struct SliceWish {
   std::shared_ptr<const SliceMap> earlier;
   std::shared_ptr<Array3<SampleFlags>> flags;  ///< room for the flags of this slice; one picture at a time uses it
 };
+
+/// Colours of the display scale, or of the view curve where a human has changed that.
+[[nodiscard]] SvColours slice_colours(const Workspace& workspace);
 
 /// errors  as slice_picture()
 [[nodiscard]] Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size);

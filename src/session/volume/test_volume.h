@@ -24,7 +24,7 @@ class VolumeApp {
     VolumeParams params;
     params.frames = 2;
     params.moving_budget_ms = 5.0;
-    params.renderer = VolumeRendererName::cpu;
+    params.renderer = RendererChoice::cpu;
     volume.assign(params);
     workspace_.document.open({TestSurvey::easy().folder()});
     workspace_.document.settle();
@@ -81,9 +81,8 @@ class VolumeApp {
     options.ping = static_cast<int>(workspace_.document.ping());
     options.transfer = workspace_.view_curve();
     options.camera = camera;
-    options.frames = workspace_.volume.values().frames;
-    options.weak_below_db = workspace_.display.values().weak_below_db;
-    options.renderer = RendererChoice::cpu;
+    options.display = workspace_.display.values();
+    options.volume = workspace_.volume.values();
     const std::filesystem::path folder = TestSurvey::easy().folder();
     Work work;
     auto source = PictureSource::open({&folder, 1}, std::nullopt, work);

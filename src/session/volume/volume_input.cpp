@@ -9,7 +9,6 @@
 
 #include "session/refused_layer.h"
 #include "session/slices/school_layers.h"
-#include "session/slices/slice_look.h"
 #include "view/theme.h"
 
 namespace sonar {
@@ -33,29 +32,6 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
   }
 }
 
-void set_options(PictureOptions& options, const DisplayParams& display, const VolumeParams& volume) {
-  options.scale = display.scale;
-  options.filtered = volume.filtered;
-  options.put_back = put_back(display);
-  options.left_out = left_out_of_volume(display);
-  if (display.weak != NoiseLook::shown) options.weak_below_db = display.weak_below_db;
-  options.masks = display.masks;
-  options.mask_style.core_at = static_cast<float>(display.core_at);
-  options.mask_style.fuzzy_above = static_cast<float>(display.fuzzy_above);
-  options.mask_style.data_too = volume.data;
-  options.mask_outline = volume.mask_outline;
-  options.mode = static_cast<RayMode>(volume.mode);
-  options.first_hit_db = volume.first_hit_db;
-  options.lighting = volume.lighting;
-  options.context = volume.context;
-  options.frames = volume.frames;
-  options.renderer = static_cast<RendererChoice>(volume.renderer);
-}
-static_assert(static_cast<int>(VolumeMode::first_hit) == static_cast<int>(RayMode::first_hit) &&
-              static_cast<int>(VolumeMode::maximum) == static_cast<int>(RayMode::maximum) &&
-              static_cast<int>(VolumeRendererName::cpu) == static_cast<int>(RendererChoice::cpu) &&
-              static_cast<int>(VolumeRendererName::gl) == static_cast<int>(RendererChoice::gl));
-
 }  // namespace
 
 std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const std::optional<Camera>& camera,
@@ -69,7 +45,8 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.navigation = shown->files().navigation[static_cast<std::size_t>(input.staged->ping_index)];
   input.title = shown->title();
   input.title_line = fmt::format("{}   ping {}", input.title, input.staged->ping_index);
-  set_options(input.options, workspace.display.values(), workspace.volume.values());
+  input.options.display = workspace.display.values();
+  input.options.volume = workspace.volume.values();
   input.options.size = size;
   input.options.dark = workspace.dark();
   input.options.transfer = workspace.view_curve();

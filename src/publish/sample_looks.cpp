@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "session/slices/slice_look.h"
+#include "publish/sample_looks.h"
 
 namespace sonar {
 namespace {
@@ -55,10 +55,8 @@ SampleFlags left_out_of_volume(const DisplayParams& display) {
   return hidden;
 }
 
-SvColours slice_colours(const Workspace& workspace) {
-  const SvScale& scale = workspace.display.values().scale;
-  if (workspace.curve_follows_scale()) return sv_colours(scale);
-  return sv_colours(workspace.view_curve(), scale.threshold_db, scale.no_data);
+std::optional<double> weak_below(const DisplayParams& display) {
+  return display.weak == NoiseLook::shown ? std::nullopt : std::optional(display.weak_below_db);
 }
 
 }  // namespace sonar

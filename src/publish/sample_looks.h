@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/sample_flags.h"
-#include "session/workspace.h"
+#include "publish/picture_params.h"
 #include "view/slices/slice_picture.h"
 
 namespace sonar {
@@ -11,13 +13,13 @@ namespace sonar {
 /// hatched or left out, places without water are faded or left out.
 [[nodiscard]] FlagStyle flag_style(const DisplayParams& display);
 
-/// Colours of the display scale, or of the view curve where a human has changed that.
-[[nodiscard]] SvColours slice_colours(const Workspace& workspace);
-
 /// Reasons whose samples are shown as recorded: those that are not taken out.
 [[nodiscard]] SampleFlags put_back(const DisplayParams& display);
 
 /// Samples that a volume leaves out: stripes cannot be told apart there, so that what slices hatch is left out too.
 [[nodiscard]] SampleFlags left_out_of_volume(const DisplayParams& display);
+
+/// Below which signal-to-noise samples carry low_snr, dB; empty where weak ones look as others do.
+[[nodiscard]] std::optional<double> weak_below(const DisplayParams& display);
 
 }  // namespace sonar

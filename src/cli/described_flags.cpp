@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/described_flags.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+
+namespace sonar {
+
+CLI::Validator between(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double value = 0.0;
+    const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = problem == std::errc() && after == text.data() + text.size() && std::isfinite(value);
+    if (number && value >= low && value <= high) return {};
+    return fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
+  };
+  return {check, fmt::format("[{:g} - {:g}]", low, high)};
+}
+
+std::string with_dashes(std::string_view name) {
+  std::string out(name);
+  std::replace(out.begin(), out.end(), '_', '-');
+  return out;
+}
+
+std::string DescribedFlags::sentence(std::string_view text) {
+  std::string out(text);
+  if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  return out;
+}
+
+std::string DescribedFlags::flag_of(std::string_view name, const FieldInfo& info) {
+  return "--" + (info.flag.empty() ? with_dashes(name) : std::string(info.flag));
+}
+
+void DescribedFlags::add(CLI::Option* option, std::string_view suits) {
+  option->group(group_);
+  made_.push_back({option->get_name(), suits.empty() ? suits_ : std::string(suits)});
+}
+
+void DescribedFlags::field(std::string_view name, bool& value, const FieldInfo& info) {
+  if (info.flag == kNoFlag) return;
+  if (!value) return add(verb_.add_flag(flag_of(name, info), value, sentence(info.text)), info.suits);
+  const std::string off = info.flag.empty() ? "--no-" + with_dashes(name) : flag_of(name, info);
+  add(verb_.add_flag(off + "{false}", value, "Do not " + std::string(info.text)), info.suits);
+}
+
+void DescribedFlags::field(std::string_view name, int& value, const FieldInfo& info) {
+  if (info.flag == kNoFlag) return;
+  auto* option = verb_.add_option(flag_of(name, info), value, sentence(info.text));
+  add(option->check(CLI::Range(static_cast<int>(info.min), static_cast<int>(info.max)))->capture_default_str(),
+      info.suits);
+}
+
+void DescribedFlags::field(std::string_view name, double& value, const FieldInfo& info) {
+  if (info.flag == kNoFlag) return;
+  auto* option = verb_.add_option(flag_of(name, info), value, sentence(info.text));
+  add(option->check(between(info.min, info.max))->capture_default_str(), info.suits);
+}
+
+void DescribedFlags::field(std::string_view name, std::string& value, const FieldInfo& info) {
+  if (info.flag == kNoFlag) return;
+  add(verb_.add_option(flag_of(name, info), value, sentence(info.text))->capture_default_str(), info.suits);
+}
+
+}  // namespace sonar

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/picture_kind.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sonar {
+
+std::span<const PictureKindInfo> picture_kinds() {
+  static constexpr std::array<PictureKindInfo, 9> kinds{{
+      {"slice-top", "one fan from above, every cell with its own value"},
+      {"slice-side", "one vertical fan from the side"},
+      {"slice-range", "all beams at one range"},
+      {"slice-plane", "a horizontal, vertical or oblique plane in metres"},
+      {"volume", "a ping in three dimensions, with what stands round it"},
+      {"propagation", "the schools of a ping and of its neighbours"},
+      {"observation-map", "an observation from above: ship, path, footprints, schools"},
+      {"survey-map", "all observations and schools on a chart"},
+      {"timeline", "an echogram of an observation or of the survey, with school tracks"},
+  }};
+  return kinds;
+}
+
+std::vector<std::string> kinds_suited(std::string_view suits) {
+  std::vector<std::string> out;
+  for (const PictureKindInfo& kind : picture_kinds()) {
+    bool suited = suits.empty();
+    for (std::size_t at = 0; at < suits.size() && !suited;) {
+      const std::size_t end = std::min(suits.find(' ', at), suits.size());
+      const std::string_view one = suits.substr(at, end - at);
+      suited = one.ends_with('-') ? kind.name.starts_with(one) : kind.name == one;
+      at = end + 1;
+    }
+    if (suited) out.emplace_back(kind.name);
+  }
+  return out;
+}
+
+}  // namespace sonar
