@@ -19,6 +19,7 @@
 #include "pipeline/journal/state_product.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
+#include "pipeline/tasks/survey_numbers.h"
 #include "session/change_queue.h"
 #include "session/choices.h"
 #include "session/listeners.h"
@@ -172,6 +173,10 @@ class Document {
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
 
+  /// Numbers of schools in the survey as its results last had them; others follow in the order of observations.
+  [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_numbers_; }
+  void keep_survey_numbers(std::vector<SurveyNumber> numbers);
+
   /// Whether figures are on their way.
   [[nodiscard]] bool measuring() const { return measures_begun_ > 0; }
 
@@ -236,6 +241,7 @@ class Document {
   std::map<std::size_t, std::vector<RefusedEcho>> found_refused_;  ///< as detection told them
   std::map<std::size_t, RefusedPtr> refused_;                      ///< those of them that are no school now
   std::map<std::size_t, ProductPtr> products_;
+  std::vector<SurveyNumber> survey_numbers_;
   std::map<std::size_t, std::shared_ptr<MeasuredPings>> measured_;
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped

@@ -12,6 +12,11 @@ ProductPtr Document::product(std::size_t observation) const {
   return found == products_.end() ? nullptr : found->second;
 }
 
+void Document::keep_survey_numbers(std::vector<SurveyNumber> numbers) {
+  survey_numbers_ = std::move(numbers);
+  changes_.tell(DocumentChange::measures);
+}
+
 void Document::measure_changed(const ChoicesShown& before) {
   for (const auto& [index, state] : choices_.states) {
     const auto old = before.states.find(index);

@@ -73,6 +73,7 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   found_refused_.clear();
   refused_.clear();
   products_.clear();
+  survey_numbers_.clear();
   measured_.clear();
   glance_.reset();
   survey_ = std::move(survey);

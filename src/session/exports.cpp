@@ -34,6 +34,7 @@ struct Snapshot {
   std::map<std::size_t, JournalStatePtr> states;
   std::map<std::size_t, RefusedPtr> refused;
   std::map<std::size_t, ProductPtr> products;
+  std::vector<SurveyNumber> numbers;
   std::vector<fs::path> paths;
   std::uint64_t memory_bytes = 0;
   ReduceParams reduce;
@@ -49,6 +50,7 @@ Snapshot snapshot_of(const Workspace& workspace) {
                     document.choices().states,
                     {},
                     {},
+                    document.survey_numbers(),
                     document.paths(),
                     document.options().memory_bytes,
                     workspace.reduce.values()};
@@ -124,25 +126,32 @@ Result<std::string> exported(const Snapshot& snapshot, const std::string& format
 }
 
 /// Runs something behind the window and tells how it ended.
-void run_job(Workspace& workspace, std::function<Result<std::string>(const Snapshot&, Work&)> job) {
+/// after  follows in the window's turn where it ended well
+void run_job(
+    Workspace& workspace, std::function<Result<std::string>(const Snapshot&, Work&)> job,
+    std::function<void()> after = [] {}) {
   Document& document = workspace.document;
   if (document.survey() == nullptr) return document.tell("no survey is open: there is nothing to write");
   if (!document.progress().stage.empty()) {
     return document.tell(fmt::format("wait until {} is done, or cancel it", document.progress().stage));
   }
-  document.run(
-      [&document, snapshot = snapshot_of(workspace), job = std::move(job)](Work& work, const CancelToken& token) {
-        work.progress("writing", 0, 1);
-        const auto done = job(snapshot, work);
-        std::string line = done ? *done : to_line(done.error());
-        if (!done && done.error().code == ErrorCode::cancelled) line = "stopped: not everything was written";
-        document.post(token, [&document, line = std::move(line)] { document.tell(line); });
-      });
+  document.run([&document, snapshot = snapshot_of(workspace), job = std::move(job), after = std::move(after)](
+                   Work& work, const CancelToken& token) {
+    work.progress("writing", 0, 1);
+    const auto done = job(snapshot, work);
+    std::string line = done ? *done : to_line(done.error());
+    if (!done && done.error().code == ErrorCode::cancelled) line = "stopped: not everything was written";
+    document.post(token, [&document, line = std::move(line), well = done.has_value(), after] {
+      document.tell(line);
+      if (well) after();
+    });
+  });
 }
 
 std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {
   std::vector<ObservationProduct> products;
   for (const auto& [index, product] : snapshot.products) products.push_back(*product);
+  (void)number_products(products, snapshot.numbers);
   return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.measuring);
 }
 
@@ -181,12 +190,14 @@ Result<std::string> movie(const Snapshot& snapshot, PictureJob job, const std::v
 }  // namespace
 
 void export_results(Workspace& workspace, const fs::path& folder) {
-  run_job(workspace, [folder](const Snapshot& snapshot, Work& work) -> Result<std::string> {
+  const auto write = [folder](const Snapshot& snapshot, Work& work) -> Result<std::string> {
     const auto report = write_survey(*snapshot.survey, folder, source_of_products(snapshot, work), work);
     if (!report) return pass_on(report);
     return fmt::format("written: {} observations with {} schools in {}", report->survey.observations.size(),
                        counted_schools(report->survey.observations).size(), folder.string());
-  });
+  };
+  // From now on the window's numbers are those of the tables.
+  run_job(workspace, write, [&workspace, folder] { workspace.document.keep_survey_numbers(kept_numbers(folder)); });
 }
 
 void export_as(Workspace& workspace, const std::string& format, const fs::path& folder) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/units.h"
@@ -27,6 +28,27 @@ SurveySchool made(const Document& document, std::size_t observation, std::shared
   if (school.product) school.row = row_of(*school.product, state->number);
   school.state = std::move(state);
   return school;
+}
+
+/// By observation and number in it.
+std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers_in_survey(const Document& document) {
+  std::vector<std::size_t> indices;
+  std::vector<ObservationProduct> light;
+  for (const auto& [index, state] : document.choices().states) {
+    const ProductPtr product = document.product(index);
+    if (!product) continue;
+    indices.push_back(index);
+    ObservationProduct& one = light.emplace_back();
+    one.observation = product->observation;
+    one.source = product->source;
+    one.schools = product->schools;
+  }
+  (void)number_products(light, document.survey_numbers());
+  std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    for (const SchoolRow& row : light[i].schools) numbers[{indices[i], row.school_id}] = row.survey_school;
+  }
+  return numbers;
 }
 
 /// Fan and beam through the middle of a mask, each voxel counted by its confidence.
@@ -79,9 +101,14 @@ double SurveySchool::snr_db() const {
 
 std::vector<SurveySchool> survey_schools(const Document& document) {
   std::vector<SurveySchool> schools;
+  const auto numbers = numbers_in_survey(document);
   for (const auto& [index, state] : document.choices().states) {
     if (!state || !document.open_observation(index)) continue;
-    for (const auto& school : state->schools) schools.push_back(made(document, index, school));
+    for (const auto& school : state->schools) {
+      SurveySchool& one = schools.emplace_back(made(document, index, school));
+      const auto number = numbers.find({index, school->number});
+      if (number != numbers.end()) one.survey_number = number->second;
+    }
   }
   return schools;
 }

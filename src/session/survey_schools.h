@@ -17,6 +17,7 @@ struct SurveySchool {
   OpenObservationPtr observation;
   ProductPtr product;              ///< keeps `row`
   const SchoolRow* row = nullptr;  ///< null = not measured yet, or nothing of it counts
+  std::int64_t survey_number = 0;  ///< in the survey, as its results would have it now; 0 = not measured yet
 
   [[nodiscard]] const SchoolRow& decided() const { return state->masks.decided; }
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(state->masks.pings.size()); }

@@ -39,23 +39,34 @@ void recall_numbers(std::span<ObservationProduct> products, const std::vector<Su
   }
 }
 
-std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier) {
+std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products, std::vector<SurveyNumber> earlier) {
   std::int64_t next = 1;
   for (const SurveyNumber& kept : earlier) next = std::max(next, kept.number + 1);
-  std::map<std::pair<std::string, std::int64_t>, std::int64_t> numbers;
   const std::vector<SurveyNumber> known = earlier;
-  for (ObservationProduct& product : survey.observations) {
+  for (ObservationProduct& product : products) {
     const std::set<std::int64_t> provisional = provisional_schools(product);
+    std::map<std::int64_t, std::int64_t> numbers;
     for (SchoolRow& school : product.schools) {
       const std::int64_t had = number_of(known, product.source, school);
       school.survey_school = had > 0 ? had : next++;
-      numbers[{product.observation, school.school_id}] = school.survey_school;
+      numbers[school.school_id] = school.survey_school;
       if (had == 0 && !provisional.contains(school.school_id)) {
         earlier.push_back(
             {school.survey_school, product.source, school.school_id, school.first_time_utc, school.last_time_utc});
       }
     }
-    for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[{row.observation, row.school_id}];
+    for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[row.school_id];
+  }
+  return earlier;
+}
+
+std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier) {
+  earlier = number_products(survey.observations, std::move(earlier));
+  std::map<std::pair<std::string, std::int64_t>, std::int64_t> numbers;
+  for (const ObservationProduct& product : survey.observations) {
+    for (const SchoolRow& school : product.schools) {
+      numbers[{product.observation, school.school_id}] = school.survey_school;
+    }
   }
   for (SchoolRow& school : survey.schools) school.survey_school = numbers[{school.observation, school.school_id}];
   for (SchoolPingRow& row : survey.school_pings) row.survey_school = numbers[{row.observation, row.school_id}];

@@ -22,10 +22,14 @@ struct SurveyNumber {
   friend bool operator==(const SurveyNumber&, const SurveyNumber&) = default;
 };
 
-/// Gives every school its number in the survey, in its rows and in those of the observations: the one that it had, or the
-/// next that nobody had, in the order of the rows.
-/// earlier  as kept; a school is known by its number in the observation where its time overlaps
-/// out      those to be kept: of schools that are gone too, whose numbers nobody gets; not of schools that are provisional
+/// Gives every school its number in the survey, in all its rows: the one that it had, or the next that nobody had, in the
+/// order of the rows.
+/// products  of the survey, in its order
+/// earlier   as kept; a school is known by its number in the observation where its time overlaps
+/// out       those to be kept: of schools that are gone too, whose numbers nobody gets; not of schools that are provisional
+[[nodiscard]] std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products,
+                                                        std::vector<SurveyNumber> earlier);
+/// The same, in the survey's tables too.
 [[nodiscard]] std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier);
 
 /// Gives the schools of products the numbers that a merge gave them; 0 where it knows nothing of them.

@@ -21,6 +21,8 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
   return {
       {{"School", "", "number of the school in its observation", true},
        [](const S& s) { return count_cell(s.name.number); }},
+      {{"In survey", "", "number of the school in the survey, as its results and the survey map have it", true},
+       [](const S& s) { return s.survey_number > 0 ? count_cell(s.survey_number) : Cell{}; }},
       {{"Observation", "", "", false}, [](const S& s) { return text_cell(s.observation->name()); }},
       {{"Status", "", "what a human decided", false}, [](const S& s) { return text_cell(s.decided().status); }},
       {{"Backscatter", "m\u00B2", "total backscattering cross-section (sum of sigma_bs, no 4 pi)", true},

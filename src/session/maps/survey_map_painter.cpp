@@ -53,14 +53,15 @@ bool SurveyMapPainter::know(const SurveyMapWish& wish) {
     swept_known_.assign(count, false);
     raster_extent_.reset();
   }
-  if (products_ != wish.products) take_products(wish.products);
+  if (products_ != wish.products || numbers_ != wish.numbers) take_products(wish);
   bool more = false;
   for (std::size_t i = 0; i < count; ++i) more = more || !swept_known_[i] || outlined_[i] != products_[i];
   return !more;
 }
 
-void SurveyMapPainter::take_products(const std::vector<ProductPtr>& products) {
-  products_ = products;
+void SurveyMapPainter::take_products(const SurveyMapWish& wish) {
+  products_ = wish.products;
+  numbers_ = wish.numbers;
   for (std::size_t i = 0; i < light_.size(); ++i) {
     ObservationProduct& light = light_[i];
     light.schools.clear();
@@ -73,6 +74,7 @@ void SurveyMapPainter::take_products(const std::vector<ProductPtr>& products) {
     light.recipe_json = products_[i]->recipe_json;
   }
   join_over_cuts(light_);
+  (void)number_products(light_, numbers_);
 }
 
 bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const CancelToken& token) {

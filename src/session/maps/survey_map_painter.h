@@ -19,7 +19,8 @@ namespace sonar {
 /// Everything that a survey map shows, as it was when the picture was asked for.
 struct SurveyMapWish {
   std::shared_ptr<const SurveyFiles> survey;
-  std::vector<ProductPtr> products;  ///< [observation], null where nothing is measured
+  std::vector<ProductPtr> products;   ///< [observation], null where nothing is measured
+  std::vector<SurveyNumber> numbers;  ///< of schools in the survey, as results had them
   std::filesystem::path depth_raster;
   SurveyMapStyle style;
   bool dark = false;
@@ -42,7 +43,7 @@ class SurveyMapPainter {
 
  private:
   [[nodiscard]] bool know(const SurveyMapWish& wish);
-  void take_products(const std::vector<ProductPtr>& products);
+  void take_products(const SurveyMapWish& wish);
   bool know_more(const SurveyMapWish& wish, const CancelToken& token);
   [[nodiscard]] Result<Painted> painted(const SurveyMapWish& wish, PixelSize size);
   const DepthGrid* depths(const SurveyMapWish& wish, const MapFrame& map, std::string& note);
@@ -50,6 +51,7 @@ class SurveyMapPainter {
   std::shared_ptr<const SurveyFiles> survey_;
   std::vector<ObservationProduct> light_;      ///< [observation] without masks
   std::vector<ProductPtr> products_;           ///< that light_ was made from
+  std::vector<SurveyNumber> numbers_;          ///< the same
   std::vector<ProductPtr> outlined_;           ///< that outlines_ was made from
   std::vector<ObservationOutlines> outlines_;  ///< [observation]
   std::vector<bool> swept_known_;
