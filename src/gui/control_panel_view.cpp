@@ -7,7 +7,6 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <initializer_list>
 
@@ -21,26 +20,6 @@ namespace {
 constexpr int kEditorHeight_px = 215;
 
 QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
-
-void add_section(QVBoxLayout& column, const PanelSection& section, QWidget* parent) {
-  auto* head = new QToolButton(parent);
-  head->setText(text(section.title));
-  head->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  head->setAutoRaise(true);
-  head->setCheckable(true);
-  head->setChecked(section.open);
-  head->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  keep_own_keys(*head);
-  QWidget* body = panel_section(section, parent);
-  const auto fold = [head, body](bool open) {
-    head->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
-    body->setVisible(open);
-  };
-  QObject::connect(head, &QToolButton::toggled, body, fold);
-  fold(section.open);
-  column.addWidget(head);
-  column.addWidget(body);
-}
 
 QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent) {
   auto* row = new QWidget(parent);
@@ -95,7 +74,7 @@ ControlPanelView::ControlPanelView(TransferEditor& editor, Workspace& workspace,
   picture->setFixedHeight(kEditorHeight_px);
   column->addWidget(curve_row(editor, workspace, inside));
   column->addWidget(picture);
-  for (const PanelSection& section : sections) add_section(*column, section, inside);
+  for (const PanelSection& section : sections) add_folding_section(*column, section, inside);
   column->addStretch(1);
   setWidget(inside);
   setMinimumWidth(inside->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width());

@@ -40,6 +40,7 @@ struct CommandLine {
   QCommandLineOption demo{"demo", "Open a simulated survey; it is made first where it is not there yet"};
   QCommandLineOption dark{"dark", "Begin in dark colours"};
   QCommandLineOption live{"live", "The survey is still being recorded: follow it"};
+  QCommandLineOption recipe{"recipe", "Open the survey under this recipe, or preset, from now on", "recipe"};
 
   CommandLine() {
     QCoreApplication::setApplicationName("sonar-explorer");
@@ -48,7 +49,7 @@ struct CommandLine {
     parser.addHelpOption();
     parser.addVersionOption();
     parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
-    parser.addOptions({demo, dark, live});
+    parser.addOptions({demo, dark, live, recipe});
   }
 };
 
@@ -93,6 +94,14 @@ int run_program(int argc, char** argv) {
   app.preferences = loaded.preferences;
   app.preferences.apply(app.workspace);
   if (parser.isSet(dark)) app.workspace.dark.set(true);
+  if (parser.isSet(line.recipe)) {
+    auto recipe = named_recipe(parser.value(line.recipe).toStdString());
+    if (!recipe) {
+      std::fprintf(stderr, "sonar-explorer: %s\n", to_line(recipe.error()).c_str());
+      return 2;
+    }
+    app.workspace.document.use_recipe(std::move(*recipe));
+  }
   MainWindow window(app);
   window.take_layout(app.preferences.window_layout);
   window.show();

@@ -4,9 +4,12 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPointer>
+#include <QToolButton>
+#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/bind.h"
+#include "gui/own_keys.h"
 
 namespace sonar {
 namespace {
@@ -80,6 +83,26 @@ QWidget* panel_section(const PanelSection& section, QWidget* parent) {
     if (found != all.end()) add_property(*form, section, *found, body);
   }
   return body;
+}
+
+void add_folding_section(QVBoxLayout& column, const PanelSection& section, QWidget* parent) {
+  auto* head = new QToolButton(parent);
+  head->setText(text(section.title));
+  head->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  head->setAutoRaise(true);
+  head->setCheckable(true);
+  head->setChecked(section.open);
+  head->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  keep_own_keys(*head);
+  QWidget* body = panel_section(section, parent);
+  const auto fold = [head, body](bool open) {
+    head->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+    body->setVisible(open);
+  };
+  QObject::connect(head, &QToolButton::toggled, body, fold);
+  fold(section.open);
+  column.addWidget(head);
+  column.addWidget(body);
 }
 
 }  // namespace sonar

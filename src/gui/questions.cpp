@@ -11,6 +11,7 @@
 #include <QMessageBox>
 
 #include "gui/parameter_dialog.h"
+#include "gui/recipe_dialog.h"
 
 namespace sonar {
 namespace {
@@ -60,6 +61,7 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.parameters = [&window](const std::string& title, const PanelSection& section) {
     return change_parameters(window, title, section);
   };
+  dialogs.recipe = [&window, &dialogs](RecipeEditor& editor) { return change_recipe(window, dialogs, editor); };
   dialogs.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
   dialogs.copy_image = [](const Image& image) {
     // The clipboard's own copy: the image may be gone when it is pasted.

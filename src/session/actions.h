@@ -11,6 +11,7 @@
 
 namespace sonar {
 
+class RecipeEditor;
 struct PanelSection;
 
 /// Something that a user can ask for: the one list from which menus, keys, buttons and the sheet of keys are made.
@@ -56,6 +57,7 @@ struct Dialogs {
   std::function<bool(const std::string& question)> yes;
   /// Lets a human change parameters; false = declined
   std::function<bool(const std::string& title, const PanelSection& section)> parameters;
+  std::function<bool(RecipeEditor& editor)> recipe;  ///< lets a human change a recipe; false = declined
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_keys;  ///< the sheet of keys
   std::function<void()> show_about;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -84,6 +85,8 @@ class Document {
   /// Reads the survey in the background and then looks at its first observation; what was open is let go.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {});
+  /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
+  void use_recipe(Recipe recipe);
   /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
   /// it is not the same survey with more pings and observations behind.
   bool grow(std::shared_ptr<const SurveyFiles> survey);
@@ -190,7 +193,9 @@ class Document {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
   };
-  void glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const CancelToken& token);
+  void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
+                 const CancelToken& token);
+  [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
   void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
@@ -217,6 +222,9 @@ class Document {
 
   ChangeQueue& queue_;
   DocumentOptions options_;
+  Recipe usual_recipe_;                                          ///< of surveys for which none was chosen
+  std::optional<Recipe> asked_recipe_;                           ///< that the next survey is opened under
+  std::optional<std::pair<std::size_t, std::int64_t>> back_to_;  ///< observation and ping that it begins with
   Listeners<DocumentChange> changes_;
   std::vector<std::filesystem::path> paths_;
   std::shared_ptr<const SurveyFiles> survey_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/journal/session_recipe.h"
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/observe.h"
 #include "session/document.h"
@@ -11,36 +12,60 @@ namespace sonar {
 
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
-  run([this, paths = std::move(paths), first = std::move(first), none = survey_ == nullptr](Work& work,
-                                                                                            const CancelToken& token) {
+  run([this, paths = std::move(paths), first = std::move(first), none = survey_ == nullptr,
+       asked = std::exchange(asked_recipe_, std::nullopt),
+       back = std::exchange(back_to_, std::nullopt)](Work& work, const CancelToken& token) {
     if (const auto done = first ? first(work) : Result<void>{}; !done) {
       return post(token, [this, line = to_line(done.error())] { tell(line); });
     }
-    if (none) glance_at(paths, work, token);
-    auto survey = open_survey(paths, options_.recipe.survey, options_.recipe.navigation, options_.cache, work);
+    const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
+                                                                    : std::vector<std::filesystem::path>{};
+    Recipe recipe = asked ? *asked : recipe_of(folders, token);
+    recipe.automatic = false;  // schools are detected when that is asked for
+    if (none) glance_at(paths, recipe, work, token);
+    auto survey = open_survey(paths, recipe.survey, recipe.navigation, options_.cache, work);
     if (!survey) {
       return post(token, [this, line = to_line(survey.error())] { tell(line); });
     }
     auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
     Journal head;
-    head.recipe = recipe_text(options_.recipe);
-    head.recipe_hash = recipe_hash(options_.recipe);
+    head.recipe = recipe_text(recipe);
+    head.recipe_hash = recipe_hash(recipe);
     for (const ObservationFiles& observation : files->observations) {
       for (InputFile& file : input_files(*files, observation)) head.files.push_back(std::move(file));
     }
-    const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
-                                                                    : std::vector<std::filesystem::path>{};
     auto place = place_journal(folders, head, options_.operator_name);
-    post(token, [this, files, paths, place = std::move(place)] {
+    if (asked && place) {
+      const auto kept = keep_recipe(place->path.parent_path(), recipe);
+      if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
+    }
+    post(token, [this, files, paths, recipe, back, place = std::move(place)] {
       paths_ = paths;
+      options_.recipe = recipe;
       take_survey(files, place);
+      if (back) (void)show(back->first, back->second);
     });
   });
 }
 
+void Document::use_recipe(Recipe recipe) {
+  asked_recipe_ = std::move(recipe);
+  if (!survey_) return;
+  if (shown_) back_to_ = {shown_->index(), ping_};
+  open(paths_);
+}
+
+/// The one that was chosen for a survey before, else the usual one.
+Recipe Document::recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token) {
+  const auto kept = kept_recipe(folders);
+  if (!kept) post(token, [this, line = to_line(kept.error())] { tell(line + "; the usual recipe is used"); });
+  return kept ? kept->value_or(usual_recipe_) : usual_recipe_;
+}
+
 /// What ends in an error ends in the same when all is read.
-void Document::glance_at(const std::vector<std::filesystem::path>& paths, Work& work, const CancelToken& token) {
-  auto glance = glance_at_survey(paths, options_.recipe.survey, options_.recipe.navigation, work);
+void Document::glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
+                         const CancelToken& token) {
+  auto glance = glance_at_survey(paths, recipe.survey, recipe.navigation, work);
   if (!glance) return;
   post(token, [this, seen = std::make_shared<const SurveyFiles>(std::move(*glance))] {
     if (survey_) return;  // it stays until the other is there

@@ -10,6 +10,7 @@
 #include "pipeline/survey/calibration_json.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
+#include "session/recipe_editor.h"
 
 namespace sonar {
 namespace {
@@ -86,8 +87,26 @@ void choose_calibration(AppModel& app) {
   });
 }
 
+void change_recipe(AppModel& app) {
+  Document& document = app.workspace.document;
+  if (!app.dialogs.recipe) return;
+  RecipeEditor editor(app.workspace.queue, document.recipe());
+  if (!app.dialogs.recipe(editor)) return;
+  document.use_recipe(editor.recipe());
+  const std::size_t changed = editor.changed();
+  document.tell(changed == 0 ? std::string("the recipe is the default one now")
+                             : fmt::format("the recipe differs from the default one in {} parameters", changed));
+}
+
 void add_calibration(AppModel& app) {
   const auto with_ping = [&app] { return app.workspace.document.shown() != nullptr; };
+  app.actions.add({.id = "file.recipe",
+                   .menu = kFile,
+                   .text = "Recipe...",
+                   .keys = {},
+                   .tip = "Parameters of noise removal, detection and measuring: the survey is opened anew under them, "
+                          "decisions stay",
+                   .run = [&app] { change_recipe(app); }});
   app.actions.add(
       {.id = "file.calibration",
        .menu = kFile,

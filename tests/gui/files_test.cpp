@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QCheckBox>
 #include <QClipboard>
 #include <QDialog>
 #include <QDialogButtonBox>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QProcess>
 #include <QPushButton>
@@ -98,6 +101,34 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   });
   EXPECT_EQ(workspace().picture_file.values().paper.width_px, 640);
   EXPECT_FALSE(fs::exists(saved_));
+}
+
+// Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
+TEST_F(Files, ARecipeIsChangedInItsDialog) {
+  QTimer::singleShot(0, window_.get(), [this] {
+    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    keep_dialog(*dialog);
+    QTest::keyClicks(dialog->findChild<QLineEdit*>("words"), "detect.tolerance");
+    auto* box = dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
+    ASSERT_NE(box, nullptr);
+    EXPECT_EQ(dialog->findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, "7");
+    QTest::keyClick(box, Qt::Key_Return);
+    QTest::mouseClick(dialog->findChild<QPushButton*>("save"), Qt::LeftButton);
+    QTest::mouseClick(dialog->findChild<QCheckBox*>("changed"), Qt::LeftButton);
+    EXPECT_NE(dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box"), nullptr);
+    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+  });
+  trigger("file.recipe");
+  EXPECT_EQ(document().recipe().detect.tolerance_db, 7.0) << told();
+  EXPECT_TRUE(document().staged()) << "the survey is there again";
+  const auto saved = read_recipe(saved_.string());
+  ASSERT_TRUE(saved) << to_line(saved.error());
+  EXPECT_EQ(saved->detect.tolerance_db, 7.0);
+  EXPECT_TRUE(saved->automatic);
 }
 
 TEST_F(Files, ResultsAreAsARunWritesThem) {

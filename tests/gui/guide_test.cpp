@@ -3,6 +3,8 @@
 //   SONAR_GUIDE_SURVEY=<demo survey> SONAR_GUIDE_OUT=docs/pictures sonar_gui_test --gtest_filter='Guide.*'
 #include <gtest/gtest.h>
 
+#include <QDialog>
+#include <QTimer>
 #include <cstdlib>
 
 #include "window_at_work.h"
@@ -55,6 +57,13 @@ TEST_F(Guide, Pictures) {
   key(Qt::Key_Escape);  // with nothing selected the review begins with what scatters most
   app_->actions.find("review.next")->run();
   keep("guide-review.png");
+  QTimer::singleShot(300, window_.get(), [this] {
+    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    EXPECT_TRUE(dialog->grab().save(QString::fromStdString((out_ / "guide-recipe.png").string())));
+    dialog->reject();
+  });
+  app_->actions.find("file.recipe")->run();
   workspace().depth_raster.set(survey_ / "truth" / "depth.tif");
   raise("survey_map");
   raise("survey_timeline");

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "pipeline/journal/session_recipe.h"
+
 namespace sonar {
 namespace {
 
@@ -102,11 +104,11 @@ Result<Journal> read_one(const fs::path& path) {
   return read_journal(path.string());
 }
 
-Result<Journal> read_session(const fs::path& path) {
-  std::error_code absent;
-  if (!fs::is_directory(path, absent)) return read_journal(path.string());
-  const std::vector<OneJournal> journals = journals_in(std::span(&path, 1));
-  if (journals.empty()) return fail(ErrorCode::not_found, "holds no journal (session.jsonl)", {path.string()});
+namespace {
+
+Result<Journal> read_journals(const fs::path& folder) {
+  const std::vector<OneJournal> journals = journals_in(std::span(&folder, 1));
+  if (journals.empty()) return fail(ErrorCode::not_found, "holds no journal (session.jsonl)", {folder.string()});
   Journal session;
   std::vector<std::vector<JournalLine>> lines;
   for (const OneJournal& one : journals) {
@@ -121,6 +123,23 @@ Result<Journal> read_session(const fs::path& path) {
     session.files = journal->files;
   }
   session.lines = joined(std::move(lines));
+  return session;
+}
+
+}  // namespace
+
+Result<Journal> read_session(const fs::path& path) {
+  std::error_code absent;
+  const bool whole = fs::is_directory(path, absent);
+  auto session = whole ? read_journals(path) : read_journal(path.string());
+  if (!session) return session;
+  const fs::path folder = whole ? path : path.parent_path();
+  const auto chosen = kept_recipe(std::span(&folder, 1));
+  if (!chosen) return pass_on(chosen);
+  if (*chosen) {
+    session->recipe = recipe_text(**chosen);
+    session->recipe_hash = recipe_hash(**chosen);
+  }
   return session;
 }
 

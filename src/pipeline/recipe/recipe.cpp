@@ -143,6 +143,10 @@ Result<Recipe> read_recipe(const std::string& path) {
   return recipe;
 }
 
+Result<void> write_recipe(const std::string& path, const Recipe& recipe) {
+  return write_file(path, recipe_text(recipe));
+}
+
 Result<Recipe> named_recipe(const std::string& path_or_preset) {
   if (path_or_preset.empty()) return Recipe{};
   std::error_code absent;

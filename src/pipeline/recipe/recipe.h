@@ -188,6 +188,8 @@ void describe(Visitor& v, Recipe& r) {
 /// errors  format, newer_version, bad_parameter: naming the parameter
 [[nodiscard]] Result<Recipe> recipe_from_text(std::string_view text);
 [[nodiscard]] Result<Recipe> read_recipe(const std::string& path);
+/// What read_recipe() reads. errors: io, no_space; usage: a recording stands there
+[[nodiscard]] Result<void> write_recipe(const std::string& path, const Recipe& recipe);
 /// A file, or a preset's name where there is no such file; empty = default.
 [[nodiscard]] Result<Recipe> named_recipe(const std::string& path_or_preset);
 /// Hexadecimal XXH3-128 of recipe_text().

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/recipe_dialog.h"
+
+#include <QCheckBox>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+#include <string>
+
+#include "gui/panel_section.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
+
+class RecipeDialog : public QDialog {
+ public:
+  RecipeDialog(QWidget& window, const Dialogs& dialogs, RecipeEditor& editor)
+      : QDialog(&window), dialogs_(dialogs), editor_(editor) {
+    setObjectName("recipe");
+    setWindowTitle("Recipe");
+    resize(620, 640);
+    auto* column = new QVBoxLayout(this);
+    column->addLayout(search_row());
+    list_->setWidgetResizable(true);
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    column->addWidget(list_, 1);
+    told_->setWordWrap(true);
+    told_->setObjectName("told");
+    column->addWidget(told_);
+    column->addWidget(buttons());
+    fill();
+  }
+
+ protected:
+  /// Enter ends the typing of a number or a word, not the dialog.
+  void keyPressEvent(QKeyEvent* event) override {
+    if (event->key() != Qt::Key_Return && event->key() != Qt::Key_Enter) QDialog::keyPressEvent(event);
+  }
+
+ private:
+  QHBoxLayout* search_row() {
+    words_->setObjectName("words");
+    words_->setPlaceholderText("Find a parameter");
+    words_->setClearButtonEnabled(true);
+    changed_->setObjectName("changed");
+    QObject::connect(words_, &QLineEdit::textChanged, this, [this] { fill(); });
+    QObject::connect(changed_, &QCheckBox::toggled, this, [this] { fill(); });
+    auto* row = new QHBoxLayout();
+    row->addWidget(words_, 1);
+    row->addWidget(changed_);
+    return row;
+  }
+
+  QDialogButtonBox* buttons() {
+    auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+    box->button(QDialogButtonBox::Ok)->setText("Use");
+    box->button(QDialogButtonBox::Ok)
+        ->setToolTip("Opens the survey under this recipe; decisions are kept and laid upon what is found");
+    const auto add = [&](const char* text, const char* name, auto pressed) {
+      auto* button = box->addButton(text, QDialogButtonBox::ActionRole);
+      button->setObjectName(name);
+      button->setAutoDefault(false);
+      QObject::connect(button, &QPushButton::clicked, this, pressed);
+    };
+    add("Load...", "load", [this] { load(); });
+    add("Save as...", "save", [this] { save(); });
+    add("Defaults", "defaults", [this] {
+      editor_.take_defaults();
+      fill();
+    });
+    QObject::connect(box, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    QObject::connect(box, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    return box;
+  }
+
+  void fill() {
+    auto* inside = new QWidget(list_);
+    auto* column = new QVBoxLayout(inside);
+    const auto sections = editor_.sections(words_->text().toStdString(), changed_->isChecked());
+    for (const PanelSection& section : sections) add_folding_section(*column, section, inside);
+    if (sections.empty()) column->addWidget(new QLabel("No parameter is so.", inside));
+    column->addStretch(1);
+    list_->setWidget(inside);  // the one before goes
+  }
+
+  void load() {
+    const std::string file = dialogs_.file_to_open ? dialogs_.file_to_open("Recipe", kRecipes) : std::string();
+    if (file.empty()) return;
+    const auto loaded = editor_.load(file);
+    told_->setText(QString::fromStdString(loaded ? "loaded: " + file : to_line(loaded.error())));
+    fill();
+  }
+
+  void save() {
+    const std::string file =
+        dialogs_.file_to_save ? dialogs_.file_to_save("Save recipe", kRecipes, "recipe.json") : std::string();
+    if (file.empty()) return;
+    const auto saved = editor_.save(file);
+    told_->setText(QString::fromStdString(saved ? "written: " + file : to_line(saved.error())));
+  }
+
+  const Dialogs& dialogs_;
+  RecipeEditor& editor_;
+  QLineEdit* words_ = new QLineEdit(this);
+  QCheckBox* changed_ = new QCheckBox("Changed from default", this);
+  QScrollArea* list_ = new QScrollArea(this);
+  QLabel* told_ = new QLabel(this);
+};
+
+}  // namespace
+
+bool change_recipe(QWidget& window, const Dialogs& dialogs, RecipeEditor& editor) {
+  return RecipeDialog(window, dialogs, editor).exec() == QDialog::Accepted;
+}
+
+}  // namespace sonar

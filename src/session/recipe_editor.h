@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/recipe/recipe.h"
+#include "session/parameter_source.h"
+
+namespace sonar {
+
+/// A recipe in a human's hands: the dozen parameters that every user sets first, each with its sentence, then the experts',
+/// by group.
+/// threads  the window's
+class RecipeEditor {
+ public:
+  RecipeEditor(ChangeQueue& queue, Recipe recipe);
+
+  [[nodiscard]] const Recipe& recipe() const { return parameters_.values(); }
+  /// How many parameters are not as in the preset default.
+  [[nodiscard]] std::size_t changed() const;
+  /// Sections with the parameters that hold these words in their name or sentence; empty = all.
+  /// changed_alone  and are not as in the preset default
+  [[nodiscard]] std::vector<PanelSection> sections(std::string_view words, bool changed_alone) const;
+
+  void take_defaults();
+  /// errors  as read_recipe()
+  [[nodiscard]] Result<void> load(const std::filesystem::path& file);
+  /// For `sonarx run --recipe`.
+  /// errors  io, no_space; usage: a recording stands there
+  [[nodiscard]] Result<void> save(const std::filesystem::path& file) const;
+
+ private:
+  Parameters<Recipe> parameters_;
+  std::shared_ptr<ParameterSource> source_;
+  Parameters<Recipe> defaults_;
+};
+
+}  // namespace sonar
