@@ -7,9 +7,12 @@
 
 #include <sonar_explorer/error.h>
 #include <sonar_explorer/schools.h>
+#include <sonar_explorer/stop.h>
 #include <sonar_explorer/version.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +30,26 @@ py::array_t<T> view_of(std::span<const T> values, const std::vector<py::ssize_t>
   py::array_t<T> array(shape, values.data(), keep);
   array.attr("setflags")(py::arg("write") = false);
   return array;
+}
+
+/// Runs what takes long beside the interpreter, which other threads use meanwhile; Ctrl-C ends it.
+template <class Task>
+auto interruptible(Task task) {
+  auto done = std::async(std::launch::async, std::move(task));
+  for (;;) {
+    {
+      const py::gil_scoped_release released;
+      if (done.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready) break;
+    }
+    if (PyErr_CheckSignals() == 0) continue;
+    se::stop_running();
+    {
+      const py::gil_scoped_release released;
+      done.wait();
+    }
+    throw py::error_already_set();
+  }
+  return done.get();
 }
 
 std::vector<py::ssize_t> shape_of(const se::Shape& shape) { return {shape.fans, shape.beams, shape.samples}; }
@@ -238,8 +261,7 @@ void bind_survey(py::module_& m) {
         } else {
           list.push_back(paths.cast<std::filesystem::path>());
         }
-        const py::gil_scoped_release released;
-        return se::Survey::open(list, recipe, threads);
+        return interruptible([&] { return se::Survey::open(list, recipe, threads); });
       },
       py::arg("paths"), py::arg("recipe") = se::Recipe(), py::arg("threads") = 0,
       "Opens a folder of raw files, a raw file, or a list of them. threads: 0 = all of the machine's.");
@@ -291,15 +313,17 @@ void bind_product(py::module_& m) {
 }
 
 void bind_schools(py::module_& m) {
-  m.def("detect", &se::detect, py::arg("observation"), py::call_guard<py::gil_scoped_release>(),
-        "Schools of an observation, detected, tracked and measured: what `sonarx run` makes of it. Returns a Product.");
+  m.def(
+      "detect", [](const se::Observation& o) { return interruptible([&] { return se::detect(o); }); },
+      py::arg("observation"),
+      "Schools of an observation, detected, tracked and measured: what `sonarx run` makes of it. Returns a Product.");
   m.def(
       "grow",
       [](const se::Observation& o, std::size_t ping, const py::object& seeds, std::optional<double> db,
          std::optional<double> opacity, std::optional<std::string> mode) {
         const auto list = seeds_of(seeds);
-        const py::gil_scoped_release released;
-        return se::grow(o, ping, list, options_of(db, opacity, std::move(mode)));
+        const se::GrowOptions options = options_of(db, opacity, std::move(mode));
+        return interruptible([&] { return se::grow(o, ping, list, options); });
       },
       py::arg("observation"), py::arg("ping"), py::arg("seeds"), py::arg("tolerance_db") = py::none(),
       py::arg("tolerance_opacity") = py::none(), py::arg("mode") = py::none(),
@@ -310,15 +334,20 @@ void bind_schools(py::module_& m) {
       [](const se::Observation& o, std::size_t ping, const py::object& seeds, std::int64_t reach,
          std::optional<double> db, std::optional<double> opacity, std::optional<std::string> mode) {
         const auto list = seeds_of(seeds);
-        const py::gil_scoped_release released;
-        return se::propagate(o, ping, list, reach, options_of(db, opacity, std::move(mode)));
+        const se::GrowOptions options = options_of(db, opacity, std::move(mode));
+        return interruptible([&] { return se::propagate(o, ping, list, reach, options); });
       },
       py::arg("observation"), py::arg("ping"), py::arg("seeds"), py::arg("reach") = -1,
       py::arg("tolerance_db") = py::none(), py::arg("tolerance_opacity") = py::none(), py::arg("mode") = py::none(),
       "The same, followed through the pings before and after: `reach` of them to each side, negative = as far as it "
       "goes.");
-  m.def("measure", &se::measure, py::arg("observation"), py::arg("product"), py::call_guard<py::gil_scoped_release>(),
-        "All figures of a product's masks worked out anew, under the recipe that the survey was opened with.");
+  m.def(
+      "measure",
+      [](const se::Observation& o, const se::Product& product) {
+        return interruptible([&] { return se::measure(o, product); });
+      },
+      py::arg("observation"), py::arg("product"),
+      "All figures of a product's masks worked out anew, under the recipe that the survey was opened with.");
 }
 
 }  // namespace

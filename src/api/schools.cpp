@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "api/running_work.h"
 #include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
@@ -67,8 +68,9 @@ Product selected(Observation::State& state, std::size_t ping, const sonar::Propa
   line.command = "propagate";
   line.ping_time = state.survey->ping_time(*state.files, ping);
   line.args = sonar::to_json(command);
-  sonar::Work work(state.threads);
-  auto product = value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, work));
+  RunningWork running(state.threads);
+  auto product =
+      value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, running.work()));
   for (const sonar::Diagnostic& note : product.diagnostics) {
     if (note.code == sonar::DiagnosticCode::decision_lost) {
       raise({sonar::ErrorCode::bad_parameter, note.text, {"", -1, note.ping_index}});
@@ -82,9 +84,9 @@ Product selected(Observation::State& state, std::size_t ping, const sonar::Propa
 Product detect(const Observation& observation) {
   Observation::State& state = observation.state();
   (void)state.engine_or_throw();
-  sonar::Work work(state.threads);
-  return shared(
-      value_or_throw(sonar::observe(*state.survey, *state.files, state.recipe.own(), {{}, {}, version()}, work)));
+  RunningWork running(state.threads);
+  return shared(value_or_throw(
+      sonar::observe(*state.survey, *state.files, state.recipe.own(), {{}, {}, version()}, running.work())));
 }
 
 Product grow(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,
@@ -101,9 +103,9 @@ Product propagate(const Observation& observation, std::size_t ping, const std::v
 
 Product measure(const Observation& observation, const Product& product) {
   Observation::State& state = observation.state();
-  sonar::Work work(state.threads);
-  return shared(value_or_throw(
-      sonar::remeasure(*state.survey, *state.files, product.own(), state.recipe.own(), {{}, {}, version()}, work)));
+  RunningWork running(state.threads);
+  return shared(value_or_throw(sonar::remeasure(*state.survey, *state.files, product.own(), state.recipe.own(),
+                                                {{}, {}, version()}, running.work())));
 }
 
 }  // namespace sonar_explorer

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "api/running_work.h"
 #include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/recipe/recipe.h"
@@ -72,8 +73,8 @@ Ping Observation::ping(std::size_t index) const {
   const auto ping = static_cast<std::int64_t>(index);
   {
     const std::scoped_lock lock(state_->estimating);
-    sonar::Work one(1);
-    value_or_throw(engine.estimate_background(ping, ping, one));
+    RunningWork running(1);
+    value_or_throw(engine.estimate_background(ping, ping, running.work()));
   }
   auto power = value_or_throw(sonar::load_volume(*state_->survey, *state_->files, index));
   auto arrays =
@@ -82,9 +83,9 @@ Ping Observation::ping(std::size_t index) const {
 }
 
 Survey Survey::open(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, int threads) {
-  sonar::Work work(threads);
-  auto files = std::make_shared<sonar::SurveyFiles>(value_or_throw(
-      sonar::open_survey(paths, recipe.own().survey, recipe.own().navigation, sonar::IndexCache::of_user(), work)));
+  RunningWork running(threads);
+  auto files = std::make_shared<sonar::SurveyFiles>(value_or_throw(sonar::open_survey(
+      paths, recipe.own().survey, recipe.own().navigation, sonar::IndexCache::of_user(), running.work())));
   value_or_throw(sonar::require_files(*files, paths));
   Survey survey;
   for (const sonar::ObservationFiles& observation : files->observations) {

@@ -2,7 +2,10 @@
 """The Python module on the small survey: arrays against a second reader of the raw files, schools against the tables."""
 import gc
 import os
+import signal
 import sys
+import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -184,6 +187,22 @@ class Errors(Opened):
     def test_a_seed_of_two_numbers(self):
         with self.assertRaises(ValueError):
             se.grow(self.observation, 0, (1, 2))
+
+
+class Interrupted(Opened):
+    def test_ctrl_c_ends_what_runs_and_leaves_the_survey_whole(self):
+        big = WORK / "interrupted"
+        code, out, error = sonarx.run("simulate", big, "--preset", "demo", "--seed", "3")
+        self.assertEqual(code, 0, out + error)
+        observation = se.open_survey(big).observations[0]
+        ended = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+        ended.start()
+        begun = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(100):
+                se.detect(observation)
+        self.assertLess(time.monotonic() - begun, 30)
+        self.assertEqual(observation.ping(0).sv.shape, observation.ping(1).sv.shape)
 
 
 class Documented(unittest.TestCase):
