@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <span>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sonar {
 namespace {
@@ -45,30 +48,54 @@ EGLContext create(EGLDisplay display, GlVersion version) {
   return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
 }
 
+bool is_software(EGLDeviceEXT device) {
+  const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+  return extensions != nullptr &&
+         std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
+}
+
+/// Where a context without a surface may come from, best first: each graphics card by itself, for not every driver knows
+/// Mesa's platform; then that.
+std::vector<EGLDisplay> displays() {
+  std::vector<EGLDisplay> out;
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
+      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
+    std::array<EGLDeviceEXT, 16> devices{};
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) count = 0;
+    for (EGLDeviceEXT device : std::span(devices).first(static_cast<std::size_t>(count))) {
+      if (!is_software(device)) out.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+    }
+  }
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    out.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<ContextEgl> ContextEgl::make(GlVersion wanted) {
   if (!libraries_are_installed()) {
     return fail(ErrorCode::unsupported, "OpenGL is not installed; expected libEGL.so.1 and libOpenGL.so.0");
   }
-  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-    return fail(ErrorCode::unsupported, "EGL offers no surfaceless platform; expected EGL_MESA_platform_surfaceless");
+  auto problem = Result<ContextEgl>(
+      fail(ErrorCode::unsupported,
+           "EGL draws only into windows; expected EGL_EXT_platform_device or EGL_MESA_platform_surfaceless"));
+  for (EGLDisplay display : displays()) {
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE ||
+        eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
+      problem = fail(ErrorCode::unsupported, "EGL cannot be started with desktop OpenGL; is a driver installed?");
+      continue;
+    }
+    for (GlVersion version = wanted; version >= kLeastGl; --version.minor) {
+      EGLContext context = create(display, version);
+      if (context != EGL_NO_CONTEXT) return ContextEgl(display, context);
+    }
+    problem = fail(ErrorCode::unsupported, fmt::format("OpenGL {}.{} core or higher is needed; the driver's best is {}",
+                                                       kLeastGl.major, kLeastGl.minor, best_found(display)));
   }
-  EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE ||
-      eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
-    return fail(ErrorCode::unsupported, "EGL cannot be started with desktop OpenGL; is a driver installed?");
-  }
-  ContextEgl out;
-  out.display_ = display;
-  for (GlVersion version = wanted; version >= kLeastGl && out.context_ == nullptr; --version.minor) {
-    out.context_ = create(display, version);
-  }
-  if (out.context_ == nullptr) {
-    return fail(ErrorCode::unsupported, fmt::format("OpenGL {}.{} core or higher is needed; the driver's best is {}",
-                                                    kLeastGl.major, kLeastGl.minor, best_found(display)));
-  }
-  return out;
+  return problem;
 }
 
 ContextEgl::~ContextEgl() { destroy(); }

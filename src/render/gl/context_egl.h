@@ -6,13 +6,13 @@
 
 namespace sonar {
 
-/// A context without display, window or surface (EGL, surfaceless platform): pictures are drawn into framebuffer
+/// A context without display, window or surface (EGL, of a graphics card or surfaceless): pictures are drawn into framebuffer
 /// objects. Not current until asked; destroyed with its owner.
 /// threads  current on one thread at a time
 class ContextEgl {
  public:
   /// Core profile of the version asked for, or the highest from kLeastGl upwards that the driver gives.
-  /// errors  unsupported: no EGL, no surfaceless platform, or OpenGL below kLeastGl; the line names what was found
+  /// errors  unsupported: no EGL, none without a surface, or OpenGL below kLeastGl; the line names what was found
   [[nodiscard]] static Result<ContextEgl> make(GlVersion wanted = {4, 5});
 
   ContextEgl() = default;
@@ -29,6 +29,7 @@ class ContextEgl {
   [[nodiscard]] explicit operator bool() const { return context_ != nullptr; }
 
  private:
+  ContextEgl(void* display, void* context) : display_(display), context_(context) {}
   void destroy();
   void* display_ = nullptr;
   void* context_ = nullptr;
