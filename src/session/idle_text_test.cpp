@@ -17,6 +17,9 @@ TEST(IdleText, TellsHowFarTheFirstSurveyIsAndEscapeEndsIt) {
   AppModel app(queue, TestSurvey::options(TestSurvey::easy().fresh()));
   Document& document = app.workspace.document;
   EXPECT_THAT(idle_text(app, "top_slice"), HasSubstr("Open a survey"));
+  for (const char* instrument : {"MS70", "ME70", "EK60", "EK80"}) {
+    EXPECT_THAT(idle_text(app, "top_slice"), HasSubstr(instrument)) << "what leads to schools, and what does not yet";
+  }
   std::promise<void> seen;
   std::promise<bool> ended;
   document.open({TestSurvey::easy().folder()}, [&](Work& work) -> Result<void> {
