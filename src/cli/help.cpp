@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -124,6 +125,12 @@ void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatte
   verb.add_flag_callback(
           "-v,--verbose", [] { set_log_level(LogLevel::verbose); }, "Tell each step on standard error")
       ->excludes(quiet);
+  const std::map<std::string, LogLevel> levels{
+      {"errors", LogLevel::quiet}, {"notes", LogLevel::normal}, {"steps", LogLevel::verbose}};
+  verb.add_option_function<std::string>(
+          "--log-level", [levels](const std::string& level) { set_log_level(levels.at(level)); },
+          "What is told on standard error: errors as -q, notes too, steps as -v")
+      ->check(CLI::IsMember({"errors", "notes", "steps"}));
   std::string footer = verb.get_footer();
   if (!footer.empty()) footer += "\n";
   for (const Examples& examples : kExamples) {
