@@ -17,7 +17,8 @@ test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-nump
       bash-completion zsh fish)
 readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
 cluster=(munge slurmctld slurmd slurm-client)
-packages=(pybind11-dev python3-dev dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap)
+packages=(pybind11-dev python3-dev dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap
+          patchelf squashfs-tools)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 
