@@ -18,9 +18,9 @@ FOLDER = WORK / "qgis"
 os.environ.update(QT_QPA_PLATFORM="offscreen", QGIS_CUSTOM_CONFIG_PATH=str(FOLDER / "profile"), XDG_RUNTIME_DIR=str(FOLDER))
 try:
     import numpy
-    from qgis.core import (QgsApplication, QgsDataProvider, QgsGraduatedSymbolRenderer, QgsMapRendererParallelJob, QgsMapSettings,
-                           QgsRenderContext, QgsSimpleFillSymbolLayer, QgsSimpleLineSymbolLayer, QgsSimpleMarkerSymbolLayer,
-                           QgsSingleSymbolRenderer, QgsVectorLayer)
+    from qgis.core import (QgsApplication, QgsDataProvider, QgsExpression, QgsGraduatedSymbolRenderer, QgsMapRendererParallelJob,
+                           QgsMapSettings, QgsRenderContext, QgsSimpleFillSymbolLayer, QgsSimpleLineSymbolLayer,
+                           QgsSimpleMarkerSymbolLayer, QgsSingleSymbolRenderer, QgsVectorLayer)
     from qgis.PyQt.QtCore import QSize, Qt
     from qgis.PyQt.QtGui import QColor, QImage
 except ImportError as missing:
@@ -68,6 +68,19 @@ def drawn(layers, extent, file):
 def over(colour, below=(255, 255, 255)):
     """The colour that a translucent one gives over another."""
     return [colour.alphaF() * c + (1 - colour.alphaF()) * b for c, b in zip(colour.getRgb(), below)]
+
+
+def drawn_as(layer, feature):
+    """Name of the colour that the layer's style gives to a feature; None: it is not drawn."""
+    context = QgsRenderContext()
+    context.expressionContext().setFields(layer.fields())
+    context.expressionContext().setFeature(feature)
+    renderer = layer.renderer().clone()
+    renderer.startRender(context, layer.fields())
+    symbol = renderer.originalSymbolForFeature(feature, context)
+    colour = None if symbol is None else symbol.color().name()
+    renderer.stopRender(context)
+    return colour
 
 
 def pixels_of(pixels, rgb, tolerance=6):
@@ -143,26 +156,31 @@ class Styles(Map):
         for name, table in (("schools", "schools.csv"), ("school_centres", "school_pings.csv")):
             layer, renderer = self.layers[name], self.layers[name].renderer()
             self.assertIsInstance(renderer, QgsGraduatedSymbolRenderer, name)
-            self.assertEqual(renderer.classAttribute(), "sv_mean_db")
-            ranges = renderer.ranges()
+            self.assertIn("sv_mean_db", QgsExpression(renderer.classAttribute()).referencedColumns())
+            ranges = [r for r in renderer.ranges() if r.label() != "unknown"]
             self.assertEqual([r.lowerValue() for r in ranges[1:]], [r.upperValue() for r in ranges[:-1]], "no gaps")
             self.assertTrue(all(r.renderState() for r in ranges))
             luminance = [numpy.dot((0.2126, 0.7152, 0.0722), r.symbol().color().getRgb()[:3]) for r in ranges]
             self.assertEqual(luminance, sorted(set(luminance)), "the louder the brighter")
             of_table = [float(row["sv_mean_db"]) for row in sonarx.read_csv(OUT / table)]
-            context = QgsRenderContext()
-            renderer.startRender(context, layer.fields())
-            of_map = []
             for feature in layer.getFeatures():
-                self.assertIsNotNone(renderer.symbolForFeature(feature, context), "a school that is not drawn")
-                of_map.append(feature["sv_mean_db"])
-            renderer.stopRender(context)
+                self.assertIsNotNone(drawn_as(layer, feature), "a school that is not drawn")
+            of_map = [feature["sv_mean_db"] for feature in layer.getFeatures()]
             self.assertEqual(sorted(of_map), sorted(of_table))
             labels = {r.symbol().color().name(): r.label() for r in ranges}
             for sv in of_table:
                 label = labels[renderer.symbolForValue(sv).color().name()]
                 low, high = limits_db(label)
                 self.assertTrue(low <= sv <= high, f"{sv} dB is called {label}")
+
+    def test_a_school_of_unknown_sv_is_drawn_too_and_has_no_class_of_sv(self):
+        for name in ("schools", "school_centres"):
+            layer, renderer = self.layers[name], self.layers[name].renderer()
+            feature = next(layer.getFeatures())
+            feature["sv_mean_db"] = None
+            colour = drawn_as(layer, feature)
+            self.assertIsNotNone(colour, f"{name}: nothing is drawn")
+            self.assertEqual([r.label() for r in renderer.ranges() if r.symbol().color().name() == colour], ["unknown"])
 
 
 class Picture(Map):
