@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages into a bare Debian 12 and does a first survey there, with times. Needs root, and the mirror that
-# this machine's apt uses.
+# Installs the packages into a bare Debian 12, does a first survey there, builds a program on the library and reads pings from
+# Python, with times. Needs root, and the mirror that this machine's apt uses.
 #   packaging/test_packages.sh [FOLDER]      FOLDER: where the .deb files are (default: build/packages/packages)
 # The bare Debian stands in SONAR_ROOT (default: a temporary folder, removed at the end).
 set -euo pipefail
@@ -11,6 +11,9 @@ case "${1:-}" in -h | --help) sed -n '3,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; e
 packages=$(readlink -f "${1:-$here/build/packages/packages}")
 sonarx=$(echo "$packages"/sonarx_*.deb)
 explorer=$(echo "$packages"/sonar-explorer_*.deb)
+library=$(echo "$packages"/libsonar-explorer_*.deb)
+headers=$(echo "$packages"/libsonar-explorer-dev_*.deb)
+module=$(echo "$packages"/python3-sonar-explorer_*.deb)
 [[ -f $sonarx ]] || { echo "test_packages.sh: no sonarx_*.deb in $packages (packaging/make_packages.sh makes it)" >&2; exit 1; }
 ((EUID == 0)) || { echo "test_packages.sh: run it as root; it makes a root of its own" >&2; exit 1; }
 for tool in debootstrap dpkg-deb desktop-file-validate groff; do
@@ -38,6 +41,24 @@ stays() {
   bare env QT_QPA_PLATFORM=offscreen timeout 5 sonar-explorer /survey || status=$?
   ((status == 124))
 }
+schools_of_table() { # observation,school_id,n_pings,sv_mean_db of the first survey, as the example prints them
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+           { printf "%s,%.2f,%.2f,%.2f\n", $at["observation"], $at["school_id"], $at["n_pings"], $at["sv_mean_db"] }' "$root/out/schools.csv"
+}
+read_pings() { # the loudest valid sample of each school in each ping, out of the pings' own arrays, is that of the table
+  bare python3 - <<'END'
+import csv
+import sonar_explorer as se
+observation = se.open_survey("/survey").observation("obs-0001")
+product = se.read_product("/out/products/obs-0001.nc")
+for row in csv.DictReader(open("/out/school_pings.csv")):
+    index, number = int(row["ping_index"]), int(row["school_id"])
+    ping = observation.ping(index)
+    members = (product.school_ids(index) == number) & (ping.flags == 0)
+    loudest_db = ping.sv[members].max() * se.DB_PER_COUNT
+    assert abs(loudest_db - float(row["sv_max_db"])) < se.DB_PER_COUNT / 2, (row, loudest_db)
+END
+}
 mounted() { grep -q " $root/proc " /proc/mounts; }
 clean() {
   if mounted; then umount "$root/proc"; fi
@@ -49,7 +70,7 @@ bare() (
 )
 
 echo "== what the packages hold"
-for package in "$sonarx" "$explorer"; do
+for package in "$sonarx" "$explorer" "$library" "$headers" "$module"; do
   if [[ -f $package ]]; then say "$(basename "$package")" "$(stat -c %s "$package") bytes"; fi
 done
 depends=$(dpkg-deb -f "$sonarx" Depends)
@@ -82,6 +103,14 @@ if [[ -f $explorer ]]; then
   fi
 fi
 
+for package in "$library" "$headers" "$module"; do
+  [[ -f $package ]] || continue
+  mkdir "$work/one"
+  dpkg-deb -x "$package" "$work/one"
+  check "no folder of the build in $(dpkg-deb -f "$package" Package)" bash -c "! grep -rlF '$here' '$work/one'"
+  rm -r "$work/one"
+done
+
 echo "== bare Debian 12"
 # The mirror that apt here uses, in either way of writing it.
 mirror=$({ cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources 2>/dev/null || true; } |
@@ -113,6 +142,31 @@ cut -d, -f1-8 "$root/out/schools.csv" | head -4
 check "the table has a school" bash -c "test \$(wc -l <'$root/out/schools.csv') -gt 1"
 check "render a map" bare sonarx render survey-map /out -o /out/survey-map.png
 check "render a volume" bare sonarx render volume /survey /out -o /out/volume.png
+
+if [[ -f $library && -f $headers ]]; then
+  echo "== libsonar-explorer, libsonar-explorer-dev"
+  before=$(size_mb "$root")
+  say "apt install ./libsonar-explorer*.deb" "$(seconds bare bash -c 'apt-get -q install -y /packages/libsonar-explorer*.deb')"
+  bare apt-get clean
+  say "installed" "$(($(size_mb "$root") - before)) MB more"
+  say "apt install g++ cmake make" "$(seconds bare apt-get -q install -y --no-install-recommends g++ cmake make)"
+  bare apt-get clean
+  bare rm -rf /example /products
+  cp -r "$here/examples/cpp" "$root/example"
+  say "build examples/cpp" "$(seconds bare bash -c 'cmake -S /example -B /example/build && cmake --build /example/build')"
+  say "run it: detects" "$(seconds bare bash -c '/example/build/schools /survey /products >/example/told')"
+  check "it finds what the table says" diff <(grep '^obs-[0-9]*,' "$root/example/told") <(schools_of_table)
+fi
+
+if [[ -f $library && -f $module ]]; then
+  echo "== python3-sonar-explorer"
+  before=$(size_mb "$root")
+  say "apt install ./python3-sonar-explorer_*.deb" \
+      "$(seconds bare bash -c 'apt-get -q install -y /packages/libsonar-explorer_*.deb /packages/python3-sonar-explorer_*.deb')"
+  bare apt-get clean
+  say "installed" "$(($(size_mb "$root") - before)) MB more"
+  check "python3 opens the survey, its pings are the table's" read_pings
+fi
 
 if [[ -f $explorer ]]; then
   echo "== sonar-explorer"

@@ -13,10 +13,12 @@ build=(g++ cmake ninja-build ccache pkg-config ca-certificates
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
 test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-numpy python3-netcdf4
-      pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth)
+      pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth
+      bash-completion zsh fish)
 readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
 cluster=(munge slurmctld slurmd slurm-client)
-packages=(pybind11-dev python3-dev dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap)
+packages=(pybind11-dev python3-dev dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap
+          patchelf squashfs-tools)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sets everything up and passes the tests: what the README and continuous integration call.
 #   tools/test.sh           g++, format, layers, unit, data and command-line tests
-#   tools/test.sh --full    also the slow tests, lone headers, the headless build, clang 16 with address +
-#                           undefined-behaviour and thread sanitizers, clang-tidy, some seconds of each fuzz target,
-#                           and the benchmarks' build where ITK is installed
+#   tools/test.sh --full    also the slow tests, other people's readers (R, QGIS), lone headers, the headless build,
+#                           clang 16 with address + undefined-behaviour and thread sanitizers, clang-tidy, some
+#                           seconds of each fuzz target, and the benchmarks' build where ITK is installed
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
@@ -113,7 +113,7 @@ threaded='[Tt]hreads?([A-Z_]|$)|Work\.|^session$'
 threaded_programs=(sonar_base_test sonar_signal_test sonar_io_test sonar_synth_test sonar_session_test sonar_observe_test)
 
 mkdir -p build
-if $full; then part "packages" tools/setup.sh full; else part "packages" tools/setup.sh test; fi
+if $full; then part "packages" tools/setup.sh full readers; else part "packages" tools/setup.sh test; fi
 part "format" check_format
 part "layers" tools/check_layers
 part "build with g++" build dev

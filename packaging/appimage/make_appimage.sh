@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes an AppImage of the desktop with the command line in it: one file that runs on Linux distributions not older than
 # the one it was made on.
-#   packaging/appimage/make_appimage.sh [FOLDER]      FOLDER: where linuxdeploy's AppImages are (default: ~/Downloads)
-# It needs two programs that Debian has not packaged. Download them first:
-#   linuxdeploy-x86_64.AppImage             github.com/linuxdeploy/linuxdeploy, Releases
-#   linuxdeploy-plugin-qt-x86_64.AppImage   github.com/linuxdeploy/linuxdeploy-plugin-qt, Releases
-# Without them it stops when the AppDir is complete but for the libraries. So far this alone has been tried, and the programs
-# started from the AppDir; the last step has not.
+#   packaging/appimage/make_appimage.sh [RUNTIME]      RUNTIME: the file below (default: ~/Downloads/runtime-x86_64)
+# Debian packages all that it needs but the 1 MB with which an AppImage begins. Download it first:
+#   runtime-x86_64      github.com/AppImage/type2-runtime, Releases
+# Without it, it stops when all but this is done; build/AppDir/AppRun then starts as the AppImage would. So far this alone has been
+# tried: in a bare Debian 12 with X, fonts and OpenGL, the command line on a survey and the desktop's window.
 set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 exec </dev/null
-case "${1:-}" in -h | --help) sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
-tools=$(readlink -m "${1:-$HOME/Downloads}")
+case "${1:-}" in -h | --help) sed -n '3,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
+runtime=$(readlink -m "${1:-$HOME/Downloads/runtime-x86_64}")
 cd "$here"
 appdir=$here/build/AppDir
 
@@ -24,7 +23,9 @@ cmake --build --preset packages
 
 echo "== AppDir"
 rm -rf "$appdir"
-cmake --install build/packages --prefix "$appdir/usr" --strip >build/AppDir.log
+for component in cli desktop; do
+  cmake --install build/packages --prefix "$appdir/usr" --strip --component $component
+done >build/AppDir.log
 # One file, two programs: `FILE sonarx ...`, or a link to it that is named sonarx, is the command line; else the desktop.
 # Its --help still names /usr/share/doc/sonarx, where an AppImage installs nothing.
 cat >"$appdir/AppRun" <<'END'
@@ -41,20 +42,35 @@ cp -r /usr/share/proj "$appdir/usr/share/proj"
 cp -r /usr/share/gdal "$appdir/usr/share/gdal"
 cp packaging/desktop/sonar-explorer.desktop "$appdir/"
 cp packaging/desktop/sonar-explorer.svg "$appdir/"
+
+echo "== libraries"
+lib=$appdir/usr/lib
+plugins=$(qmake6 -query QT_INSTALL_PLUGINS)
+for plugin in platforms/libqxcb platforms/libqoffscreen imageformats/libqsvg xcbglintegrations/libqxcb-egl-integration \
+              xcbglintegrations/libqxcb-glx-integration; do
+  if [[ -f $plugins/$plugin.so ]]; then install -D -m 644 -t "$appdir/usr/plugins/${plugin%/*}" "$plugins/$plugin.so"; fi
+done
+# The C and C++ libraries are newer on the machines it runs on, OpenGL is that of the graphics card, X and fonts that of the desktop.
+machines='lib(c|m|dl|rt|pthread|resolv|stdc\+\+|gcc_s|GL|EGL|GLX|GLdispatch|OpenGL|drm|gbm|X11|X11-xcb|xcb|fontconfig|freetype)\.so|ld-linux'
+mkdir -p "$lib"
+find "$appdir/usr/bin" "$appdir/usr/plugins" -type f -print0 | xargs -0 ldd |
+  awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | sort -u | grep -vE "/($machines)" | xargs cp -L -t "$lib"
+find "$lib" -maxdepth 1 -name '*.so*' -type f -exec patchelf --set-rpath "\$ORIGIN" {} +
+find "$appdir/usr/bin" -type f -exec patchelf --set-rpath "\$ORIGIN/../lib" {} +
+find "$appdir/usr/plugins" -type f -exec patchelf --set-rpath "\$ORIGIN/../../lib" {} +
+printf '[Paths]\nPrefix = ..\nPlugins = plugins\n' >"$appdir/usr/bin/qt.conf"
 du -sh "$appdir"
 
 echo "== AppImage"
-linuxdeploy=$tools/linuxdeploy-x86_64.AppImage
-if [[ ! -x $linuxdeploy || ! -x $tools/linuxdeploy-plugin-qt-x86_64.AppImage ]]; then
-  echo "no linuxdeploy-x86_64.AppImage and linuxdeploy-plugin-qt-x86_64.AppImage in $tools: the AppDir is in $appdir" >&2
+version=$(sed -n 's/^project(sonar-explorer VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+image=$here/build/sonar-explorer-$version-x86_64.AppImage
+mksquashfs "$appdir" "$image.squashfs" -noappend -root-owned -quiet -no-progress -comp xz
+if [[ ! -f $runtime ]]; then
+  ls -l "$image.squashfs"
+  echo "no $runtime: the AppDir is in $appdir" >&2
   exit 1
 fi
-version=$(sed -n 's/^project(sonar-explorer VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
-# Without FUSE, as in a container, AppImages unpack themselves first.
-export APPIMAGE_EXTRACT_AND_RUN=1 QMAKE=/usr/bin/qmake6 LINUXDEPLOY_OUTPUT_VERSION=$version
-export LDAI_OUTPUT=$here/build/sonar-explorer-$version-x86_64.AppImage
-PATH=$tools:$PATH "$linuxdeploy" --appdir "$appdir" --plugin qt --output appimage \
-  --executable "$appdir/usr/bin/sonarx" --executable "$appdir/usr/bin/sonar-explorer" \
-  --desktop-file "$appdir/usr/share/applications/sonar-explorer.desktop" \
-  --icon-file "$appdir/usr/share/icons/hicolor/scalable/apps/sonar-explorer.svg" --custom-apprun "$appdir/AppRun"
-ls -l "$LDAI_OUTPUT"
+cat "$runtime" "$image.squashfs" >"$image"
+chmod +x "$image"
+rm "$image.squashfs"
+ls -l "$image"

@@ -33,7 +33,10 @@ constexpr std::array<Colour, 8> kClasses{{{68, 1, 84},
                                           {74, 193, 109},
                                           {160, 218, 57},
                                           {253, 231, 37}}};
-constexpr std::string_view kValue = "sv_mean_db";
+/// QGIS draws nothing where no class fits, as where mean Sv is unknown (no valid member, or no more than noise): so that such a
+/// school is seen, unknown becomes a number that no Sv is, with a class of its own.
+constexpr double kUnknown_db = -150.0;
+constexpr Colour kUnknownColour{150, 150, 150};
 
 std::string text_of(const Colour& c) { return fmt::format("{},{},{},{}", c.r, c.g, c.b, c.a); }
 
@@ -100,11 +103,14 @@ std::string by_mean_sv(const Draw& draw) {
                           first ? -kOpenEnd_db : lower, last ? kOpenEnd_db : lower + kClass_db, i, label);
     symbols += draw(fmt::format("{}", i), kClasses[i]);
   }
-  return style(
-      fmt::format("<renderer-v2 type=\"graduatedSymbol\" attr=\"{}\" graduatedMethod=\"GraduatedColor\" "
-                  "symbollevels=\"0\" enableorderby=\"0\" forceraster=\"0\"><ranges>{}</ranges><symbols>{}</symbols>"
-                  "<source-symbol>{}</source-symbol></renderer-v2>",
-                  kValue, ranges, symbols, draw("0", kClasses.back())));
+  ranges += fmt::format("<range lower=\"{}\" upper=\"{}\" symbol=\"{}\" label=\"unknown\" render=\"true\"/>",
+                        kUnknown_db - 1.0, kUnknown_db + 1.0, kClasses.size());
+  symbols += draw(fmt::format("{}", kClasses.size()), kUnknownColour);
+  return style(fmt::format(
+      "<renderer-v2 type=\"graduatedSymbol\" attr=\"coalesce(sv_mean_db, {})\" graduatedMethod=\"GraduatedColor\" "
+      "symbollevels=\"0\" enableorderby=\"0\" forceraster=\"0\"><ranges>{}</ranges><symbols>{}</symbols>"
+      "<source-symbol>{}</source-symbol></renderer-v2>",
+      kUnknown_db, ranges, symbols, draw("0", kClasses.back())));
 }
 
 }  // namespace

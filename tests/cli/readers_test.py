@@ -136,7 +136,7 @@ class Map(Case):
             root = xml.etree.ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>]*>", "", qml))
             self.assertEqual(root.tag, "qgis", layer)
             self.assertIsNotNone(root.find("renderer-v2/symbols/symbol/layer"), layer)
-        self.assertIn('attr="sv_mean_db"', styles["schools"])
+        self.assertIn('attr="coalesce(sv_mean_db, -150)"', styles["schools"])
         for symbol, range_ in zip(*(xml.etree.ElementTree.fromstring(re.sub(r"<!DOCTYPE[^>]*>", "", styles["schools"]))
                                     .findall(p) for p in ("renderer-v2/symbols/symbol", "renderer-v2/ranges/range"))):
             self.assertEqual(symbol.get("name"), range_.get("symbol"))
