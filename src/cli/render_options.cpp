@@ -11,23 +11,11 @@
 #include <string_view>
 
 #include "base/units.h"
-#include "cli/whole_numbers.h"
+#include "cli/numbers.h"
 #include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {
 namespace {
-
-/// A number in its range; CLI11's own check lets NaN pass.
-CLI::Validator between(double low, double high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
-    double value = 0.0;
-    const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = problem == std::errc() && after == text.data() + text.size() && std::isfinite(value);
-    if (number && value >= low && value <= high) return {};
-    return fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
-  };
-  return {check, fmt::format("[{:g} - {:g}]", low, high)};
-}
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
@@ -136,7 +124,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT, pixels")->capture_default_str();
   verb.add_option("--scale", a.scale, "Pixels per unit of --size: 2 for print or high-density screens")
-      ->check(between(0.25, 8.0));
+      ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
 }
@@ -147,13 +135,13 @@ void add_colours(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--map", a.map, "Colour map")->check(CLI::IsMember(maps))->capture_default_str()->group("Colours");
   verb.add_option("--low-db", a.low_db,
                   "Display limit: the first colour begins here; default -60, timeline of means -75")
-      ->check(between(-190.0, 100.0))
+      ->check(within(-190.0, 100.0))
       ->group("Colours");
   verb.add_option("--span-db", a.span_db, "From the first colour to the last; default 36")
-      ->check(between(1.0, 200.0))
+      ->check(within(1.0, 200.0))
       ->group("Colours");
   verb.add_option("--threshold-db", a.picture.scale.threshold_db, "Analysis threshold: nothing below it is shown")
-      ->check(between(-200.0, 100.0))
+      ->check(within(-200.0, 100.0))
       ->group("Colours");
   verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of the map's")
       ->group("Colours");
@@ -167,14 +155,14 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
                   "slice-side: beam from 0, clockwise (looking to port: from aft); default: through the largest school")
       ->group(group);
   verb.add_option("--range-m", a.picture.range_m, "slice-range: slant range, m")
-      ->check(between(-1e6, 1e6))
+      ->check(within(-1e6, 1e6))
       ->group(group);
   verb.add_option("--depth-m", a.picture.plane.depth_m, "slice-plane: horizontal, at this depth")
-      ->check(between(-1e6, 1e6))
+      ->check(within(-1e6, 1e6))
       ->group(group);
   verb.add_option("--bearing-deg", a.picture.plane.bearing_deg,
                   "slice-plane: vertical through the sonar along a true bearing")
-      ->check(between(-1e6, 1e6))
+      ->check(within(-1e6, 1e6))
       ->group(group);
   verb.add_option("--through", a.plane_through, "slice-plane: vertical through X,Y,X,Y (m towards bow and starboard)")
       ->group(group);
@@ -193,7 +181,7 @@ void add_slices(CLI::App& verb, RenderArguments& a) {
           ->group(group);
   verb.add_option("--weak-db", a.weak_db, "--weak: those with less signal-to-noise, dB")
       ->needs(weak)
-      ->check(between(0.0, 60.0))
+      ->check(within(0.0, 60.0))
       ->capture_default_str()
       ->group(group);
   verb.add_flag("--north-up", a.picture.north_up, "Turn slices from above so that north is up")->group(group);
@@ -207,7 +195,7 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--first-hit-db", a.picture.first_hit_db, "first-hit: Sv of the surface")
-      ->check(between(-200.0, 100.0))
+      ->check(within(-200.0, 100.0))
       ->capture_default_str()
       ->group(group);
   verb.add_flag("--lighting", a.picture.lighting, "Light by the gradient of Sv in metres")->group(group);
@@ -215,21 +203,21 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->group(group);
   verb.add_option("--target", a.target, "What the camera looks at, X,Y,Z")->group(group);
   verb.add_option("--orbit-deg", a.picture.orbit_deg, "Turn the camera about its target")
-      ->check(between(-360.0, 360.0))
+      ->check(within(-360.0, 360.0))
       ->group(group);
   verb.add_option("--rise-deg", a.picture.rise_deg, "Lift the camera about its target")
-      ->check(between(-180.0, 180.0))
+      ->check(within(-180.0, 180.0))
       ->group(group);
-  verb.add_option("--zoom", a.picture.zoom, "Above 1: nearer")->check(between(0.01, 100.0))->group(group);
+  verb.add_option("--zoom", a.picture.zoom, "Above 1: nearer")->check(within(0.01, 100.0))->group(group);
   verb.add_flag("--masks-alone{false}", a.picture.mask_style.data_too, "Schools' masks without the data")->group(group);
   verb.add_flag("--mask-outline", a.picture.mask_outline, "Outline schools in volumes: the data keeps its colours")
       ->group(group);
   verb.add_option("--core", a.picture.mask_style.core_at, "Confidence from which a voxel is core")
-      ->check(between(0.0, 1.0))
+      ->check(within(0.0, 1.0))
       ->capture_default_str()
       ->group(group);
   verb.add_option("--fuzzy", a.picture.mask_style.fuzzy_above, "Confidence of the fuzzy area's surface")
-      ->check(between(0.0, 1.0))
+      ->check(within(0.0, 1.0))
       ->group(group);
   verb.add_option("--table-entries", a.picture.table_entries, "Steps of the transfer function's table")
       ->check(CLI::Range(2, kMostTableEntries))
@@ -240,7 +228,7 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--seconds", a.picture.seconds, "No further frame is begun after this time; 0 = no limit")
-      ->check(between(0.0, 1e6))
+      ->check(within(0.0, 1e6))
       ->group(group);
   verb.add_option("--renderer", a.renderer, "auto, cpu or gl")
       ->check(CLI::IsMember({"auto", "cpu", "gl"}))
@@ -249,7 +237,7 @@ void add_volume(CLI::App& verb, RenderArguments& a) {
   verb.add_flag("--no-context{false}", a.picture.context, "Without frame, rings, sea surface, ship and axes")
       ->group(group);
   verb.add_option("--ship-length-m", a.picture.ship_length_m, "Length of the drawn ship")
-      ->check(between(1.0, 500.0))
+      ->check(within(1.0, 500.0))
       ->capture_default_str()
       ->group(group);
 }
@@ -282,11 +270,11 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")
       ->group("Comparing");
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")
-      ->check(between(0.0, 255.0))
+      ->check(within(0.0, 255.0))
       ->capture_default_str()
       ->group("Comparing");
   verb.add_option("--mean-difference", a.mean_difference, "Allowed mean difference, 0..255")
-      ->check(between(0.0, 255.0))
+      ->check(within(0.0, 255.0))
       ->capture_default_str()
       ->group("Comparing");
   verb.add_option("--difference", a.difference, "Write what differs as a PNG")->group("Comparing");
