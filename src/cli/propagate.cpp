@@ -20,7 +20,6 @@
 #include "io/atomic_file.h"
 #include "io/product_file.h"
 #include "model/school_totals.h"
-#include "pipeline/commands/recipe_propagation.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/tasks/merge.h"
