@@ -16,7 +16,7 @@
 
 #include "latency_clock.h"
 #include "pipeline/stages/observe.h"
-#include "publish/painted.h"
+#include "publish/picture_output.h"
 #include "session/app_model.h"
 #include "session/playback.h"
 #include "session/slices/slice_build.h"

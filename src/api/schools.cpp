@@ -12,7 +12,6 @@
 #include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
-#include "pipeline/commands/recipe_propagation.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/observe.h"

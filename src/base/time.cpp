@@ -58,6 +58,13 @@ std::string iso_time(TimeNs time) {
                      c.nanosecond / 1'000'000);
 }
 
+std::string time_text(TimeNs time) {
+  std::string text = iso_time(time);
+  text.replace(text.find('T'), 1, " ");
+  text.replace(text.size() - 1, 1, " UTC");
+  return text;
+}
+
 std::string raw_name_time(TimeNs time) {
   const Calendar c = calendar_of(time);
   return fmt::format("{:04}{:02}{:02}-T{:02}{:02}{:02}", c.year, c.month, c.day, c.hour, c.minute, c.second);

@@ -19,6 +19,8 @@ inline constexpr TimeNs kSecondNs = 1'000'000'000;
 
 /// "2026-11-21T19:57:26.123Z", rounded down to the millisecond.
 [[nodiscard]] std::string iso_time(TimeNs time);
+/// "2020-01-02 08:00:20.350 UTC", the same as people read it.
+[[nodiscard]] std::string time_text(TimeNs time);
 /// Reads what iso_time() writes; fraction of 0 to 9 digits.
 [[nodiscard]] std::optional<TimeNs> time_from_iso(std::string_view text);
 

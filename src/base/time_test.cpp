@@ -34,6 +34,7 @@ TEST(Time, KnownDates) {
   EXPECT_EQ(time_from_calendar(2000, 2, 29, 43200.0), 951825600 * kSecondNs);
   EXPECT_EQ(time_from_calendar(2009, 11, 13, 0.5), 1258070400 * kSecondNs + kSecondNs / 2);
   EXPECT_EQ(iso_time(951825600 * kSecondNs), "2000-02-29T12:00:00.000Z");
+  EXPECT_EQ(time_text(951825600 * kSecondNs), "2000-02-29 12:00:00.000 UTC");
   EXPECT_EQ(raw_name_time(951825600 * kSecondNs), "20000229-T120000");
 }
 

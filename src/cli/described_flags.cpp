@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/described_flags.h"
 
-#include <fmt/format.h>
-
 #include <cctype>
-#include <charconv>
+
+#include "cli/numbers.h"
 
 namespace sonar {
-
-CLI::Validator between(double low, double high) {
-  const auto check = [low, high](const std::string& text) -> std::string {
-    double value = 0.0;
-    const auto [after, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = problem == std::errc() && after == text.data() + text.size() && std::isfinite(value);
-    if (number && value >= low && value <= high) return {};
-    return fmt::format("{}: expected a number from {:g} to {:g}", text, low, high);
-  };
-  return {check, fmt::format("[{:g} - {:g}]", low, high)};
-}
 
 std::string with_dashes(std::string_view name) {
   std::string out(name);
@@ -57,7 +45,7 @@ void DescribedFlags::field(std::string_view name, int& value, const FieldInfo& i
 void DescribedFlags::field(std::string_view name, double& value, const FieldInfo& info) {
   if (info.flag == kNoFlag) return;
   auto* option = verb_.add_option(flag_of(name, info), value, sentence(info.text));
-  add(option->check(between(info.min, info.max))->capture_default_str(), info.suits);
+  add(option->check(within(info.min, info.max))->capture_default_str(), info.suits);
 }
 
 void DescribedFlags::field(std::string_view name, std::string& value, const FieldInfo& info) {

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,9 +11,6 @@
 #include "base/describe.h"
 
 namespace sonar {
-
-/// A number in its range; CLI11's own check lets NaN pass.
-[[nodiscard]] CLI::Validator between(double low, double high);
 
 /// "first_hit_db" -> "first-hit-db".
 [[nodiscard]] std::string with_dashes(std::string_view name);

@@ -14,7 +14,7 @@
 #include "cli/verb.h"
 #include "pipeline/recipe/recipe.h"
 #include "publish/picture.h"
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/whole_numbers.h"
+#include "cli/numbers.h"
 #include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {
@@ -56,7 +56,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT, pixels")->capture_default_str();
   verb.add_option("--scale", a.scale, "Pixels per unit of --size: 2 for print or high-density screens")
-      ->check(between(0.25, 8.0));
+      ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   suits(verb.add_option("--fan", a.picture.fan, "Fan from 0, the deepest; default: through the largest school"),
         "slice-top");
@@ -76,11 +76,11 @@ void add_comparing(CLI::App& verb, RenderArguments& a) {
   const std::string group = "Comparing";
   verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")->group(group);
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")
-      ->check(between(0.0, 255.0))
+      ->check(within(0.0, 255.0))
       ->capture_default_str()
       ->group(group);
   verb.add_option("--mean-difference", a.mean_difference, "Allowed mean difference, 0..255")
-      ->check(between(0.0, 255.0))
+      ->check(within(0.0, 255.0))
       ->capture_default_str()
       ->group(group);
   verb.add_option("--difference", a.difference, "Write what differs as a PNG")->group(group);

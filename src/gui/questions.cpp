@@ -4,13 +4,16 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QCursor>
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QGuiApplication>
 #include <QInputDialog>
 #include <QMessageBox>
+#include <QVBoxLayout>
 
-#include "gui/parameter_dialog.h"
+#include "gui/panel_section.h"
 #include "gui/recipe_dialog.h"
 
 namespace sonar {
@@ -24,6 +27,20 @@ std::string dock_of(const QWidget* widget) {
     if (qobject_cast<const QDockWidget*>(widget) != nullptr) return widget->objectName().toStdString();
   }
   return {};
+}
+
+/// Lets a human change the parameters of a section; they follow at once. False where the human declined.
+bool change_parameters(QWidget& window, const std::string& title, const PanelSection& section) {
+  QDialog dialog(&window);
+  dialog.setObjectName("parameters");
+  dialog.setWindowTitle(QString::fromStdString(title));
+  auto* column = new QVBoxLayout(&dialog);
+  column->addWidget(panel_section(section, &dialog));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  column->addWidget(buttons);
+  return dialog.exec() == QDialog::Accepted;
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "io/simrad/ek80_channels.h"
 #include "io/simrad/indexer.h"
 #include "io/simrad/ping_reader.h"
+#include "io/simrad/raw_format.h"
 
 namespace sonar {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "io/netcdf_file.h"
 #include "io/product_file.h"
-#include "io/product_mask_reader.h"
+#include "io/product_grid_reader.h"
 #include "io/product_seal.h"
 
 namespace sonar {
@@ -18,10 +18,7 @@ namespace {
 
 using netcdf::Reader;
 
-constexpr std::size_t kMostBeams = 1 << 16;
-constexpr int kMostSamples = 1 << 24;
-constexpr double kLeastSpacing_deg = 1e-6;  ///< angles that rise by less may be equal in radians
-constexpr std::size_t kPingColumns = 11;    ///< numbers a ping, beside its time
+constexpr std::size_t kPingColumns = 11;  ///< numbers a ping, beside its time
 constexpr std::int64_t kMostSchools = std::int64_t{1} << 53;
 
 bool check_version(Reader& in) {
@@ -144,60 +141,6 @@ void read_pings(Reader& in, ObservationProduct& product) {
   fill("gps_minus_clock", [](N& p, double v) { p.gps_minus_clock_s = v; });
   fill("bad", [](N& p, double v) { p.bad = v != 0.0; });
   read_background(in, group, product);
-}
-
-double scalar(Reader& in, int group, const char* name) {
-  const auto value = in.values<double>(group, name, 1);
-  return value.empty() ? 0.0 : value.front();
-}
-
-bool rises(const std::vector<double>& v) {
-  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x) && std::abs(x) <= 720.0; }) &&
-         std::adjacent_find(v.begin(), v.end(), [](double a, double b) { return b - a < kLeastSpacing_deg; }) ==
-             v.end();
-}
-
-/// What Sector and the voxel loops rely on.
-bool is_sound(const GridRecord& record) {
-  const std::vector<int>& channel = record.grid.channel;
-  std::vector<bool> seen(channel.size(), false);
-  for (const int c : channel) {
-    if (c < 0 || static_cast<std::size_t>(c) >= seen.size() || seen[static_cast<std::size_t>(c)]) return false;
-    seen[static_cast<std::size_t>(c)] = true;
-  }
-  const RangeAxis& range = record.range;
-  return rises(record.grid.elevation_deg) && rises(record.grid.azimuth_deg) && range.spacing_m > 0.0 &&
-         std::isfinite(range.spacing_m) && std::isfinite(range.first_m) && range.count >= 0 &&
-         range.count <= kMostSamples;
-}
-
-void read_grid(Reader& in, ObservationProduct& product) {
-  const int group = in.find_group(in.root(), "grid");
-  if (group < 0 || !in.has_variable(group, "elevation")) return;
-  const std::size_t fans = in.dimension(group, "fan");
-  const std::size_t beams = in.dimension(group, "beam");
-  if (in.ok() && (fans == 0 || beams == 0 || fans > kMostBeams || beams > kMostBeams || fans * beams > kMostBeams)) {
-    in.refuse(ErrorCode::format, fmt::format("a grid of {} fans x {} beams", fans, beams));
-  }
-  if (!in.ok()) return;
-  GridRecord record;
-  BeamGrid& grid = record.grid;
-  grid.elevation_deg = in.values<double>(group, "elevation", fans);
-  grid.azimuth_deg = in.values<double>(group, "azimuth", beams);
-  grid.mounting_azimuth_deg = scalar(in, group, "mounting_azimuth");
-  grid.frequency_hz = in.values<double>(group, "frequency", fans);
-  grid.channel = in.values<std::int32_t>(group, "channel", fans * beams);
-  grid.vertical_width_deg = in.values<double>(group, "vertical_width", fans * beams);
-  grid.horizontal_width_deg = in.values<double>(group, "horizontal_width", fans * beams);
-  if (in.has_variable(group, "psi_stated")) grid.psi_stated_db = in.values<double>(group, "psi_stated", fans * beams);
-  if (in.has_variable(group, "psi_used")) record.psi_used_db = in.values<double>(group, "psi_used", fans * beams);
-  record.sample_count = in.values<std::int32_t>(group, "sample_count", fans);
-  record.range = {scalar(in, group, "range_of_first_sample"), scalar(in, group, "sample_spacing"), 0};
-  const auto count = in.values<std::int32_t>(group, "sample_count_of_grid", 1);
-  record.range.count = count.empty() ? 0 : count.front();
-  record.sound_speed_mps = scalar(in, group, "sound_speed");
-  if (in.ok() && !is_sound(record)) in.refuse(ErrorCode::format, "the grid makes no sense");
-  if (in.ok()) product.grid = std::move(record);
 }
 
 /// Visitor that fills one column of all rows at each call.

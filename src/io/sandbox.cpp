@@ -11,8 +11,6 @@
 #include <cerrno>
 #include <fstream>
 
-#include "base/sanitized.h"
-
 namespace sonar {
 namespace {
 

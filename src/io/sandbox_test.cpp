@@ -12,7 +12,6 @@
 #include <new>
 #include <vector>
 
-#include "base/sanitized.h"
 #include "io/child_process.h"
 #include "io/wire.h"
 

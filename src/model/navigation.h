@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "base/time.h"
+#include "base/units.h"
 #include "geo/frames.h"
 
 namespace sonar {
@@ -24,7 +26,10 @@ struct PingNavigation {
   bool bad = false;  ///< the ping was not used
 
   [[nodiscard]] bool has_position() const { return transducer.latitude_deg == transducer.latitude_deg; }
-  [[nodiscard]] Placement placement() const;
+  /// An unknown heading counts as north.
+  [[nodiscard]] Placement placement() const {
+    return {transducer, std::isnan(heading_deg) ? 0.0 : rad_from_deg(heading_deg), transducer_depth_m};
+  }
 };
 
 }  // namespace sonar

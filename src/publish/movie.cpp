@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "io/atomic_file.h"
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 #include "render/png_chunks.h"
 
 namespace sonar {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 
 namespace sonar {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/time.h"
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/sample_looks.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
-#include "view/time_text.h"
 
 namespace sonar {
 namespace {

@@ -16,8 +16,7 @@
 #include "render/cairo_values.h"
 #include "render/frame_drawing.h"
 #include "render/png_chunks.h"
-#include "render/svg_names.h"
-#include "render/svg_text.h"
+#include "render/vector_files.h"
 
 namespace sonar {
 namespace {

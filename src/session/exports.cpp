@@ -16,7 +16,7 @@
 #include "pipeline/stages/observe.h"
 #include "pipeline/survey/write_survey.h"
 #include "publish/picture.h"
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 #include "session/survey_schools.h"
 
 namespace sonar {

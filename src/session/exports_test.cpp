@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <sstream>
+#include <utility>
 
 #include "base/test_full_disk.h"
 #include "pipeline/journal/journal.h"
 #include "pipeline/tasks/run.h"
+#include "pipeline/tasks/survey_numbers.h"
 #include "publish/picture_source.h"
+#include "session/survey_schools.h"
 #include "session/test_app.h"
 
 namespace sonar {
@@ -335,6 +339,44 @@ TEST_F(Exports, RecentSurveysAreKeptAndOpened) {
   press("file.recent.1");
   document().settle();
   EXPECT_EQ(document().shown()->index(), 0U);
+}
+
+// The window numbers schools in the survey as results would have them now; once they are written, as they have them.
+TEST_F(Exports, NumbersInTheSurveyAreThoseOfTheResultsAndStay) {
+  const auto numbers = [this] {
+    std::map<SchoolName, std::int64_t, decltype([](const SchoolName& a, const SchoolName& b) {
+               return std::pair(a.observation, a.number) < std::pair(b.observation, b.number);
+             })>
+        out;
+    for (const SurveySchool& school : survey_schools(document())) out[school.name] = school.survey_number;
+    return out;
+  };
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  EXPECT_EQ(numbers().at({1, 1}), 1);
+  ASSERT_TRUE(document().show(0));
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  EXPECT_EQ(numbers().at({0, 1}), 1) << "in the order of observations, as a run would";
+  EXPECT_EQ(numbers().at({1, 1}), 2);
+  export_results(workspace(), out_);
+  document().settle();
+  ASSERT_THAT(told(), HasSubstr("written"));
+  EXPECT_THAT(text_of(out_ / "survey.json"), HasSubstr("survey_schools"));
+  paint(6, 8, 10, 10, 400);
+  document().settle();
+  EXPECT_EQ(numbers().at({0, 1}), 1);
+  EXPECT_EQ(numbers().at({1, 1}), 2) << "what was written stays";
+  EXPECT_EQ(numbers().at({0, 2}), 3);
+  export_results(workspace(), out_);
+  document().settle();
+  const auto kept = kept_numbers(out_);
+  EXPECT_EQ(kept.size(), 3U);
+  EXPECT_TRUE(std::any_of(kept.begin(), kept.end(),
+                          [](const SurveyNumber& one) { return one.number == 3 && one.school_id == 2; }));
 }
 
 }  // namespace

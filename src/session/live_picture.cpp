@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/within_memory.h"
-#include "publish/painted.h"
+#include "publish/picture_output.h"
 
 namespace sonar {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
 

@@ -10,7 +10,10 @@ namespace sonar {
 /// scale  pixels a unit of the window
 [[nodiscard]] Theme screen_theme(PixelSize pixels, double scale, bool dark);
 
-/// The same, with the theme's sizes of text and lines times a factor.
+/// The theme of a picture in a dock: text stays readable however small the dock is.
+[[nodiscard]] Theme dock_theme(PixelSize pixels, double scale, bool dark);
+
+/// A theme with its sizes of text and lines times a factor.
 [[nodiscard]] Theme scaled(Theme theme, double factor);
 
 }  // namespace sonar

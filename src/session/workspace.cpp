@@ -8,13 +8,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/time.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "publish/sample_looks.h"
 #include "session/curves.h"
 #include "session/place_text.h"
 #include "view/slices/slice_picture.h"
-#include "view/time_text.h"
 
 namespace sonar {
 namespace {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 namespace sonar::synth {
 
@@ -74,9 +77,17 @@ class RandomStream {
   [[nodiscard]] int index(int n) {
     return static_cast<int>((std::uint64_t{next()} * static_cast<std::uint64_t>(n)) >> 32U);
   }
-  [[nodiscard]] double normal();
+  [[nodiscard]] double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+  }
   /// Number of events of a Poisson process with this mean (0..700).
-  [[nodiscard]] int poisson(double mean);
+  [[nodiscard]] int poisson(double mean) {
+    const double left = std::exp(-mean);
+    int events = 0;
+    for (double p = uniform(); p > left; p *= uniform()) ++events;
+    return events;
+  }
 
  private:
   std::array<std::uint32_t, 2> key_;

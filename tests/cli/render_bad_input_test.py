@@ -130,7 +130,7 @@ class BadInput(unittest.TestCase):
         self.refused("slice-top", *BOTH, "--size", "12x12", *picture, code=2, says="--size 12x12")
         self.refused("slice-top", *BOTH, "--size", "8000x8000", "--scale", "4", *picture, code=2, says="million pixels")
         for option in ("--core", "--zoom", "--ship-length-m", "--threshold-db", "--low-db", "--first-hit-db"):
-            self.refused("volume", *BOTH, option, "nan", *picture, code=2, says=[option, "nan", "expected a number"])
+            self.refused("volume", *BOTH, option, "nan", *picture, code=2, says=[option, "nan", "is outside"])
         self.refused("slice-top", *BOTH, "--zoom", "3", *picture, code=2, says=["--zoom", "slice-top"])
         self.refused("timeline", *BOTH, "--depth-raster", DEPTHS, *picture, code=2, says="--depth-raster")
         self.refused("timeline", *BOTH, "--schools", "999", *picture, code=2, says="no school 999")

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "base/test_paths.h"
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 #include "window_at_work.h"

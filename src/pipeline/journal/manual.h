@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "pipeline/journal/journal.h"
+#include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/engine.h"
 #include "pipeline/stages/measure_schools.h"
 #include "school/grow/grow.h"
@@ -48,6 +49,13 @@ struct PropagateCommand {
   /// Instead of seeds: a school is carried on from the mask that it has in this ping, over what it had on either side.
   std::optional<SchoolKey> school;
 };
+
+/// A selection and propagation as a recipe sets it: no seeds, as far as it goes.
+/// mode  empty = the recipe's
+[[nodiscard]] PropagateCommand recipe_propagation(const Recipe& recipe, std::optional<GrowMode> mode);
+/// What is selected with all 26 neighbours is followed with them; and whether all parameters are in their ranges.
+/// errors  bad_parameter
+[[nodiscard]] Result<PropagateCommand> completed(PropagateCommand command);
 
 [[nodiscard]] nlohmann::json to_json(const PropagateCommand& command);
 /// errors  format, bad_parameter: naming the member

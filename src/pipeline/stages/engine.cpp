@@ -9,8 +9,8 @@
 
 #include "base/units.h"
 #include "pipeline/stages/reduced_ping.h"
-#include "school/detect/above_background.h"
 #include "school/detect/detect_params.h"
+#include "school/detect/thresholder.h"
 #include "school/evidence/block_means.h"
 #include "school/evidence/null_model.h"
 #include "signal/beam_overlap.h"
@@ -335,13 +335,15 @@ FilteredPing Engine::filtered(const StagedPing& ping) const {
   out.above_background = [this, volume = ping.filtered, table = ping.calibration, noise = ping.background_db,
                           known = ping.water, means = ping.means, seabed = ping.seabed](double margin_db, Above above) {
     const Background background{noise, table->view()};
-    const auto counts = std::as_const(volume->counts).view();
-    const auto flags = std::as_const(volume->flags).view();
-    if (above == Above::noise) return above_background(counts, flags, background, nullptr, margin_db);
-    if (known) return above_background(counts, flags, background, &*known, margin_db);
+    const auto runs = [&](const WaterLevels* water) {
+      return Thresholder(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(), background, water)
+          .above_background(margin_db);
+    };
+    if (above == Above::noise) return runs(nullptr);
+    if (known) return runs(&*known);
     const WaterPing alone{&means, &seabed, background};
     const WaterLevels water = water_levels({&alone, 1}, sector_, kLeastEvidence).front();
-    return above_background(counts, flags, background, &water, margin_db);
+    return runs(&water);
   };
   return out;
 }

@@ -255,12 +255,19 @@ std::string observation_key(const SurveyFiles& survey, const ObservationFiles& o
   return to_hex(hasher.value());
 }
 
+ObservationProduct observation_head(const ObservationFiles& observation, const CalibrationParams& calibration) {
+  ObservationProduct head;
+  head.observation = observation.name;
+  head.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
+  head.pings = observation.navigation;
+  if (observation.grid) head.grid = grid_record(observation, calibration);
+  return head;
+}
+
 ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
                                  const ObserveOptions& options) {
-  ObservationProduct product;
-  product.observation = observation.name;
+  ObservationProduct product = observation_head(observation, recipe.calibration);
   product.program_version = options.program_version;
-  product.title = fmt::format("Fish schools of {} {}", observation.config.survey_name, observation.name);
   product.source = source_of(observation);
   product.history = fmt::format("sonar-explorer {}: raw files to schools", options.program_version);
   product.recipe_json = recipe_text(recipe);
@@ -268,7 +275,6 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   product.stage_versions = std::string(kStageVersions);
   product.input_hash = observation_key(survey, observation, recipe, options);
   product.input_files = input_files(survey, observation);
-  product.pings = observation.navigation;
   mark_bad_pings(options.journal, datagram_times(survey, observation), product);
   if (observation.continues_cut) {
     // On the clock of the product's own pings.
@@ -282,7 +288,6 @@ ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFil
   }
   // A product must not change with the folder that the survey happens to lie in.
   for (Diagnostic& note : product.diagnostics) note.file = std::filesystem::path(note.file).filename().string();
-  if (observation.grid) product.grid = grid_record(observation, recipe.calibration);
   return product;
 }
 

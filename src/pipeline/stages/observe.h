@@ -66,6 +66,9 @@ struct ObserveOptions {
                                                    const ObservationProduct& before, const Recipe& recipe,
                                                    const ObserveOptions& options, Work& work);
 
+/// What is known of an observation before anything in it is measured: its name, title, pings and grid.
+[[nodiscard]] ObservationProduct observation_head(const ObservationFiles& observation,
+                                                  const CalibrationParams& calibration = {});
 /// Product without schools: what stands in every product whatever is found.
 [[nodiscard]] ObservationProduct empty_product(const SurveyFiles& survey, const ObservationFiles& observation,
                                                const Recipe& recipe, const ObserveOptions& options);

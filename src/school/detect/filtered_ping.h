@@ -18,7 +18,7 @@ namespace sonar {
 /// What an echo has to stand above: each beam's own noise, or that and what the water returns at the range.
 enum class Above { noise, water };
 
-/// Where the filtered echo stands so many dB above its background, sorted: above_background() of a ping.
+/// Where the filtered echo stands so many dB above its background, sorted: as Thresholder tells of a ping.
 using AboveBackground = std::function<std::vector<Run>(double margin_db, Above above)>;
 
 /// What growing and propagating need of one ping.

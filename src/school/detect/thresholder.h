@@ -18,11 +18,17 @@ namespace sonar {
 /// Rayleigh-fading echo does.
 class Thresholder {
  public:
-  /// water  null = the noise alone is background
+  /// sv          [fan][beam][sample], median-filtered Sv counts
+  /// flags       same shape; kNeverMember samples are never in a run
+  /// background  of the beams; rows without one are held against the water alone
+  /// water       what else is background; null = nothing
+  /// taken       voxels that are in no run; null = none
+  /// All are borrowed.
   Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
-              const WaterLevels* water, const PingMask* taken);
+              const WaterLevels* water, const PingMask* taken = nullptr);
 
-  /// Runs of the whole ping whose median lies margin_db above the background's.
+  /// Runs of the whole ping whose median lies margin_db above the background's, sorted. margin_db > 0
+  /// cost  about 1 ms for 25 x 20 x 1320
   [[nodiscard]] std::vector<Run> above_background(double margin_db) const;
 
   /// Runs inside a box where the echo without its background reaches level_db, and the whole lies above the

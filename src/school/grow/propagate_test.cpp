@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "model/school.h"
-#include "school/detect/above_background.h"
+#include "school/detect/thresholder.h"
 #include "school/grow/grow.h"
 #include "school/grow/propagate_paper.h"
 #include "school/grow/propagate_tracked.h"
@@ -45,8 +45,10 @@ struct Passage {
       out.above_background = [volume, level_db](double margin_db, Above /*above*/) {
         test::FlatBackground flat(volume->counts.shape());
         flat.power_db.assign(flat.power_db.size(), level_db);
-        return above_background(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(),
-                                {flat.power_db, flat.calibration.view()}, nullptr, margin_db);
+        const Background background{flat.power_db, flat.calibration.view()};
+        return Thresholder(std::as_const(volume->counts).view(), std::as_const(volume->flags).view(), background,
+                           nullptr)
+            .above_background(margin_db);
       };
     }
     out.volume = std::move(volume);

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "geo/geodesic.h"
-#include "session/maps/cursor_place.h"
-#include "session/maps/dock_theme.h"
 #include "session/maps/observation_map_painter.h"
 #include "session/place_text.h"
 #include "session/refused_layer.h"
+#include "session/screen_theme.h"
 #include "session/survey_schools.h"
 #include "view/maps/map_items.h"
 
@@ -21,6 +20,23 @@ namespace {
 
 constexpr double kTrackReach_px = 6.0;
 constexpr double kCellReach_px = 4.0;
+
+/// Where on the globe the linked cursor is; empty without one, or without position or heading.
+std::optional<Geographic> cursor_place(const Workspace& workspace) {
+  const auto& voxel = workspace.cursor();
+  const auto& shown = workspace.document.shown();
+  if (!voxel || !shown) return std::nullopt;
+  const Sector& sector = shown->sector();
+  if (voxel->fan < 0 || voxel->fan >= sector.fans() || voxel->beam < 0 || voxel->beam >= sector.beams() ||
+      voxel->sample < 0 || voxel->sample >= sector.range().count) {
+    return std::nullopt;
+  }
+  const PingNavigation& navigation = shown->files().navigation[static_cast<std::size_t>(workspace.document.ping())];
+  if (!navigation.has_position() || !std::isfinite(navigation.heading_deg)) return std::nullopt;
+  const Placement placement = shown->placement(workspace.document.ping());
+  const Point<Sonar> place = levelled(sector.centre(voxel->fan, voxel->beam, voxel->sample), placement);
+  return to_geographic(to_enu(place, placement.heading_rad), placement.transducer);
+}
 
 }  // namespace
 

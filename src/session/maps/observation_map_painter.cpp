@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "session/maps/dock_theme.h"
-#include "session/maps/observation_head.h"
+#include "pipeline/stages/observe.h"
+#include "session/screen_theme.h"
 #include "session/survey_schools.h"
 
 namespace sonar {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "session/maps/dock_theme.h"
 #include "session/maps/strip_panels.h"
 #include "session/screen_theme.h"
 

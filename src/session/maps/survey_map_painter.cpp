@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/stages/observe.h"
 #include "pipeline/tasks/join_tracks.h"
 #include "publish/chart_layers.h"
-#include "session/maps/dock_theme.h"
-#include "session/maps/observation_head.h"
+#include "session/screen_theme.h"
 #include "view/school_look.h"
 
 namespace sonar {

@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
-#include "publish/painted.h"
+#include "publish/picture_output.h"
 #include "publish/sample_looks.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/test_slices.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "session/maps/dock_theme.h"
-#include "session/maps/observation_head.h"
+#include "pipeline/stages/observe.h"
+#include "session/screen_theme.h"
 
 namespace sonar {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "publish/painted.h"
+#include "publish/picture_output.h"
 #include "publish/picture_source.h"
 #include "publish/volume_picture.h"
 #include "session/test_survey.h"

@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/time.h"
 #include "base/units.h"
 #include "view/colour_bar.h"
 #include "view/shapes.h"
 #include "view/slices/slice_context.h"
 #include "view/slices/slice_key.h"
-#include "view/time_text.h"
 
 namespace sonar {
 namespace {

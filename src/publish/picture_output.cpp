@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "publish/picture_files.h"
+#include "publish/picture_output.h"
 
 #include <string>
 
@@ -8,6 +8,8 @@
 #include "render/draw_frame.h"
 
 namespace sonar {
+
+Result<Image> painted(const FrameDescription& frame, double scale) { return draw_frame(frame, scale); }
 
 Result<void> write_picture(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
   const auto bytes = picture_bytes(frame, file, scale);

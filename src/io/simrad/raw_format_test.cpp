@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/simrad/ek80_channels.h"
+#include "io/simrad/raw_format.h"
 
 #include <gtest/gtest.h>
 

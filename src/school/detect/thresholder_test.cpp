@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "school/detect/above_background.h"
+#include "school/detect/thresholder.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ struct Water {
     const WaterPing alone{&means, nullptr, noise};
     const WaterLevels water = water_levels({&alone, 1}, sector, kLeastEvidence).front();
     PingMask mask;
-    mask.runs = above_background(sv.view(), flags.view(), noise, above == Above::water ? &water : nullptr, margin_db);
+    mask.runs = Thresholder(sv.view(), flags.view(), noise, above == Above::water ? &water : nullptr)
+                    .above_background(margin_db);
     return mask;
   }
 

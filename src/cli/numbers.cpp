@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/whole_numbers.h"
+#include "cli/numbers.h"
+
+#include <fmt/format.h>
 
 #include <charconv>
+#include <string>
 
 namespace sonar {
 
@@ -17,6 +20,15 @@ std::optional<std::vector<std::int64_t>> whole_numbers(std::string_view text, ch
     if (*after != separator) return std::nullopt;
     at = after + 1;
   }
+}
+
+CLI::Validator within(double least, double most) {
+  const auto problem = [least, most](const std::string& text) -> std::string {
+    double value = 0.0;
+    const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return inside ? std::string{} : fmt::format("{} is outside {} .. {}", text, least, most);
+  };
+  return {problem, fmt::format("FLOAT in [{} - {}]", least, most)};
 }
 
 }  // namespace sonar

@@ -9,6 +9,9 @@
 
 namespace sonar {
 
+/// A 2-D picture in memory, for whoever shows it. errors: as draw_frame()
+/// scale  device pixels per pixel
+[[nodiscard]] Result<Image> painted(const FrameDescription& frame, double scale);
 /// A picture into a file; the ending names the format: .png, .svg or .pdf. errors: usage (another
 /// ending), bad_parameter; as AtomicFile
 [[nodiscard]] Result<void> write_picture(const FrameDescription& frame, const std::filesystem::path& file,

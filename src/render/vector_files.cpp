@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/svg_names.h"
+#include "render/vector_files.h"
 
 #include <fmt/format.h>
 #include <pango/pango.h>
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string_view>
+#include <variant>
 
 namespace sonar {
 namespace {
@@ -39,8 +42,7 @@ std::string valid_utf8(const std::string& text) {
   return out;
 }
 
-}  // namespace
-
+/// A text as XML holds it.
 std::string escaped_xml(const std::string& text) {
   constexpr std::array<std::string_view, 2> kNoCharacter{"\xEF\xBF\xBE", "\xEF\xBF\xBF"};  // U+FFFE, U+FFFF
   std::string valid = valid_utf8(text);
@@ -63,6 +65,25 @@ std::string escaped_xml(const std::string& text) {
   }
   return out;
 }
+
+/// Half of a capital's height in em, as letters are drawn: SVG places text by its base line.
+constexpr double kHalfCapital = 0.3645;
+
+bool drawable(const TextItem& t) {
+  return std::isfinite(t.at.x) && std::isfinite(t.at.y) && std::isfinite(t.turned_deg) && t.size_px > 0.0 &&
+         t.size_px < 4096.0 && !t.text.empty();
+}
+
+std::string element(const TextItem& t) {
+  const char* anchor = t.anchor == TextAnchor::left ? "start" : t.anchor == TextAnchor::centre ? "middle" : "end";
+  const std::string turned =
+      t.turned_deg != 0.0 ? fmt::format(" transform=\"rotate({:.6g} {:.6g} {:.6g})\"", t.turned_deg, t.at.x, t.at.y)
+                          : "";
+  return fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"{:.6g}\" text-anchor=\"{}\"{}>{}</text>\n", t.at.x,
+                     t.at.y + kHalfCapital * t.size_px, t.size_px, anchor, turned, escaped_xml(t.text));
+}
+
+}  // namespace
 
 std::string renumbered_svg(const std::string& svg) {
   const auto names = new_names(svg);
@@ -92,6 +113,26 @@ std::string titled_svg(const std::string& svg, const std::string& title, const s
   if (title.empty() || end == std::string::npos) return svg;
   const std::string desc = description.empty() ? "" : "\n<desc>" + escaped_xml(description) + "</desc>";
   return svg.substr(0, end + 1) + "\n<title>" + escaped_xml(title) + "</title>" + desc + svg.substr(end + 1);
+}
+
+std::string searchable_svg(const std::string& svg, const FrameDescription& frame, double scale) {
+  const std::size_t end = svg.rfind("</svg>");
+  if (end == std::string::npos) return svg;
+  std::string words;
+  std::optional<PixelRect> clip;
+  for (const auto& item : frame.items) {
+    if (const auto* cut = std::get_if<ClipItem>(&item)) {
+      clip.reset();
+      if (cut->place.width > 0.0 && cut->place.height > 0.0) clip = cut->place;
+    }
+    const auto* text = std::get_if<TextItem>(&item);
+    if (text != nullptr && drawable(*text) && (!clip || inside(*clip, text->at))) words += element(*text);
+  }
+  if (words.empty()) return svg;
+  return svg.substr(0, end) +
+         fmt::format("<g transform=\"scale({:.6g})\" fill-opacity=\"0\" font-family=\"DejaVu Sans, sans-serif\">\n",
+                     scale) +
+         words + "</g>\n" + svg.substr(end);
 }
 
 std::string pixelated_svg(const std::string& svg) {
