@@ -42,10 +42,12 @@ auto interruptible(Task task) {
       if (done.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready) break;
     }
     if (PyErr_CheckSignals() == 0) continue;
-    se::stop_running();
     {
+      // Whatever has not begun its work yet is stopped at the next try.
       const py::gil_scoped_release released;
-      done.wait();
+      do {
+        se::stop_running();
+      } while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready);
     }
     throw py::error_already_set();
   }

@@ -83,9 +83,11 @@ Product selected(Observation::State& state, std::size_t ping, const sonar::Propa
 Product detect(const Observation& observation) {
   Observation::State& state = observation.state();
   (void)state.engine_or_throw();
+  sonar::Recipe recipe = state.recipe.own();
+  recipe.automatic = true;  // it is what is asked for
   RunningWork running(state.threads);
-  return shared(value_or_throw(
-      sonar::observe(*state.survey, *state.files, state.recipe.own(), {{}, {}, version()}, running.work())));
+  return shared(
+      value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {}, version()}, running.work())));
 }
 
 Product grow(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,

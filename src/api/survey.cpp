@@ -83,6 +83,11 @@ Ping Observation::ping(std::size_t index) const {
 }
 
 Survey Survey::open(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, int threads) {
+  if (paths.empty() || threads < 0) {
+    raise({sonar::ErrorCode::usage,
+           paths.empty() ? "no path: expected files or folders" : "threads must not be negative",
+           {}});
+  }
   RunningWork running(threads);
   auto files = std::make_shared<sonar::SurveyFiles>(value_or_throw(sonar::open_survey(
       paths, recipe.own().survey, recipe.own().navigation, sonar::IndexCache::of_user(), running.work())));

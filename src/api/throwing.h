@@ -16,6 +16,7 @@ namespace sonar_explorer {
 [[noreturn]] inline void raise(const sonar::Error& error) {
   std::string kind(sonar::name(error.code));
   std::replace(kind.begin(), kind.end(), ' ', '_');
+  if (error.code == sonar::ErrorCode::io) kind = "io";
   throw Error(sonar::to_line(error), std::move(kind));
 }
 

@@ -38,7 +38,8 @@ void DescribedFlags::field(std::string_view name, bool& value, const FieldInfo& 
 void DescribedFlags::field(std::string_view name, int& value, const FieldInfo& info) {
   if (info.flag == kNoFlag) return;
   auto* option = verb_.add_option(flag_of(name, info), value, sentence(info.text));
-  add(option->check(CLI::Range(static_cast<int>(info.min), static_cast<int>(info.max)))->capture_default_str(),
+  add(option->check(whole_within(static_cast<std::int64_t>(info.min), static_cast<std::int64_t>(info.max)))
+          ->capture_default_str(),
       info.suits);
 }
 

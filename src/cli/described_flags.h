@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "cli/choices.h"
 
 namespace sonar {
 
@@ -42,7 +43,7 @@ class DescribedFlags {
     };
     const std::string initial = spelled[static_cast<std::size_t>(value)];
     auto* option = verb_.add_option_function<std::string>("--" + with_dashes(name), take, sentence(info.text));
-    add(option->check(CLI::IsMember(spelled))->default_str(initial), info.suits);
+    add(option->check(one_of(spelled))->default_str(initial), info.suits);
   }
   template <class P>
   void group(std::string_view, P& p, std::string_view) {

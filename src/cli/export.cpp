@@ -10,6 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 
@@ -55,7 +56,9 @@ void add_export(CLI::App& app, VerbRunner& run) {
   for (const ExportFormat& format : export_formats()) formats += fmt::format("\n{} - {}", format.name, format.text);
   verb->add_option("OUT", arguments->out, "Work folder of a run")->required()->check(named_path());
   verb->add_option("--to", arguments->format, formats)->required();
-  verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")->required()->check(named_path());
+  verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")
+      ->required()
+      ->check(named_folder());
   verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, raw-reduced)")->check(named_path());
   verb->add_option("--margin-samples", arguments->reduce.margin_samples,
                    "raw-reduced: samples kept round each school beside its need");
@@ -67,7 +70,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_flag("--no-formulas", arguments->no_formulas,
                  "csv: texts that a spreadsheet would take for a formula (= + - @) stand behind an apostrophe");
-  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([arguments, &run, verb] {
     for (const OptionOf& of : kOptions) {
       const std::string option(of.option);

@@ -19,6 +19,7 @@
 #include "cli/exit_codes.h"
 #include "cli/follow_lines.h"
 #include "cli/named_path.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/run_survey.h"
 #include "cli/verb.h"
@@ -276,15 +277,15 @@ void add_follow(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->run.survey, "Folder in which raw files appear, or raw files")->required();
   verb->add_option("-o,--out", arguments->run.out, "Work folder for products and tables")
       ->required()
-      ->check(named_path());
+      ->check(named_folder());
   verb->add_option("--idle-exit", arguments->idle_exit_s,
                    "End when nothing was written for so many seconds: then all is over; 0 = never")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(within(0.0, 1e9));
   verb->add_option("--recipe", arguments->run.recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->run.measured);
   verb->add_option("--session", arguments->run.session,
                    "Journal of decisions to replay, or the folder of several people's; read again when it grows");
-  verb->add_option("-j,--jobs", arguments->run.jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", arguments->run.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->add_option(
           "--alarm", arguments->alarms,
           "Tell when a school's row of school_pings.csv begins to be so: \"volume_m3 > 20000, range_m < 150\"; "

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "cli/choices.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/suggestion.h"
@@ -41,7 +42,7 @@ constexpr std::array kExamples = {
              "  sonarx submit SURVEY -o OUT --dry-run     the scripts alone\n"},
     Examples{"status", "  sonarx status OUT\n  sonarx status OUT --json\n"},
     Examples{"propagate",
-             "  sonarx propagate SURVEY --observation obs-0001 --seed 111,12,12,218 --tolerance-db 10 -o ONE\n"},
+             "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"},
@@ -121,7 +122,7 @@ int print_help(const CLI::App& app, const std::string& name) {
 void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter) {
   verb.formatter(formatter);
   auto* quiet = verb.add_flag_callback(
-      "-q,--quiet", [] { set_log_level(LogLevel::quiet); }, "Tell errors alone, no notes and no progress");
+      "-q,--quiet", [] { set_log_level(LogLevel::quiet); }, "Print errors only, no notes and no progress");
   verb.add_flag_callback(
           "-v,--verbose", [] { set_log_level(LogLevel::verbose); }, "Tell each step on standard error")
       ->excludes(quiet);
@@ -129,8 +130,8 @@ void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatte
       {"errors", LogLevel::quiet}, {"notes", LogLevel::normal}, {"steps", LogLevel::verbose}};
   verb.add_option_function<std::string>(
           "--log-level", [levels](const std::string& level) { set_log_level(levels.at(level)); },
-          "What is told on standard error: errors as -q, notes too, steps as -v")
-      ->check(CLI::IsMember({"errors", "notes", "steps"}));
+          "How much is printed on standard error: errors (-q), notes, or steps (-v)")
+      ->check(one_of({"errors", "notes", "steps"}));
   std::string footer = verb.get_footer();
   if (!footer.empty()) footer += "\n";
   for (const Examples& examples : kExamples) {

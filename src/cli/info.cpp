@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/exit_codes.h"
+#include "cli/numbers.h"
 #include "cli/verb.h"
 
 namespace sonar {
@@ -53,7 +54,7 @@ void add_info(CLI::App& app, VerbRunner& run) {
       verb->add_flag("--checksum", options->checksum, "Read every sample and give the sum of all power counts");
   verb->add_flag("--quick", options->quick, "Read only the first and last bytes of each file; nothing is counted")
       ->excludes(checksum);
-  verb->add_option("-j,--jobs", options->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", options->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 

@@ -12,6 +12,15 @@ inline CLI::Validator named_path() {
           ""};
 }
 
+/// The same of a folder that results go to: a dash stands for standard output, which is none.
+inline CLI::Validator named_folder() {
+  return {[](std::string& path) {
+            if (path == "-") return std::string("a folder is meant; nothing of it goes to standard output");
+            return path.empty() ? std::string("an empty path names nothing") : std::string();
+          },
+          ""};
+}
+
 /// The same of a name: all would be taken for none.
 inline CLI::Validator some_name() {
   return {[](std::string& name) { return name.empty() ? std::string("an empty name names nothing") : std::string(); },

@@ -22,6 +22,15 @@ std::optional<std::vector<std::int64_t>> whole_numbers(std::string_view text, ch
   }
 }
 
+CLI::Validator whole_within(std::int64_t least, std::int64_t most) {
+  const auto problem = [least, most](const std::string& text) -> std::string {
+    const auto numbers = whole_numbers(text, ',');
+    const bool inside = numbers && numbers->size() == 1 && numbers->front() >= least && numbers->front() <= most;
+    return inside ? std::string{} : fmt::format("{} is no whole number in {} .. {}", text, least, most);
+  };
+  return {problem, fmt::format("INT in [{} - {}]", least, most)};
+}
+
 CLI::Validator within(double least, double most) {
   const auto problem = [least, most](const std::string& text) -> std::string {
     double value = 0.0;

@@ -122,12 +122,12 @@ Result<void> require_no_newer_plan(const std::filesystem::path& out) {
 }
 
 Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
-  if (arguments.recipe.empty() && arguments.measured.empty() && !journal.recipe.empty()) {
-    auto recipe = recipe_from_text(journal.recipe);
-    if (!recipe) return fail(recipe.error().code, "its recipe: " + recipe.error().text, {arguments.session});
-    return recipe;
+  if (!arguments.recipe.empty() || journal.recipe.empty()) {
+    return chosen_recipe(arguments.recipe, arguments.measured);
   }
-  return chosen_recipe(arguments.recipe, arguments.measured);
+  auto recipe = recipe_from_text(journal.recipe);
+  if (!recipe) return fail(ErrorCode::format, "its recipe: " + recipe.error().text, {arguments.session});
+  return with_measured(std::move(*recipe), arguments.measured);
 }
 
 }  // namespace sonar

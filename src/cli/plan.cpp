@@ -9,6 +9,7 @@
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
+#include "cli/numbers.h"
 #include "cli/open_for_run.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
@@ -20,13 +21,15 @@ void add_plan(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
   CLI::App* verb = app.add_subcommand("plan", "Divide the work of run into independent tasks");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
-  verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
+  verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")
+      ->required()
+      ->check(named_folder());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session,
                    "Journal of decisions to replay, or the folder of several people's");
   verb->add_flag("--json", arguments->json, "Print what stands in OUT/plan.json instead of a text");
-  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([arguments, &run] {
     run = [arguments] {
       Work work(arguments->jobs);

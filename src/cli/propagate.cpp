@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/choices.h"
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
@@ -282,14 +283,16 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
           ->check(within(0.0001, 1.0));
   in_db->excludes(in_opacity);
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
-      ->check(CLI::IsMember({"tracked", "paper"}));
-  verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(CLI::Range(0, 1000000));
+      ->check(one_of({"tracked", "paper"}));
+  verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(whole_within(0, 1000000));
   verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
   verb->add_option("--operator", arguments->operator_name, "Name of the operator");
-  verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->required()->check(named_path());
-  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")
+      ->required()
+      ->check(named_folder());
+  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([arguments, &run] { run = [arguments] { return propagate_verb(*arguments); }; });
 }
 

@@ -9,8 +9,10 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/verb.h"
+#include "io/atomic_file.h"
 #include "pipeline/recipe/parameter_table.h"
 
 namespace sonar {
@@ -21,6 +23,7 @@ struct RecipeOptions {
   std::string validate;
   Measured measured;
   bool describe = false;
+  std::string out;
 };
 
 int check(const RecipeOptions& o) {
@@ -30,6 +33,7 @@ int check(const RecipeOptions& o) {
     report(recipe.error());
     return kExitFailed;  // whatever is wrong with it, the verb was used rightly
   }
+  for (const std::string& note : recipe->notes) print_note(fmt::format("earlier-parameter: {}: {}", o.validate, note));
   fmt::print("{}: valid recipe, hash {}\n", o.validate, recipe_hash(*recipe));
   return kExitDone;
 }
@@ -39,13 +43,18 @@ int print(const RecipeOptions& o) {
   if (!preset) return report(preset.error());
   auto recipe = with_measured(*preset, o.measured);
   if (!recipe) return report(recipe.error());
+  std::string text = recipe_text(*recipe);
   if (o.describe) {
     ParameterTable table("Beside all stages");
     describe(table, *recipe);
-    fmt::print("{}", table.markdown());
-  } else {
-    fmt::print("{}", recipe_text(*recipe));
+    text = table.markdown();
   }
+  if (o.out.empty() || o.out == "-") {
+    fmt::print("{}", text);
+    return kExitDone;
+  }
+  if (auto written = write_file(o.out, text); !written) return report(written.error());
+  fmt::print("{}\n", o.out);
   return kExitDone;
 }
 
@@ -68,6 +77,9 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
   add_measured_options(*verb, o->measured);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);
+  verb->add_option("-o,--out", o->out, "File; default, and -: standard output")
+      ->excludes(validate)
+      ->check(named_path());
   verb->footer(set_by_users());
   verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
@@ -50,7 +51,7 @@ Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) 
   if (auto possible = check_output(arguments); !possible) return pass_on(possible);
   std::optional<Recipe> recipe;
   if (!arguments.recipe.empty()) {
-    auto named = named_recipe(arguments.recipe);
+    auto named = chosen_recipe(arguments.recipe, {});
     if (!named) return pass_on(named);
     recipe = std::move(*named);
   }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/choices.h"
 #include "cli/numbers.h"
 #include "pipeline/recipe/transfer_function_json.h"
 
@@ -69,7 +70,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
                         "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed"),
         "volume survey-map");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
-  verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
 }
 
 void add_comparing(CLI::App& verb, RenderArguments& a) {
@@ -106,7 +107,7 @@ class KindFlags {
 void add_render_options(CLI::App& verb, RenderArguments& a) {
   std::string kinds = "What to draw:";
   for (const PictureKindInfo& kind : picture_kinds()) kinds += fmt::format("\n{} - {}", kind.name, kind.text);
-  verb.add_option("KIND", a.kind, kinds)->required()->check(CLI::IsMember(kind_names()));
+  verb.add_option("KIND", a.kind, kinds)->required()->check(one_of(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
   verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf; - = PNG on standard output");
@@ -116,6 +117,8 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   a.picture.volume.frames = 8;
   DescribedFlags display(verb, "How data and schools look", "", a.suits);
   describe(display, a.picture.display);
+  verb.get_option("--removed")->default_str("shown; transparent where noise is removed");
+  verb.get_option("--threshold-db")->default_str("none");
   DescribedFlags volume(verb, "Of volume", "volume", a.suits);
   describe(volume, a.picture.volume);
   KindFlags kind(verb, a);

@@ -167,12 +167,13 @@ void add_run(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
   CLI::App* verb = app.add_subcommand("run", "Process a survey: schools, masks, tables and the map");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
-  auto* out = verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->check(named_path());
+  auto* out =
+      verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->check(named_folder());
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, arguments->measured);
   verb->add_option("--session", arguments->session,
                    "Journal of decisions to replay, or the folder of several people's");
-  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002")->check(some_name());
   verb->add_option(
       "--pings", arguments->pings,
@@ -183,7 +184,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_flag("--json", arguments->json, "Print what stands in OUT/survey.json instead of a text");
   auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
   auto* task =
-      verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(CLI::Range(0, kMostTasks));
+      verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(whole_within(0, kMostTasks));
   for (const char* own : {"--recipe", "--calibration", "--session", "--only", "--pings", "--remeasure"}) {
     plan->excludes(verb->get_option(own));  // the plan says these
   }

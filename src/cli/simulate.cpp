@@ -12,10 +12,12 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/choices.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "pipeline/recipe/json_file.h"
@@ -157,8 +159,9 @@ int write_survey(const SimulateOptions& o, std::int64_t wanted_schools, const Ma
   fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
              static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
   if (made->schools < wanted_schools) {
-    fmt::print(stderr, "sonarx: {}: {} of {} schools had room where the sonar sees them; more pings have more room\n",
-               o.out, made->schools, wanted_schools);
+    print_note(
+        fmt::format("fewer-schools: {}: {} of {} schools had room where the sonar sees them; more pings have more room",
+                    o.out, made->schools, wanted_schools));
   }
   return kExitDone;
 }
@@ -205,10 +208,10 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--physics", o->physics,
                    "How echoes are made: standard (this program's own sonar equation) or array (sums over "
                    "array elements and single fish)")
-      ->check(CLI::IsMember({"standard", "array"}))
+      ->check(one_of({"standard", "array"}))
       ->capture_default_str();
   verb->add_option("--preset", o->preset, "What the survey is like: easy, standard, hard or demo; standard by default")
-      ->check(CLI::IsMember({"easy", "standard", "hard", "demo"}));
+      ->check(one_of({"easy", "standard", "hard", "demo"}));
   verb->add_option("--seed", o->seed, "Every random number follows from it");
   verb->add_option("--observations", o->observations, "Number of observations (the demo has three)");
   verb->add_option("--pings", o->pings, "Pings in each observation");
@@ -218,11 +221,11 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--beam-pattern", o->beam_pattern,
                    "Shape of the beams: gaussian, uniform_line (with side lobes), or sending wider than receiving: "
                    "wide_transmit (both ways), wide_fan (along the fan)")
-      ->check(CLI::IsMember({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
+      ->check(one_of({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
   verb->add_option(
           "--waters", o->waters,
           "Array physics: the company's strengths as the parameters state them, or drawn from the seed (random)")
-      ->check(CLI::IsMember({"stated", "random"}));
+      ->check(one_of({"stated", "random"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
   auto* print =
       verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
@@ -233,7 +236,7 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_flag("--no-fish", o->no_fish, "No schools at all");
   verb->add_flag("--force", o->force,
                  "Write into a folder that already holds raw files; a simulated survey there is replaced");
-  verb->add_option("-j,--jobs", o->jobs, "Threads; 0 = all of the machine's")->check(CLI::Range(0, 1024));
+  verb->add_option("-j,--jobs", o->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback(
       [o, &run] { run = [o] { return o->physics == "array" ? simulate_array(*o) : simulate_standard(*o); }; });
 }

@@ -17,6 +17,7 @@
 #include "cli/exit_codes.h"
 #include "cli/external_command.h"
 #include "cli/named_path.h"
+#include "cli/numbers.h"
 #include "cli/open_for_run.h"
 #include "cli/progress.h"
 #include "cli/slurm_template.h"
@@ -264,7 +265,7 @@ void add_submit(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", options->run.survey, "Folder of raw files, or raw files")->required();
   verb->add_option("-o,--out", options->run.out, "Work folder for products and tables, seen by all nodes")
       ->required()
-      ->check(named_path());
+      ->check(named_folder());
   verb->add_option("--recipe", options->run.recipe, "Parameters of every stage (see sonarx recipe)");
   add_measured_options(*verb, options->run.measured);
   verb->add_option("--session", options->run.session,
@@ -273,7 +274,7 @@ void add_submit(CLI::App& app, VerbRunner& run) {
   verb->add_option("--account", options->account, "Slurm's account")->check(plain_word());
   verb->add_option("--time", options->time, "Time limit of a task, as Slurm writes it; reckoned if not given")
       ->check(plain_word());
-  verb->add_option("--cpus", options->cpus, "Cores of a task")->check(CLI::Range(1, 1024));
+  verb->add_option("--cpus", options->cpus, "Cores of a task")->check(whole_within(1, 1024));
   verb->add_flag("--dry-run", options->dry_run, "Write the plan and print the scripts, hand in nothing");
   verb->callback([options, &run] { run = [options] { return run_submit(*options); }; });
 }

@@ -45,7 +45,7 @@ struct CommandLine {
   CommandLine() {
     QCoreApplication::setApplicationName("sonar-explorer");
     QCoreApplication::setApplicationVersion(SONAR_VERSION);
-    parser.setApplicationDescription("Explores fishery-sonar surveys: find schools, follow them, map them");
+    parser.setApplicationDescription("Explores fishery-sonar surveys: detect schools, follow them, map them");
     parser.addHelpOption();
     parser.addVersionOption();
     parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");

@@ -76,7 +76,7 @@ class RecipeDialog : public QDialog {
       editor_.take_defaults();
       fill();
     });
-    QObject::connect(box, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    QObject::connect(box, &QDialogButtonBox::accepted, this, [this] { use(); });
     QObject::connect(box, &QDialogButtonBox::rejected, this, &QDialog::reject);
     return box;
   }
@@ -86,16 +86,26 @@ class RecipeDialog : public QDialog {
     auto* column = new QVBoxLayout(inside);
     const auto sections = editor_.sections(words_->text().toStdString(), changed_->isChecked());
     for (const PanelSection& section : sections) add_folding_section(*column, section, inside);
-    if (sections.empty()) column->addWidget(new QLabel("No parameter is so.", inside));
+    if (sections.empty()) column->addWidget(new QLabel("No parameter matches.", inside));
     column->addStretch(1);
     list_->setWidget(inside);  // the one before goes
+  }
+
+  void use() {
+    const auto valid = editor_.problem();
+    if (valid) return accept();
+    told_->setText(QString::fromStdString(to_line(valid.error())));
   }
 
   void load() {
     const std::string file = dialogs_.file_to_open ? dialogs_.file_to_open("Recipe", kRecipes) : std::string();
     if (file.empty()) return;
     const auto loaded = editor_.load(file);
-    told_->setText(QString::fromStdString(loaded ? "loaded: " + file : to_line(loaded.error())));
+    std::string told = loaded ? "loaded: " + file : to_line(loaded.error());
+    if (loaded) {
+      for (const std::string& note : editor_.recipe().notes) told += "\n" + note;
+    }
+    told_->setText(QString::fromStdString(told));
     fill();
   }
 

@@ -20,6 +20,8 @@ std::int64_t microseconds(TimeNs time) { return time / kNsOfMicrosecond - (time 
 void name(Writer& out, int group, int variable, std::string_view long_name, std::string_view standard_name) {
   out.attribute(group, variable, "long_name", long_name);
   if (!standard_name.empty()) out.attribute(group, variable, "standard_name", standard_name);
+  // A vertical coordinate says which way it counts.
+  if (standard_name == "depth") out.attribute(group, variable, "positive", "down");
 }
 
 void place(Writer& out, int group, int variable, std::string_view coordinates) {

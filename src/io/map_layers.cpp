@@ -176,7 +176,8 @@ Result<void> MapLayers::describe_columns() {
   }
   for (const auto& [layer, columns] : columns_) {
     for (const TableColumn& column : columns) {
-      const ColumnWords* words = words_of(column.name);
+      const ColumnWords* words = words_of(layer + "." + column.name);
+      if (words == nullptr) words = words_of(column.name);
       if (words == nullptr || !done) continue;
       const bool has_unit = !column.unit.empty() && column.unit != "1";
       const std::string unit = has_unit ? fmt::format(" [{}]", column.unit) : "";

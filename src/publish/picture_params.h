@@ -104,7 +104,7 @@ void describe(Visitor& v, DisplayParams& p) {
            .text = "confidence above which a voxel belongs to the fuzzy area",
            .flag = "fuzzy",
            .suits = "volume"});
-  v.field("rejected", p.rejected, {.text = "show rejected schools too, in grey"});
+  v.field("rejected", p.rejected, {.text = "show rejected schools, in grey"});
   v.field("refused_echoes", p.refused_echoes,
           {.text = "mark the echoes above the background that were judged no schools",
            .flag = "refused",
@@ -168,7 +168,7 @@ void describe(Visitor& v, VolumeParams& p) {
           {.unit = "1",
            .min = 0,
            .max = 1024,
-           .text = "jittered pictures that are averaged at rest: sampling quality; 0 = one plain picture"});
+           .text = "jittered pictures that are averaged: sampling quality; 0 = one plain picture"});
   v.field("table_entries", p.table_entries,
           {.unit = "1", .min = 2, .max = kMostTableEntries, .text = "steps of the transfer function's table"});
   v.choice("renderer", p.renderer, kRendererNames,

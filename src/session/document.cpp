@@ -279,7 +279,7 @@ void Document::tell_lacking(const std::vector<std::size_t>& observations) {
                                      [this](std::size_t index) { return !detected(index) && lacks_detected(index); });
   if (lacking == 0) return;
   tell(
-      fmt::format("stopped: the schools that were found before in {} observation{} are not shown; look for schools "
+      fmt::format("stopped: the schools that were found before in {} observation{} are not shown; detect schools "
                   "again to have them back (nothing is lost)",
                   lacking, lacking == 1 ? "" : "s"));
 }

@@ -176,8 +176,10 @@ class Document {
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
 
-  /// Numbers of schools in the survey as its results last had them; others follow in the order of observations.
+  /// Numbers of schools in the survey as its results last had them. Others follow in the order of observations, and are
+  /// known when all are measured.
   [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_numbers_; }
+  [[nodiscard]] bool all_measured() const;
   void keep_survey_numbers(std::vector<SurveyNumber> numbers);
 
   /// Whether figures are on their way.
@@ -223,7 +225,8 @@ class Document {
   ChangeQueue& queue_;
   DocumentOptions options_;
   Recipe usual_recipe_;                                          ///< of surveys for which none was chosen
-  std::optional<Recipe> asked_recipe_;                           ///< that the next survey is opened under
+  std::vector<std::filesystem::path> opening_;                   ///< what is being read; empty = nothing
+  std::shared_ptr<const Recipe> asked_recipe_;                   ///< that the next survey is opened under
   std::optional<std::pair<std::size_t, std::int64_t>> back_to_;  ///< observation and ping that it begins with
   Listeners<DocumentChange> changes_;
   std::vector<std::filesystem::path> paths_;

@@ -12,6 +12,15 @@ ProductPtr Document::product(std::size_t observation) const {
   return found == products_.end() ? nullptr : found->second;
 }
 
+bool Document::all_measured() const {
+  if (!survey_) return false;
+  const auto& all = survey_->observations;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].grid && !products_.contains(i)) return false;
+  }
+  return true;
+}
+
 void Document::keep_survey_numbers(std::vector<SurveyNumber> numbers) {
   survey_numbers_ = std::move(numbers);
   changes_.tell(DocumentChange::measures);

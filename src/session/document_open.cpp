@@ -12,11 +12,13 @@ namespace sonar {
 
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
-  run([this, paths = std::move(paths), first = std::move(first), none = survey_ == nullptr,
-       asked = std::exchange(asked_recipe_, std::nullopt),
+  run([this, paths, first = std::move(first), none = survey_ == nullptr, asked = asked_recipe_,
        back = std::exchange(back_to_, std::nullopt)](Work& work, const CancelToken& token) {
     if (const auto done = first ? first(work) : Result<void>{}; !done) {
-      return post(token, [this, line = to_line(done.error())] { tell(line); });
+      return post(token, [this, line = to_line(done.error())] {
+        opening_.clear();
+        tell(line);
+      });
     }
     const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
                                                                     : std::vector<std::filesystem::path>{};
@@ -25,7 +27,10 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
     if (none) glance_at(paths, recipe, work, token);
     auto survey = open_survey(paths, recipe.survey, recipe.navigation, options_.cache, work);
     if (!survey) {
-      return post(token, [this, line = to_line(survey.error())] { tell(line); });
+      return post(token, [this, line = to_line(survey.error())] {
+        opening_.clear();
+        tell(line);
+      });
     }
     auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
     Journal head;
@@ -39,17 +44,21 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
     }
-    post(token, [this, files, paths, recipe, back, place = std::move(place)] {
+    post(token, [this, files, paths, recipe, asked, back, place = std::move(place)] {
       paths_ = paths;
+      opening_.clear();
+      if (asked == asked_recipe_) asked_recipe_.reset();
       options_.recipe = recipe;
       take_survey(files, place);
       if (back) (void)show(back->first, back->second);
     });
   });
+  opening_ = std::move(paths);
 }
 
 void Document::use_recipe(Recipe recipe) {
-  asked_recipe_ = std::move(recipe);
+  asked_recipe_ = std::make_shared<const Recipe>(std::move(recipe));
+  if (!opening_.empty()) return open(opening_);
   if (!survey_) return;
   if (shown_) back_to_ = {shown_->index(), ping_};
   open(paths_);
@@ -57,8 +66,11 @@ void Document::use_recipe(Recipe recipe) {
 
 /// The one that was chosen for a survey before, else the usual one.
 Recipe Document::recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token) {
-  const auto kept = kept_recipe(folders);
+  const auto kept = kept_recipe(session_folders(folders));
   if (!kept) post(token, [this, line = to_line(kept.error())] { tell(line + "; the usual recipe is used"); });
+  if (kept && *kept) {
+    for (const std::string& note : (*kept)->notes) post(token, [this, note] { tell("the recipe: " + note); });
+  }
   return kept ? kept->value_or(usual_recipe_) : usual_recipe_;
 }
 

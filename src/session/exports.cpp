@@ -35,6 +35,7 @@ struct Snapshot {
   std::map<std::size_t, RefusedPtr> refused;
   std::map<std::size_t, ProductPtr> products;
   std::vector<SurveyNumber> numbers;
+  bool all_measured = false;
   std::vector<fs::path> paths;
   std::uint64_t memory_bytes = 0;
   ReduceParams reduce;
@@ -51,6 +52,7 @@ Snapshot snapshot_of(const Workspace& workspace) {
                     {},
                     {},
                     document.survey_numbers(),
+                    document.all_measured(),
                     document.paths(),
                     document.options().memory_bytes,
                     workspace.reduce.values()};
@@ -151,7 +153,7 @@ void run_job(
 std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {
   std::vector<ObservationProduct> products;
   for (const auto& [index, product] : snapshot.products) products.push_back(*product);
-  (void)number_products(products, snapshot.numbers);
+  number_known(products, snapshot.numbers, snapshot.all_measured);
   return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.measuring);
 }
 

@@ -10,6 +10,7 @@
 #include "pipeline/survey/calibration_json.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
+#include "session/live_watch.h"
 #include "session/recipe_editor.h"
 
 namespace sonar {
@@ -92,10 +93,12 @@ void change_recipe(AppModel& app) {
   if (!app.dialogs.recipe) return;
   RecipeEditor editor(app.workspace.queue, document.recipe());
   if (!app.dialogs.recipe(editor)) return;
+  if (app.live->on()) app.live->follow_next();
   document.use_recipe(editor.recipe());
   const std::size_t changed = editor.changed();
   document.tell(changed == 0 ? std::string("the recipe is the default one now")
-                             : fmt::format("the recipe differs from the default one in {} parameters", changed));
+                             : fmt::format("the recipe differs from the default one in {} parameter{}", changed,
+                                           changed == 1 ? "" : "s"));
 }
 
 void add_calibration(AppModel& app) {

@@ -104,7 +104,7 @@ std::string act_name(const JournalAct& act, const CommandContext& context, const
     return c->first == c->last ? "mark good ping" : "mark good interval";
   }
   if (const auto* c = std::get_if<CalibrateCommand>(&act.command)) return "calibration " + c->file;
-  if (std::holds_alternative<DetectCommand>(act.command)) return "look for schools";
+  if (std::holds_alternative<DetectCommand>(act.command)) return "detect schools";
   const auto& decide = std::get<DecideCommand>(act.command);
   if (decide.decisions.size() != 1) return fmt::format("review {} schools", decide.decisions.size());
   return decide_verb(decide) + named(decide.decisions.front().school);

@@ -21,6 +21,35 @@ bool holds(const Property& one, const std::string& words) {
   return words.empty() || lower(one.name + " " + one.label + " " + one.tooltip).find(words) != std::string::npos;
 }
 
+/// "track.confirmation": what a parameter is part of.
+std::string group_of(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string::npos ? std::string() : name.substr(0, dot);
+}
+
+std::string title_of_group(std::string group) {
+  std::replace(group.begin(), group.end(), '.', ',');
+  std::string title;
+  for (const char c : label_of(group, {})) title += c == ',' ? std::string(", ") : std::string(1, c);
+  return title;
+}
+
+/// The recipe's parameters; those that every user sets are labelled with what they are part of, for they stand together.
+class RecipeSource : public SourceOf<Recipe> {
+ public:
+  explicit RecipeSource(Parameters<Recipe>& parameters)
+      : SourceOf<Recipe>(parameters), labelled_(parameters.properties()) {
+    for (Property& one : labelled_) {
+      if (one.basic && !group_of(one.name).empty())
+        one.label = title_of_group(group_of(one.name)) + ": " + lower(one.label);
+    }
+  }
+  [[nodiscard]] const std::vector<Property>& properties() const override { return labelled_; }
+
+ private:
+  std::vector<Property> labelled_;
+};
+
 Recipe for_files(Recipe recipe) {
   recipe.automatic = true;
   return recipe;
@@ -29,15 +58,20 @@ Recipe for_files(Recipe recipe) {
 }  // namespace
 
 RecipeEditor::RecipeEditor(ChangeQueue& queue, Recipe recipe)
-    : parameters_(queue), source_(std::make_shared<SourceOf<Recipe>>(parameters_)), defaults_(queue) {
+    : parameters_(queue), source_(std::make_shared<RecipeSource>(parameters_)), defaults_(queue) {
   parameters_.assign(for_files(std::move(recipe)));
 }
 
 std::size_t RecipeEditor::changed() const {
   const auto& all = parameters_.properties();
-  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [this](const Property& one) {
-    return *parameters_.value(one.name) != *defaults_.value(one.name);
-  }));
+  const Recipe& usual = defaults_.values();
+  // Tables and curves are no parameters with a control, but they are changes.
+  const std::size_t tables = static_cast<std::size_t>(!recipe().calibration.beams.empty()) +
+                             static_cast<std::size_t>(!recipe().survey.sound_speed_profile.empty()) +
+                             static_cast<std::size_t>(!(recipe().growth_curve == usual.growth_curve));
+  return tables + static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [this](const Property& one) {
+           return *parameters_.value(one.name) != *defaults_.value(one.name);
+         }));
 }
 
 std::vector<PanelSection> RecipeEditor::sections(std::string_view words, bool changed_alone) const {
@@ -53,7 +87,7 @@ std::vector<PanelSection> RecipeEditor::sections(std::string_view words, bool ch
       basic.notes.push_back({one.name, [sentence = one.tooltip] { return sentence; }});
       continue;
     }
-    const std::string title = "For experts: " + label_of(one.name.substr(0, one.name.find('.')), {});
+    const std::string title = "For experts: " + title_of_group(group_of(one.name));
     if (experts.empty() || experts.back().title != title) {
       experts.push_back({title, source_});
       experts.back().open = !all;
@@ -75,8 +109,11 @@ Result<void> RecipeEditor::load(const std::filesystem::path& file) {
   return {};
 }
 
+Result<void> RecipeEditor::problem() const { return validate_recipe(recipe()); }
+
 Result<void> RecipeEditor::save(const std::filesystem::path& file) const {
-  return write_recipe(file.string(), parameters_.values());
+  if (auto valid = problem(); !valid) return valid;
+  return write_recipe(file.string(), recipe());
 }
 
 }  // namespace sonar

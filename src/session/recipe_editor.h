@@ -26,11 +26,15 @@ class RecipeEditor {
   /// changed_alone  and are not as in the preset default
   [[nodiscard]] std::vector<PanelSection> sections(std::string_view words, bool changed_alone) const;
 
+  /// What keeps it from being used or saved: values that do not go together.
+  /// errors  bad_parameter
+  [[nodiscard]] Result<void> problem() const;
+  /// The preset default, without tables of calibration and sound speed.
   void take_defaults();
   /// errors  as read_recipe()
   [[nodiscard]] Result<void> load(const std::filesystem::path& file);
   /// For `sonarx run --recipe`.
-  /// errors  io, no_space; usage: a recording stands there
+  /// errors  as problem(); io, no_space; usage: a recording stands there
   [[nodiscard]] Result<void> save(const std::filesystem::path& file) const;
 
  private:

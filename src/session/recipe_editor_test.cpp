@@ -68,6 +68,28 @@ TEST_F(RecipeEditing, FindsByWordsAndByWhatWasChanged) {
   EXPECT_EQ(editor.changed(), 0U);
 }
 
+TEST_F(RecipeEditing, WhatDoesNotGoTogetherIsNeitherUsedNorSaved) {
+  ChangeQueue queue;
+  RecipeEditor editor(queue, Recipe{});
+  ASSERT_TRUE(editor.sections("", false).front().source->set("median.kernel_fans", 4));
+  ASSERT_FALSE(editor.problem());
+  EXPECT_THAT(to_line(editor.problem().error()), HasSubstr("kernel 4 is not odd"));
+  const auto file = TestSurvey::easy().fresh() / "r.json";
+  EXPECT_FALSE(editor.save(file));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+// They stand together: each is told with what it is part of.
+TEST_F(RecipeEditing, LabelsOfWhatAUserSetsAreUnique) {
+  ChangeQueue queue;
+  const RecipeEditor editor(queue, Recipe{});
+  std::set<std::string> labels;
+  for (const Property& one : editor.sections("", false).front().source->properties()) {
+    if (!one.basic) continue;
+    EXPECT_TRUE(labels.insert(one.label).second) << one.label;
+  }
+}
+
 TEST_F(RecipeEditing, WhatIsSavedIsWhatARunReads) {
   ChangeQueue queue;
   RecipeEditor editor(queue, document().recipe());
@@ -96,7 +118,7 @@ TEST_F(RecipeEditing, TheSurveyIsOpenedUnderItAndDecisionsStay) {
   EXPECT_FALSE(document().recipe().automatic);
   EXPECT_EQ(document().ping(), 3) << "one goes on where one was";
   EXPECT_EQ(document().state().schools.size(), 1U);
-  EXPECT_THAT(document().notices().back(), HasSubstr("1 parameters"));
+  EXPECT_THAT(document().notices().back(), testing::EndsWith("in 1 parameter"));
   change([](RecipeEditor&) { return false; });
   EXPECT_EQ(document().recipe().detect.tolerance_db, 7.0) << "declined";
 }

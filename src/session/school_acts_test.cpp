@@ -236,7 +236,7 @@ TEST_F(SchoolActs, SearchingTheSurveyFindsSchoolsInEveryObservation) {
   EXPECT_TRUE(document().detected(0));
   EXPECT_TRUE(document().detected(1));
   EXPECT_FALSE(document().state(1).schools.empty());
-  EXPECT_EQ(document().choices().undo_text, "Undo look for schools in 2 observations");
+  EXPECT_EQ(document().choices().undo_text, "Undo detect schools in 2 observations");
   EXPECT_EQ(pings_of(1), (Pings{2, 3, 4, 5, 6})) << "the school that was there keeps its number";
   // One step, however many observations: one key takes it back, one does it again, and both stand in the journal.
   const auto found = document().state(1).schools.size();
@@ -244,7 +244,7 @@ TEST_F(SchoolActs, SearchingTheSurveyFindsSchoolsInEveryObservation) {
   document().settle();
   EXPECT_EQ(document().state(0).schools.size(), 1U);
   EXPECT_TRUE(document().state(1).schools.empty());
-  EXPECT_EQ(document().choices().redo_text, "Redo look for schools in 2 observations");
+  EXPECT_EQ(document().choices().redo_text, "Redo detect schools in 2 observations");
   press("edit.redo");
   document().settle();
   EXPECT_EQ(document().state(1).schools.size(), found);

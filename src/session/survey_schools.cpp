@@ -43,7 +43,7 @@ std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers_in_survey(c
     one.source = product->source;
     one.schools = product->schools;
   }
-  (void)number_products(light, document.survey_numbers());
+  number_known(light, document.survey_numbers(), document.all_measured());
   std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers;
   for (std::size_t i = 0; i < light.size(); ++i) {
     for (const SchoolRow& row : light[i].schools) numbers[{indices[i], row.school_id}] = row.survey_school;

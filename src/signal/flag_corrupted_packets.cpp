@@ -57,10 +57,10 @@ class CorruptedPackets {
   bool is_hot(int row, int block) {
     const int level = levels_.level(row, block);
     if (level == BlockLevels::kUnknown) return false;
-    if (stands_out(row, block, false, level, spread_ + isolated_)) return true;
+    if (is_above(row, block, false, level, spread_ + isolated_)) return true;
     const int above_own = level - levels_.background(row);
-    return above_own >= threshold_ && stands_out(row, block, true, above_own, isolated_) &&
-           stands_out(row, block, false, level, isolated_);
+    return above_own >= threshold_ && is_above(row, block, true, above_own, isolated_) &&
+           is_above(row, block, false, level, isolated_);
   }
 
   /// By how much more a beam must exceed its neighbours, counts, where a school in its middle already exceeds them as a beam with corrupted packets does.
@@ -72,7 +72,7 @@ class CorruptedPackets {
 
   /// Above the median of the up to 8 neighbours, above both neighbours in fan (in beam on a sonar of one fan), and above
   /// the median of the nearest of its own fan: a whole fan may see what its neighbours do not, the surface.
-  bool stands_out(int row, int block, bool relative, int level, int more) {
+  bool is_above(int row, int block, bool relative, int level, int more) {
     const Shape3 shape = power_.shape();
     const int fan = row / shape.beams;
     const int beam = row % shape.beams;

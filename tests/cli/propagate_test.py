@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One click on a school of the truth, in both modes."""
 import json
+import unittest
 
 import sonarx
 from sonarx import SURVEY, TRUTH, Case
@@ -170,6 +171,30 @@ class Propagate(Case):
                                           "--tolerance-db", "10", "--out", self.fresh("propagate-none"))
                 self.assertEqual(code, 2, err)
                 self.assertEqual(len(err.strip().splitlines()), 1, err)
+
+
+class SessionRecipe(Case):
+    """A recipe that a window keeps beside a journal is that of the session's run, whatever is measured anew."""
+
+    @unittest.skipIf(netCDF4 is None, "netCDF4-python is not installed")
+    def test_a_session_keeps_its_recipe(self):
+        folder = self.fresh("session-recipe")
+        clicked = folder / "clicked"
+        place, _ = seed()
+        self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", place, "--tolerance-db", "10", "--reach", "1",
+                    "--out", clicked)
+        kept = clicked / "session-recipe.json"
+        kept.write_text('{"recipe_version": 1, "detect": {"tolerance_db": 7}}', encoding="utf-8")
+        for name, options, speed in (("plain", [], 0.0), ("measured", ["--sound-speed", "1480"], 1480.0)):
+            self.sonarx("run", SURVEY, "--session", clicked, "--only", "obs-0001", "--out", folder / name, *options)
+            with netCDF4.Dataset(folder / name / "products" / "obs-0001.nc") as product:
+                used = json.loads(product.recipe)
+            self.assertEqual(used["detect"]["tolerance_db"], 7.0, name)
+            self.assertFalse(used["automatic"], "the session's lines say where schools are detected")
+            self.assertEqual(used["survey"]["sound_speed_mps"], speed)
+        for text in ("{", '{"recipe_version": 1, "median": {"kernel_fans": 4}}'):
+            kept.write_text(text, encoding="utf-8")
+            self.one_line_error("run", SURVEY, "--session", clicked, "--out", folder / "broken", code=1, names=kept.name)
 
 
 if __name__ == "__main__":

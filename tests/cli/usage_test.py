@@ -43,7 +43,7 @@ class Usage(Case):
                                 (("simulate", "x", "--noise", "-1"), "--noise: -1 is outside "),
                                 (("simulate", "x", "--noise", "nan"), "--noise: nan is outside "),
                                 (("simulate", "x", "--jobs", "-3"), "--jobs: "),
-                                (("run", "--plan", "plan.json", "--task", "-1"), "--task: Value -1 not in range"),
+                                (("run", "--plan", "plan.json", "--task", "-1"), "--task: -1 is no whole number in 0"),
                                 (("propagate", "x", "--observation", "obs-0001", "--seed", "0,0,0,0", "--out", "y",
                                   "--tolerance-db", "nan"), "--tolerance-db: nan is outside 0.1 .. 60"),
                                 (("info", "--no-such-flag"), "see sonarx info --help")]:

@@ -64,6 +64,9 @@ TEST_F(Guide, Pictures) {
     dialog->reject();
   });
   app_->actions.find("file.recipe")->run();
+  window_->activateWindow();
+  window_->setFocus();
+  settle();
   workspace().depth_raster.set(survey_ / "truth" / "depth.tif");
   raise("survey_map");
   raise("survey_timeline");

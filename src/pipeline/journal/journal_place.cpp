@@ -30,6 +30,12 @@ bool can_write(const fs::path& folder) {
   return require_own_folder(folder) && AtomicFile::create(journal_name(there, 1)).has_value();
 }
 
+std::size_t first_writable(std::span<const fs::path> folders) {
+  std::size_t chosen = 0;
+  while (chosen < folders.size() && !can_write(folders[chosen])) ++chosen;
+  return chosen;
+}
+
 bool written_by(const Journal& journal, const std::string& operator_name) {
   return journal.lines.empty() || journal.lines.back().operator_name == operator_name;
 }
@@ -116,10 +122,13 @@ Result<void> JournalPlace::begin_next() {
   return {};
 }
 
+std::span<const fs::path> session_folders(std::span<const fs::path> folders) {
+  return folders.first(std::min(first_writable(folders) + 1, folders.size()));
+}
+
 Result<JournalPlace> place_journal(std::span<const fs::path> folders, const Journal& head,
                                    const std::string& operator_name) {
-  std::size_t chosen = 0;
-  while (chosen < folders.size() && !can_write(folders[chosen])) ++chosen;
+  const std::size_t chosen = first_writable(folders);
   if (chosen == folders.size()) {
     return fail(ErrorCode::io, "the journal can be kept nowhere: no folder can be written to",
                 {folders.empty() ? std::string{} : folders.front().string()});

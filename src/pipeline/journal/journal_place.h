@@ -39,6 +39,9 @@ struct JournalPlace {
   [[nodiscard]] std::int64_t first_place() const { return (std::ssize(folders) - 1) * kMostJournals; }
 };
 
+/// Of these folders, in which a session may lie, those up to the first that can be written to, which holds ours.
+[[nodiscard]] std::span<const std::filesystem::path> session_folders(std::span<const std::filesystem::path> folders);
+
 /// Takes the first folder that can be written to; one that is not there is made. The last journal in it that its person wrote
 /// last is gone on with, else one is begun; the others there and in the folders before it are read, as far as they can be.
 /// head    of a journal that is begun

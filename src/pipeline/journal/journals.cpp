@@ -137,8 +137,10 @@ Result<Journal> read_session(const fs::path& path) {
   const auto chosen = kept_recipe(std::span(&folder, 1));
   if (!chosen) return pass_on(chosen);
   if (*chosen) {
-    session->recipe = recipe_text(**chosen);
-    session->recipe_hash = recipe_hash(**chosen);
+    Recipe recipe = **chosen;
+    recipe.automatic = false;  // the session's lines say where schools are detected
+    session->recipe = recipe_text(recipe);
+    session->recipe_hash = recipe_hash(recipe);
   }
   return session;
 }

@@ -27,12 +27,13 @@ class SessionRecipe : public testing::Test {
   const fs::path root = test::scratch_path("session-recipe");
 };
 
-TEST_F(SessionRecipe, IsReadBackFromTheFirstFolderThatHasOne) {
-  const std::array folders{root / "none", root / "ours"};
+TEST_F(SessionRecipe, IsReadBackFromTheLastFolderThatHasOne) {
+  const std::array folders{root / "theirs", root / "ours", root / "none"};
   ASSERT_TRUE(kept_recipe(folders));
   EXPECT_FALSE(kept_recipe(folders)->has_value());
   Recipe recipe;
   recipe.detect.tolerance_db = 7.0;
+  ASSERT_TRUE(keep_recipe(root / "theirs", Recipe{}));
   ASSERT_TRUE(keep_recipe(root / "ours", recipe));
   const auto kept = kept_recipe(folders);
   ASSERT_TRUE(kept && *kept);
@@ -40,10 +41,13 @@ TEST_F(SessionRecipe, IsReadBackFromTheFirstFolderThatHasOne) {
 }
 
 TEST_F(SessionRecipe, ThatIsBrokenIsToldWithItsFile) {
-  ASSERT_TRUE(write_file(root / "session-recipe.json", "{"));
-  const auto kept = kept_recipe(std::span(&root, 1));
-  ASSERT_FALSE(kept);
-  EXPECT_THAT(to_line(kept.error()), testing::HasSubstr("session-recipe.json"));
+  for (const char* text : {"{", R"({"recipe_version": 1, "median": {"kernel_fans": 4}})"}) {
+    ASSERT_TRUE(write_file(root / "session-recipe.json", text));
+    const auto kept = kept_recipe(std::span(&root, 1));
+    ASSERT_FALSE(kept);
+    EXPECT_EQ(kept.error().code, ErrorCode::format) << "what a file says is no wrong usage";
+    EXPECT_THAT(to_line(kept.error()), testing::HasSubstr("session-recipe.json"));
+  }
 }
 
 // A session's run follows the recipe that its window showed.
@@ -63,7 +67,11 @@ TEST_F(SessionRecipe, IsTheSessionsWhateverItsJournalBeganWith) {
   for (const fs::path& session : {root, root / "session.jsonl"}) {
     const auto read = read_session(session);
     ASSERT_TRUE(read) << to_line(read.error());
-    EXPECT_EQ(read->recipe_hash, recipe_hash(recipe)) << session;
+    const auto followed = recipe_from_text(read->recipe);
+    ASSERT_TRUE(followed);
+    EXPECT_EQ(followed->detect.tolerance_db, 7.0) << session;
+    EXPECT_FALSE(followed->automatic) << "the session's lines say where schools are detected";
+    EXPECT_EQ(read->recipe_hash, recipe_hash(*followed));
     EXPECT_EQ(read->lines.size(), 1U);
   }
 }

@@ -117,7 +117,12 @@ Result<Recipe> recipe_from_text(std::string_view text) {
     if (!profile) return pass_on(profile);
     recipe.survey.sound_speed_profile = std::move(*profile);
   }
-  if (auto valid = validate(recipe); !valid) return pass_on(valid);
+  if (auto valid = validate_recipe(recipe); !valid) return pass_on(valid);
+  return recipe;
+}
+
+Result<void> validate_recipe(const Recipe& recipe) {
+  if (auto valid = validate(recipe); !valid) return valid;
   if (auto valid = check_sound_speed(recipe.survey.sound_speed_mps); !valid) return pass_on(valid);
   for (const int length : {recipe.median.kernel_fans, recipe.median.kernel_beams, recipe.median.kernel_samples}) {
     if (length % 2 == 0) return fail(ErrorCode::bad_parameter, fmt::format("median: kernel {} is not odd", length));
@@ -132,7 +137,7 @@ Result<Recipe> recipe_from_text(std::string_view text) {
                 fmt::format("detect.left_out: no judge {}; there are {}", none, fmt::join(kJudgeNames, ", ")));
   }
   if (auto valid = check_beams(recipe.calibration.beams); !valid) return pass_on(valid);
-  return recipe;
+  return {};
 }
 
 Result<Recipe> read_recipe(const std::string& path) {

@@ -187,6 +187,9 @@ void describe(Visitor& v, Recipe& r) {
 /// What recipe_text() writes, or any part of it: what is absent keeps its default.
 /// errors  format, newer_version, bad_parameter: naming the parameter
 [[nodiscard]] Result<Recipe> recipe_from_text(std::string_view text);
+/// Refuses what recipe_from_text() refuses: a value out of its range, or values that do not go together.
+/// errors  bad_parameter
+[[nodiscard]] Result<void> validate_recipe(const Recipe& recipe);
 [[nodiscard]] Result<Recipe> read_recipe(const std::string& path);
 /// What read_recipe() reads. errors: io, no_space; usage: a recording stands there
 [[nodiscard]] Result<void> write_recipe(const std::string& path, const Recipe& recipe);

@@ -44,7 +44,7 @@ RefusedEcho row_of(const Engine& engine, std::int64_t ping_index, const Detectio
 
 /// Whether a human may miss it: one sight is clear, or the sights together have half of what is asked. Water alone shows
 /// fainter ones everywhere.
-bool stands_out(const RefusedTrack& track, std::span<const DetectedPing> pings, double clear) {
+bool is_above_background(const RefusedTrack& track, std::span<const DetectedPing> pings, double clear) {
   const Reason& reason = track.reason;
   if (reason.judge == "confirmation" && reason.unit == kAllSights && 2.0 * reason.figure >= reason.limit) return true;
   return std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
@@ -68,7 +68,7 @@ std::vector<RefusedEcho> refused_echoes(const Engine& engine, std::span<const De
   }
   const double clear = clear_evidence(engine.recipe().detect);
   for (const RefusedTrack& track : tracks.refused) {
-    if (!stands_out(track, pings, clear)) continue;
+    if (!is_above_background(track, pings, clear)) continue;
     --id;
     for (const TrackedDetection& seen : track.pings) {
       const DetectedPing& ping = *ping_of(pings, seen.ping_index);

@@ -25,32 +25,41 @@ std::set<std::int64_t> provisional_schools(const ObservationProduct& product) {
   return schools;
 }
 
-std::int64_t number_of(const std::vector<SurveyNumber>& known, const std::string& source, const SchoolRow& school) {
-  const auto found =
-      std::ranges::find_if(known, [&](const SurveyNumber& kept) { return is_same(kept, source, school); });
-  return found != known.end() ? found->number : 0;
+TimeNs overlap(const SurveyNumber& kept, const SchoolRow& school) {
+  return std::min(kept.last_time, school.last_time_utc) - std::max(kept.first_time, school.first_time_utc);
 }
 
 }  // namespace
 
 void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept) {
   for (ObservationProduct& product : products) {
-    for (SchoolRow& school : product.schools) school.survey_school = number_of(kept, product.source, school);
+    for (SchoolRow& school : product.schools) school.survey_school = 0;
+  }
+  // Where files were cut anew several rows may be what one was: the longest part of it keeps its number.
+  for (const SurveyNumber& one : kept) {
+    SchoolRow* longest = nullptr;
+    for (ObservationProduct& product : products) {
+      for (SchoolRow& school : product.schools) {
+        if (school.survey_school > 0 || !is_same(one, product.source, school)) continue;
+        if (longest == nullptr || overlap(one, school) > overlap(one, *longest)) longest = &school;
+      }
+    }
+    if (longest != nullptr) longest->survey_school = one.number;
   }
 }
 
 std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products, std::vector<SurveyNumber> earlier) {
   std::int64_t next = 1;
   for (const SurveyNumber& kept : earlier) next = std::max(next, kept.number + 1);
-  const std::vector<SurveyNumber> known = earlier;
+  recall_numbers(products, earlier);
   for (ObservationProduct& product : products) {
     const std::set<std::int64_t> provisional = provisional_schools(product);
     std::map<std::int64_t, std::int64_t> numbers;
     for (SchoolRow& school : product.schools) {
-      const std::int64_t had = number_of(known, product.source, school);
-      school.survey_school = had > 0 ? had : next++;
+      const bool had = school.survey_school > 0;
+      if (!had) school.survey_school = next++;
       numbers[school.school_id] = school.survey_school;
-      if (had == 0 && !provisional.contains(school.school_id)) {
+      if (!had && !provisional.contains(school.school_id)) {
         earlier.push_back(
             {school.survey_school, product.source, school.school_id, school.first_time_utc, school.last_time_utc});
       }

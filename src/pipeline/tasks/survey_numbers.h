@@ -35,6 +35,12 @@ struct SurveyNumber {
 /// Gives the schools of products the numbers that a merge gave them; 0 where it knows nothing of them.
 void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept);
 
+/// As number_products() where all observations of a survey are there, else as recall_numbers(): a number that would change
+/// with the next observation is none.
+inline void number_known(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept, bool all) {
+  all ? void(number_products(products, kept)) : recall_numbers(products, kept);
+}
+
 /// Of a result's survey.json; empty where there is none, or it cannot be read.
 [[nodiscard]] std::vector<SurveyNumber> kept_numbers(const std::filesystem::path& out);
 

@@ -112,5 +112,16 @@ TEST(SurveyNumbers, AnotherSoundersSchoolIsAnotherOne) {
   EXPECT_THAT(numbers_in(second), ElementsAre(2));
 }
 
+// Files cut anew: two rows are what one was. Its longer part keeps the number, the other gets one of its own.
+TEST(SurveyNumbers, AreGivenOnceHoweverObservationsAreCut) {
+  Survey before = survey_of({observation("obs-0001", {{1, 0, 40}})});
+  const auto kept = number_schools(before, {});
+  Survey after =
+      survey_of({observation("obs-0001", {{1, 0, 10}}), observation("obs-0002", {{1, 11, 40}, {2, 20, 30}})});
+  const auto again = number_schools(after, kept);
+  EXPECT_THAT(numbers_in(after), ElementsAre(2, 1, 3));
+  EXPECT_EQ(again.size(), 3U);
+}
+
 }  // namespace
 }  // namespace sonar

@@ -9,6 +9,7 @@
 #include "render/gl/fold_plan.h"
 #include "render/gl/gl_renderer.h"
 #include "render/gl/gl_test_scene.h"
+#include "render/gl/gl_version.h"
 #include "render/ray_rules.h"
 #include "render/reference/brute_force.h"
 
@@ -258,7 +259,9 @@ void expect_folds(const Shape3& shape, int limit) {
 }
 
 TEST_F(VolumeGl, FoldedAndUnfoldedPicturesAreEqual) {
-  // Not bit by bit: the same place has other coordinates in another texture, rounded at about 1e-5 of a sample.
+  // Not bit by bit: the same place has other coordinates in another texture, rounded at about 1e-5 of a sample. Graphics
+  // cards interpolate with 8 bits of a fraction, where software takes all: 3.5 steps of 255 were seen on one.
+  const double most = draws_by_software(current_driver()) ? 1.0 : 5.0;
   const std::vector<std::pair<Shape3, std::vector<int>>> foldings{{{10, 13, 150}, {128, 64, 33}},
                                                                   {{20, 25, 1319}, {512, 300, 128}},
                                                                   {{40, 60, 1319}, {512, 300, 256}},
@@ -280,7 +283,7 @@ TEST_F(VolumeGl, FoldedAndUnfoldedPicturesAreEqual) {
       ASSERT_TRUE(gl->set_transfer(gl_test::table_of(true)));
       ASSERT_TRUE(gl->set_masks(masks));
       const RayImage folded = drawn(*gl, view, quality);
-      EXPECT_LT(largest_step(whole, folded), 1.0) << shape.samples << " samples, limit " << limit;
+      EXPECT_LT(largest_step(whole, folded), most) << shape.samples << " samples, limit " << limit;
     }
   }
 }

@@ -92,6 +92,7 @@ LivePicture::Build SurveyMapModel::build() {
   if (wish.survey->observations.empty()) return {};
   for (std::size_t i = 0; i < wish.survey->observations.size(); ++i) wish.products.push_back(document.product(i));
   wish.numbers = document.survey_numbers();
+  wish.all_measured = document.all_measured();
   wish.depth_raster = workspace_.depth_raster();
   wish.style.zoom = gesture_.zoom();
   wish.style.rejected = workspace_.display.values().rejected;

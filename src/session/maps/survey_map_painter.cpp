@@ -74,7 +74,7 @@ void SurveyMapPainter::take_products(const SurveyMapWish& wish) {
     light.recipe_json = products_[i]->recipe_json;
   }
   join_over_cuts(light_);
-  (void)number_products(light_, numbers_);
+  number_known(light_, numbers_, wish.all_measured);
 }
 
 bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const CancelToken& token) {

@@ -21,6 +21,7 @@ struct SurveyMapWish {
   std::shared_ptr<const SurveyFiles> survey;
   std::vector<ProductPtr> products;   ///< [observation], null where nothing is measured
   std::vector<SurveyNumber> numbers;  ///< of schools in the survey, as results had them
+  bool all_measured = false;
   std::filesystem::path depth_raster;
   SurveyMapStyle style;
   bool dark = false;
