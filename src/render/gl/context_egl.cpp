@@ -59,7 +59,8 @@ bool is_software(EGLDeviceEXT device) {
 std::vector<EGLDisplay> displays() {
   std::vector<EGLDisplay> out;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
-      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
+      (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base") ||
+       epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))) {
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
     if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) count = 0;
