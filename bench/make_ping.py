@@ -3,8 +3,8 @@
 """make_ping.py OUT [PING]: a synthetic ping for benchmarks, as published with the baselines that we compare with.
 
 int16 power in steps of 10 log10(2)/256 dB, C order [fan 20][beam 25][sample 1319]: beam-dependent background, five
-schools, speckle, near field, surface fan, impulses, three corrupted packets and two walls. Needs numpy; the answer does not
-depend on its version (PCG64), which the hash checks.
+schools, speckle, near field, surface fan, impulses, three corrupted packets and two stretches of interference at constant
+range. Needs numpy; the answer does not depend on its version (PCG64), which the hash checks.
 """
 
 import hashlib

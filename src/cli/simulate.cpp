@@ -222,9 +222,9 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "Shape of the beams: gaussian, uniform_line (with side lobes), or sending wider than receiving: "
                    "wide_transmit (both ways), wide_fan (along the fan)")
       ->check(one_of({"gaussian", "uniform_line", "wide_transmit", "wide_fan"}));
-  verb->add_option(
-          "--waters", o->waters,
-          "Array physics: the company's strengths as the parameters state them, or drawn from the seed (random)")
+  verb->add_option("--waters", o->waters,
+                   "Array physics: the strengths of other scatterers as the parameters state them, or drawn from the "
+                   "seed (random)")
       ->check(one_of({"stated", "random"}));
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
   auto* print =

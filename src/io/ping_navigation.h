@@ -57,37 +57,42 @@ void describe(Visitor& v, NavigationParams& p) {
           {.unit = "s",
            .min = -1e6,
            .max = 1e6,
-           .text = "Added to the pings' clock, and so to their times and to the place between the ship's sentences at "
-                   "which they stand; set it when the sonar's clock was wrong.",
+           .text = "Added to the times of the pings before position, heading and speed are looked up for them; set it "
+                   "when the sonar's clock was wrong.",
            .tier = Tier::basic});
-  v.field("transducer_depth_m", p.transducer_depth_m,
-          {.unit = "m",
-           .min = 0,
-           .max = 100,
-           .text = "Depth of the transducer below the mean water line, where the file says 0; set it to the ship's.",
-           .tier = Tier::basic});
+  v.field(
+      "transducer_depth_m", p.transducer_depth_m,
+      {.unit = "m",
+       .min = 0,
+       .max = 100,
+       .text =
+           "Depth of the transducer below the mean water line, used where the raw file says 0; set it for each ship.",
+       .tier = Tier::basic});
   v.choice("heave", p.heave, kHeaveSignNames,
-           {"Whether recorded heave moves the transducer, and which way it counts: off is for sonars that compensate "
-            "it, down and up say which way is positive.",
+           {"Whether recorded heave moves the transducer: choose off for a sonar that compensates heave itself, else "
+            "down or up, the direction in which the recorded heave is positive.",
             Tier::basic});
-  v.choice("lever_arm", p.lever_arm, kLeverArmSourceNames,
-           "Where the way from the antenna to the transducer comes from: nowhere, the file (con0), or the three "
-           "settings below.");
+  v.choice(
+      "lever_arm", p.lever_arm, kLeverArmSourceNames,
+      "Where the distance from the antenna to the transducer comes from: none leaves it out, con0 reads the raw file, "
+      "settings takes lever_arm_x_m, _y_m and _z_m; choose settings where the file's values are missing or wrong.");
   v.field("lever_arm_x_m", p.lever_arm_x_m,
           {.unit = "m",
            .min = -500,
            .max = 500,
-           .text = "Distance of the transducer from the antenna towards the bow, for lever_arm settings."});
+           .text = "Distance of the transducer from the antenna towards the bow, negative aft; set it where lever_arm "
+                   "is settings."});
   v.field("lever_arm_y_m", p.lever_arm_y_m,
           {.unit = "m",
            .min = -500,
            .max = 500,
-           .text = "Distance of the transducer from the antenna to starboard, for lever_arm settings."});
+           .text = "Distance of the transducer from the antenna to starboard, negative to port; set it where lever_arm "
+                   "is settings."});
   v.field("lever_arm_z_m", p.lever_arm_z_m,
           {.unit = "m",
            .min = -500,
            .max = 500,
-           .text = "Distance of the transducer from the antenna downwards, for lever_arm settings."});
+           .text = "Distance of the transducer downwards from the antenna; set it where lever_arm is settings."});
   v.field("mounting_azimuth_deg", p.mounting_azimuth_deg,
           {.unit = "deg",
            .min = 0,
@@ -96,41 +101,47 @@ void describe(Visitor& v, NavigationParams& p) {
                    "mounted otherwise than the MS70.",
            .tier = Tier::basic});
   v.choice("beam_azimuth_sense", p.beam_azimuth_sense, kBeamAzimuthSenseNames,
-           "Which way the file's beam azimuths count from there, seen from above; on a sonar that looks to starboard "
-           "azimuths that count positive to the bow are anticlockwise.");
+           "Direction, seen from above, in which the raw file's beam azimuths increase; choose anticlockwise for a "
+           "sonar that looks to starboard and whose azimuths are positive towards the bow.");
   v.field("beams_stabilised", p.beams_stabilised,
-          {.text = "The sonar takes roll and pitch out of its beams (MS70, ME70); switch it off for one that does not, "
-                   "and beams are turned by them."});
+          {.text = "The sonar takes roll and pitch out of its beams, as the MS70 and ME70 do; switch it off for a "
+                   "sonar that does not, so that its beams are turned by the recorded roll and pitch."});
   v.field("fix_limit_s", p.fix_limit_s,
           {.unit = "s",
            .min = 0,
            .max = 3600,
-           .text = "A ping farther in time than this from any sentence has no position, heading or speed; raise it for "
-                   "instruments that report rarely."});
+           .text = "A ping farther in time than this from any NMEA sentence has no position, heading or speed; raise "
+                   "it for instruments that report rarely."});
   v.field("log_limit_s", p.log_limit_s,
           {.unit = "s",
            .min = 0,
            .max = 86400,
-           .text = "A ping farther in time than this from any sentence of the vessel's log has no log; raise it for "
-                   "logs that report rarely."});
+           .text = "A ping farther in time than this from any NMEA sentence of the vessel's log has no log; raise it "
+                   "for logs that report rarely."});
   v.field("max_speed_mps", p.max_speed_mps,
           {.unit = "m/s",
            .min = 1,
            .max = 1000,
-           .text = "Positions that the ship could reach neither from those before nor from there those after at this "
-                   "speed are left out; raise it for a fast craft."});
+           .text = "Highest speed of the ship that is believed: positions that jump away and back faster are left out. "
+                   "Raise it for a fast craft, lower it where wrong positions remain."});
   v.field("heading_from_course", p.heading_from_course,
           {.text = "Use course over ground as heading above 1 m/s where no heading was recorded; switch it off where "
                    "currents are strong."});
   v.field("position_talker", p.position_talker,
-          {.text = "Talker whose positions are used, for example GP; empty takes the most frequent."});
+          {.text = "NMEA talker whose positions are used, for example GP; empty takes the most frequent. Set it when "
+                   "several receivers were recorded and another one is better."});
   v.field("heading_talker", p.heading_talker,
-          {.text = "Talker whose headings are used; empty takes the most frequent."});
+          {.text = "NMEA talker whose headings are used; empty takes the most frequent. Set it when several compasses "
+                   "were recorded and another one is better."});
   v.field("speed_talker", p.speed_talker,
-          {.text = "Talker whose speed and course are used; empty takes the most frequent."});
-  v.field("log_talker", p.log_talker, {.text = "Talker whose log is used; empty takes the most frequent."});
+          {.text = "NMEA talker whose speed and course are used; empty takes the most frequent. Set it when several "
+                   "instruments were recorded and another one is better."});
+  v.field("log_talker", p.log_talker,
+          {.text = "NMEA talker whose log is used; empty takes the most frequent. Set it when several logs were "
+                   "recorded and another one is better."});
   v.field("clock_talker", p.clock_talker,
-          {.text = "Talker whose GPS time is compared with the clock; empty takes the most frequent."});
+          {.text = "NMEA talker whose GPS time is compared with the sonar's clock; empty takes the most frequent. Set "
+                   "it when several receivers were recorded and another one is better."});
 }
 
 /// {"position": "GP", "heading": "IN", "speed": "GP", "log": "SD", "clock": "GP"}; what nobody said is absent. Heading

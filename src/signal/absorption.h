@@ -33,7 +33,12 @@ void describe(Visitor& v, WaterProperties& p) {
            .min = 0,
            .max = 8000,
            .text = "Depth for which absorption is worked out; set it to the middle of the depths of the beams."});
-  v.field("ph", p.ph, {.unit = "", .min = 7, .max = 9, .text = "Acidity of the water for the absorption formulas."});
+  v.field("ph", p.ph,
+          {.unit = "",
+           .min = 7,
+           .max = 9,
+           .text = "pH of the water for the absorption formulas; set it where it was measured and the sounder's "
+                   "frequency is low, since it matters little above 20 kHz."});
 }
 
 /// Absorption of sound in sea water, dB/m one way, by boric acid, magnesium sulphate and water.

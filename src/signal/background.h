@@ -28,42 +28,46 @@ struct BackgroundParams {
 template <class Visitor>
 void describe(Visitor& v, BackgroundParams& p) {
   v.choice("method", p.method, kBackgroundMethodNames,
-           "How the noise is estimated: low_quantile uses the weak samples of a beam's far part, de_robertis the "
-           "weakest block of range after averaging over pings (De Robertis & Higginbottom 2007).");
+           "How background noise is estimated: low_quantile from the weak samples of a beam's far part, de_robertis "
+           "from its weakest block averaged over pings (De Robertis & Higginbottom 2007). Choose de_robertis where "
+           "echo fills the far part.");
   v.field("quantile", p.quantile,
           {.unit = "",
            .min = 0.01,
            .max = 0.9,
-           .text = "Method low_quantile: quantile of the power samples that the noise is worked out from; lower it "
-                   "where echo fills more of the far part."});
+           .text = "Method low_quantile: quantile of the power in a beam's far part from which noise is worked out; "
+                   "lower it where echo fills more of the far part."});
   v.field("far_fraction", p.far_fraction,
           {.unit = "",
            .min = 0.05,
            .max = 1,
-           .text = "Share of the beam, counted from its far end, that noise is estimated from; lower it where echo "
-                   "reaches far out."});
-  v.field(
-      "fall_db", p.fall_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 100,
-       .text = "Method low_quantile: where most beams are weaker by this in the last half or quarter of that part, "
-               "their level is taken from there, since echo from the water fades along a beam and noise does not."});
+           .text = "Method low_quantile: share of a beam, counted from its far end, from which noise is estimated; "
+                   "lower it where echo reaches far out."});
+  v.field("fall_db", p.fall_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 100,
+           .text = "Method low_quantile: where most beams weaken by more than this towards their far end, noise is "
+                   "taken from the end alone, since echo fades with range and noise does not; lower it where "
+                   "reverberation reaches far out."});
   v.field("minimum_samples", p.minimum_samples,
           {.unit = "samples",
            .min = 1,
            .max = 100000,
-           .text = "A beam with fewer sound samples in that part has no known background."});
+           .text = "Least number of unflagged samples from which a beam's background noise is estimated; lower it for "
+                   "short recording ranges, raise it if estimates from few samples are unsteady."});
   v.field("block_samples", p.block_samples,
           {.unit = "samples",
            .min = 1,
            .max = 10000,
-           .text = "Method de_robertis: length of a block of range; 26 samples are 10 m of an MS70."});
+           .text = "Method de_robertis: length of a block of range; 26 samples are 10 m of an MS70. Raise it for "
+                   "steadier levels, lower it where only short stretches of a beam are free of echo."});
   v.field("maximum_db", p.maximum_db,
           {.unit = "dB re 1 W",
            .min = -300,
            .max = 100,
-           .text = "Method de_robertis: highest background believed; lower it where bottom or fish fill whole beams."});
+           .text = "Method de_robertis: highest background noise believed, to which higher estimates are cut; lower it "
+                   "where seabed or fish fill whole beams."});
 }
 
 /// What one ping tells of each beam's background, without the flagged samples: with low_quantile the levels of its far

@@ -128,7 +128,7 @@ TEST(flags, noise_of_unequal_beams_holds_no_fault) {
   }
 }
 
-TEST(flags, a_permanently_noisy_beam_is_no_hot_beam) {
+TEST(flags, a_permanently_noisy_beam_is_not_corrupted_packets) {
   auto ping = noise_ping(kMs70, -130, 3);
   const auto louder = static_cast<std::int16_t>(counts_from_db(14.0));
   for (auto& v : ping.row(9, 9)) v = static_cast<std::int16_t>(v + louder);

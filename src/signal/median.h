@@ -43,8 +43,9 @@ void describe(Visitor& v, MedianParams& p) {
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "The median runs along range alone where neighbouring beams see a target on a beam's axis weaker by "
-                   "more than this, because such beams lie too far apart to be averaged."});
+           .text = "The median runs along range alone where neighbouring beams and fans hear a target on a beam's axis "
+                   "weaker by more than this; lower it if schools of two or three beams are filtered away, raise it "
+                   "for stronger smoothing."});
 }
 
 /// Median of one ping over a box-shaped neighbourhood; flagged samples are left out.

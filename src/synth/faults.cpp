@@ -10,7 +10,7 @@ namespace sonar::synth {
 namespace {
 
 constexpr int kLongestFault_pings = 3;
-constexpr double kHotBeamPower_db = -115.0;
+constexpr double kCorruptedPower_db = -115.0;
 constexpr double kInterferencePower_db = -118.0;
 constexpr double kImpulsePower_db = -122.0;
 constexpr double kPowerSpread_db = 6.0;
@@ -56,7 +56,7 @@ void add_hot_beams(const Layout& layout, const Scene& scene, int ping, View3<flo
       const int row = random.index(static_cast<int>(layout.rows.size()));
       const int first = random.index(layout.shape.samples);
       const int count = 150 + random.index(600);
-      const double power_db = kHotBeamPower_db + kPowerSpread_db * random.uniform(-1.0, 1.0);
+      const double power_db = kCorruptedPower_db + kPowerSpread_db * random.uniform(-1.0, 1.0);
       const int lasts = 1 + random.index(kLongestFault_pings);
       if (start + lasts > ping) add_stretch(power_w, row, first, count, scale * linear_from_db(power_db));
     }

@@ -32,24 +32,53 @@ struct Water {
 template <class Visitor>
 void describe(Visitor& v, Water& p) {
   v.field("reverberation_sv_db", p.reverberation_sv_db,
-          {.unit = "dB re 1 m-1", .min = -300, .max = 0, .text = "Sv of the water itself; raise it for plankton."});
+          {.unit = "dB re 1 m-1",
+           .min = -300,
+           .max = 0,
+           .text = "Sv of the water itself, everywhere. Raise it to test water with plankton, in which weak schools "
+                   "hardly rise above the background."});
   v.field("surface_db", p.surface_db,
           {.unit = "dB",
            .min = -400,
            .max = 0,
-           .text = "Backscatter of the sea surface per square metre; below -200 there is no surface."});
-  v.field(
-      "seabed_db", p.seabed_db,
-      {.unit = "dB", .min = -400, .max = 0, .text = "Lambert constant of the seabed; below -200 there is no seabed."});
-  v.field("seabed_depth_m", p.seabed_depth_m, {.unit = "m", .min = 20, .max = 12000, .text = "Depth at the start."});
+           .text = "Backscatter of the sea surface per square metre. Raise it for a rough sea whose echo hides shallow "
+                   "schools; set it below -200 for no surface."});
+  v.field("seabed_db", p.seabed_db,
+          {.unit = "dB",
+           .min = -400,
+           .max = 0,
+           .text = "Backscatter of the seabed (Lambert constant). Lower it for soft ground, raise it to test schools "
+                   "close to a strong seabed echo; below -200 there is no seabed."});
+  v.field("seabed_depth_m", p.seabed_depth_m,
+          {.unit = "m",
+           .min = 20,
+           .max = 12000,
+           .text = "Water depth at the start. Lower it to bring the seabed echo to the ranges of the schools; raise it "
+                   "for deep water whose seabed is out of reach."});
   v.field("seabed_slope_east", p.seabed_slope_east,
-          {.unit = "1", .min = -0.5, .max = 0.5, .text = "How much deeper the seabed becomes per metre to the east."});
+          {.unit = "1",
+           .min = -0.5,
+           .max = 0.5,
+           .text = "How much deeper the seabed becomes per metre to the east. Raise or lower it from 0 to test that "
+                   "the seabed is followed on a slope."});
   v.field("seabed_slope_north", p.seabed_slope_north,
-          {.unit = "1", .min = -0.5, .max = 0.5, .text = "How much deeper the seabed becomes per metre to the north."});
+          {.unit = "1",
+           .min = -0.5,
+           .max = 0.5,
+           .text = "How much deeper the seabed becomes per metre to the north. Raise or lower it from 0 to test that "
+                   "the seabed is followed on a slope."});
   v.field("seabed_relief_m", p.seabed_relief_m,
-          {.unit = "m", .min = 0, .max = 100, .text = "Standard deviation of the depth over hills and hollows."});
+          {.unit = "m",
+           .min = 0,
+           .max = 100,
+           .text = "Standard deviation of the depth over hills and hollows. Raise it to test that the seabed is told "
+                   "from schools on uneven ground; set it to 0 for an even seabed."});
   v.field("seabed_relief_length_m", p.seabed_relief_length_m,
-          {.unit = "m", .min = 20, .max = 5000, .text = "Shortest distance from crest to crest of the hills."});
+          {.unit = "m",
+           .min = 20,
+           .max = 5000,
+           .text = "Shortest distance from crest to crest of the seabed's hills. Lower it to test steep, narrow hills "
+                   "that may look like schools; raise it for gentle ones."});
 }
 
 /// What the sonar adds. Levels are powers, rates are mean numbers of events in a ping.
@@ -70,41 +99,75 @@ struct Noise {
 
 template <class Visitor>
 void describe(Visitor& v, Noise& p) {
-  v.field("speckle", p.speckle, {.text = "Draw exponential speckle; without it every sample is its expected value."});
+  v.field("speckle", p.speckle,
+          {.text = "Whether echoes vary at random from sample to sample, as those of many fish do. Turn it off to see "
+                   "expected values alone, when looking for a systematic error."});
   v.field("speckle_correlation", p.speckle_correlation,
-          {.unit = "1", .min = 0, .max = 0.95, .text = "Correlation of the amplitudes of neighbouring samples."});
+          {.unit = "1",
+           .min = 0,
+           .max = 0.95,
+           .text = "Correlation of the echo amplitudes of neighbouring samples. Raise it to test filters on speckle "
+                   "that varies slowly along range; set it to 0 for independent samples."});
   v.field("background_power_db", p.background_power_db,
-          {.unit = "dB re 1 W", .min = -300, .max = -50, .text = "Noise power in every sample."});
+          {.unit = "dB re 1 W",
+           .min = -300,
+           .max = -50,
+           .text = "Background noise power in every sample. Raise it to test how far away schools are detected from a "
+                   "noisy ship; lower it for a quiet ship."});
   v.field("background_spread_db", p.background_spread_db,
-          {.unit = "dB", .min = 0, .max = 10, .text = "Standard deviation of the noise power over the beams."});
+          {.unit = "dB",
+           .min = 0,
+           .max = 10,
+           .text = "Standard deviation of the background noise over the beams. Raise it to test that noisy and quiet "
+                   "beams are treated alike; set it to 0 for equal beams."});
   v.field("ringing_power_db", p.ringing_power_db,
           {.unit = "dB re 1 W",
            .min = -400,
            .max = 0,
-           .text = "Power of the transducer's ringing at range 0; below -200 there is none."});
+           .text = "Power of the transducer's ringing at range 0. Raise it to test how much near field must be left "
+                   "out; set it below -200 for no ringing."});
   v.field("ringing_decay_db_per_m", p.ringing_decay_db_per_m,
-          {.unit = "dB/m", .min = 0.1, .max = 100, .text = "Decay of the ringing with range."});
+          {.unit = "dB/m",
+           .min = 0.1,
+           .max = 100,
+           .text = "How fast the transducer's ringing weakens with range. Lower it to test ringing that reaches the "
+                   "nearest schools."});
   v.field("corrupted_packets", p.corrupted_packets,
-          {.unit = "1/ping", .min = 0, .max = 100, .text = "Stretches of corrupted packets in a ping, on average."});
+          {.unit = "1/ping",
+           .min = 0,
+           .max = 100,
+           .text = "Mean number of stretches of corrupted packets that begin in a ping. Raise it to test how they are "
+                   "flagged, and schools that they cross; set it to 0 for none."});
   v.field("interference", p.interference,
           {.unit = "1/ping",
            .min = 0,
            .max = 20,
-           .text = "Shells of interference at constant range in a ping, on average."});
+           .text = "Mean number of shells of interference at constant range in a ping, as from another vessel's "
+                   "sounder. Raise it to test how they are flagged; set it to 0 for none."});
   v.field("impulses", p.impulses,
           {.unit = "1/ping",
            .min = 0,
            .max = 600,
-           .text = "Peaks of impulse noise, 1 to 3 samples in one beam, in a ping, on average."});
+           .text = "Mean number of peaks of impulse noise in a ping, each 1 to 3 samples of one beam. Raise it to test "
+                   "how they are flagged and removed; set it to 0 for none."});
   v.field("dropouts", p.dropouts,
-          {.unit = "1/ping", .min = 0, .max = 100, .text = "Channels that were not recorded in a ping, on average."});
+          {.unit = "1/ping",
+           .min = 0,
+           .max = 100,
+           .text = "Mean number of dropouts that begin in a ping, each of 1 to 10 channels for up to 3 pings. Raise it "
+                   "to test schools with missing beams; set it to 0 for none."});
   v.field("side_lobe_db", p.side_lobe_db,
-          {.unit = "dB", .min = -400, .max = -10, .text = "Energy of the side lobes; below -200 there are none."});
+          {.unit = "dB",
+           .min = -400,
+           .max = -10,
+           .text = "Energy of the beams' side lobes. Raise it to test strong schools with side-lobe echoes around "
+                   "them; set it below -200 for none."});
   v.field("scale", p.scale,
           {.unit = "1",
            .min = 0,
            .max = 10,
-           .text = "Factor on the power and rate of every kind of noise; 0 gives clean water."});
+           .text = "Factor on the power and rate of all noise, with reverberation and surface echo. Raise it to find "
+                   "the noise in which detection fails; set it to 0 for clean water."});
 }
 
 /// A fault placed on purpose.

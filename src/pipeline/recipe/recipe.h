@@ -89,9 +89,9 @@ struct CalibrationParams {
 template <class Visitor>
 void describe(Visitor& v, CalibrationParams& p) {
   v.choice("absorption", p.absorption, kAbsorptionSourceNames,
-           {"Where the absorption comes from: file takes the value recorded with each ping's channel (and Francois & "
-            "Garrison's where there is none); the others always use that formula. Choose a formula when the recorded "
-            "value was set wrongly.",
+           {"Where the absorption comes from: file takes the value recorded for each channel (or Francois & Garrison's "
+            "where there is none), the others work it out by their formula. Choose a formula when the recorded value "
+            "is wrong.",
             Tier::basic});
   v.group("water", p.water, "the water for which absorption is worked out");
   v.field("pulse_tolerance", p.pulse_tolerance,
@@ -101,8 +101,8 @@ void describe(Visitor& v, CalibrationParams& p) {
            .text = "Largest relative difference between a ping's pulse length and one in the sounder's gain table for "
                    "that gain to be used; raise it only if the file rounds its pulse lengths."});
   v.choice("psi", p.psi, kPsiSourceNames,
-           "Where the equivalent beam angle comes from: stated takes the raw file's, from_widths works it out from the "
-           "-3 dB widths, table takes psi_db of a calibration table (and the raw file's where it gives none). Giving a "
+           "Source of the equivalent beam angle: stated is the raw file's, from_widths follows from the -3 dB widths, "
+           "table is psi_db of a calibration table, else the raw file's. Choose from_widths if stated is wrong; a "
            "table with psi_db chooses table.");
 }
 
@@ -121,14 +121,14 @@ void describe(Visitor& v, BackgroundWindowParams& p) {
           {.unit = "pings",
            .min = 0,
            .max = 100,
-           .text = "The background of a ping is the median over this many pings before and after it; raise it for "
+           .text = "The background noise of a ping is estimated over this many pings before and after it; raise it for "
                    "steadier levels, lower it where noise changes from ping to ping."});
   v.field("quiet_db", p.quiet_db,
           {.unit = "dB",
            .min = 0,
            .max = 100,
            .text = "A beam whose noise in a ping is this much lower than in the pings around it keeps its own level, "
-                   "because the others were disturbed."});
+                   "because the others were disturbed; lower it where disturbed pings raise the noise of quiet ones."});
 }
 
 /// Every parameter of every stage: what makes one run's science equal to another's. Jobs, paths, cache and display are

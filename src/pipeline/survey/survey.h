@@ -44,11 +44,13 @@ struct SurveyParams {
 
 template <class Visitor>
 void describe(Visitor& v, SurveyParams& p) {
-  v.field("observation_gap_s", p.observation_gap_s,
-          {.unit = "s",
-           .min = 0,
-           .max = 1e9,
-           .text = "A longer gap between pings begins a new observation; raise it for a sonar that pings rarely."});
+  v.field(
+      "observation_gap_s", p.observation_gap_s,
+      {.unit = "s",
+       .min = 0,
+       .max = 1e9,
+       .text =
+           "A gap between pings longer than this begins a new observation; raise it for a sonar that pings rarely."});
   v.field("observation_max_s", p.observation_max_s,
           {.unit = "s",
            .min = 0,
@@ -74,9 +76,9 @@ void describe(Visitor& v, SurveyParams& p) {
           {.unit = "m/s",
            .min = 0,
            .max = 2000,
-           .text = "Sound speed used instead of the files' in ranges, volumes, the sonar equation and absorption by "
-                   "Francois & Garrison; 0 takes the harmonic mean of a given profile down to the deepest beam, or the "
-                   "files' own value. Set it when the sonar was run with a wrong sound speed.",
+           .text = "Sound speed used in ranges, volumes, the sonar equation and absorption by Francois & Garrison; 0 "
+                   "takes the harmonic mean of a given profile down to the deepest beam, or the files' value. Set it "
+                   "when the sonar ran with a wrong one.",
            .tier = Tier::basic});
 }
 

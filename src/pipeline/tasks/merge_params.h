@@ -19,26 +19,26 @@ void describe(Visitor& v, MergeParams& p) {
           {.unit = "m",
            .min = 0,
            .max = 10000,
-           .text = "A school that crosses a cut may lie this far from where it is predicted, beside a share of its "
-                   "length; raise it where schools swim irregularly."});
+           .text = "A school that crosses a cut between observations may lie this far from where it is predicted, "
+                   "beside a share of its length; raise it where schools swim irregularly."});
   v.field("length_share", p.length_share,
           {.unit = "1",
            .min = 0,
            .max = 10,
-           .text = "A school that crosses a cut may lie farther from where it is predicted by this share of the "
-                   "lengths on both sides; raise it for large, loose schools."});
+           .text = "A school that crosses a cut between observations may lie farther from where it is predicted by "
+                   "this share of its lengths before and after; raise it for large, loose schools."});
   v.field("depth_gate_m", p.depth_gate_m,
           {.unit = "m",
            .min = 0,
            .max = 10000,
-           .text = "A school that crosses a cut may differ this much in depth from the prediction; raise it where "
-                   "schools dive."});
+           .text = "A school that crosses a cut between observations may differ this much in depth from the "
+                   "prediction; raise it where schools dive."});
   v.field("edge_pings", p.edge_pings,
           {.unit = "pings",
            .min = 0,
            .max = 1000,
-           .text = "A school may be missing in this many pings before or after a cut, or beyond the last ping a "
-                   "propagation was asked for, and still be joined."});
+           .text = "A school may be missing in this many pings before or after a cut between observations, or beyond "
+                   "the last ping of a propagation, and still be joined; raise it where schools fade for some pings."});
 }
 
 }  // namespace sonar

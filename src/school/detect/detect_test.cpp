@@ -109,7 +109,7 @@ TEST(Detect, KeepsWeakBesideStrong) {
   EXPECT_EQ(overlap(found[0].mask, found[1].mask), 0U);
 }
 
-TEST(Detect, BridgesAHotBeam) {
+TEST(Detect, BridgesCorruptedPackets) {
   Scene scene;
   scene.add(150.0, -18.0, 265.0, -40.0, {16, 9, 6});
   const int row = 11 * 25 + 10;

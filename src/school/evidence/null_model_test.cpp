@@ -67,7 +67,7 @@ TEST(NullModel, TheWatersLevelIsItsMean) {
 
 // Five deviations of a Gaussian are passed once in 3.5 million; 7 pings have 7 x 500 x 60 blocks, and fading's tail is
 // heavier. What is looked for is more than what chance gives to a survey.
-TEST(NullModel, HardlyAnythingStandsOutOfWater) {
+TEST(NullModel, HardlyAnythingInWaterIsAboveBackground) {
   std::size_t cells = 0;
   for (const WaterLevels& ping : Pings(water).levels()) cells += ping.cells.size();
   EXPECT_LE(cells, 20U);
@@ -88,7 +88,7 @@ TEST(NullModel, GainChangesLevelsAndNoEvidence) {
               0.05 * static_cast<double>(here.cells.size()));
 }
 
-TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
+TEST(NullModel, WhatFillsAMinorityIsAboveBackgroundAndMovesNoLevel) {
   const auto school = [](int f, int b, int s, int p) {
     const bool inside = f >= 6 && f < 12 && b >= 8 && b < 16 && s >= 300 && s < 345;
     return water(f, b, s, p) * (inside ? 10.0 : 1.0);  // 10 dB above its water
@@ -109,7 +109,7 @@ TEST(NullModel, WhatFillsAMinorityStandsOutAndMovesNoLevel) {
 }
 
 // As of a ship at rest that looks at a near school, which keeps its place in all pings.
-TEST(NullModel, WhatFillsTheMajorityStandsOutOfTheRest) {
+TEST(NullModel, WhatFillsTheMajorityIsAboveBackgroundOfTheRest) {
   const auto school = [](int f, int b, int s, int p) {
     const bool inside = f >= 6 && f < 12 && b >= 5 && b < 20 && s >= 300 && s < 360;
     return water(f, b, s, p) * (inside ? linear_from_db(20.0) : 1.0);
@@ -227,7 +227,7 @@ TEST(NullModel, PatchesWiderThanSchoolsAreWater) {
 }
 
 // The same school as in even water, and the water it is held against follows the patches: 4 dB of them to one.
-TEST(NullModel, ASchoolStandsOutOfPatchyWater) {
+TEST(NullModel, ASchoolIsAboveBackgroundInPatchyWater) {
   const auto school = [](int f, int b, int s, int p) {
     const bool inside = f >= 9 && f < 12 && b >= 11 && b < 14 && s >= 300 && s < 330;
     return patchy(f, b, s, p) * (inside ? 10.0 : 1.0);

@@ -33,8 +33,9 @@ struct GrowParams {
 template <class Visitor>
 void describe(Visitor& v, GrowParams& p) {
   v.choice("mode", p.mode, kGrowModeNames,
-           "How members are compared with the reference: tracked takes everything no more than tolerance_db below it, "
-           "paper takes opacities within tolerance_opacity either way, as the 2007 paper did.");
+           "How members are compared with the clicked voxel: tracked takes Sv no more than tolerance_db below it, "
+           "paper takes opacities within tolerance_opacity of it. Choose paper to work as the 2007 paper by Balabanian "
+           "et al. did.");
   v.choice("connectivity", p.connectivity, kConnectivityNames,
            "Which voxels count as neighbours: the 6 across faces, or all 26. Choose 26 for schools that are thin in "
            "some direction.");
@@ -42,20 +43,21 @@ void describe(Visitor& v, GrowParams& p) {
           {.unit = "dB",
            .min = 0.01,
            .max = 60,
-           .text = "Members lie at most this much below the reference level; lower it when a click selects too much, "
-                   "raise it when it selects too little.",
+           .text = "Members lie at most this much below the Sv of the clicked voxel; lower it when a click selects too "
+                   "much, raise it when it selects too little.",
            .tier = Tier::basic});
   v.field("tolerance_opacity", p.tolerance_opacity,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "Mode paper: members differ in opacity by at most this; lower it when a click selects too much."});
-  v.field(
-      "margin_db", p.margin_db,
-      {.unit = "dB",
-       .min = 0,
-       .max = 30,
-       .text = "Mode tracked: members lie at least this much above the beam's background noise; 0 ignores the noise."});
+           .text = "Mode paper: members differ in opacity from the clicked voxel by at most this; lower it when a "
+                   "click selects too much, raise it when it selects too little."});
+  v.field("margin_db", p.margin_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 30,
+           .text = "Mode tracked: members lie at least this much above the beam's background noise; raise it where a "
+                   "click selects noise, lower it for weak schools, 0 ignores the noise."});
 }
 
 /// Which Sv counts are members, and how surely: one byte for each of the 65536 counts, 0 = no member, else 255 f.

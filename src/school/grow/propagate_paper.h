@@ -32,22 +32,23 @@ void describe(Visitor& v, PaperPropagationParams& p) {
           {.unit = "fans",
            .min = 0,
            .max = 1000,
-           .text = "How many fans the bounding volume is enlarged by on each side from ping to ping; raise it for "
-                   "schools that dive or for long ping intervals."});
+           .text = "How many fans the school's bounding volume is enlarged by on each side from ping to ping; raise it "
+                   "for schools that dive or for long ping intervals."});
   v.field("enlarge_beams", p.enlarge_beams,
           {.unit = "beams",
            .min = 0,
            .max = 1000,
-           .text = "How many beams the bounding volume is enlarged by on each side from ping to ping; raise it for a "
-                   "fast ship or long ping intervals."});
+           .text = "How many beams the school's bounding volume is enlarged by on each side from ping to ping; raise "
+                   "it for a fast ship or long ping intervals."});
   v.field("enlarge_samples", p.enlarge_samples,
           {.unit = "samples",
            .min = 0,
            .max = 100000,
-           .text = "How many samples the bounding volume is enlarged by on each side from ping to ping; raise it for "
-                   "schools that swim fast or for long ping intervals."});
+           .text = "How many samples the school's bounding volume is enlarged by on each side from ping to ping; raise "
+                   "it for schools that swim fast or for long ping intervals."});
   v.choice("connectivity", p.connectivity, kConnectivityNames,
-           "Which voxels count as neighbours: the 6 across faces, or all 26.");
+           "Which voxels count as neighbours: the 6 across faces, or all 26. Choose 26 for schools that are thin in "
+           "some direction.");
 }
 
 /// A school in one ping.

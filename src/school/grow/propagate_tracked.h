@@ -44,19 +44,19 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
            .min = 0.1,
            .max = 60,
            .text = "Members lie at most this much below the school's reference level; lower it when the school grows "
-                   "into its surroundings."});
+                   "into its surroundings, raise it for schools with a faint margin."});
   v.field("margin_db", p.margin_db,
           {.unit = "dB",
            .min = 0,
            .max = 30,
-           .text = "Members lie at least this much above the background, so that a school that has left is not sought "
-                   "in noise; 0 ignores the background."});
+           .text = "Members lie at least this much above the background; raise it where a school that has left is "
+                   "still followed in noise, lower it for weak schools, 0 ignores the background."});
   v.field("reference_percentile", p.reference_percentile,
           {.unit = "%",
            .min = 1,
            .max = 100,
            .text = "Percentile of the school's Sv that serves as its reference level; lower it when a few bright "
-                   "voxels lead."});
+                   "voxels set the level too high."});
   v.field("max_reference_step_db", p.max_reference_step_db,
           {.unit = "dB",
            .min = 0,
@@ -67,55 +67,62 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
           {.unit = "1",
            .min = 1,
            .max = 100,
-           .text = "Largest ratio of volumes from one ping to the next; growth beyond it counts as a leak and is tried "
-                   "again with a smaller tolerance."});
-  v.field(
-      "gate_m", p.gate_m,
-      {.unit = "m",
-       .min = 0,
-       .max = 1000,
-       .text =
-           "Growth stays within this distance of the predicted school; raise it for schools that swim irregularly."});
-  v.field(
-      "gate_speed_mps", p.gate_speed_mps,
-      {.unit = "m s-1",
-       .min = 0,
-       .max = 20,
-       .text = "By how much the gate widens for each second since the school was last seen; raise it for fast fish."});
+           .text = "Largest ratio of a school's volumes from one ping to the next; more growth counts as a leak and is "
+                   "tried again with a smaller tolerance. Raise it for schools that spread out quickly."});
+  v.field("gate_m", p.gate_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 1000,
+           .text = "Growth stays within this distance of the school's predicted place; raise it for schools that swim "
+                   "irregularly, lower it where other echoes lie close."});
+  v.field("gate_speed_mps", p.gate_speed_mps,
+          {.unit = "m s-1",
+           .min = 0,
+           .max = 20,
+           .text = "By how much the distance gate_m widens for each second since the school was last seen; raise it "
+                   "for fast fish."});
   v.field("gate_fans", p.gate_fans,
           {.unit = "fans",
            .min = 0,
            .max = 100,
-           .text = "The gate reaches at least this many fans beyond the predicted school."});
+           .text = "Growth may reach at least this many fans beyond the school's predicted place, even where gate_m "
+                   "allows fewer; raise it if distant schools that change depth are lost."});
   v.field("gate_beams", p.gate_beams,
           {.unit = "beams",
            .min = 0,
            .max = 100,
-           .text = "The gate reaches at least this many beams beyond the predicted school."});
+           .text = "Growth may reach at least this many beams beyond the school's predicted place, even where gate_m "
+                   "allows fewer; raise it if distant schools are lost sideways."});
   v.field("max_lost_pings", p.max_lost_pings,
           {.unit = "pings",
            .min = 0,
            .max = 100,
-           .text = "A school that was not seen in this many pings may still be found again; raise it where pings are "
-                   "often disturbed."});
+           .text = "A school may go unseen in up to this many pings and still be found again, bad pings not counted; "
+                   "raise it for schools that fade for several pings."});
   v.field("cut_growth", p.cut_growth,
           {.unit = "1",
            .min = 1,
            .max = 100,
-           .text = "How much more a school that the sector's border cuts may grow than another, since more of it may "
-                   "come in; a factor on max_growth."});
+           .text = "Factor on max_growth for a school that the sector's border cuts, since more of it may come into "
+                   "view; raise it if large schools are lost as they enter the sector."});
   v.field("tries", p.tries,
           {.unit = "1",
            .min = 1,
            .max = 100,
-           .text = "How many times growth is tried again with a smaller tolerance before a leak is given up."});
+           .text = "Most attempts to grow a school in one ping, each with a smaller tolerance, before a school that "
+                   "leaks counts as lost; raise it where schools lie close to other echoes."});
   v.field("tighter", p.tighter,
-          {.unit = "1", .min = 0.01, .max = 1, .text = "Factor on the tolerance from one try to the next."});
+          {.unit = "1",
+           .min = 0.01,
+           .max = 1,
+           .text = "Factor on the tolerance from one attempt to grow a school to the next; lower it to stop leaks in "
+                   "fewer attempts, raise it to keep more of the school's margin."});
   v.field("seed_samples", p.seed_samples,
           {.unit = "samples",
            .min = 1,
            .max = 1000,
-           .text = "Every so-manyth sample of the predicted mask is a seed; lower it for very small schools."});
+           .text = "Spacing, along each beam, of the samples in the predicted mask from which growth starts; lower it "
+                   "for very small or patchy schools, raise it to save time."});
   v.field("acceleration_mps2", p.acceleration_mps2,
           {.unit = "m s-2",
            .min = 0.0001,
@@ -135,14 +142,20 @@ void describe(Visitor& v, TrackedPropagationParams& p) {
        .text =
            "Uncertainty of a school's centre as a share of its extent; raise it for schools that change their shape."});
   v.field("min_position_m", p.min_position_m,
-          {.unit = "m", .min = 0.01, .max = 100, .text = "Least uncertainty of a school's centre."});
+          {.unit = "m",
+           .min = 0.01,
+           .max = 100,
+           .text = "Least standard deviation of a school's measured centre along each axis; raise it where the ship's "
+                   "position or heading is noisy, lower it for small schools whose movement is well seen."});
   v.field("censored_m", p.censored_m,
           {.unit = "m",
            .min = 1,
            .max = 100000,
-           .text = "Uncertainty of a centre's coordinate where the sector's border cuts the school."});
+           .text = "Standard deviation of a school's centre across a border of the sector that cuts the school; raise "
+                   "it where schools are larger than this, so that a cut does not pass for movement."});
   v.choice("connectivity", p.connectivity, kConnectivityNames,
-           "Which voxels count as neighbours: the 6 across faces, or all 26.");
+           "Which voxels count as neighbours: the 6 across faces, or all 26. Choose 26 for schools that are thin in "
+           "some direction.");
 }
 
 /// Carries a school through time without the paper's limits: the whole previous mask, moved over ground by the ship's

@@ -42,7 +42,7 @@ void describe(Visitor& v, SizeParams& p) {
           {.unit = "fans",
            .min = 1,
            .max = 1000,
-           .text = "A school spans at least this many fans; lower it to find smaller schools, at the price of more "
+           .text = "A school spans at least this many fans; lower it to find flatter schools, at the price of more "
                    "false ones."});
 }
 
@@ -59,12 +59,13 @@ void describe(Visitor& v, ConfirmationParams& p) {
            .min = 1,
            .max = 100,
            .text = "A school is seen in at least this many pings of confirm_window neighbouring ones; lower it for a "
-                   "fast ship that passes schools in few pings."});
+                   "fast ship that passes schools in few pings, raise it for fewer false schools."});
   v.field("confirm_window", p.window,
           {.unit = "pings",
            .min = 1,
            .max = 100,
-           .text = "Number of neighbouring pings among which a school must be seen confirm_pings times."});
+           .text = "Number of neighbouring pings among which a school must be seen confirm_pings times; raise it where "
+                   "schools fade from ping to ping, lower it where false schools flicker."});
 }
 
 struct ShipParams {
@@ -78,7 +79,7 @@ void describe(Visitor& v, ShipParams& p) {
            .min = 0,
            .max = 1,
            .text = "An echo that moves relative to the ship by less than this share of the ship's own way follows the "
-                   "ship, and is no school; 0 asks nothing. Lower it where schools may follow the ship."});
+                   "ship and is no school; lower it where schools may follow the ship, 0 switches the test off."});
 }
 
 struct LevelParams {
@@ -92,7 +93,7 @@ void describe(Visitor& v, LevelParams& p) {
            .min = -200,
            .max = 0,
            .text = "Lowest mean Sv of all members together for an echo to be a school; lower it for krill and other "
-                   "weak scatterers.",
+                   "weak scatterers, raise it to leave weak scatterers out.",
            .tier = Tier::basic});
 }
 

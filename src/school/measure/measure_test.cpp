@@ -318,7 +318,7 @@ TEST(Measure, SpeckledSizesAreRight) {
   EXPECT_NEAR(volumes[4] / kBody_m3, 1.0, 0.25);
 }
 
-TEST(Measure, UnderAHotBeamTheMeanStays) {
+TEST(Measure, UnderCorruptedPacketsTheMeanStays) {
   Ping clean;
   clean.add(ellipsoid(150.0, -18.0, 265.0));
   const SchoolPingRow expected = clean.measured(2);

@@ -17,12 +17,17 @@ struct SummariseParams {
 template <class Visitor>
 void describe(Visitor& v, SummariseParams& p) {
   v.field("min_speed_pings", p.min_speed_pings,
-          {.unit = "pings", .min = 3, .max = 1000, .text = "A school seen in fewer pings has no speed."});
+          {.unit = "pings",
+           .min = 3,
+           .max = 1000,
+           .text = "A school has no speed if its centre is seen uncut in fewer pings than this; lower it for a fast "
+                   "ship that passes schools in few pings, raise it where positions are noisy."});
   v.field("min_speed_span_s", p.min_speed_span_s,
           {.unit = "s",
            .min = 0,
            .max = 100000,
-           .text = "A school seen for a shorter time has no speed; raise it where positions are noisy."});
+           .text = "A school has no speed if its centre is seen uncut over a shorter time than this; lower it for a "
+                   "fast ship that passes schools quickly, raise it where positions are noisy."});
 }
 
 /// A school's row of schools.csv from its rows of school_pings.csv: pings that touch no edge where there are any, else

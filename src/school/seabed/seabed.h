@@ -75,17 +75,20 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "dB",
            .min = 0,
            .max = 60,
-           .text = "A seabed echo lies at least this much above the background as well."});
+           .text = "Least level of a seabed echo above the background noise of its beam; raise it if noise is taken "
+                   "for the seabed, lower it where a faint seabed is missed."});
   v.field("min_echo_m", p.min_echo_m,
           {.unit = "m",
            .min = 0,
            .max = 500,
            .text = "Least extent of a seabed echo along range; lower it for steep beams."});
-  v.field("rise_db", p.rise_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 60,
-           .text = "The peak of a seabed echo lies at least this much above what comes before it."});
+  v.field(
+      "rise_db", p.rise_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 60,
+       .text = "The peak of a seabed echo lies at least this much above the level shortly before the echo; raise it if "
+               "layers of fish are taken for the seabed, lower it where a seabed that sets in softly is missed."});
   v.field("max_slope_deg", p.max_slope_deg,
           {.unit = "deg",
            .min = 0,
@@ -95,36 +98,42 @@ void describe(Visitor& v, SeabedParams& p) {
           {.unit = "m",
            .min = 0,
            .max = 100,
-           .text = "An echo within this depth of the plane belongs to it; raise it over rough seabed."});
+           .text = "An echo within this depth of the plane fitted to the seabed belongs to the seabed; raise it over "
+                   "rough seabed."});
   v.field("inlier_share", p.inlier_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "An echo within this share of its slant range of the plane, in depth, belongs to it."});
+           .text = "An echo belongs to the seabed if it lies within this share of its slant range, in depth, of the "
+                   "plane fitted to the seabed; raise it over rough seabed at long range."});
   v.field("min_coverage", p.min_coverage,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .text = "Share of the beams that should see the plane and must; raise it if layers of fish are taken for "
-                   "the seabed."});
+           .text = "Least share of the beams expected to show the seabed that must show it; raise it if layers of fish "
+                   "are taken for the seabed, lower it where the seabed is missed."});
   v.field("min_inliers", p.min_inliers,
-          {.unit = "beams", .min = 3, .max = 100000, .text = "Least number of beams that must see the plane."});
+          {.unit = "beams",
+           .min = 3,
+           .max = 100000,
+           .text = "Least number of beams that must show the seabed for it to be found; lower it where only few beams "
+                   "reach the seabed, raise it if schools are taken for it."});
   v.field("margin_m", p.margin_m,
           {.unit = "m",
            .min = 0,
            .max = 200,
-           .text = "Water above the seabed that is left out as well; lower it for schools close to the seabed, raise "
-                   "it if seabed echo remains.",
+           .text = "Height above the seabed up to which water is left out; lower it for schools close to the seabed, "
+                   "raise it if seabed echo remains.",
            .tier = Tier::basic});
   v.field("hills", p.hills,
-          {.text = "Take hills above the plane as seabed where beams end at them; over a smooth seabed echo from the "
-                   "edge of a beam does not count as a hill. Switch it off over flat seabed."});
+          {.text = "Take hills above the plane fitted to the seabed as seabed where beams end at them; over a smooth "
+                   "seabed, beam-edge seabed echo is no hill. Switch it off over flat seabed."});
   v.field("hill_step_m", p.hill_step_m,
           {.unit = "m",
            .min = 0,
            .max = 500,
-           .text = "A hill is believed where no lower beam of its azimuth sees the seabed farther away than the hill "
-                   "by more than this."});
+           .text = "An echo is no hill if a lower beam of its azimuth sees the seabed farther away by more than this; "
+                   "raise it where steep hills are missed, lower it if schools are taken for hills."});
 }
 
 /// The seabed of one ping: a plane in the sonar frame, z = offset_m + slope_x x + slope_y y (z down).

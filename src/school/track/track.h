@@ -61,7 +61,8 @@ void describe(Visitor& v, TrackParams& p) {
           {.unit = "m s-1",
            .min = 0,
            .max = 20,
-           .text = "Standard deviation of a new school's speed along each axis; raise it for fast fish."});
+           .text = "Standard deviation of a new school's speed along each axis; raise it for fast fish, lower it where "
+                   "new tracks jump between neighbouring schools."});
   v.field(
       "position_share", p.position_share,
       {.unit = "1",
@@ -70,28 +71,33 @@ void describe(Visitor& v, TrackParams& p) {
        .text =
            "Uncertainty of a school's centre as a share of its extent; raise it for schools that change their shape."});
   v.field("min_position_m", p.min_position_m,
-          {.unit = "m", .min = 0.01, .max = 100, .text = "Least uncertainty of a school's centre."});
+          {.unit = "m",
+           .min = 0.01,
+           .max = 100,
+           .text = "Least standard deviation of a school's measured centre along each axis; raise it where the ship's "
+                   "position or heading is noisy, lower it to tell small neighbouring schools apart."});
   v.field("gate_sigmas", p.gate_sigmas,
           {.unit = "1",
            .min = 0.1,
            .max = 20,
-           .text = "Detections farther from the prediction than this many standard deviations belong to other schools; "
-                   "raise it when tracks break."});
+           .text = "Detections farther than this many standard deviations from a school's predicted place belong to "
+                   "other schools; raise it when tracks break, lower it when tracks jump from school to school."});
   v.field("max_lost_pings", p.max_lost_pings,
           {.unit = "pings",
            .min = 0,
            .max = 100,
-           .text = "A school that was not seen in this many pings may still be found again; raise it where pings are "
-                   "often disturbed."});
+           .text = "A school may go unseen in up to this many successive pings and still be found again; raise it "
+                   "where pings are often disturbed."});
   v.field("max_lost_s", p.max_lost_s,
           {.unit = "s",
            .min = 1,
            .max = 86400,
-           .text = "A school that was last seen longer ago than this is not found again."});
+           .text = "A school may go unseen for up to this long and still be found again; raise it for long ping "
+                   "intervals, lower it where different schools are joined after a pause."});
   describe(v, p.confirmation);
   v.field("divide_joined", p.divide_joined,
           {.text = "Share one detection between schools that were seen apart before and meet in it; switch it off to "
-                   "let them merge."});
+                   "let such schools merge."});
   describe(v, p.ship);
   describe(v, p.level);
 }
