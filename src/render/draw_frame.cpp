@@ -134,7 +134,7 @@ Result<std::string> picture_bytes(const FrameDescription& frame, const std::file
   if (ending == ".png") {
     const auto image = draw_frame(frame, scale);
     if (!image) return pass_on(image);
-    const auto png = png_bytes(*image);
+    auto png = png_bytes(*image);
     if (!png) return png;
     return described_png(*png, kDotsPerInch * scale,
                          {{"Title", frame.title},

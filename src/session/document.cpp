@@ -14,10 +14,10 @@
 
 namespace sonar {
 
-Document::Document(ChangeQueue& queue, DocumentOptions options) : queue_(queue), options_(std::move(options)) {
+Document::Document(ChangeQueue& queue, DocumentOptions options)
+    : queue_(queue), options_(std::move(options)), usual_recipe_(options_.recipe) {
   // What a window asks for is a choice of its own, and stands in the journal.
   options_.recipe.automatic = false;
-  usual_recipe_ = options_.recipe;
   if (options_.memory_bytes == 0) options_.memory_bytes = usual_memory();
 }
 
