@@ -57,8 +57,8 @@ Result<void> validate_options(const PictureOptions& options, double scale) {
   if (auto valid = validate(options.volume); !valid) return valid;
   if (auto valid = validate(options.kind); !valid) return valid;
   if (options.display.fuzzy_above > options.display.core_at) {
-    return fail(ErrorCode::bad_parameter, fmt::format("fuzzy {} lies above core {}",
-                                                      options.display.fuzzy_above, options.display.core_at));
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("fuzzy {} lies above core {}", options.display.fuzzy_above, options.display.core_at));
   }
   if (auto valid = validate_plane(options.kind.slice_plane); !valid) return valid;
   if (const auto camera = named_camera(options.kind.volume); !camera) return pass_on(camera);
