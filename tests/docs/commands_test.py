@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every sonarx command of README and manual, executed in the order of the page, on the survey that the page tells to make.
-A folder, a recipe or a picture that a page names is that of the page."""
+"""Every sonarx command of README, manual and --help, executed in the order of the page, on the survey that the page tells to
+make. A folder, a recipe or a picture that a page names is that of the page; those of --help have the tests' survey."""
 import os
 import re
+import shutil
 import shlex
 import subprocess
 import sys
@@ -11,7 +12,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 import sonarx
-from sonarx import WORK, Case
+from sonarx import SURVEY, VERBS, WORK, Case
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
 # Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
@@ -31,24 +32,26 @@ def commands(page):
 
 
 class Commands(Case):
+    def execute(self, command, folder, place):
+        environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache"),
+                       "PATH": f"{Path(sonarx.PROGRAM).parent}:{os.environ['PATH']}"}
+        environment.pop("DISPLAY", None)
+        ran = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True,
+                             timeout=600, check=False)
+        self.assertEqual(ran.returncode, 0, f"{place}: {command}\n{ran.stdout[-1000:]}\n{ran.stderr[-2000:]}")
+        for option, made in zip(shlex.split(command), shlex.split(command)[1:]):
+            if option in ("--out", "-o", "--dest"):
+                self.assertTrue((folder / made).exists() or "--dry-run" in command, f"{place}: no {made}")
+
     def executed(self, page):
         folder = self.fresh(f"commands-{Path(page).stem}")
         for name, text in BROUGHT.items():
             (folder / name).write_text(text)
-        environment = {**os.environ, "XDG_CACHE_HOME": str(WORK / "cache"),
-                       "PATH": f"{Path(sonarx.PROGRAM).parent}:{os.environ['PATH']}"}
-        environment.pop("DISPLAY", None)
         done = 0
         for number, command in commands(page):
-            if ELSEWHERE.match(command):
-                continue
-            ran = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True,
-                                 timeout=600, check=False)
-            self.assertEqual(ran.returncode, 0, f"{page}:{number}: {command}\n{ran.stdout[-1000:]}\n{ran.stderr[-2000:]}")
-            for option, made in zip(shlex.split(command), shlex.split(command)[1:]):
-                if option in ("--out", "-o", "--dest"):
-                    self.assertTrue((folder / made).exists() or "--dry-run" in command, f"{page}:{number}: no {made}")
-            done += 1
+            if not ELSEWHERE.match(command):
+                self.execute(command, folder, f"{page}:{number}")
+                done += 1
         return done
 
     def test_readme(self):
@@ -59,6 +62,27 @@ class Commands(Case):
 
     def test_cluster(self):
         self.assertGreater(self.executed("docs/cluster.md"), 3)
+
+    def test_help(self):
+        folder = self.fresh("commands-help")
+        (folder / "SURVEY").symlink_to(SURVEY)
+        shutil.copy(SURVEY / "truth" / "depth.tif", folder)
+        shutil.copytree(WORK / "out", folder / "OTHER")
+        # Whatever the survey, the example is the same with fewer pings; one that follows ends when all is over.
+        shorter = {"simulate": " --pings 2", "follow": " --idle-exit 1"}
+        simulated = 0
+        for verb in sorted(VERBS, key=lambda verb: verb != "recipe"):  # the first makes R.json
+            examples = re.findall(r"^  (sonarx .*?)(?:   .*)?$", self.sonarx("help", verb), re.MULTILINE)
+            self.assertTrue(examples, f"{verb} --help has no example")
+            for command in examples:
+                if ELSEWHERE.match(command):
+                    continue
+                if verb == "simulate":
+                    simulated += 1
+                    command = command.replace("SYNTHETIC", f"SYNTHETIC-{simulated}")
+                # The truth of the survey that was run.
+                command = command.replace("SYNTHETIC/truth", "SURVEY/truth")
+                self.execute(command + shorter.get(verb, ""), folder, f"{verb} --help")
 
 
 if __name__ == "__main__":
