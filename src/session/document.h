@@ -224,9 +224,10 @@ class Document {
 
   ChangeQueue& queue_;
   DocumentOptions options_;
-  Recipe usual_recipe_;                                          ///< of surveys for which none was chosen
-  std::vector<std::filesystem::path> opening_;                   ///< what is being read; empty = nothing
-  std::shared_ptr<const Recipe> asked_recipe_;                   ///< that the next survey is opened under
+  Recipe usual_recipe_;                               ///< of surveys for which none was chosen
+  std::vector<std::filesystem::path> opening_;        ///< what is being read; empty = nothing
+  std::function<Result<void>(Work&)> opening_first_;  ///< what must be done before that is read; may be empty
+  std::shared_ptr<const Recipe> asked_recipe_;        ///< that the next survey is opened under
   std::optional<std::pair<std::size_t, std::int64_t>> back_to_;  ///< observation and ping that it begins with
   Listeners<DocumentChange> changes_;
   std::vector<std::filesystem::path> paths_;

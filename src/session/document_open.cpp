@@ -12,6 +12,7 @@ namespace sonar {
 
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
+  opening_first_ = first;
   run([this, paths, first = std::move(first), none = survey_ == nullptr, asked = asked_recipe_,
        back = std::exchange(back_to_, std::nullopt)](Work& work, const CancelToken& token) {
     if (const auto done = first ? first(work) : Result<void>{}; !done) {
@@ -58,7 +59,7 @@ void Document::open(std::vector<std::filesystem::path> paths, std::function<Resu
 
 void Document::use_recipe(Recipe recipe) {
   asked_recipe_ = std::make_shared<const Recipe>(std::move(recipe));
-  if (!opening_.empty()) return open(opening_);
+  if (!opening_.empty()) return open(opening_, opening_first_);
   if (!survey_) return;
   if (shown_) back_to_ = {shown_->index(), ping_};
   open(paths_);

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <future>
 #include <set>
+#include <thread>
 
 #include "pipeline/journal/journals.h"
 #include "pipeline/journal/session_recipe.h"
@@ -136,6 +140,32 @@ TEST_F(RecipeEditing, ItIsKeptForTheNextTimeAndForRunsOfTheSession) {
   std::filesystem::remove(folder / "session-recipe.json");
   begin();
   EXPECT_EQ(document().recipe().detect.tolerance_db, Recipe{}.detect.tolerance_db);
+}
+
+// As while the demo survey is simulated: what makes the files is not left half done.
+TEST_F(RecipeEditing, WhatASurveyNeedsFirstIsDoneUnderTheNewRecipeToo) {
+  ChangeQueue queue;
+  Document document(queue, TestSurvey::options(TestSurvey::easy().fresh()));
+  const auto folder = TestSurvey::easy().fresh() / "made";
+  std::promise<void> begun;
+  std::atomic<int> times = 0;
+  document.open({folder}, [&](Work& work) -> Result<void> {
+    if (++times == 1) {
+      begun.set_value();
+      while (!work.cancelled()) std::this_thread::yield();
+      return fail(ErrorCode::cancelled, "stopped on request");
+    }
+    std::filesystem::copy(TestSurvey::easy().folder(), folder);
+    return {};
+  });
+  begun.get_future().wait();
+  Recipe recipe;
+  recipe.detect.tolerance_db = 7.0;
+  document.use_recipe(recipe);
+  document.settle();
+  EXPECT_EQ(times, 2);
+  ASSERT_NE(document.survey(), nullptr) << document.notices().back();
+  EXPECT_EQ(document.recipe().detect.tolerance_db, 7.0);
 }
 
 }  // namespace
