@@ -44,7 +44,7 @@ int row_of_channel(const Layout& layout, int channel) {
   return -1;
 }
 
-void add_hot_beams(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
+void add_corrupted_packets(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
   const double scale = scene.noise.scale;
   for (const CorruptedStretch& hot : scene.corrupted_packets) {
     const int row = hot.ping == ping ? row_of_channel(layout, hot.channel) : -1;
@@ -93,7 +93,7 @@ void add_impulses(const Layout& layout, const Scene& scene, int ping, View3<floa
 }  // namespace
 
 void add_faults(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
-  add_hot_beams(layout, scene, ping, power_w);
+  add_corrupted_packets(layout, scene, ping, power_w);
   add_all_interference(layout, scene, ping, power_w);
   add_impulses(layout, scene, ping, power_w);
 }

@@ -25,7 +25,7 @@ double broadside_m2(const FishParams& params, double length_cm) {
 double aspect(const FishParams& params, double wave_number, double length_cm, double along) {
   const double x = wave_number * params.bladder * length_cm * 0.01 * along;
   const double line = std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x;
-  return params.floor + (1.0 - params.floor) * line * line;
+  return params.any_aspect_share + (1.0 - params.any_aspect_share) * line * line;
 }
 
 Point<Enu> fish_axis(double heading_rad, double tilt_rad) {

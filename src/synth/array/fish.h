@@ -12,7 +12,7 @@ namespace sonar::synth::array {
 [[nodiscard]] double broadside_m2(const FishParams& params, double length_cm);
 
 /// How much of the broadside echo comes back at an aspect: a line as long as the swimbladder, (sin x / x)^2 with
-/// x = k l sin(angle off broadside), over a floor.
+/// x = k l sin(angle off broadside), over the share of any aspect.
 /// along  cosine between the fish's axis and the direction to it
 [[nodiscard]] double aspect(const FishParams& params, double wave_number, double length_cm, double along);
 

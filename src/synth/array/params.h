@@ -123,7 +123,7 @@ struct FishParams {
   double length_spread = 0.08;
   double ts_offset_db = -68.0;
   double bladder = 0.25;
-  double floor = 0.1;
+  double any_aspect_share = 0.1;
   double heading_sd_deg = 14.0;
   double tilt_sd_deg = 10.0;
   double per_m3_min = 0.5;
@@ -163,7 +163,7 @@ void describe(Visitor& v, FishParams& p) {
            .max = 1,
            .text = "Length of the part of a fish that scatters as a line, as a share of its length. Raise it to test "
                    "echoes that depend more on aspect; lower it for fish that echo alike from all sides."});
-  v.field("floor", p.floor,
+  v.field("any_aspect_share", p.any_aspect_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
