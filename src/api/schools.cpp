@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "api/implementation.h"
 #include "api/running_work.h"
-#include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/journal/manual.h"

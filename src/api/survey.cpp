@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "api/implementation.h"
 #include "api/running_work.h"
-#include "api/state.h"
 #include "api/throwing.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/load_volume.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/describe.h"
-#include "cli/choices.h"
+#include "cli/one_of.h"
 
 namespace sonar {
 

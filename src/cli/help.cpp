@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "cli/choices.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
+#include "cli/one_of.h"
 #include "cli/suggestion.h"
 
 namespace sonar {

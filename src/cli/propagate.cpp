@@ -11,11 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "cli/choices.h"
+#include "base/number_text.h"
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
 #include "cli/numbers.h"
+#include "cli/one_of.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
@@ -137,8 +138,9 @@ void print_school(const ObservationProduct& product, std::int64_t reach) {
   for (const SchoolRow& row : product.schools) {
     // Where the background is louder than the echo there is no mean.
     const std::string sv_text = std::isfinite(row.sv_mean_db) ? fmt::format("{:.1f} dB", row.sv_mean_db) : "unknown";
-    fmt::print("school: {} pings, {} to {}, volume {:.0f} m3, mean Sv {}, backscatter {:.3g} m2\n", row.n_pings,
-               iso_time(row.first_time_utc), iso_time(row.last_time_utc), row.volume_m3, sv_text, echo_m2(row));
+    fmt::print("school: {}, {} to {}, volume {:.0f} m3, mean Sv {}, backscatter {:.3g} m2\n",
+               count_of(static_cast<std::size_t>(row.n_pings), "ping"), iso_time(row.first_time_utc),
+               iso_time(row.last_time_utc), row.volume_m3, sv_text, echo_m2(row));
   }
   for (const Diagnostic& note : product.diagnostics) {
     if (note.code == DiagnosticCode::propagation_ended) fmt::print("{}\n", note.text);
@@ -147,8 +149,8 @@ void print_school(const ObservationProduct& product, std::int64_t reach) {
     if (row.ended_at_reach.empty()) continue;
     const char* sides =
         ends_first(row.ended_at_reach) ? ends_last(row.ended_at_reach) ? "both ways" : "backwards" : "forwards";
-    fmt::print("goes on beyond {} ping{} {}: continue? (a larger --reach, or none)\n", reach, reach == 1 ? "" : "s",
-               sides);
+    fmt::print("goes on beyond {} {}: continue? (a larger --reach, or none)\n",
+               count_of(static_cast<std::size_t>(reach), "ping"), sides);
   }
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/choices.h"
 #include "cli/numbers.h"
+#include "cli/one_of.h"
 #include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {

@@ -12,19 +12,20 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/choices.h"
+#include "base/number_text.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/numbers.h"
+#include "cli/one_of.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/json_parameters.h"
 #include "pipeline/recipe/parameter_table.h"
 #include "pipeline/survey/survey.h"
-#include "synth/array/simulate.h"
+#include "synth/array/simulate_array.h"
 
 namespace sonar {
 namespace {
@@ -156,8 +157,9 @@ int write_survey(const SimulateOptions& o, std::int64_t wanted_schools, const Ma
   const auto made = make(work);
   clear_progress();
   if (!made) return report(naming_option(made.error(), kOptions));
-  fmt::print("{}: {} raw files, {:.1f} MB, {} pings, {} schools; the truth is in {}/truth\n", o.out, made->files.size(),
-             static_cast<double>(made->bytes) / 1e6, made->pings, made->schools, o.out);
+  fmt::print("{}: {}, {:.1f} MB, {}, {}; the truth is in {}/truth\n", o.out, count_of(made->files.size(), "raw file"),
+             static_cast<double>(made->bytes) / 1e6, count_of(static_cast<std::size_t>(made->pings), "ping"),
+             count_of(static_cast<std::size_t>(made->schools), "school"), o.out);
   if (made->schools < wanted_schools) {
     print_note(
         fmt::format("fewer-schools: {}: {} of {} schools had room where the sonar sees them; more pings have more room",

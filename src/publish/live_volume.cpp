@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "publish/mask_outlines.h"
+#include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"

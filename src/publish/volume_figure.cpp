@@ -278,7 +278,7 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   add_school_legend(frame, figure, options, place.rect, theme);
   if (!view.masks.data_too && figure.masks.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
-    const char* words = !figure.searched ? "no masks: schools not looked for" : "no masks: no school in this ping";
+    const char* words = !figure.searched ? "no masks: schools not detected" : "no masks: no school in this ping";
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
   }

@@ -10,7 +10,7 @@
 #include "geo/geodesic.h"
 #include "io/depth_raster.h"
 #include "publish/drawn_schools.h"
-#include "publish/mask_outlines.h"
+#include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"

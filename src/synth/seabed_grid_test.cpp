@@ -8,7 +8,7 @@
 #include "geo/geodesic.h"
 #include "synth/layout.h"
 #include "synth/presets.h"
-#include "synth/seabed.h"
+#include "synth/seabed_response.h"
 
 namespace sonar::synth {
 namespace {

@@ -13,7 +13,7 @@
 #include "synth/field.h"
 #include "synth/layout.h"
 #include "synth/scene_background.h"
-#include "synth/seabed.h"
+#include "synth/seabed_response.h"
 #include "synth/speckle.h"
 
 namespace sonar::synth {

@@ -7,7 +7,7 @@
 
 #include "model/school.h"
 #include "synth/array/company.h"
-#include "synth/array/school.h"
+#include "synth/array/fish_school.h"
 #include "synth/truth.h"
 
 namespace sonar::synth::array {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "synth/array/array_terrain.h"
 #include "synth/array/params.h"
 #include "synth/array/receiver.h"
-#include "synth/array/terrain.h"
 #include "synth/array/view.h"
 
 namespace sonar::synth::array {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/sonar.h"
+#include "synth/array/array_sonar.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/simulate.h"
+#include "synth/array/simulate_array.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "io/atomic_file.h"
-#include "synth/array/sonar.h"
+#include "synth/array/array_sonar.h"
 #include "synth/random.h"
 #include "synth/truth_files.h"
 

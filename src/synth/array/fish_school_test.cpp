@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/school.h"
+#include "synth/array/fish_school.h"
 
 #include <gtest/gtest.h>
 
@@ -91,7 +91,7 @@ TEST(Fish, BroadsideIsTheTargetStrengthOfItsLength) {  // 20 log10 30 - 68 = -38
 
 TEST(Fish, AspectIsALineOverAFloor) {
   FishParams p;
-  p.floor = 0.1;
+  p.any_aspect_share = 0.1;
   p.bladder = 0.25;
   EXPECT_NEAR(aspect(p, kWaveNumber, 30.0, 0.0), 1.0, 1e-9);
   // First null of sin x / x: k l along = pi.

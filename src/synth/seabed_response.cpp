@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/seabed.h"
+#include "synth/seabed_response.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include "base/work.h"
 #include "synth/array/array_truth.h"
 #include "synth/array/diffuse.h"
+#include "synth/array/fish_school.h"
 #include "synth/array/receiver.h"
-#include "synth/array/school.h"
 
 namespace sonar::synth::array {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/terrain.h"
+#include "synth/array/array_terrain.h"
 
 #include <algorithm>
 #include <cmath>

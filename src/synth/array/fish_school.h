@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/work.h"
+#include "synth/array/array_terrain.h"
 #include "synth/array/fish.h"
 #include "synth/array/form.h"
-#include "synth/array/terrain.h"
 #include "synth/voyage.h"
 
 namespace sonar::synth::array {

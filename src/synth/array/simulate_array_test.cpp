@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/simulate.h"
+#include "synth/array/simulate_array.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth/array/school.h"
+#include "synth/array/fish_school.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/choices.h"
+#include "cli/one_of.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
