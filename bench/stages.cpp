@@ -168,7 +168,7 @@ void time_stages(const SurveyFiles& survey, const ObservationFiles& observation,
         "5 tracks and their judges", [&] { tracks = track(detected, engine.sector(), engine.grid().channel, params); },
         pings);
     watch.time(
-        "6 masks by the mean echo of sights",
+        "6 masks by the mean echo of sightings",
         [&] { steady_masks(tracks.schools, detected, engine.sector(), recipe.detect.tolerance_db); }, pings);
   }
   watch.print();

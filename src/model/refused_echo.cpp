@@ -20,11 +20,11 @@ std::string counted(double figure, std::string unit) {
 std::string measured(const RefusedEcho& echo) {
   const double figure = echo.figure;
   const double limit = echo.limit;
-  if (echo.judge == "confirmation" && echo.limit_unit == "sights") {
+  if (echo.judge == "confirmation" && echo.limit_unit == "pings") {
     return fmt::format("seen in {}, {:.3g} at least", counted(figure, "pings"), limit);
   }
-  if (echo.judge == "confirmation" && echo.limit_unit == "evidence of all sights") {
-    return fmt::format("evidence of {:.3g} in all sights together, {:.3g} at least", figure, limit);
+  if (echo.judge == "confirmation" && echo.limit_unit == "evidence over all pings") {
+    return fmt::format("evidence of {:.3g} in all sightings together, {:.3g} at least", figure, limit);
   }
   if (echo.judge == "level") return fmt::format("its Sv is {:.3g} dB, {:.3g} at least", figure, limit);
   if (echo.judge == "surface" && echo.limit_unit == "m deep at most") {
@@ -34,7 +34,7 @@ std::string measured(const RefusedEcho& echo) {
     return fmt::format("goes where the ship goes: drifts by {:.3g} of the ship's way, {:.3g} at least", figure, limit);
   }
   if (echo.judge == "prominence" && echo.limit_unit == "dB") {
-    return fmt::format("stands {:.3g} dB out of a stronger echo's skirt, {:.3g} at least", figure, limit);
+    return fmt::format("rises {:.3g} dB above a stronger echo beside it, {:.3g} at least", figure, limit);
   }
   if (std::isnan(limit)) return counted(figure, echo.limit_unit);
   return fmt::format("{}, {:.3g} {}", counted(figure, echo.limit_unit), limit,
@@ -48,19 +48,19 @@ std::string why_no_school(const RefusedEcho& echo) {
   return fmt::format("no school: {} (judge {})", measured(echo), echo.judge);
 }
 
-std::vector<RefusedSights> refused_sights(std::span<const RefusedEcho> rows) {
-  std::map<std::int64_t, RefusedSights> echoes;
+std::vector<RefusedSightings> refused_sightings(std::span<const RefusedEcho> rows) {
+  std::map<std::int64_t, RefusedSightings> echoes;
   for (const RefusedEcho& row : rows) {
-    const auto [at, first] = echoes.try_emplace(row.echo_id, RefusedSights{&row, row.ping_index, row.ping_index, 0});
-    RefusedSights& echo = at->second;
+    const auto [at, first] = echoes.try_emplace(row.echo_id, RefusedSightings{&row, row.ping_index, row.ping_index, 0});
+    RefusedSightings& echo = at->second;
     if (row.level_db > echo.loudest->level_db) echo.loudest = &row;
     echo.first_ping = std::min(echo.first_ping, row.ping_index);
     echo.last_ping = std::max(echo.last_ping, row.ping_index);
     ++echo.pings;
   }
-  std::vector<RefusedSights> sights;
-  for (const auto& [id, echo] : echoes) sights.push_back(echo);
-  return sights;
+  std::vector<RefusedSightings> sightings;
+  for (const auto& [id, echo] : echoes) sightings.push_back(echo);
+  return sightings;
 }
 
 }  // namespace sonar

@@ -58,13 +58,13 @@ void columns(Visitor& v, RefusedEcho& r) {
 [[nodiscard]] std::string why_no_school(const RefusedEcho& echo);
 
 /// An echo as a whole: where it was loudest, and how long it was followed.
-struct RefusedSights {
+struct RefusedSightings {
   const RefusedEcho* loudest = nullptr;
   std::int64_t first_ping = 0;
   std::int64_t last_ping = 0;
   std::int64_t pings = 0;
 };
 /// Rows of one observation, echo by echo, by rising number; they outlive what comes back.
-[[nodiscard]] std::vector<RefusedSights> refused_sights(std::span<const RefusedEcho> rows);
+[[nodiscard]] std::vector<RefusedSightings> refused_sightings(std::span<const RefusedEcho> rows);
 
 }  // namespace sonar

@@ -30,11 +30,11 @@ TEST(RefusedEcho, EveryJudgeHasItsSentence) {
   EXPECT_EQ(why_no_school(judged("size", 1.0, 2.0, "beams")), "no school: 1 beam, 2 at least (judge size)");
   EXPECT_EQ(why_no_school(judged("size", 2.0, 3.0, "fans")), "no school: 2 fans, 3 at least (judge size)");
   EXPECT_EQ(why_no_school(judged("prominence", 4.21, 6.0, "dB")),
-            "no school: stands 4.21 dB out of a stronger echo's skirt, 6 at least (judge prominence)");
-  EXPECT_EQ(why_no_school(judged("confirmation", 2.0, 3.0, "sights")),
+            "no school: rises 4.21 dB above a stronger echo beside it, 6 at least (judge prominence)");
+  EXPECT_EQ(why_no_school(judged("confirmation", 2.0, 3.0, "pings")),
             "no school: seen in 2 pings, 3 at least (judge confirmation)");
-  EXPECT_EQ(why_no_school(judged("confirmation", 8.12, 10.3, "evidence of all sights")),
-            "no school: evidence of 8.12 in all sights together, 10.3 at least (judge confirmation)");
+  EXPECT_EQ(why_no_school(judged("confirmation", 8.12, 10.3, "evidence over all pings")),
+            "no school: evidence of 8.12 in all sightings together, 10.3 at least (judge confirmation)");
   EXPECT_EQ(why_no_school(judged("level", -82.14, -77.0, "dB re 1 m-1")),
             "no school: its Sv is -82.1 dB, -77 at least (judge level)");
   EXPECT_EQ(why_no_school(judged("surface", 14.24, 20.0, "m deep at most")),
@@ -52,17 +52,17 @@ TEST(RefusedEcho, AJudgeThatIsNotKnownIsToldByItsFigure) {
   EXPECT_EQ(why_no_school(judged("shape", kUnknown, kUnknown, "")), "no school (judge shape)");
 }
 
-TEST(RefusedEcho, AnEchoIsToldByItsLoudestSight) {
+TEST(RefusedEcho, AnEchoIsToldByItsLoudestSighting) {
   const std::vector<RefusedEcho> rows{seen(3, 2, -50.0), seen(4, 1, -60.0), seen(5, 2, -40.0), seen(9, 2, -55.0)};
-  const std::vector<RefusedSights> sights = refused_sights(rows);
-  ASSERT_EQ(sights.size(), 2U);
-  EXPECT_EQ(sights[0].loudest, &rows[1]);
-  EXPECT_EQ(sights[0].pings, 1);
-  EXPECT_EQ(sights[1].loudest, &rows[2]);
-  EXPECT_EQ(sights[1].first_ping, 3);
-  EXPECT_EQ(sights[1].last_ping, 9);
-  EXPECT_EQ(sights[1].pings, 3);
-  EXPECT_TRUE(refused_sights({}).empty());
+  const std::vector<RefusedSightings> sightings = refused_sightings(rows);
+  ASSERT_EQ(sightings.size(), 2U);
+  EXPECT_EQ(sightings[0].loudest, &rows[1]);
+  EXPECT_EQ(sightings[0].pings, 1);
+  EXPECT_EQ(sightings[1].loudest, &rows[2]);
+  EXPECT_EQ(sightings[1].first_ping, 3);
+  EXPECT_EQ(sightings[1].last_ping, 9);
+  EXPECT_EQ(sightings[1].pings, 3);
+  EXPECT_TRUE(refused_sightings({}).empty());
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct Scene {
     for (std::size_t i = 0; i < one.shape().size(); ++i) expected.all()[i] += one.all()[i];
   }
 
-  /// Clear sights of a ping whose neighbours hold the same, or nothing but noise.
+  /// Clear sightings of a ping whose neighbours hold the same, or nothing but noise.
   std::vector<Detection> look(std::uint64_t seed, const DetectParams& params = {}, const PingMask* taken = nullptr) {
     counts = counts_of(in_water(0, expected), seed);
     disturb(counts);

@@ -8,9 +8,10 @@
 namespace sonar {
 namespace {
 
-std::optional<RefusedSights> sights_of(const std::vector<RefusedEcho>& rows, std::int64_t id) {
-  const std::vector<RefusedSights> all = refused_sights(rows);
-  const auto found = std::ranges::find_if(all, [id](const RefusedSights& one) { return one.loudest->echo_id == id; });
+std::optional<RefusedSightings> sightings_of(const std::vector<RefusedEcho>& rows, std::int64_t id) {
+  const std::vector<RefusedSightings> all = refused_sightings(rows);
+  const auto found =
+      std::ranges::find_if(all, [id](const RefusedSightings& one) { return one.loudest->echo_id == id; });
   return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -35,8 +36,8 @@ std::int64_t chosen_echo(const Workspace& workspace, std::size_t observation) {
 
 std::string why_no_school(const Document& document, const EchoName& echo) {
   const RefusedPtr rows = document.refused(echo.observation);
-  const auto sights = sights_of(*rows, echo.id);
-  return sights ? why_no_school(*sights->loudest) : std::string{};
+  const auto sightings = sightings_of(*rows, echo.id);
+  return sightings ? why_no_school(*sightings->loudest) : std::string{};
 }
 
 std::string refused_hint(const Workspace& workspace, const EchoName& echo) {
@@ -55,9 +56,9 @@ std::optional<Voxel> loudest_on_show(const Workspace& workspace, const EchoName&
 
 void go_to_echo(Workspace& workspace, const EchoName& echo) {
   const RefusedPtr rows = workspace.document.refused(echo.observation);
-  const auto sights = sights_of(*rows, echo.id);
-  if (!sights) return;
-  go_to_ping(workspace, echo.observation, sights->loudest->ping_index);
+  const auto sightings = sightings_of(*rows, echo.id);
+  if (!sightings) return;
+  go_to_ping(workspace, echo.observation, sightings->loudest->ping_index);
   if (const auto voxel = loudest_on_show(workspace, echo)) workspace.slices.set({voxel->fan, voxel->beam});
   workspace.echo.set(echo);
 }

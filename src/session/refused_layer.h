@@ -18,7 +18,7 @@ namespace sonar {
 /// Id of the echo that is highlighted in an observation; 0 = none.
 [[nodiscard]] std::int64_t chosen_echo(const Workspace& workspace, std::size_t observation);
 
-/// "no school: 3.8 m along range, 5 at least (judge size)", of its loudest sight; empty where there is no such echo.
+/// "no school: 3.8 m along range, 5 at least (judge size)", of its loudest sighting; empty where there is no such echo.
 [[nodiscard]] std::string why_no_school(const Document& document, const EchoName& echo);
 /// The same for who points at it in a picture: with what can be done about it.
 [[nodiscard]] std::string refused_hint(const Workspace& workspace, const EchoName& echo);

@@ -33,13 +33,13 @@ class Refused : public testing::Test {
   Document& document() { return app_.document(); }
   const std::vector<JournalLine>& lines() { return *document().choices().lines; }
   Rows& list() { return *app_.app.rows("refused"); }
-  /// Looks at an echo's loudest sight, as a click on its row does.
+  /// Looks at an echo's loudest sighting, as a click on its row does.
   RefusedEcho choose(std::size_t row = 0) {
     list().select(row);
     app_.settle();
     const RefusedPtr rows = document().refused(0);
-    const std::vector<RefusedSights> sights = refused_sights(*rows);
-    return *sights.at(row).loudest;
+    const std::vector<RefusedSightings> sightings = refused_sightings(*rows);
+    return *sightings.at(row).loudest;
   }
   PixelPoint mark_in(SliceModel& slice, std::int64_t id) {
     const auto& marks = slice.picture()->refused;
@@ -127,7 +127,7 @@ TEST_F(Refused, OneKeyMakesItASchoolInOneStep) {
   EXPECT_EQ(lines()[before].step, lines()[before + 1].step);
   EXPECT_NE(lines()[before].step, 0);
   // It is a school now, and no refused echo.
-  EXPECT_LT(list().rows(), echoes) << "nor are its sights in other pings";
+  EXPECT_LT(list().rows(), echoes) << "nor are its sightings in other pings";
   for (const RefusedEcho& left : *document().refused(0)) EXPECT_NE(left.echo_id, loudest.echo_id);
   EXPECT_EQ(workspace().echo(), std::nullopt);
   ASSERT_TRUE(workspace().school());
@@ -241,19 +241,19 @@ TEST_F(Refused, MapsAndTimelinesMarkItToo) {
   detect();
   settle();
   const RefusedPtr rows = document().refused(0);
-  const std::vector<RefusedSights> sights = refused_sights(*rows);
-  ASSERT_FALSE(sights.empty());
-  ASSERT_EQ(map.places()->refused.size(), sights.size());
+  const std::vector<RefusedSightings> sightings = refused_sightings(*rows);
+  ASSERT_FALSE(sightings.empty());
+  ASSERT_EQ(map.places()->refused.size(), sightings.size());
   const PixelPoint at = map.places()->refused.front().at;
-  EXPECT_THAT(map.hint(at), HasSubstr(why_no_school(*sights.front().loudest)));
+  EXPECT_THAT(map.hint(at), HasSubstr(why_no_school(*sightings.front().loudest)));
   for (const PointerAction action : {PointerAction::press, PointerAction::release}) {
     map.pointer({action, PointerButton::left, at});
   }
   settle();
-  EXPECT_EQ(workspace().echo(), (EchoName{0, sights.front().loudest->echo_id}));
-  EXPECT_EQ(document().ping(), sights.front().loudest->ping_index);
+  EXPECT_EQ(workspace().echo(), (EchoName{0, sightings.front().loudest->echo_id}));
+  EXPECT_EQ(document().ping(), sightings.front().loudest->ping_index);
 
-  const RefusedEcho& loudest = *sights.front().loudest;
+  const RefusedEcho& loudest = *sightings.front().loudest;
   const TimeNs time = document().shown()->files().navigation[static_cast<std::size_t>(loudest.ping_index)].time;
   const PixelPoint there{timeline.places()->x_of(time), timeline.places()->plot.at(0.0, loudest.range_m).y};
   EXPECT_THAT(timeline.hint(there), HasSubstr(why_no_school(loudest)));

@@ -41,7 +41,7 @@ TEST_F(ObservedShip, AGapInTheNavigationBreaksNoTrack) {
       const SchoolPingRow& whole = product_->school_pings[i];
       EXPECT_EQ(row.school_id, whole.school_id);
       EXPECT_EQ(row.ping_index, whole.ping_index);
-      // where the ship was tells where neighbouring sights look at the school: some voxels of its border
+      // where the ship was tells where neighbouring sightings look at the school: some voxels of its border
       EXPECT_NEAR(static_cast<double>(row.n_voxels) / static_cast<double>(whole.n_voxels), 1.0, 0.02);
       EXPECT_NEAR(row.range_m, whole.range_m, 0.05);
       const bool lost = row.ping_index >= first && row.ping_index <= last;

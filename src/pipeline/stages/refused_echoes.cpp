@@ -42,11 +42,12 @@ RefusedEcho row_of(const Engine& engine, std::int64_t ping_index, const Detectio
   return row;
 }
 
-/// Whether a human may miss it: one sight is clear, or the sights together have half of what is asked. Water alone shows
+/// Whether a human may miss it: one sighting is clear, or the sightings together have half of what is asked. Water alone shows
 /// fainter ones everywhere.
 bool is_above_background(const RefusedTrack& track, std::span<const DetectedPing> pings, double clear) {
   const Reason& reason = track.reason;
-  if (reason.judge == "confirmation" && reason.unit == kAllSights && 2.0 * reason.figure >= reason.limit) return true;
+  if (reason.judge == "confirmation" && reason.unit == kAllSightings && 2.0 * reason.figure >= reason.limit)
+    return true;
   return std::ranges::any_of(track.pings, [&](const TrackedDetection& seen) {
     const std::vector<Detection>& found = ping_of(pings, seen.ping_index)->detections;
     return std::ranges::any_of(seen.detections,
@@ -103,7 +104,7 @@ std::vector<RefusedEcho> still_refused(std::vector<RefusedEcho> rows, const Jour
 
 std::vector<std::string> refusal_lines(const ObservationProduct& product) {
   std::vector<std::string> lines;
-  for (const RefusedSights& echo : refused_sights(product.rejected)) {
+  for (const RefusedSightings& echo : refused_sightings(product.rejected)) {
     const std::string pings =
         echo.pings == 1 ? fmt::format("ping {}", echo.first_ping)
                         : fmt::format("pings {} to {} ({} of them)", echo.first_ping, echo.last_ping, echo.pings);

@@ -15,8 +15,8 @@ double evidence_wanted(const DetectParams& params) {
 }
 
 double clear_evidence(const DetectParams& params) {
-  constexpr double kSights = 3.0;
-  return std::min(kMostEvidence, kChanceEvidence + evidence_wanted(params) / kSights);
+  constexpr double kSightings = 3.0;
+  return std::min(kMostEvidence, kChanceEvidence + evidence_wanted(params) / kSightings);
 }
 
 }  // namespace sonar

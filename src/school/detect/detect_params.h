@@ -37,16 +37,16 @@ void describe(Visitor& v, DetectParams& p) {
                    "surface. Leave one out when it is known to refuse real schools."});
 }
 
-/// Evidence asked of a school over its sights, each counted by what it has above kChanceEvidence, for a rate of
-/// `false_alarm`: by simulation of waters without fish. Beyond 23 an hour nothing more is asked than three sights.
+/// Evidence asked of a school over its sightings, each counted by what it has above kChanceEvidence, for a rate of
+/// `false_alarm`: by simulation of waters without fish. Beyond 23 an hour nothing more is asked than three sightings.
 [[nodiscard]] double evidence_wanted(const DetectParams& params);
-/// Evidence of a single sight such that a few like it are a school: what is refused in spite of it is told.
+/// Evidence of a single sighting such that a few like it are a school: what is refused in spite of it is told.
 [[nodiscard]] double clear_evidence(const DetectParams& params);
-/// Evidence from which an echo may be a sight of a school: in fading water about one block of a ping has it.
+/// Evidence from which an echo may be a sighting of a school: in fading water about one block of a ping has it.
 inline constexpr double kLeastEvidence = 3.5;
 /// What water without fish shows where a school might be.
 inline constexpr double kChanceEvidence = 2.5;
-/// A sight counts with so much at most: what one ping alone shows is another sounder's pulse.
+/// A sighting counts with so much at most: what one ping alone shows is another sounder's pulse.
 inline constexpr double kMostEvidence = 12.0;
 
 /// A candidate's school is sought so far beyond its box, and members lie so far outside what the filtered data show.

@@ -17,7 +17,7 @@ double evidence_of(const TrackedDetection& seen, const DetectedPing& ping) {
   return std::min(most, kMostEvidence);
 }
 
-/// Largest sum over neighbouring sights of what each has above chance. Pings between them have none; those that nobody
+/// Largest sum over neighbouring sightings of what each has above chance. Pings between them have none; those that nobody
 /// could look at are not in the list and tell nothing.
 double evidence_together(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings) {
   double sum = 0.0;
@@ -34,7 +34,7 @@ double evidence_together(std::span<const TrackedDetection> tracked, std::span<co
 }
 
 /// In so many pings of the list.
-std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings, int window) {
+std::size_t most_sightings(std::span<const TrackedDetection> tracked, std::span<const DetectedPing> pings, int window) {
   std::size_t most = 0;
   auto behind = tracked.begin();
   for (auto first = tracked.begin(); first != tracked.end(); ++first) {
@@ -49,15 +49,15 @@ std::size_t most_sights(std::span<const TrackedDetection> tracked, std::span<con
 
 std::optional<Reason> judge_confirmation(const TrackEcho& track, const ConfirmationParams& params) {
   const auto& [tracked, pings] = track;
-  const std::size_t sights = most_sights(tracked, pings, params.window);
-  if (sights < static_cast<std::size_t>(params.pings)) {
-    return Reason{"confirmation", static_cast<double>(sights), static_cast<double>(params.pings), "sights"};
+  const std::size_t sightings = most_sightings(tracked, pings, params.window);
+  if (sightings < static_cast<std::size_t>(params.pings)) {
+    return Reason{"confirmation", static_cast<double>(sightings), static_cast<double>(params.pings), "pings"};
   }
   const double evidence = evidence_together(tracked, pings);
   // so many of the clearest are always enough
   const double wanted = std::min(params.evidence, params.pings * (kMostEvidence - kChanceEvidence));
   if (evidence >= wanted) return std::nullopt;
-  return Reason{"confirmation", evidence, wanted, kAllSights};
+  return Reason{"confirmation", evidence, wanted, kAllSightings};
 }
 
 }  // namespace sonar

@@ -9,12 +9,12 @@
 
 namespace sonar {
 
-/// Unit of the evidence of a track's sights together.
-inline constexpr std::string_view kAllSights = "evidence of all sights";
+/// Unit of the evidence of a track's sightings together.
+inline constexpr std::string_view kAllSightings = "evidence over all pings";
 
-/// Judge `confirmation`: a school is seen in pings near each other, and what its sights show together is more than chance
-/// gives. Faint sights count for little and many of them for much; a ping that shows none counts against it.
-/// out  the figure is the most sights in a window, or the evidence of all
+/// Judge `confirmation`: a school is seen in pings near each other, and what its sightings show together is more than chance
+/// gives. Faint sightings count for little and many of them for much; a ping that shows none counts against it.
+/// out  the figure is the most sightings in a window, or the evidence of all
 [[nodiscard]] std::optional<Reason> judge_confirmation(const TrackEcho& track, const ConfirmationParams& params);
 
 }  // namespace sonar

@@ -47,7 +47,8 @@ void describe(Visitor& v, SizeParams& p) {
 }
 
 struct ConfirmationParams {
-  double evidence = 0.0;  ///< of a school over its sights; not a parameter: it follows from DetectParams::false_alarm
+  double evidence =
+      0.0;  ///< of a school over its sightings; not a parameter: it follows from DetectParams::false_alarm
   int pings = 3;
   int window = 5;
 };

@@ -131,13 +131,13 @@ TEST(JudgeConfirmation, WithoutItItIsASchool) {
   EXPECT_EQ(seen_in({4, 5}, {.confirmation = {.pings = 1}}, 0.0).schools.size(), 1U);
 }
 
-TEST(JudgeConfirmation, SightsMustLieNearEachOther) {
+TEST(JudgeConfirmation, SightingsMustLieNearEachOther) {
   EXPECT_EQ(seen_in({2, 4, 6}, {}, 0.0).schools.size(), 1U) << "three in five pings";
   EXPECT_TRUE(seen_in({2, 5, 8}, {}, 0.0).schools.empty());
 }
 
-// 5 above nothing is 2.5 above what chance gives: nine sights have 22.5 together, three 7.5.
-TEST(JudgeConfirmation, ManyFaintSightsAreASchoolAndFewAreNot) {
+// 5 above nothing is 2.5 above what chance gives: nine sightings have 22.5 together, three 7.5.
+TEST(JudgeConfirmation, ManyFaintSightingsAreASchoolAndFewAreNot) {
   EXPECT_EQ(seen_in({2, 3, 4, 5, 6, 7, 8, 9, 10}, {}, 0.0, 10, -60.0, 5.0).schools.size(), 1U);
   const Tracks few = seen_in({2, 3, 4}, {}, 0.0, 10, -60.0, 5.0);
   EXPECT_TRUE(few.schools.empty());
@@ -147,7 +147,7 @@ TEST(JudgeConfirmation, ManyFaintSightsAreASchoolAndFewAreNot) {
   EXPECT_EQ(few.refused[0].reason.limit, 15.0);
 }
 
-// Each ping between that shows nothing takes 2.5: six sights with 15 together, and five such pings.
+// Each ping between that shows nothing takes 2.5: six sightings with 15 together, and five such pings.
 TEST(JudgeConfirmation, PingsThatShowNothingCountAgainstIt) {
   EXPECT_EQ(seen_in({1, 2, 3, 4, 5, 6}, {}, 0.0, 10, -60.0, 5.0).schools.size(), 1U);
   EXPECT_TRUE(seen_in({1, 3, 5, 7, 9, 11}, {}, 0.0, 10, -60.0, 5.0).schools.empty());
@@ -158,7 +158,7 @@ TEST(JudgeConfirmation, PingsThatNobodyCouldReadDoNot) {
 }
 
 // Another sounder's pulse in two pings is a school to those who ask no more.
-TEST(JudgeConfirmation, AsManyClearSightsAsAreAskedForAreEnough) {
+TEST(JudgeConfirmation, AsManyClearSightingsAsAreAskedForAreEnough) {
   EXPECT_EQ(seen_in({4}, {.confirmation = {.pings = 1}}, 0.0).schools.size(), 1U);
 }
 

@@ -11,7 +11,7 @@ namespace sonar {
 
 std::optional<Reason> judge_level(const TrackEcho& track, const LevelParams& params) {
   std::vector<double> level_db;
-  for (const TrackedDetection& sight : track.sights) level_db.push_back(track.detection(sight).reference_db);
+  for (const TrackedDetection& sighting : track.sightings) level_db.push_back(track.detection(sighting).reference_db);
   const double middle_db = middle_of(std::move(level_db));
   if (middle_db >= params.min_level_db) return std::nullopt;
   return Reason{"level", middle_db, params.min_level_db, "dB re 1 m-1"};

@@ -26,15 +26,15 @@ std::optional<Reason> judge_surface(const TrackEcho& track) {
   std::vector<double> reach_m;
   std::size_t attached = 0;
   double level_db = -1000.0;
-  for (const TrackedDetection& sight : track.sights) {
-    const DetectedPing& ping = track.ping(sight);
-    const Detection& echo = track.detection(sight);
+  for (const TrackedDetection& sighting : track.sightings) {
+    const DetectedPing& ping = track.ping(sighting);
+    const Detection& echo = track.detection(sighting);
     if ((echo.edge_flags & (kEdgeTopFan | kEdgeSurface)) != 0) ++attached;
     level_db = std::max(level_db, echo.reference_db);
     const double centre_m = ping.placement.transducer_depth_m + levelled(echo.centre, ping.placement).z;
     reach_m.push_back(centre_m + kHalfHeight * std::sqrt(echo.covariance[5]));
   }
-  if (2 * attached < track.sights.size() || level_db > kBubbleLevel_db) return std::nullopt;
+  if (2 * attached < track.sightings.size() || level_db > kBubbleLevel_db) return std::nullopt;
   const double middle_m = middle_of(std::move(reach_m));
   if (!(middle_m <= kBubbleDepth_m)) return std::nullopt;
   return Reason{"surface", middle_m, kBubbleDepth_m, "m deep at most"};

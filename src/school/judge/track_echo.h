@@ -10,15 +10,15 @@ namespace sonar {
 
 /// What was followed through the pings, as its judges see it; borrowed.
 struct TrackEcho {
-  std::span<const TrackedDetection> sights;  ///< rising
-  std::span<const DetectedPing> pings;       ///< all that were looked at, rising
+  std::span<const TrackedDetection> sightings;  ///< rising
+  std::span<const DetectedPing> pings;          ///< all that were looked at, rising
 
-  [[nodiscard]] const DetectedPing& ping(const TrackedDetection& sight) const {
-    return *ping_of(pings, sight.ping_index);
+  [[nodiscard]] const DetectedPing& ping(const TrackedDetection& sighting) const {
+    return *ping_of(pings, sighting.ping_index);
   }
-  /// The main detection of a sight.
-  [[nodiscard]] const Detection& detection(const TrackedDetection& sight) const {
-    return ping(sight).detections[static_cast<std::size_t>(sight.detections.front())];
+  /// The main detection of a sighting.
+  [[nodiscard]] const Detection& detection(const TrackedDetection& sighting) const {
+    return ping(sighting).detections[static_cast<std::size_t>(sighting.detections.front())];
   }
 };
 

@@ -33,7 +33,7 @@ void correct_selection(Covariance3& total, const Covariance3& blur, const Point<
 }
 
 /// level_blur  of pulse and beam, without what the beam adds upright
-AxisSight axis_sight(const BodyEcho& echo, const Covariance3& level_blur, double axis_rad) {
+AxisSighting axis_sighting(const BodyEcho& echo, const Covariance3& level_blur, double axis_rad) {
   const LevelMoments::Cumulants whole = echo.level.along(axis_rad, echo.centre);
   const double x = std::cos(axis_rad);
   const double y = std::sin(axis_rad);
@@ -43,8 +43,8 @@ AxisSight axis_sight(const BodyEcho& echo, const Covariance3& level_blur, double
 
 }  // namespace
 
-std::optional<BodySight> body_sight(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
-                                    const MeasureParams& params) {
+std::optional<BodySighting> body_sighting(const BodyEcho& echo, const HeightLikelihood& heights, const BeamShape& beam,
+                                          const MeasureParams& params) {
   if (!echo.known) return std::nullopt;
   const auto height = most_likely_height(heights);
   Covariance3 total = echo.total;
@@ -58,19 +58,19 @@ std::optional<BodySight> body_sight(const BodyEcho& echo, const HeightLikelihood
   const HorizontalAxes axes = horizontal_axes(body, 0.0);
   Covariance3 level_blur = blur;
   for (std::size_t k = 0; k < blur.size(); ++k) level_blur[k] -= beam.upright_variance * echo.upright[k];
-  const auto along = [&](double axis_rad) { return axis_sight(echo, level_blur, axis_rad); };
-  BodySight out;
+  const auto along = [&](double axis_rad) { return axis_sighting(echo, level_blur, axis_rad); };
+  BodySighting out;
   out.length_variance = axes.major_variance;
   out.width_variance = axes.minor_variance;
   out.length = along(axes.major_bearing_rad);
   out.width = along(axes.major_bearing_rad + std::numbers::pi / 2.0);
-  out.sight = along(std::atan2(echo.centre.y, echo.centre.x));
+  out.line_of_sight = along(std::atan2(echo.centre.y, echo.centre.x));
   if (height && height->evidence >= params.min_height_evidence) out.height_variance = body[5];
   out.blur_variance = (blur[0] + blur[3]) / 2.0;
   return out;
 }
 
-BodySize body_size(const BodySight& body, const BodyShape& shape, const MeasureParams& params) {
+BodySize body_size(const BodySighting& body, const BodyShape& shape, const MeasureParams& params) {
   const auto extent = [&](double variance, double by_shape, double least_variance) {
     const double size_m = 2.0 * std::sqrt(by_shape * std::max(variance, 0.0));
     return variance > least_variance && size_m >= params.min_extent_m ? size_m : kUnknown;

@@ -13,22 +13,22 @@
 namespace sonar {
 
 /// A school's body by the echo of one ping, the sonar's blur taken out, before it is known how its density changes.
-struct BodySight {
+struct BodySighting {
   double length_variance = 0.0;  ///< of the body, m^2
   double width_variance = 0.0;
   double height_variance = kUnknown;
   double blur_variance = 0.0;  ///< of beam and pulse, level
-  AxisSight length;            ///< how its density changes
-  AxisSight width;
-  AxisSight sight;  ///< along the line of sight, where the sonar sees most sharply: so it is taken to change upright
+  AxisSighting length;         ///< how its density changes
+  AxisSighting width;
+  AxisSighting line_of_sight;  ///< along it, where the sonar sees most sharply: so it is taken to change upright
 };
 
 /// The echo's second and fourth moments less those of beam and pulse.
 /// heights  how likely which height is, by this ping alone or with its neighbours
 /// beam     the shape for which the heights are that likely
 /// out      none where there is no echo
-[[nodiscard]] std::optional<BodySight> body_sight(const BodyEcho& echo, const HeightLikelihood& heights,
-                                                  const BeamShape& beam, const MeasureParams& params);
+[[nodiscard]] std::optional<BodySighting> body_sighting(const BodyEcho& echo, const HeightLikelihood& heights,
+                                                        const BeamShape& beam, const MeasureParams& params);
 
 /// Extents; NaN = the blur is all that is seen.
 struct BodySize {
@@ -44,6 +44,6 @@ struct BodyShape {
   double height = 5.0;
 };
 
-[[nodiscard]] BodySize body_size(const BodySight& body, const BodyShape& shape, const MeasureParams& params);
+[[nodiscard]] BodySize body_size(const BodySighting& body, const BodyShape& shape, const MeasureParams& params);
 
 }  // namespace sonar

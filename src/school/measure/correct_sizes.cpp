@@ -52,7 +52,7 @@ HeightLikelihood heights_near(const SchoolThroughPings& pings, std::size_t shape
   for (const MeasuredSchool* ping : pings) {
     const std::int64_t off = std::abs(ping->row.ping_index - centre);
     if (off > reach || (off != 0 && (ping->row.edge_flags & kCutsHeight) != 0)) continue;
-    if (shape < ping->body.heights.size()) add_sight(sum, ping->body.heights[shape], dispersion(ping->body));
+    if (shape < ping->body.heights.size()) add_sighting(sum, ping->body.heights[shape], dispersion(ping->body));
   }
   return sum;
 }
@@ -66,30 +66,30 @@ class BodyThroughPings {
       : pings_(pings), params_(params) {
     for (const MeasuredSchool* ping : pings) {
       const HeightLikelihood heights = heights_near(pings, shape, ping->row.ping_index, params.height_pool_pings);
-      sights_.push_back(body_sight(ping->body, heights, beam, params));
+      sightings_.push_back(body_sighting(ping->body, heights, beam, params));
     }
   }
   [[nodiscard]] BodySize size(std::size_t ping) const {
-    if (!sights_[ping]) return {};
-    const BodyShape shape = {density(ping, &BodySight::length), density(ping, &BodySight::width),
-                             density(ping, &BodySight::sight)};
-    return body_size(*sights_[ping], shape, params_);
+    if (!sightings_[ping]) return {};
+    const BodyShape shape = {density(ping, &BodySighting::length), density(ping, &BodySighting::width),
+                             density(ping, &BodySighting::line_of_sight)};
+    return body_size(*sightings_[ping], shape, params_);
   }
 
  private:
-  [[nodiscard]] double density(std::size_t ping, AxisSight BodySight::*axis) const {
-    std::vector<AxisSight> near;
+  [[nodiscard]] double density(std::size_t ping, AxisSighting BodySighting::*axis) const {
+    std::vector<AxisSighting> near;
     for (std::size_t k = 0; k < pings_.size(); ++k) {
       const SchoolPingRow& row = pings_[k]->row;
       if (std::abs(row.ping_index - pings_[ping]->row.ping_index) > params_.height_pool_pings) continue;
-      if (sights_[k] && (row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) near.push_back((*sights_[k]).*axis);
+      if (sightings_[k] && (row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) near.push_back((*sightings_[k]).*axis);
     }
     return shape_variance(near, params_);
   }
 
   const SchoolThroughPings& pings_;
   const MeasureParams& params_;
-  std::vector<std::optional<BodySight>> sights_;
+  std::vector<std::optional<BodySighting>> sightings_;
 };
 
 constexpr std::int64_t kNoPing = -1;

@@ -52,19 +52,19 @@ double shape_variance(double kurtosis) {
   return k * k * (1.0 + 7.0 / 90.0 * (k - 1.0));
 }
 
-double shape_variance(std::span<const AxisSight> sights, const MeasureParams& params) {
+double shape_variance(std::span<const AxisSighting> sightings, const MeasureParams& params) {
   if (!params.find_density) return params.shape_variance;
   double looks = 0.0;
   double fourth = 0.0;
   double of_bodies = 0.0;
   double of_echoes = 0.0;
-  for (const AxisSight& sight : sights) {
-    if (!std::isfinite(sight.variance) || !std::isfinite(sight.fourth_cumulant)) continue;
-    const double body = std::max(sight.variance, 0.0);
-    looks += sight.looks;
-    fourth += sight.looks * (sight.fourth_cumulant - kEvenFourth * body * body);
-    of_bodies += sight.looks * body * body;
-    of_echoes += sight.looks * sight.echo_variance * sight.echo_variance;
+  for (const AxisSighting& sighting : sightings) {
+    if (!std::isfinite(sighting.variance) || !std::isfinite(sighting.fourth_cumulant)) continue;
+    const double body = std::max(sighting.variance, 0.0);
+    looks += sighting.looks;
+    fourth += sighting.looks * (sighting.fourth_cumulant - kEvenFourth * body * body);
+    of_bodies += sighting.looks * body * body;
+    of_echoes += sighting.looks * sighting.echo_variance * sighting.echo_variance;
   }
   if (!(of_echoes > 0.0)) return params.shape_variance;
   const double off = fourth / of_echoes * looks / (looks + params.density_looks);

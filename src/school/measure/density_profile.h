@@ -29,8 +29,8 @@ class LevelMoments {
   std::array<std::array<double, 5>, 5> sums_{};  ///< weight x x^i y^j, i + j <= 4
 };
 
-/// What one sight tells of a body along one axis.
-struct AxisSight {
+/// What one sighting tells of a body along one axis.
+struct AxisSighting {
   double variance = 0.0;         ///< of the body, m^2
   double echo_variance = 0.0;    ///< beam's and pulse's blur in it, m^2
   double fourth_cumulant = 0.0;  ///< m^4; cumulants add up: a Gaussian beam has none, a pulse next to none
@@ -42,9 +42,9 @@ struct AxisSight {
 ///         (9/5, 3), hoops and shells, within 3 % of cores up to 10 dB denser than the margin. Denser ones count as that.
 [[nodiscard]] double shape_variance(double kurtosis);
 
-/// The same from several sights of one school, times params.shape_variance / 5. What few looks tell is drawn to an even
+/// The same from several sightings of one school, times params.shape_variance / 5. What few looks tell is drawn to an even
 /// density, and so is a body that is small beside the blur: the skirts of a beam, which nobody knows, may look like a dense
 /// core or a hollow, by as much as the blur is of the echo.
-[[nodiscard]] double shape_variance(std::span<const AxisSight> sights, const MeasureParams& params);
+[[nodiscard]] double shape_variance(std::span<const AxisSighting> sightings, const MeasureParams& params);
 
 }  // namespace sonar

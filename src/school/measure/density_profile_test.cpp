@@ -78,25 +78,25 @@ TEST(DensityProfile, CoreAndMarginDifferByNoMoreThanIsBelieved) {
 }
 
 /// Of a body whose variance is 4 m^2, with a blur of so many.
-AxisSight sight(double kurtosis, double looks, double blur = 0.0) {
+AxisSighting sighting(double kurtosis, double looks, double blur = 0.0) {
   return {4.0, 4.0 + blur, (kurtosis - 3.0) * 16.0, looks};
 }
 
 TEST(DensityProfile, FewLooksAndWideBeamsAreDrawnToAnEvenDensity) {
   MeasureParams params;
-  const auto told = [&](std::vector<AxisSight> sights) { return shape_variance(sights, params); };
+  const auto told = [&](std::vector<AxisSighting> sightings) { return shape_variance(sightings, params); };
   const double all = shape_variance(2.4);
-  EXPECT_GT(told({sight(2.4, 40.0)}), 5.0);
-  EXPECT_LT(told({sight(2.4, 40.0)}) - 5.0, 0.2 * (all - 5.0));
-  EXPECT_NEAR(told({sight(2.4, 40000.0), sight(1.0, 0.0)}), all, 0.05) << "what has no looks has no say";
+  EXPECT_GT(told({sighting(2.4, 40.0)}), 5.0);
+  EXPECT_LT(told({sighting(2.4, 40.0)}) - 5.0, 0.2 * (all - 5.0));
+  EXPECT_NEAR(told({sighting(2.4, 40000.0), sighting(1.0, 0.0)}), all, 0.05) << "what has no looks has no say";
   EXPECT_NEAR(told({}), 5.0, 1e-12);
-  EXPECT_NEAR(told({sight(1.5, 1e9, 0.4)}), shape_variance(1.5), 0.8) << "a tenth of blur hides little";
-  EXPECT_NEAR(told({sight(1.5, 1e9, 12.0)}), 5.0, 0.25) << "three times the body's variance nearly all";
-  EXPECT_NEAR(told({sight(2.4, 1e9, 4.0)}), 5.0, 1e-6) << "a dense core may be the beam's skirts";
-  EXPECT_NEAR(told({sight(15.0 / 7.0, 1e9, 12.0)}), 5.0, 1e-6);
+  EXPECT_NEAR(told({sighting(1.5, 1e9, 0.4)}), shape_variance(1.5), 0.8) << "a tenth of blur hides little";
+  EXPECT_NEAR(told({sighting(1.5, 1e9, 12.0)}), 5.0, 0.25) << "three times the body's variance nearly all";
+  EXPECT_NEAR(told({sighting(2.4, 1e9, 4.0)}), 5.0, 1e-6) << "a dense core may be the beam's skirts";
+  EXPECT_NEAR(told({sighting(15.0 / 7.0, 1e9, 12.0)}), 5.0, 1e-6);
   params.find_density = false;
   params.shape_variance = 3.0;
-  EXPECT_EQ(told({sight(2.4, 40000.0)}), 3.0);
+  EXPECT_EQ(told({sighting(2.4, 40000.0)}), 3.0);
 }
 
 // Two lumps 10 m apart, 30 degrees below where they are seen from: along the level line between them all is variance, and a

@@ -209,7 +209,7 @@ HeightLikelihood height_likelihood(const std::vector<FanEcho>& fans, const BeamM
   return heights;
 }
 
-void add_sight(HeightLikelihood& sum, const HeightLikelihood& more, double dispersion) {
+void add_sighting(HeightLikelihood& sum, const HeightLikelihood& more, double dispersion) {
   if (more.at.empty()) return;
   if (sum.at.empty()) sum.at.assign(more.at.size(), 0.0);
   sum.at.resize(std::min(sum.at.size(), more.at.size()));

@@ -50,9 +50,9 @@ struct HeightLikelihood {
 [[nodiscard]] HeightLikelihood height_likelihood(const std::vector<FanEcho>& fans, const BeamModel& beam,
                                                  double range_m);
 
-/// Adds one more sight of the body. Where the two end at different heights, the sum ends at the lower one.
+/// Adds one more sighting of the body. Where the two end at different heights, the sum ends at the lower one.
 /// dispersion  what its likelihoods are to be divided by
-void add_sight(HeightLikelihood& sum, const HeightLikelihood& more, double dispersion);
+void add_sighting(HeightLikelihood& sum, const HeightLikelihood& more, double dispersion);
 
 struct LikelyHeight {
   double variance_m2 = 0.0;  ///< of the ellipsoid along the height, beam taken out

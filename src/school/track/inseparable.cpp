@@ -11,8 +11,8 @@
 namespace sonar {
 namespace {
 
-constexpr std::size_t kLeastSights = 3;  ///< of both, in which they touch
-constexpr std::size_t kSights = 4;       ///< in three of so many sights of both they touch
+constexpr std::size_t kLeastSightings = 3;  ///< of both, in which they touch
+constexpr std::size_t kSightings = 4;       ///< in three of so many sightings of both they touch
 
 /// Whether two masks of a ping lie in the same beam or in beams side by side, no farther apart along range than detection looks round.
 bool touch(const PingMask& a, const PingMask& b, const Sector& sector) {
@@ -32,7 +32,7 @@ bool touch(const PingMask& a, const PingMask& b, const Sector& sector) {
   });
 }
 
-/// Visits the sights that two tracks have of one ping.
+/// Visits the sightings that two tracks have of one ping.
 template <class Visit>
 void each_pair(const OpenTrack& a, const OpenTrack& b, const Visit& visit) {
   auto at = b.pings.begin();
@@ -46,50 +46,50 @@ void each_pair(const OpenTrack& a, const OpenTrack& b, const Visit& visit) {
 bool inseparable(const OpenTrack& a, const OpenTrack& b, std::span<const DetectedPing> pings, const Sector& sector) {
   std::size_t both = 0;
   each_pair(a, b, [&](const auto&, const auto&) { ++both; });
-  if (both < kLeastSights) return false;
+  if (both < kLeastSightings) return false;
   std::size_t touching = 0;
   each_pair(a, b, [&](const TrackedDetection& one, const TrackedDetection& other) {
     const DetectedPing& ping = *ping_of(pings, one.ping_index);
     if (touch(mask_of(one, ping), mask_of(other, ping), sector)) ++touching;
   });
-  return touching >= kLeastSights && kSights * touching >= (kSights - 1) * both;
+  return touching >= kLeastSightings && kSightings * touching >= (kSightings - 1) * both;
 }
 
-/// One sight of both: the larger detection stays the main one.
+/// One sighting of both: the larger detection stays the main one.
 TrackedDetection together(const TrackedDetection& a, const TrackedDetection& b, const DetectedPing& ping) {
   const auto volume = [&](const TrackedDetection& seen) {
     return ping.detections[static_cast<std::size_t>(seen.detections.front())].volume_m3;
   };
   const TrackedDetection& main = volume(a) >= volume(b) ? a : b;
   const TrackedDetection& other = &main == &a ? b : a;
-  TrackedDetection sight = main;
+  TrackedDetection sighting = main;
   for (const int d : other.detections) {
-    if (std::ranges::find(sight.detections, d) == sight.detections.end()) sight.detections.push_back(d);
+    if (std::ranges::find(sighting.detections, d) == sighting.detections.end()) sighting.detections.push_back(d);
   }
-  std::sort(sight.detections.begin() + 1, sight.detections.end());
-  if (a.part.empty() && b.part.empty()) return sight;
-  sight.part = {};
+  std::sort(sighting.detections.begin() + 1, sighting.detections.end());
+  if (a.part.empty() && b.part.empty()) return sighting;
+  sighting.part = {};
   PingMask mask = unite(mask_of(a, ping), mask_of(b, ping));
-  if (mask.voxels() != mask_of(sight, ping).voxels()) sight.part = std::move(mask);
-  return sight;
+  if (mask.voxels() != mask_of(sighting, ping).voxels()) sighting.part = std::move(mask);
+  return sighting;
 }
 
 void join(OpenTrack& into, const OpenTrack& from, std::span<const DetectedPing> pings) {
-  std::vector<TrackedDetection> sights;
+  std::vector<TrackedDetection> sightings;
   auto a = into.pings.begin();
   auto b = from.pings.begin();
   while (a != into.pings.end() || b != from.pings.end()) {
     if (b == from.pings.end() || (a != into.pings.end() && a->ping_index < b->ping_index)) {
-      sights.push_back(std::move(*a++));
+      sightings.push_back(std::move(*a++));
     } else if (a == into.pings.end() || b->ping_index < a->ping_index) {
-      sights.push_back(*b++);
+      sightings.push_back(*b++);
     } else {
-      sights.push_back(together(*a, *b, *ping_of(pings, a->ping_index)));
+      sightings.push_back(together(*a, *b, *ping_of(pings, a->ping_index)));
       ++a;
       ++b;
     }
   }
-  into.pings = std::move(sights);
+  into.pings = std::move(sightings);
 }
 
 void rename(std::vector<RawEvent>& events, int from, int into) {

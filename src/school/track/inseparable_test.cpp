@@ -55,13 +55,13 @@ constexpr Point<Enu> kSwims{0.3, 0.2, 0.0};
 const Ball kHead{{-150.0, 80.0, -40.0}, kSwims};
 const Ball kTail{{-150.0, 105.0, -40.0}, kSwims};  // 1 m beyond: a waist
 
-/// Each sight of the only school is all that was seen of it.
+/// Each sighting of the only school is all that was seen of it.
 void expect_whole(const Tracks& tracks, const Voyage& voyage) {
   ASSERT_EQ(tracks.schools.size(), 1U);
   EXPECT_EQ(tracks.schools[0].school_id, 1);
-  for (const TrackedDetection& sight : tracks.schools[0].pings) {
-    const auto p = static_cast<std::size_t>(sight.ping_index);
-    EXPECT_EQ(mask_of(sight, voyage.pings[p]), voyage.seen[p]) << "ping " << p;
+  for (const TrackedDetection& sighting : tracks.schools[0].pings) {
+    const auto p = static_cast<std::size_t>(sighting.ping_index);
+    EXPECT_EQ(mask_of(sighting, voyage.pings[p]), voyage.seen[p]) << "ping " << p;
   }
   const auto is_birth = [](const TrackEvent& event) { return event.kind == TrackEventKind::birth; };
   EXPECT_EQ(std::ranges::count_if(tracks.events, is_birth), 1);

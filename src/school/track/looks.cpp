@@ -15,13 +15,13 @@
 namespace sonar {
 namespace {
 
-constexpr std::size_t kSide = 3;      ///< sights before and behind that are asked
+constexpr std::size_t kSide = 3;      ///< sightings before and behind that are asked
 constexpr double kFade_s = 7.0;       ///< what was seen so long ago counts for 1/e: fish change their places
 constexpr double kLeastWeight = 0.5;  ///< of the others together
-constexpr std::size_t kPace = 3;      ///< sights between which a velocity is told
+constexpr std::size_t kPace = 3;      ///< sightings between which a velocity is told
 constexpr int kPiece = EchoPieces::kSamples;
 
-/// Of the detections of a sight one that knows a voxel; null where none does.
+/// Of the detections of a sighting one that knows a voxel; null where none does.
 const EchoPieces* holding(const Look& look, int fan, int beam, int sample) {
   const auto at = std::ranges::find_if(
       look.pieces, [&](const EchoPieces* pieces) { return pieces->box.contains(fan, beam, sample); });
@@ -59,14 +59,14 @@ IndexBox box_of_pieces(const Look& look) {
   return box;
 }
 
-/// Where the school of one sight is in another. Track and masks both tell it, and both err.
+/// Where the school of one sighting is in another. Track and masks both tell it, and both err.
 Point<Enu> way_between(const Look& here, const Look& other, const Point<Enu>& velocity) {
   const Point<Enu> by_track = velocity * (other.time_s - here.time_s);
   if (here.cut || other.cut) return by_track;
   return (by_track + (other.centre - here.centre)) * 0.5;
 }
 
-/// Where the samples of one beam lie in another sight. The way there is straight in space and bends in angles the nearer to
+/// Where the samples of one beam lie in another sighting. The way there is straight in space and bends in angles the nearer to
 /// the sonar the more: a stretch of it is taken for straight.
 class Along {
  public:

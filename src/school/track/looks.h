@@ -12,7 +12,7 @@
 
 namespace sonar {
 
-/// One sight of a tracked school, as the sights near it look at it.
+/// One sighting of a tracked school, as the sightings near it look at it.
 struct Look {
   PingMask mask;
   std::vector<const EchoPieces*> pieces{};  ///< of its detections, those that have some; borrowed
@@ -22,25 +22,25 @@ struct Look {
   bool cut = false;  ///< by the sector's borders: its centre goes partly with the ship
 };
 
-/// [sight] of a school.
+/// [sighting] of a school.
 [[nodiscard]] std::vector<Look> looks_of(const SchoolTrack& school, std::span<const DetectedPing> pings,
                                          const Sector& sector);
 
-/// Median over whole sights, so that masks that hold too much do not tell it; none where there are too few.
+/// Median over whole sightings, so that masks that hold too much do not tell it; none where there are too few.
 [[nodiscard]] std::optional<Point<Enu>> velocity_mps(std::span<const Look> looks);
 
-/// A sight that looks at another, and what it counts beside that one.
+/// A sighting that looks at another, and what it counts beside that one.
 struct Neighbour {
   const Look* look = nullptr;
   double weight = 1.0;
 };
-/// The sights near one, itself left out, nearest first; empty where all together count for too little.
+/// The sightings near one, itself left out, nearest first; empty where all together count for too little.
 [[nodiscard]] std::vector<Neighbour> neighbours_of(std::span<const Look> looks, std::size_t at);
 
-/// A school's own echo in the pieces of one sight: mean over this and its neighbours, looked at where the school swam to.
+/// A school's own echo in the pieces of one sighting: mean over this and its neighbours, looked at where the school swam to.
 struct MeanEcho {
-  IndexBox box;            ///< round all of the sight's EchoPieces
-  Array3<float> own_sv;    ///< [fan][beam][piece] m^-1; NaN = no school's in this sight, or not known
+  IndexBox box;            ///< round all of the sighting's EchoPieces
+  Array3<float> own_sv;    ///< [fan][beam][piece] m^-1; NaN = no school's in this sighting, or not known
   Array3<float> water_sv;  ///< same shape: the background
 
   /// NaN outside the box.

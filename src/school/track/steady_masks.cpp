@@ -149,12 +149,12 @@ class Steadying {
   }
 
  private:
-  void settle(std::size_t school, std::size_t sight, const PingMask& mask, const MeanEcho& mean) {
+  void settle(std::size_t school, std::size_t sighting, const PingMask& mask, const MeanEcho& mean) {
     const int beams = sector_.beams();
     const double reference = reference_sv(mean, mask, beams);
     if (!(reference > 0.0)) return;
     const double least_sv = reference * linear_from_db(-tolerance_db_);
-    TrackedDetection& seen = schools_[school].pings[sight];
+    TrackedDetection& seen = schools_[school].pings[sighting];
     const PingMask free = subtract(plain(runs_above(mean, least_sv, beams)), of_others(school, seen.ping_index));
     PingMask kept = plain(beside_mask(free.runs, mask, {sector_.fans(), beams, sector_.range().count}));
     if (kept.empty()) return;
@@ -175,7 +175,7 @@ class Steadying {
   std::span<const DetectedPing> pings_;
   const Sector& sector_;
   double tolerance_db_;
-  std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> of_ping_;  ///< (school, its sight)
+  std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> of_ping_;  ///< (school, its sighting)
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ struct Passage {
       whole.push_back(test::ball_mask(ball, sector, pings.back().placement, start, p * test::kInterval_s));
       const Point<Sonar> core =
           PingFrame(pings.back().placement, start).from_world(ball.start + ball.velocity * (p * test::kInterval_s));
-      pings.back().detections.push_back(sight(sea, p, core, ball.radius_m));
+      pings.back().detections.push_back(sighting(sea, p, core, ball.radius_m));
       schools.front().pings.push_back({p, {0}, {}});
     }
   }
@@ -48,7 +48,7 @@ struct Passage {
   }
   [[nodiscard]] PingMask mask(std::size_t p) const { return mask_of(schools.front().pings[p], pings[p]); }
 
-  Detection sight(const Sea& sea, int p, const Point<Sonar>& core, double radius_m) {
+  Detection sighting(const Sea& sea, int p, const Point<Sonar>& core, double radius_m) {
     const PingMask& ball = whole.back();
     EchoPieces pieces;
     pieces.box = box_of(ball, 25).enlarged(2, 3, 40).clipped({20, 25, 900});

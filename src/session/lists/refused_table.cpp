@@ -11,12 +11,12 @@ namespace {
 
 template <double RefusedEcho::*member, int decimals>
 Cell figure(const SurveyEcho& echo) {
-  return number_cell(echo.sights.loudest->*member, decimals);
+  return number_cell(echo.sightings.loudest->*member, decimals);
 }
 
 template <std::int64_t RefusedEcho::*member>
 Cell count(const SurveyEcho& echo) {
-  return count_cell(echo.sights.loudest->*member);
+  return count_cell(echo.sightings.loudest->*member);
 }
 
 const std::vector<ColumnOf<SurveyEcho>>& refused_columns() {
@@ -28,10 +28,10 @@ const std::vector<ColumnOf<SurveyEcho>>& refused_columns() {
       {{"Ping", "", "in which it was loudest; the other columns are of it", true}, count<&R::ping_index>},
       {{"Level", "dB re 1 m\u207B\u00B9", "reference level, as a school's", true}, figure<&R::level_db, 1>},
       {{"Why", "", "what the judge looked at, and its limit", false, true},
-       [](const E& e) { return text_cell(why_no_school(*e.sights.loudest)); }},
+       [](const E& e) { return text_cell(why_no_school(*e.sightings.loudest)); }},
       {{"Judge", "", "that says it is no school", false},
-       [](const E& e) { return text_cell(e.sights.loudest->judge); }},
-      {{"Pings", "", "pings in which it was followed", true}, [](const E& e) { return count_cell(e.sights.pings); }},
+       [](const E& e) { return text_cell(e.sightings.loudest->judge); }},
+      {{"Pings", "", "pings in which it was followed", true}, [](const E& e) { return count_cell(e.sightings.pings); }},
       {{"Depth", "m", "of its centre below the sea surface", true}, figure<&R::depth_m, 1>},
       {{"Range", "m", "of its centre from the sonar", true}, figure<&R::range_m, 1>},
       {{"Fans", "", "that it reaches over", true}, count<&R::n_fans>},
@@ -40,9 +40,10 @@ const std::vector<ColumnOf<SurveyEcho>>& refused_columns() {
       {{"Volume", "m\u00B3", "as the beams see it", true}, figure<&R::volume_m3, 0>},
       {{"Above background", "1", "evidence: standard deviations above the background", true},
        figure<&R::above_water, 1>},
-      {{"Latitude", "", "of its centre", true}, [](const E& e) { return latitude_cell(e.sights.loudest->latitude); }},
+      {{"Latitude", "", "of its centre", true},
+       [](const E& e) { return latitude_cell(e.sightings.loudest->latitude); }},
       {{"Longitude", "", "of its centre", true},
-       [](const E& e) { return longitude_cell(e.sights.loudest->longitude); }},
+       [](const E& e) { return longitude_cell(e.sightings.loudest->longitude); }},
   };
   return kColumns;
 }
@@ -63,8 +64,8 @@ void RefusedTable::make() {
     const OpenObservationPtr observation = document.open_observation(index);
     if (!observation) continue;
     const RefusedPtr rows = document.refused(index);
-    for (const RefusedSights& sights : refused_sights(*rows)) {
-      echoes_.push_back({{index, sights.loudest->echo_id}, observation, rows, sights});
+    for (const RefusedSightings& sightings : refused_sightings(*rows)) {
+      echoes_.push_back({{index, sightings.loudest->echo_id}, observation, rows, sightings});
     }
   }
 }

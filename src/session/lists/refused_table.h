@@ -8,12 +8,12 @@
 
 namespace sonar {
 
-/// An echo that detection refused, by its loudest sight.
+/// An echo that detection refused, by its loudest sighting.
 struct SurveyEcho {
   EchoName name;
   OpenObservationPtr observation;
-  RefusedPtr rows;  ///< keeps what `sights` points to
-  RefusedSights sights;
+  RefusedPtr rows;  ///< keeps what `sightings` points to
+  RefusedSightings sightings;
 };
 
 /// What lay above the background and is no school, of all observations in which schools were looked for. A click on one goes to it.

@@ -74,7 +74,7 @@ std::optional<EchoName> TimelineModel::echo_at(PixelPoint at) const {
   for (const std::size_t index : observations()) {
     const auto& pings = shown->survey().observations[index].navigation;
     const RefusedPtr rows = refused_layer(workspace_, index);
-    for (const RefusedSights& echo : refused_sights(*rows)) {
+    for (const RefusedSightings& echo : refused_sightings(*rows)) {
       const double x = places_->x_of(pings[static_cast<std::size_t>(echo.loudest->ping_index)].time);
       const double y = places_->plot.at(0.0, echo.loudest->range_m).y;
       const double away = std::hypot(x - at.x, y - at.y);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "model/outline.h"
 #include "model/school_totals.h"
@@ -186,8 +187,8 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);
   const std::string schools_told =
-      base.searched || told > 0 ? schools_text(told, base.left_out) : "schools not looked for";
-  const std::string count = fmt::format("{} pings, {}", product.pings.size(), schools_told);
+      base.searched || told > 0 ? schools_text(told, base.left_out) : "schools not detected";
+  const std::string count = count_of(product.pings.size(), "ping") + ", " + schools_told;
   std::string ping;
   if (current && *current < product.pings.size()) {
     ping = fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
@@ -206,7 +207,7 @@ std::vector<PlacedMark> add_map_refused(FrameDescription& frame, const Observati
                                         std::span<const RefusedEcho> rows, std::int64_t chosen) {
   std::vector<PlacedMark> marks;
   frame.items.emplace_back(ClipItem{base.map.place});
-  for (const RefusedSights& echo : refused_sights(rows)) {
+  for (const RefusedSightings& echo : refused_sightings(rows)) {
     const Geographic place{echo.loudest->latitude, echo.loudest->longitude};
     if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) continue;
     const auto at = base.map.at(place);

@@ -98,7 +98,7 @@ void add_silent(FrameDescription& frame, const Strip& s, const PlotFrame& plot, 
 }
 
 void add_refused(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
-  for (const RefusedSights& echo : refused_sights(s.observation->refused)) {
+  for (const RefusedSightings& echo : refused_sightings(s.observation->refused)) {
     const RefusedEcho& row = *echo.loudest;
     if (row.ping_index < 0 || row.ping_index >= std::ssize(s.along.x) || !std::isfinite(row.range_m)) continue;
     const PixelPoint at = plot.at(s.along.x[static_cast<std::size_t>(row.ping_index)], row.range_m);
