@@ -18,4 +18,8 @@ std::string degrees_text(double degrees) {
   return fmt::format("{:.8f}", degrees);
 }
 
+std::string count_of(std::size_t number, std::string_view thing) {
+  return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+}
+
 }  // namespace sonar

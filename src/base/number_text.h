@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace sonar {
 
@@ -9,5 +11,7 @@ namespace sonar {
 [[nodiscard]] std::string shortest(double value);
 /// Eight decimals, for latitude and longitude in degrees; empty for NaN.
 [[nodiscard]] std::string degrees_text(double degrees);
+/// "1 ping", "2 pings".
+[[nodiscard]] std::string count_of(std::size_t number, std::string_view thing);
 
 }  // namespace sonar

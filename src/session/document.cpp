@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/within_memory.h"
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/observe.h"
@@ -279,9 +280,9 @@ void Document::tell_lacking(const std::vector<std::size_t>& observations) {
                                      [this](std::size_t index) { return !detected(index) && lacks_detected(index); });
   if (lacking == 0) return;
   tell(
-      fmt::format("stopped: the schools that were found before in {} observation{} are not shown; detect schools "
+      fmt::format("stopped: the schools that were found before in {} are not shown; detect schools "
                   "again to have them back (nothing is lost)",
-                  lacking, lacking == 1 ? "" : "s"));
+                  count_of(static_cast<std::size_t>(lacking), "observation")));
 }
 
 void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "base/number_text.h"
 #include "pipeline/journal/continued.h"
 #include "session/document.h"
 
@@ -63,7 +64,7 @@ const StateSchool* followed_school(const JournalState& state, const CommandConte
 std::string reach_text(std::int64_t backward, std::int64_t forward) {
   if (backward > 0 && forward > 0 && backward != forward) return "its reach";
   const std::int64_t pings = std::max(backward, forward);
-  return fmt::format("{} ping{}", pings, pings == 1 ? "" : "s");
+  return count_of(static_cast<std::size_t>(pings), "ping");
 }
 
 std::vector<std::string> names_of(const std::vector<std::filesystem::path>& paths) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "model/school_totals.h"
 #include "pipeline/exports/export.h"
 #include "pipeline/stages/observe.h"
@@ -195,8 +196,8 @@ void export_results(Workspace& workspace, const fs::path& folder) {
   const auto write = [folder](const Snapshot& snapshot, Work& work) -> Result<std::string> {
     const auto report = write_survey(*snapshot.survey, folder, source_of_products(snapshot, work), work);
     if (!report) return pass_on(report);
-    return fmt::format("written: {} observations with {} schools in {}", report->survey.observations.size(),
-                       counted_schools(report->survey.observations).size(), folder.string());
+    return fmt::format("written: {} with {} in {}", count_of(report->survey.observations.size(), "observation"),
+                       count_of(counted_schools(report->survey.observations).size(), "school"), folder.string());
   };
   // From now on the window's numbers are those of the tables.
   run_job(workspace, write, [&workspace, folder] { workspace.document.keep_survey_numbers(kept_numbers(folder)); });

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
 #include "pipeline/exports/export.h"
 #include "pipeline/survey/calibration_json.h"
 #include "session/app_parts.h"
@@ -96,9 +97,9 @@ void change_recipe(AppModel& app) {
   if (app.live->on()) app.live->follow_next();
   document.use_recipe(editor.recipe());
   const std::size_t changed = editor.changed();
-  document.tell(changed == 0 ? std::string("the recipe is the default one now")
-                             : fmt::format("the recipe differs from the default one in {} parameter{}", changed,
-                                           changed == 1 ? "" : "s"));
+  document.tell(changed == 0
+                    ? std::string("the recipe is the default one now")
+                    : fmt::format("the recipe differs from the default one in {}", count_of(changed, "parameter")));
 }
 
 void add_calibration(AppModel& app) {

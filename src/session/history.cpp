@@ -7,6 +7,8 @@
 #include <ranges>
 #include <variant>
 
+#include "base/number_text.h"
+
 namespace sonar {
 namespace {
 
@@ -106,7 +108,7 @@ std::string act_name(const JournalAct& act, const CommandContext& context, const
   if (const auto* c = std::get_if<CalibrateCommand>(&act.command)) return "calibration " + c->file;
   if (std::holds_alternative<DetectCommand>(act.command)) return "detect schools";
   const auto& decide = std::get<DecideCommand>(act.command);
-  if (decide.decisions.size() != 1) return fmt::format("review {} schools", decide.decisions.size());
+  if (decide.decisions.size() != 1) return "review " + count_of(decide.decisions.size(), "school");
   return decide_verb(decide) + named(decide.decisions.front().school);
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/number_text.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -110,7 +111,7 @@ std::string numbers_text(std::span<const std::int64_t> numbers, std::size_t scho
   if (count > 2 && numbers.back() - numbers.front() + 1 == count) {
     return fmt::format("{}\u2013{}", numbers.front(), numbers.back());
   }
-  if (count > 3) return fmt::format("{} school{}", schools, schools == 1 ? "" : "s");
+  if (count > 3) return count_of(static_cast<std::size_t>(schools), "school");
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 

@@ -197,10 +197,10 @@ class Files(sonarx.Case):
     def test_raw_files_alone_do_not_look_like_a_survey_without_schools(self):
         for kind in ("propagation", "survey-map", "observation-map", "timeline"):
             said = " ".join(self.words(kind, sonarx.SURVEY))
-            self.assertIn("schools not looked for", said, kind)
+            self.assertIn("schools not detected", said, kind)
             self.assertNotIn("0 schools", said, kind)
-            self.assertNotIn("not looked for", " ".join(self.words(kind, *BOTH)), kind)
-        self.assertIn("no masks: schools not looked for",
+            self.assertNotIn("not detected", " ".join(self.words(kind, *BOTH)), kind)
+        self.assertIn("no masks: schools not detected",
                       self.words("volume", sonarx.SURVEY, "--masks-alone", "--frames", "0"))
 
     def test_schools_that_were_left_out_are_counted(self):

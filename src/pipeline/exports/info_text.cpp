@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "model/beam_angles.h"
 #include "pipeline/exports/info.h"
 
@@ -112,8 +113,9 @@ std::string range_text(const char* what, const SettingRange& range, double unit,
 
 std::string instrument_text(const InstrumentInfo& instrument) {
   return fmt::format(
-      "  {}, {} beam{}{}{}{}{}{}{}\n", printable(instrument.model), instrument.beams, instrument.beams == 1 ? "" : "s",
-      range_text("", instrument.frequency_hz, 1e3, "kHz"), range_text("pulse ", instrument.pulse_length_s, 1e-3, "ms"),
+      "  {}, {}{}{}{}{}{}{}\n", printable(instrument.model),
+      count_of(static_cast<std::size_t>(instrument.beams), "beam"), range_text("", instrument.frequency_hz, 1e3, "kHz"),
+      range_text("pulse ", instrument.pulse_length_s, 1e-3, "ms"),
       range_text("power ", instrument.transmit_power_w, 1.0, "W"), range_text("gain ", instrument.gain_db, 1.0, "dB"),
       range_text("-3 dB width alongship ", instrument.width_alongship_deg, 1.0, "deg"),
       range_text("athwartship ", instrument.width_athwartship_deg, 1.0, "deg"));
@@ -164,8 +166,9 @@ std::string file_text(const FileInfo& file, bool counted) {
     text += '\n';
   }
   if (counted && file.pings > 0) {
-    text += fmt::format("  {} pings, {} channels, {} to {} samples\n", file.pings, file.channels, file.min_samples,
-                        file.max_samples);
+    text +=
+        fmt::format("  {}, {}, {} to {} samples\n", count_of(static_cast<std::size_t>(file.pings), "ping"),
+                    count_of(static_cast<std::size_t>(file.channels), "channel"), file.min_samples, file.max_samples);
   }
   if (file.first_time) text += fmt::format("  {} to {}\n", iso_time(*file.first_time), iso_time(*file.last_time));
   for (const auto& [which, position] : {std::pair("first", file.first_position), {"last", file.last_position}}) {
@@ -185,8 +188,8 @@ std::string observation_text(const SurveyInfo::Observation& o, bool counted) {
       o.grid ? fmt::format("{} fans x {} beams", o.grid->fans(), o.grid->beams()) : std::string("no grid");
   std::string text =
       fmt::format("{}: {}, {}{}, {} to {}{}\n", printable(o.name), printable(o.sounder),
-                  counted ? fmt::format("{} pings, ", o.pings) : std::string{}, grid, iso_time(o.first_time),
-                  iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
+                  counted ? count_of(static_cast<std::size_t>(o.pings), "ping") + ", " : std::string{}, grid,
+                  iso_time(o.first_time), iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
   text += instrument_text(o.instrument);
   text += o.grid ? psi_text(*o.grid) : std::string("  schools are not looked for in single-beam data\n");
   for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product_file.h"
@@ -271,9 +272,9 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   for (const ObservationProduct& product : report.survey.observations) {
     if (!product.grid) without_fans.push_back(product.observation);
   }
-  std::string text = fmt::format("{} observations, {} pings", report.survey.observations.size(), pings);
+  std::string text = count_of(report.survey.observations.size(), "observation") + ", " + count_of(pings, "ping");
   if (without_fans.empty() || without_fans.size() < report.survey.observations.size()) {
-    text += fmt::format(", {} schools", counted_schools(report.survey.observations).size());
+    text += ", " + count_of(counted_schools(report.survey.observations).size(), "school");
   }
   text += "\n";
   if (!without_fans.empty()) {

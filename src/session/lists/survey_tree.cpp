@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/number_text.h"
 #include "model/beam_angles.h"
 #include "session/lists/cells.h"
 #include "session/survey_schools.h"
@@ -17,7 +18,7 @@ namespace {
 /// "no pings of MS70 grid" in few words: how many remarks there are, and the first.
 std::string notes_text(std::size_t count) {
   if (count == 0) return {};
-  return count == 1 ? "1 remark" : fmt::format("{} remarks", count);
+  return count_of(static_cast<std::size_t>(count), "remark");
 }
 
 Cell span_cell(TimeNs first, TimeNs last) {

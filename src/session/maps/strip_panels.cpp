@@ -7,6 +7,8 @@
 #include <map>
 #include <string_view>
 
+#include "base/number_text.h"
+
 namespace sonar {
 namespace {
 
@@ -63,8 +65,8 @@ std::string strip_title(const StripWish& wish) {
   std::string title = fmt::format("{}, pings {} to {}", wish.observation->title(), wish.first,
                                   std::min(wish.first + wish.panes, wish.observation->pings()) - 1);
   if (!wish.running.empty()) {
-    return title + fmt::format(" · propagating: {} pings, {} to {}", wish.running.size(), wish.running.begin()->first,
-                               wish.running.rbegin()->first);
+    return title + fmt::format(" · propagating: {}, {} to {}", count_of(wish.running.size(), "ping"),
+                               wish.running.begin()->first, wish.running.rbegin()->first);
   }
   if (wish.state && wish.selected != 0) {
     for (const auto& school : wish.state->schools) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/number_text.h"
+
 namespace sonar {
 namespace {
 
@@ -112,7 +114,7 @@ std::string time_span_text(TimeNs first, TimeNs last) {
 
 std::string schools_text(std::size_t shown, std::size_t left_out) {
   const std::size_t all = shown + left_out;
-  std::string words = fmt::format("{} school{}", all, all == 1 ? "" : "s");
+  std::string words = count_of(all, "school");
   if (left_out == 0) return words;
   return shown == 0 ? words + ", not shown" : fmt::format("{} of {}", shown, words);
 }

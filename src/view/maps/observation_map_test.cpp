@@ -71,7 +71,7 @@ TEST(ObservationMap, ThatNobodyLookedForSchoolsIsSaid) {
   auto base = observation_map_base(p, kSize, light_theme(kSize));
   ASSERT_TRUE(base);
   base->searched = false;
-  EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}), "schools not looked for"));
+  EXPECT_TRUE(says(observation_map(*base, p, empty_mosaic(*base, 20), 4, {}), "schools not detected"));
 }
 
 TEST(ObservationMap, TheShipNeverFillsItAndLeavesTheStartSeen) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "view/axes.h"
@@ -151,11 +152,12 @@ std::string second_line(std::span<const ObservationProduct> observations, const 
   const auto all = static_cast<std::int64_t>(observations.size());
   std::string told = schools_text(schools, style.left_out);
   if (unsearched >= all && schools == 0) {
-    told = "schools not looked for";
+    told = "schools not detected";
   } else if (unsearched > 0) {
-    told += fmt::format(" (not looked for in {} of them)", unsearched);
+    told += fmt::format(" (not detected in {} of them)", unsearched);
   }
-  return fmt::format("{} observation{}, {} · {}", all, all == 1 ? "" : "s", told, time_span_text(first, last));
+  return fmt::format("{}, {} · {}", count_of(static_cast<std::size_t>(all), "observation"), told,
+                     time_span_text(first, last));
 }
 
 }  // namespace

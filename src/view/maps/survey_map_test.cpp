@@ -271,8 +271,8 @@ TEST(SurveyMap, ThatNobodyLookedForSchoolsIsSaid) {
     return survey_map(all, {}, nullptr, style, kSize, light_theme(kSize));
   };
   EXPECT_TRUE(says(*second(0), "2 observations, 0 schools ·"));
-  EXPECT_TRUE(says(*second(1), "0 schools (not looked for in 1 of them)"));
-  EXPECT_TRUE(says(*second(2), "2 observations, schools not looked for ·"));
+  EXPECT_TRUE(says(*second(1), "0 schools (not detected in 1 of them)"));
+  EXPECT_TRUE(says(*second(2), "2 observations, schools not detected ·"));
 }
 
 // Markers on each other share a number text; one apart has its own.

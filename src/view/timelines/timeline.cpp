@@ -350,7 +350,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   std::string line = time_span_text(laid->zero, laid->last);
   if (laid->any_echogram) line += style.filtered ? " · noise removed" : " · not filtered";
   if (!style.searched) {
-    line += " · schools not looked for";
+    line += " · schools not detected";
   } else if (!style.schools) {
     line += " · schools not shown";
   }

@@ -295,13 +295,13 @@ TEST(Timeline, AKeyNamesItsTracksAndTheTitleHowItWasMade) {
   EXPECT_FALSE(says(drawn(), "rejected"));
   EXPECT_FALSE(says(drawn(), "ping without data"));
   EXPECT_TRUE(says(drawn(), "not filtered"));
-  EXPECT_FALSE(says(drawn(), "not looked for"));
+  EXPECT_FALSE(says(drawn(), "not detected"));
   style.filtered = true;
   style.schools = false;
   style.searched = false;
   EXPECT_TRUE(says(drawn(), "noise removed"));
   EXPECT_FALSE(says(drawn(), "track of a school"));
-  EXPECT_TRUE(says(drawn(), "schools not looked for"));
+  EXPECT_TRUE(says(drawn(), "schools not detected"));
 }
 
 // However low the picture and however far the sonar reaches: one number alone is no scale.

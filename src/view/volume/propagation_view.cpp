@@ -198,7 +198,7 @@ std::string state_of(const PropagationPanel& panel) {
                                  [](const MosaicMask& m) { return m.mask == nullptr || m.mask->empty(); });
   if (!empty) return {};
   if (panel.left_out) return "schools not shown";
-  return panel.searched ? "no school" : "schools not looked for";
+  return panel.searched ? "no school" : "schools not detected";
 }
 
 /// Schools' numbers beside their masks.

@@ -88,7 +88,7 @@ TEST(PropagationView, ThatNobodyLookedForSchoolsIsSaid) {
     const auto frame =
         propagation_view(sector, propagation_panels(p, 4, {}, searched), {}, {1200, 500}, light_theme({1200, 500}));
     ASSERT_TRUE(frame);
-    EXPECT_EQ(says(*frame, "not looked for"), !searched);
+    EXPECT_EQ(says(*frame, "not detected"), !searched);
     EXPECT_EQ(says(*frame, "no school"), searched);
   }
 }
