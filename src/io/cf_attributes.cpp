@@ -17,6 +17,20 @@ std::int64_t microseconds(TimeNs time) { return time / kNsOfMicrosecond - (time 
 
 }  // namespace
 
+void describe_file(Writer& out, std::string_view title, const ObservationProduct& product) {
+  const auto text = [&](const char* name, std::string_view value) {
+    out.attribute(out.root(), Writer::kGlobal, name, value);
+  };
+  text("Conventions", kConventions);
+  text("title", title);
+  text("source", product.source);
+  text("history", product.history);
+  text("sonar_explorer_version", product.program_version);
+  text("recipe", product.recipe_json);
+  text("recipe_hash", product.recipe_hash);
+  text("observation", product.observation);
+}
+
 void name(Writer& out, int group, int variable, std::string_view long_name, std::string_view standard_name) {
   out.attribute(group, variable, "long_name", long_name);
   if (!standard_name.empty()) out.attribute(group, variable, "standard_name", standard_name);

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 
+#include "io/cf_attributes.h"
+
 namespace sonar {
 namespace {
 
 constexpr std::string_view kEdges = "fore aft top_fan bottom_fan near far seabed surface flagged_data";
 constexpr std::string_view kNoYes = "no yes";
+constexpr std::string_view kSv = cf::kVolumeBackscattering;
 
 // Names of the CF standard name table (version 79 and later for those of platforms).
 constexpr auto kWords = std::to_array<ColumnWords>({
@@ -43,7 +46,7 @@ constexpr auto kWords = std::to_array<ColumnWords>({
     {"latitude", "latitude of the centre, WGS 84", "latitude"},
     {"length_corrected_m", "length, beam and pulse taken out"},
     {"length_m", "apparent length along the longer horizontal axis"},
-    {"level_db", "reference level of the echo"},
+    {"level_db", "reference Sv of the echo", kSv},
     {"limit", "the limit that the judge asks for"},
     {"limit_unit", "unit of figure and limit"},
     {"longitude", "longitude of the centre, WGS 84", "longitude"},
@@ -71,10 +74,10 @@ constexpr auto kWords = std::to_array<ColumnWords>({
     {"speed_se_mps", "standard error of the speed"},
     {"status", "unreviewed, accepted, corrected or rejected"},
     {"survey_school", "number of the school in the survey, from 1; 0 = not merged yet"},
-    {"sv_corrected_db", "volume backscattering strength, beam and pulse taken out of the volume"},
-    {"sv_max_db", "highest Sv of a single voxel"},
-    {"sv_mean_db", "mean volume backscattering strength Sv of the valid members, background subtracted"},
-    {"sv_p95_db", "95th percentile of Sv"},
+    {"sv_corrected_db", "volume backscattering strength, beam and pulse taken out of the volume", kSv},
+    {"sv_max_db", "highest Sv of a single voxel", kSv},
+    {"sv_mean_db", "mean volume backscattering strength Sv of the valid members, background subtracted", kSv},
+    {"sv_p95_db", "95th percentile of Sv", kSv},
     {"swept.n_pings", "number of pings of the observation"},
     {"threshold_db", "least Sv of a member"},
     {"time_utc", "time of the ping, UTC"},

@@ -73,11 +73,20 @@ std::string point(std::string_view name, std::string_view shape, const Colour& f
                     option("size_unit", "MM"));
 }
 
-std::string style(std::string_view renderer) {
+std::string style(std::string_view renderer, std::string_view labels = {}) {
   return fmt::format(
       "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n<qgis version=\"3.22\" "
-      "styleCategories=\"Symbology\">{}</qgis>\n",
-      renderer);
+      "styleCategories=\"Symbology|Labeling\" labelsEnabled=\"{}\">{}{}</qgis>\n",
+      labels.empty() ? 0 : 1, renderer, labels);
+}
+
+/// The school's number in the survey, over its middle, with a white rim; none before the survey is merged.
+std::string school_numbers() {
+  return "<labeling type=\"simple\"><settings><text-style isExpression=\"1\" "
+         "fieldName=\"if(survey_school > 0, to_string(survey_school), '')\" fontFamily=\"Sans Serif\" fontSize=\"8\" "
+         "fontSizeUnit=\"Point\" textColor=\"20,20,20,255\" textOpacity=\"1\"><text-buffer bufferDraw=\"1\" "
+         "bufferSize=\"0.6\" bufferSizeUnits=\"MM\" bufferColor=\"255,255,255,255\" bufferOpacity=\"1\"/></text-style>"
+         "<placement placement=\"1\" centroidInside=\"1\"/><rendering drawLabels=\"1\"/></settings></labeling>";
 }
 
 std::string single(std::string_view symbol) {
@@ -89,7 +98,7 @@ std::string single(std::string_view symbol) {
 
 /// draw  the symbol of a class: (name, its colour)
 template <class Draw>
-std::string by_mean_sv(const Draw& draw) {
+std::string by_mean_sv(const Draw& draw, std::string_view labels = {}) {
   std::string ranges;
   std::string symbols;
   for (std::size_t i = 0; i < kClasses.size(); ++i) {
@@ -106,11 +115,12 @@ std::string by_mean_sv(const Draw& draw) {
   ranges += fmt::format("<range lower=\"{}\" upper=\"{}\" symbol=\"{}\" label=\"unknown\" render=\"true\"/>",
                         kUnknown_db - 1.0, kUnknown_db + 1.0, kClasses.size());
   symbols += draw(fmt::format("{}", kClasses.size()), kUnknownColour);
-  return style(fmt::format(
+  const std::string renderer = fmt::format(
       "<renderer-v2 type=\"graduatedSymbol\" attr=\"coalesce(sv_mean_db, {})\" graduatedMethod=\"GraduatedColor\" "
       "symbollevels=\"0\" enableorderby=\"0\" forceraster=\"0\"><ranges>{}</ranges><symbols>{}</symbols>"
       "<source-symbol>{}</source-symbol></renderer-v2>",
-      kUnknown_db, ranges, symbols, draw("0", kClasses.back())));
+      kUnknown_db, ranges, symbols, draw("0", kClasses.back()));
+  return style(renderer, labels);
 }
 
 }  // namespace
@@ -122,11 +132,13 @@ std::string layer_style_qml(std::string_view layer) {
   if (layer == "observation_starts") return single(point("0", "triangle", kTrack, 2.6));
   if (layer == "school_outlines") return single(area("0", {0, 0, 0, 0}, kOutline, 0.15));
   if (layer == "schools") {
-    return by_mean_sv([](std::string_view name, Colour colour) {
-      const Colour edge = colour;
-      colour.a = 190;
-      return area(name, colour, edge, 0.3);
-    });
+    return by_mean_sv(
+        [](std::string_view name, Colour colour) {
+          const Colour edge = colour;
+          colour.a = 190;
+          return area(name, colour, edge, 0.3);
+        },
+        school_numbers());
   }
   if (layer == "school_centres") {
     return by_mean_sv([](std::string_view name, const Colour& colour) { return point(name, "circle", colour, 1.4); });

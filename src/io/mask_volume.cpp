@@ -52,12 +52,14 @@ void write_coordinates(Writer& out, const ObservationProduct& product, const Dim
   cf::ping_times(out, root, ping, time);
   const auto put = [&](const char* name, const char* unit, const std::vector<double>& values,
                        std::string_view long_name, std::string_view standard_name) {
-    cf::name(out, root, out.variable(root, name, unit, {ping}, values, netcdf::Storage::plain, &kUnknown), long_name,
-             standard_name);
+    const int id = out.variable(root, name, unit, {ping}, values, netcdf::Storage::plain, &kUnknown);
+    cf::name(out, root, id, long_name, standard_name);
+    return id;
   };
   put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84", "latitude");
   put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84", "longitude");
-  put("heading", "degrees", heading, "heading, clockwise from true north", "platform_orientation");
+  cf::place(out, root, put("heading", "degrees", heading, "heading, clockwise from true north", "platform_orientation"),
+            "time latitude longitude");
 }
 
 void write_arrays(Writer& out, const ObservationProduct& product, const Dimension& ping, const Work& work) {
@@ -122,10 +124,7 @@ Result<void> write_mask_volume(const ObservationProduct& product, const std::fil
   auto file = AtomicFile::create(path);
   if (!file) return pass_on(file);
   Writer out(path.string());
-  out.attribute(out.root(), Writer::kGlobal, "Conventions", cf::kConventions);
-  out.attribute(out.root(), Writer::kGlobal, "title", std::string_view(product.title));
-  out.attribute(out.root(), Writer::kGlobal, "observation", std::string_view(product.observation));
-  out.attribute(out.root(), Writer::kGlobal, "recipe_hash", std::string_view(product.recipe_hash));
+  cf::describe_file(out, product.title + ": masks", product);
   const Dimension ping = out.dimension(out.root(), "ping", product.pings.size());
   write_coordinates(out, product, ping);
   if (product.grid && ping.length > 0 && product.grid->range.count > 0) write_arrays(out, product, ping, work);

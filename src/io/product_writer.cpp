@@ -36,15 +36,8 @@ void write_attributes(Writer& out, const ObservationProduct& product) {
   const auto text = [&](const char* name, const std::string& value) {
     out.attribute(root, Writer::kGlobal, name, std::string_view(value));
   };
-  text("Conventions", std::string(cf::kConventions));
-  text("title", product.title);
-  text("source", product.source);
-  text("history", product.history);
+  cf::describe_file(out, product.title, product);
   out.attribute(root, Writer::kGlobal, "product_version", std::int64_t{kProductVersion});
-  text("sonar_explorer_version", product.program_version);
-  text("recipe", product.recipe_json);
-  text("recipe_hash", product.recipe_hash);
-  text("observation", product.observation);
   text("stage_versions", product.stage_versions);
   text("input_hash", product.input_hash);
   out.attribute(root, Writer::kGlobal, "next_school_id", next_school_id(product));
@@ -120,7 +113,7 @@ void write_pings(Writer& out, const ObservationProduct& product) {
 void write_beam_angles(Writer& out, int group, const std::vector<Dimension>& beams, const GridRecord& record) {
   const auto put = [&](const char* name, const char* unit, const std::vector<double>& values, const char* long_name) {
     if (values.size() != record.grid.channel.size()) return;
-    cf::name(out, group, out.variable(group, name, unit, beams, values), long_name);
+    cf::name(out, group, out.variable(group, name, unit, beams, values, Storage::plain, &kUnknown), long_name);
   };
   if (!record.grid.psi_stated_db.empty()) {
     put("psi_stated", "dB re 1 sr", record.grid.psi_stated_db,
@@ -153,10 +146,12 @@ void write_grid(Writer& out, const ObservationProduct& product) {
   named(out.variable(group, "channel", "1", {fan, beam},
                      std::vector<std::int32_t>(grid.channel.begin(), grid.channel.end())),
         "channel of each beam, from 0");
-  named(out.variable(group, "vertical_width", "degrees", {fan, beam}, grid.vertical_width_deg),
-        "vertical one-way -3 dB width of the beam");
-  named(out.variable(group, "horizontal_width", "degrees", {fan, beam}, grid.horizontal_width_deg),
-        "horizontal one-way -3 dB width of the beam");
+  // A file may state no width.
+  const auto width = [&](const char* name, const std::vector<double>& values_deg, const char* long_name) {
+    named(out.variable(group, name, "degrees", {fan, beam}, values_deg, Storage::plain, &kUnknown), long_name);
+  };
+  width("vertical_width", grid.vertical_width_deg, "vertical one-way -3 dB width of the beam");
+  width("horizontal_width", grid.horizontal_width_deg, "horizontal one-way -3 dB width of the beam");
   write_beam_angles(out, group, {fan, beam}, record);
   named(out.variable(group, "sample_count", "1", {fan}, record.sample_count), "samples of the fan's longest beam");
   named(out.variable(group, "sample_count_of_grid", "1", {}, std::vector<std::int32_t>{record.range.count}),
@@ -214,7 +209,8 @@ void write_times(Writer& out, int group, const Dimension& row, const std::vector
   for (const auto& [name, values] : times.columns) {
     std::string number = name.substr(0, name.size() - std::string_view("_utc").size());
     if (!number.ends_with("time")) number += "_time";
-    cf::times(out, group, number, words_of(name)->long_name, row, values, true);
+    const bool may_lack = name == "decided_utc";  // nobody may have decided; what was seen was seen at some time
+    cf::times(out, group, number, words_of(name)->long_name, row, values, may_lack);
   }
 }
 

@@ -21,6 +21,7 @@ using netcdf::Writer;
 
 constexpr std::string_view kFlagMeanings =
     "near_field surface corrupted_packets dropout interference impulse_noise seabed low_snr";
+constexpr std::string_view kCell = "range elevation azimuth";
 constexpr std::string_view kWhere = "ping_time range elevation azimuth";
 
 template <class Member>
@@ -55,27 +56,21 @@ struct SvFile::State {
   }
   [[nodiscard]] std::size_t voxels() const { return shape[1].length * shape[2].length * shape[3].length; }
 
-  void write_attributes() {
-    const auto text = [&](const char* name, std::string_view value) {
-      out.attribute(out.root(), Writer::kGlobal, name, value);
-    };
-    text("Conventions", cf::kConventions);
-    text("title", product.title);
-    text("source", product.source);
-    text("history", product.history);
-    text("observation", product.observation);
-    text("sonar_explorer_version", product.program_version);
-    text("recipe", product.recipe_json);
-    text("recipe_hash", product.recipe_hash);
-  }
+  void write_attributes() { cf::describe_file(out, product.title + ": Sv, flags and masks", product); }
 
   void write_platform() {
     const int group = out.group(out.root(), "Platform");
     cf::ping_times(out, group, shape[0], per_ping(navigation(), &PingNavigation::time));
     const auto put = [&](const char* name, const char* unit, const std::vector<double>& values,
                          std::string_view long_name, std::string_view standard_name = {}) {
-      cf::name(out, group, out.variable(group, name, unit, {shape[0]}, values, Storage::plain, &kUnknown), long_name,
-               standard_name);
+      const int id = out.variable(group, name, unit, {shape[0]}, values, Storage::plain, &kUnknown);
+      cf::name(out, group, id, long_name, standard_name);
+      return id;
+    };
+    const auto placed = [&](const char* name, const char* unit, double PingNavigation::*member,
+                            std::string_view long_name, std::string_view standard_name) {
+      cf::place(out, group, put(name, unit, per_ping(navigation(), member), long_name, standard_name),
+                "time latitude longitude");
     };
     std::vector<double> latitude;
     std::vector<double> longitude;
@@ -86,16 +81,11 @@ struct SvFile::State {
     using N = PingNavigation;
     put("latitude", "degrees_north", latitude, "latitude of the transducer, WGS 84", "latitude");
     put("longitude", "degrees_east", longitude, "longitude of the transducer, WGS 84", "longitude");
-    put("heading", "degrees", per_ping(navigation(), &N::heading_deg), "heading, clockwise from true north",
-        "platform_orientation");
-    put("speed_ground", "m s-1", per_ping(navigation(), &N::speed_mps), "speed over ground",
-        "platform_speed_wrt_ground");
-    put("pitch", "degrees", per_ping(navigation(), &N::pitch_deg), "pitch, positive with the bow up",
-        "platform_pitch_fore_up");
-    put("roll", "degrees", per_ping(navigation(), &N::roll_deg), "roll, positive with the port side up",
-        "platform_roll_starboard_down");
-    put("transducer_depth", "m", per_ping(navigation(), &N::transducer_depth_m),
-        "depth of the transducer below the sea surface", "depth");
+    placed("heading", "degrees", &N::heading_deg, "heading, clockwise from true north", "platform_orientation");
+    placed("speed_ground", "m s-1", &N::speed_mps, "speed over ground", "platform_speed_wrt_ground");
+    placed("pitch", "degrees", &N::pitch_deg, "pitch, positive with the bow up", "platform_pitch_fore_up");
+    placed("roll", "degrees", &N::roll_deg, "roll, positive with the port side up", "platform_roll_starboard_down");
+    placed("transducer_depth", "m", &N::transducer_depth_m, "depth of the transducer below the sea surface", "depth");
   }
 
   void write_environment() {
@@ -139,7 +129,7 @@ struct SvFile::State {
   int counts(const char* name, std::string_view long_name) {
     const int id = out.sliced_variable<std::int16_t>(beams, name, "dB re 1 m-1", shape, &kNoData);
     out.attribute(beams, id, "scale_factor", kDbPerCount);
-    cf::name(out, beams, id, long_name);
+    cf::name(out, beams, id, long_name, cf::kVolumeBackscattering);
     return id;
   }
 
@@ -153,8 +143,9 @@ struct SvFile::State {
         for (int s = 0; s < sector.range().count; ++s) volume.push_back(solid_angle * sector.shell_m3_per_sr(s));
       }
     }
-    cf::name(out, beams, out.variable(beams, "volume", "m3", {shape[1], shape[2], shape[3]}, volume, Storage::packed),
-             "volume of the cell");
+    const int id = out.variable(beams, "volume", "m3", {shape[1], shape[2], shape[3]}, volume, Storage::packed);
+    cf::name(out, beams, id, "volume of the cell");
+    cf::place(out, beams, id, kCell);
   }
 
   /// Number of the table from power to Sv among those that were met.
@@ -172,13 +163,14 @@ struct SvFile::State {
                                 Storage::packed, &kNoData);
     out.attribute(beams, id, "scale_factor", kDbPerCount);
     cf::name(out, beams, id, "Sv minus received power: what the sonar equation adds, for each setting of the sounder");
+    cf::place(out, beams, id, kCell);
     cf::name(out, beams, out.variable(beams, "setting_of_ping", "1", {shape[0]}, settings),
              "which setting the ping was made with");
     const double unknown = kUnknown;
-    cf::name(out, beams,
-             out.variable(beams, "background_power", "dB re 1 W", {shape[0], shape[1], shape[2]}, background,
-                          Storage::packed, &unknown),
-             "received background noise power, which is subtracted for a school's figures");
+    const int noise = out.variable(beams, "background_power", "dB re 1 W", {shape[0], shape[1], shape[2]}, background,
+                                   Storage::packed, &unknown);
+    cf::name(out, beams, noise, "received background noise power, which is subtracted for a school's figures");
+    cf::place(out, beams, noise, "ping_time elevation azimuth");
   }
 
   std::filesystem::path target;

@@ -18,7 +18,8 @@ FOLDER = WORK / "qgis"
 os.environ.update(QT_QPA_PLATFORM="offscreen", QGIS_CUSTOM_CONFIG_PATH=str(FOLDER / "profile"), XDG_RUNTIME_DIR=str(FOLDER))
 try:
     import numpy
-    from qgis.core import (QgsApplication, QgsDataProvider, QgsExpression, QgsGraduatedSymbolRenderer, QgsMapRendererParallelJob,
+    from qgis.core import (QgsApplication, QgsDataProvider, QgsExpression, QgsExpressionContext,
+                           QgsGraduatedSymbolRenderer, QgsMapRendererParallelJob,
                            QgsMapSettings, QgsRenderContext, QgsSimpleFillSymbolLayer, QgsSimpleLineSymbolLayer,
                            QgsSimpleMarkerSymbolLayer, QgsSingleSymbolRenderer, QgsVectorLayer)
     from qgis.PyQt.QtCore import QSize, Qt
@@ -181,6 +182,24 @@ class Styles(Map):
             colour = drawn_as(layer, feature)
             self.assertIsNotNone(colour, f"{name}: nothing is drawn")
             self.assertEqual([r.label() for r in renderer.ranges() if r.symbol().color().name() == colour], ["unknown"])
+
+    def test_schools_bear_their_number_in_the_survey(self):
+        layer = self.layers["schools"]
+        self.assertTrue(layer.labelsEnabled())
+        settings = layer.labeling().settings()
+        label = QgsExpression(settings.getLabelExpression().expressionString())
+        context = QgsExpressionContext()
+        numbers = set()
+        for feature in layer.getFeatures():
+            context.setFeature(feature)
+            self.assertEqual(label.evaluate(context), str(feature["survey_school"]))
+            numbers.add(feature["survey_school"])
+        self.assertEqual(numbers, set(range(1, len(numbers) + 1)))
+        feature["survey_school"] = 0  # not merged yet
+        context.setFeature(feature)
+        self.assertEqual(label.evaluate(context), "")
+        for name in set(LAYERS) - {"schools"}:
+            self.assertFalse(self.layers[name].labelsEnabled(), name)
 
 
 class Picture(Map):

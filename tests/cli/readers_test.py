@@ -9,7 +9,7 @@ import unittest
 import xml.etree.ElementTree
 
 import sonarx
-from sonarx import OUT, Case
+from sonarx import OUT, SURVEY, WORK, Case
 
 try:
     import netCDF4
@@ -29,44 +29,111 @@ def said(*words, **more):
     return done.returncode, done.stdout, done.stderr
 
 
-@unittest.skipIf(netCDF4 is None, "python3-netcdf4 is not installed")
-class Netcdf(Case):
-    def setUp(self):
-        self.product = netCDF4.Dataset(PRODUCT)
-        self.addCleanup(self.product.close)
+def variables(group):
+    """(group, name, variable) of a group and those in it."""
+    yield from ((group, name, variable) for name, variable in group.variables.items())
+    for inner in group.groups.values():
+        yield from variables(inner)
 
-    def variables(self):
-        for group in self.product.groups.values():
-            yield from ((group.name, name, v) for name, v in group.variables.items())
 
-    def test_says_that_it_keeps_to_cf(self):
-        self.assertEqual(self.product.Conventions, "CF-1.11")
-        self.assertEqual(int(self.product.product_version), 2)
+class KeepsToCf:
+    """What CF asks of every file that is written: `self.file` is open."""
+
+    def test_says_that_it_keeps_to_cf_and_whence_it_comes(self):
+        self.assertEqual(self.file.Conventions, "CF-1.11")
+        for name in ("title", "source", "history", "sonar_explorer_version", "recipe_hash", "observation"):
+            self.assertTrue(self.file.getncattr(name), name)
 
     def test_every_variable_has_a_name_for_people(self):
-        for group, name, variable in self.variables():
-            self.assertIn("long_name", variable.ncattrs(), f"{group}/{name}")
+        for group, name, variable in variables(self.file):
+            self.assertIn("long_name", variable.ncattrs(), f"{group.path}/{name}")
 
-    def test_what_may_be_unknown_says_so_and_keys_never_are(self):
-        for group, name, variable in self.variables():
-            if name in ("school_id", "ping_index", "time_ns") and group != "diagnostics":
-                self.assertNotIn("_FillValue", variable.ncattrs(), f"{group}/{name}")
-            if group in ("pings", "schools", "school_pings", "rejected") and variable.dtype == "float64":
-                self.assertIn("_FillValue", variable.ncattrs(), f"{group}/{name}")
+    def test_what_is_unknown_says_so(self):
+        for group, name, variable in variables(self.file):
+            variable.set_auto_mask(False)
+            if variable.dtype in ("float32", "float64") and (variable[...] != variable[...]).any():
+                self.assertIn("_FillValue", variable.ncattrs(), f"{group.path}/{name}")
 
     def test_coordinates_name_variables_of_the_group(self):
-        for group, name, variable in self.variables():
+        for group, name, variable in variables(self.file):
             if "coordinates" in variable.ncattrs():
                 for where in variable.coordinates.split():
-                    self.assertIn(where, self.product[group].variables, f"{group}/{name}")
+                    self.assertIn(where, group.variables, f"{group.path}/{name}")
                     self.assertNotEqual(where, name)
 
+    def test_what_lies_along_pings_and_beams_says_where(self):
+        """Coordinates themselves lie along one dimension and have a standard name, or lend the dimension theirs."""
+        places = {where for _, _, v in variables(self.file) for where in getattr(v, "coordinates", "").split()}
+        for group, name, variable in variables(self.file):
+            if len(variable.dimensions) > 1 and group.name != "grid":
+                self.assertIn("coordinates", variable.ncattrs(), f"{group.path}/{name}")
+            elif getattr(variable, "standard_name", "").startswith("platform_"):
+                self.assertTrue("coordinates" in variable.ncattrs() or name in places, f"{group.path}/{name}")
+
     def test_flags_have_as_many_meanings_as_values(self):
-        for group, name, variable in self.variables():
+        for group, name, variable in variables(self.file):
             if "flag_meanings" in variable.ncattrs():
                 values = variable.flag_masks if "flag_masks" in variable.ncattrs() else variable.flag_values
-                self.assertEqual(len(values), len(variable.flag_meanings.split()), f"{group}/{name}")
+                self.assertEqual(len(values), len(variable.flag_meanings.split()), f"{group.path}/{name}")
                 self.assertEqual(values.dtype, variable.dtype)
+
+    def test_volume_backscattering_strength_has_its_standard_name(self):
+        for group, name, variable in variables(self.file):
+            if name in ("Sv", "Sv_filtered", "sv_mean_db", "sv_max_db"):
+                self.assertEqual(variable.standard_name, "acoustic_volume_backscattering_strength_in_sea_water",
+                                 f"{group.path}/{name}")
+
+    @unittest.skipUnless(shutil.which("udunits2"), "udunits-bin is not installed")
+    def test_units_are_those_of_udunits(self):
+        for unit in sorted({v.units for _, _, v in variables(self.file) if "units" in v.ncattrs()}):
+            if unit.startswith("dB"):  # a ratio, which UDUNITS does not write so: the exception that the docs list
+                continue
+            code, told, error = said("udunits2", "-H", unit, "-W", "")
+            self.assertEqual(code, 0, f"{unit}: {told}{error}")
+
+
+@unittest.skipIf(netCDF4 is None, "python3-netcdf4 is not installed")
+class Exported(KeepsToCf, Case):
+    FORMAT, ALSO = "sv", ("--survey", SURVEY)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = WORK / f"cf-{cls.FORMAT}"
+        code, out, err = sonarx.run("export", OUT, "--to", cls.FORMAT, "-o", cls.folder, *cls.ALSO)
+        assert code == 0, out + err
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def setUp(self):
+        self.file = netCDF4.Dataset(min(self.folder.glob("*.nc")))
+        self.addCleanup(self.file.close)
+
+
+class ExportedMasks(Exported):
+    FORMAT, ALSO = "netcdf-mask", ()
+
+
+@unittest.skipIf(netCDF4 is None, "python3-netcdf4 is not installed")
+class Netcdf(KeepsToCf, Case):
+    def setUp(self):
+        self.product = self.file = netCDF4.Dataset(PRODUCT)
+        self.addCleanup(self.product.close)
+
+    def test_its_version(self):
+        self.assertEqual(int(self.product.product_version), 2)
+
+    def test_what_may_be_unknown_says_so_and_keys_never_are(self):
+        for group, name, variable in variables(self.file):
+            if name in ("school_id", "ping_index", "time_ns") and group.name != "diagnostics":
+                self.assertNotIn("_FillValue", variable.ncattrs(), f"{group.path}/{name}")
+            if group.name in ("pings", "schools", "school_pings", "rejected") and variable.dtype == "float64":
+                self.assertIn("_FillValue", variable.ncattrs(), f"{group.path}/{name}")
+        for name in ("vertical_width", "horizontal_width", "psi_used", "psi_stated", "psi_from_widths", "psi_excess"):
+            self.assertIn("_FillValue", self.product["grid"][name].ncattrs(), name)
+
+    def test_edges_are_bits(self):
         edges = self.product["school_pings"]["edge_flags"]
         self.assertEqual(edges.flag_masks.tolist(), [2 ** i for i in range(9)])
 
@@ -90,14 +157,8 @@ class Netcdf(Case):
         self.assertEqual(int(count[:].sum()), len(self.product["mask"].dimensions["voxel"]))
 
     @unittest.skipUnless(shutil.which("udunits2"), "udunits-bin is not installed")
-    def test_units_are_those_of_udunits(self):
-        units = {v.units for _, _, v in self.variables() if "units" in v.ncattrs()}
-        for unit in sorted(units):
-            if unit.startswith("dB"):  # a ratio, which UDUNITS does not write so: the exception that the docs list
-                continue
-            code, told, error = said("udunits2", "-H", unit, "-W", "")
-            self.assertEqual(code, 0, f"{unit}: {told}{error}")
-        self.assertIn("nautical_mile", units)
+    def test_the_log_counts_nautical_miles(self):
+        self.assertEqual(self.product["pings"]["distance"].units, "nautical_mile")
         self.assertIn("1852 m", said("udunits2", "-H", "nautical_mile", "-W", "m")[1])
 
     @unittest.skipUnless(shutil.which("ncdump"), "netcdf-bin is not installed")
@@ -116,8 +177,11 @@ class Xarray(Case):
             with xarray.open_dataset(PRODUCT, group=group) as opened:
                 for name in names:
                     self.assertEqual(opened[name].dtype.kind, "M", f"{group}/{name}")
-        with xarray.open_dataset(PRODUCT, group="school_pings") as opened:
+        with xarray.open_dataset(PRODUCT, group="school_pings") as opened, \
+                xarray.open_dataset(PRODUCT, group="pings") as pings:
             self.assertIn("latitude", opened.coords)
+            # To the last bit: schools are joined with pings by time.
+            self.assertTrue(opened["time"].isin(pings["time"]).all())
             rows = [r for r in sonarx.read_csv(OUT / "school_pings.csv") if r["observation"] == "obs-0001"]
             for row, sv in zip(rows, opened["sv_mean_db"].values):
                 self.assertEqual(float(row["sv_mean_db"] or "nan") == sv or sv != sv, True)
