@@ -80,7 +80,9 @@ class Packet {
  private:
   /// One step for some: leaps and segments where any lane needs one, samples once half of the lanes are ready.
   HWY_INLINE void advance(M alive, RayCounts& counts) {
-    const V next = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
+    const V multiple = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
+    // Far out, after tens of thousands of steps, the next multiple may round to where the ray is.
+    const V next = hn::IfThenElse(hn::Gt(multiple, from_), multiple, hn::Add(from_, step_));
     const V end = hn::Min(next, to_);
     const V length = hn::Sub(end, from_);
     const V u = hn::MulAdd(phase_, length, from_);

@@ -100,6 +100,12 @@ float step_at(float r, float t) {
   return h * (part > 0.5 ? 0.5 : (part > 0.25 ? 0.25 : 0.125));
 }
 
+// The next multiple of h. Far out, after tens of thousands of steps, it may round to where the ray is: then one step on.
+float step_after(float t, float h) {
+  float multiple = (floor(t / h + 1e-3) + 1.0) * h;
+  return multiple > t ? multiple : t + h;
+}
+
 bool going() { return through > 0.01 && hit_high >= FAR; }
 
 void walk(vec2 span, float phase) {
@@ -109,7 +115,7 @@ void walk(vec2 span, float phase) {
     if (t >= end) continue;
     float r = sqrt(base2 + t * t);
     float h = step_at(r, t);
-    float next = min((floor(t / h + 1e-3) + 1.0) * h, end);
+    float next = min(step_after(t, h), end);
     float at = mix(t, next, phase);
     vec3 g = index_of(base + at * dir, sqrt(base2 + at * at));
     ivec3 cell = cell_of(g);
@@ -139,7 +145,7 @@ void walk(vec2 span, float phase) {
     do {
       take_sample(at, next - t, state.g, max(start, at - h));
       t = next;
-      next = min((floor(t / h + 1e-3) + 1.0) * h, end);
+      next = min(step_after(t, h), end);
       at = mix(t, next, phase);
     } while (at < leave && t < end && going());
   }
