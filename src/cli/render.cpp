@@ -71,7 +71,7 @@ Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) 
 }
 
 int compare_frame(const RenderArguments& arguments, const FrameDescription& frame) {
-  const auto picture = draw_frame(frame, arguments.scale);
+  const auto picture = draw_frame(frame, arguments.picture.scale);
   if (!picture) return report(picture.error());
   const PictureThresholds thresholds{arguments.largest_difference, arguments.mean_difference};
   const auto verdict = compare_with_reference(*picture, arguments.reference, thresholds);
@@ -105,9 +105,10 @@ int render_verb(const RenderArguments& arguments) {
   clear_progress();
   if (!frame) return report(frame.error());
   if (arguments.out == kStandardOutput) {
-    if (const auto printed = print_picture(*frame, arguments.scale); !printed) return report(printed.error());
+    if (const auto printed = print_picture(*frame, arguments.picture.scale); !printed) return report(printed.error());
   } else if (!arguments.out.empty()) {
-    if (auto written = write_picture(*frame, arguments.out, arguments.scale); !written) return report(written.error());
+    if (auto written = write_picture(*frame, arguments.out, arguments.picture.scale); !written)
+      return report(written.error());
     if (arguments.reference.empty()) fmt::print("{}\n", arguments.out);
   }
   return arguments.reference.empty() ? kExitDone : compare_frame(arguments, *frame);

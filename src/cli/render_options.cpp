@@ -56,7 +56,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(unfiltered, kOfSv);
   verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT, pixels")->capture_default_str();
-  verb.add_option("--scale", a.scale, "Pixels per unit of --size: 2 for print or high-density screens")
+  verb.add_option("--scale", a.picture.scale, "Pixels per unit of --size: 2 for print or high-density screens")
       ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   suits(verb.add_option("--fan", a.picture.fan, "Fan from 0, the deepest; default: through the largest school"),
@@ -169,7 +169,7 @@ Result<PictureOptions> picture_options(const RenderArguments& arguments) {
       return fail(ErrorCode::usage, fmt::format("--schools {}: expected ids between commas", arguments.schools));
     out.schools = *ids;
   }
-  if (auto valid = validate_options(out, arguments.scale); !valid) {
+  if (auto valid = validate_options(out); !valid) {
     return fail(ErrorCode::usage, as_flag(valid.error().text, arguments));
   }
   return out;

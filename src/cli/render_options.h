@@ -28,7 +28,6 @@ struct RenderArguments {
   std::string difference;  ///< file for the picture of what differs
 
   std::string size = "1200x900";
-  double scale = 1.0;
   bool filtered = false;
   bool unfiltered = false;
   std::string transfer;

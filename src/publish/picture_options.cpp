@@ -30,7 +30,8 @@ Result<std::array<double, count>> numbers(std::string_view name, const std::stri
   return out;
 }
 
-Result<void> validate_size(const PictureOptions& options, double scale) {
+Result<void> validate_size(const PictureOptions& options) {
+  const double scale = options.scale;
   if (auto valid = validate(PaperParams{options.size.width, options.size.height, scale}); !valid) return valid;
   const double pixels = 1.0 * options.size.width * options.size.height * scale * scale;
   if (pixels <= kMostPixels) return {};
@@ -51,8 +52,8 @@ Result<void> validate_plane(const PlaneSliceParams& plane) {
 
 }  // namespace
 
-Result<void> validate_options(const PictureOptions& options, double scale) {
-  if (auto valid = validate_size(options, scale); !valid) return valid;
+Result<void> validate_options(const PictureOptions& options) {
+  if (auto valid = validate_size(options); !valid) return valid;
   if (auto valid = validate(options.display); !valid) return valid;
   if (auto valid = validate(options.volume); !valid) return valid;
   if (auto valid = validate(options.kind); !valid) return valid;

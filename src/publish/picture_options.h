@@ -27,6 +27,7 @@ namespace sonar {
 /// Everything that a picture depends on beside its source. What a kind does not know it passes over.
 struct PictureOptions {
   PixelSize size{1200, 900};
+  double scale = 1.0;  ///< pixels of the file per pixel of the size: text and lines grow, rays are as many as pixels
   bool dark = false;
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
@@ -42,9 +43,8 @@ struct PictureOptions {
 };
 
 /// Refuses what no picture can be made of, before anything is read.
-/// scale   pixels of the file per pixel of the size
 /// errors  bad_parameter: out of range, too many pixels, places that are no numbers or make no plane or camera
-[[nodiscard]] Result<void> validate_options(const PictureOptions& options, double scale = 1.0);
+[[nodiscard]] Result<void> validate_options(const PictureOptions& options);
 
 [[nodiscard]] Theme theme_of(const PictureOptions& options);
 /// The view curve: the transfer function given, else the scale's.

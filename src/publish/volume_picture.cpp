@@ -82,10 +82,11 @@ Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const
   }
 }
 
-Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
+Result<RayImage> traced_by(RendererChoice choice, const VolumeFigure& figure, const VolumeView& view,
+                           const PictureOptions& options, Work& work) {
   const auto table = volume_table(options);
   if (!table) return pass_on(table);
-  auto offscreen = offscreen_renderer(options.volume.renderer);
+  auto offscreen = offscreen_renderer(choice);
   if (!offscreen) return pass_on(offscreen);
   VolumeRenderer& renderer = *offscreen->renderer;
   if (auto set = renderer.set_volume(figure.volume); !set) return pass_on(set);
@@ -100,8 +101,17 @@ Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, cons
   auto rays = refined(renderer, view, options, work);
   if (!rays) return rays;
   const Theme theme = theme_of(options);
-  lay_outlines(*rays, figure.masks, *silhouettes, static_cast<int>(std::lround(1.5 * theme.line_px)), theme.text);
+  lay_outlines(*rays, figure.masks, *silhouettes, static_cast<int>(std::lround(1.5 * theme.line_px * options.scale)),
+               theme.text);
   return rays;
+}
+
+/// A driver that gives up in the middle is not asked again, unless it alone was asked for.
+Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, const PictureOptions& options, Work& work) {
+  auto rays = traced_by(options.volume.renderer, figure, view, options, work);
+  if (rays || options.volume.renderer != RendererChoice::automatic) return rays;
+  if (rays.error().code == ErrorCode::cancelled || rays.error().code == ErrorCode::bad_parameter) return rays;
+  return traced_by(RendererChoice::cpu, figure, view, options, work);
 }
 
 }  // namespace
@@ -124,7 +134,7 @@ Result<SeabedPatch> seabed_patch(const DepthGrid& grid, const Placement& ship, d
 Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& options, Work& work) {
   auto figure = prepare(observation, options, work);
   if (!figure) return pass_on(figure);
-  const auto place = volume_place(options);
+  const auto place = volume_place(options, options.scale);
   if (!place) return pass_on(place);
   auto patch = seabed(*figure, options);
   if (!patch) return pass_on(patch);

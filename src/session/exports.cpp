@@ -168,7 +168,6 @@ struct PictureJob {
   PictureKind kind = PictureKind::slice_top;
   std::string observation;
   PictureOptions options;
-  double scale = 1.0;
   double frame_s = 0.2;
 };
 
@@ -183,7 +182,7 @@ Result<std::string> movie(const Snapshot& snapshot, PictureJob job, const std::v
     const auto frame = picture_frame(job.kind, *source, job.observation, job.options, work);
     if (!frame) return pass_on(frame);
     pictures.push_back(folder / fmt::format("ping-{:04d}.png", ping));
-    if (auto written = write_picture(*frame, pictures.back(), job.scale); !written) return pass_on(written);
+    if (auto written = write_picture(*frame, pictures.back(), job.options.scale); !written) return pass_on(written);
     work.progress("movie", static_cast<std::int64_t>(pictures.size()), static_cast<std::int64_t>(pings.size()));
   }
   if (auto written = write_movie(pictures, job.frame_s, folder / "movie.png"); !written) return pass_on(written);
@@ -212,6 +211,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
   const PictureFileParams& file = workspace.picture_file.values();
   PictureOptions options;
   options.size = {file.paper.width_px, file.paper.height_px};
+  options.scale = file.paper.scale;
   options.dark = workspace.dark();
   options.display = workspace.display.values();
   options.volume = workspace.volume.values();
@@ -228,7 +228,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
   if (const auto school = selected_school(workspace); school && file.selected_school_alone) {
     options.schools = {school->name.number};
   }
-  if (auto valid = validate_options(options, file.paper.scale); !valid) return pass_on(valid);
+  if (auto valid = validate_options(options); !valid) return pass_on(valid);
   return options;
 }
 
@@ -238,7 +238,7 @@ Result<PictureJob> picture_job(const Workspace& workspace, PictureKind kind) {
   auto options = picture_options(workspace, kind);
   if (!options) return pass_on(options);
   const PictureFileParams& file = workspace.picture_file.values();
-  return PictureJob{kind, shown_name(workspace), std::move(*options), file.paper.scale, file.frame_s};
+  return PictureJob{kind, shown_name(workspace), std::move(*options), file.frame_s};
 }
 
 }  // namespace
@@ -251,7 +251,7 @@ void save_picture(Workspace& workspace, PictureKind kind, const fs::path& file) 
     if (auto outside = source->require_outside_raw(file); !outside) return pass_on(outside);
     const auto frame = picture_frame(job.kind, *source, job.observation, job.options, work);
     if (!frame) return pass_on(frame);
-    if (auto written = write_picture(*frame, file, job.scale); !written) return pass_on(written);
+    if (auto written = write_picture(*frame, file, job.options.scale); !written) return pass_on(written);
     return fmt::format("written: {}", file.string());
   });
 }
