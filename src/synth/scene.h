@@ -91,7 +91,7 @@ struct Noise {
   double ringing_decay_db_per_m = 6.5;
   double corrupted_packets = 0.0;
   double interference = 0.0;
-  double impulses = 0.0;
+  double impulse_noise = 0.0;
   double dropouts = 0.0;
   double side_lobe_db = -400.0;  ///< energy of the side lobes (four times the main lobe's width); below -200 none
   double scale = 1.0;            ///< multiplies every noise's power and every rate
@@ -144,7 +144,7 @@ void describe(Visitor& v, Noise& p) {
            .max = 20,
            .text = "Mean number of shells of interference at constant range in a ping, as from another vessel's "
                    "sounder. Raise it to test how they are flagged; set it to 0 for none."});
-  v.field("impulses", p.impulses,
+  v.field("impulse_noise", p.impulse_noise,
           {.unit = "1/ping",
            .min = 0,
            .max = 600,
