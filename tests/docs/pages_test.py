@@ -50,6 +50,14 @@ class Pages(unittest.TestCase):
             for package in group.split():
                 self.assertIn(f"`{package}`", described)
 
+    def test_pages_agree_how_many_parameters_a_user_sets(self):
+        recipe = (PROJECT / "docs/parameters.md").read_text().split("\n## For experts\n")[0]
+        number = len(re.findall(r"^- `", recipe, re.MULTILINE))
+        for page in ("CHANGELOG.md", "docs/guide.md"):
+            said = re.findall(r"(\S+) parameters that a user sets", re.sub(r"\s+", " ", (PROJECT / page).read_text()))
+            self.assertTrue(said, page)
+            self.assertEqual(set(said), {str(number)}, page)
+
     def test_columns_of_the_tables(self):
         text = (PROJECT / "docs/interfaces.md").read_text()
         source = (PROJECT / "src/model/school.h").read_text()
