@@ -1,42 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
 # What is installed beside the programs, and the packages: `sonarx` (the command line, its pages, the manual) and
-# `sonar-explorer` (the desktop). Everything that has to be made is made with SONAR_PACKAGES alone.
+# `sonar-explorer` (the desktop). What needs more than Python to be made is made with SONAR_PACKAGES alone.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(made ${PROJECT_BINARY_DIR}/packaging)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
+# --- man pages and completion
+if(SONAR_PACKAGES)
+  string(TIMESTAMP SONAR_DATE "%Y-%m-%d" UTC)  # SOURCE_DATE_EPOCH, where it is set
+  set(programs --sonarx $<TARGET_FILE:sonarx>)
+  set(built sonarx)
+  if(TARGET sonar-explorer)
+    list(APPEND programs --explorer $<TARGET_FILE:sonar-explorer>)
+    list(APPEND built sonar-explorer)
+  endif()
+  add_custom_command(OUTPUT ${made}/words.stamp
+                     COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/words
+                     COMMAND Python3::Interpreter -B ${packaging}/make_man ${programs} --out ${made}/words --date ${SONAR_DATE}
+                     COMMAND gzip -9n -r ${made}/words/man
+                     COMMAND ${CMAKE_COMMAND} -E touch ${made}/words.stamp
+                     DEPENDS ${built} ${packaging}/make_man COMMENT "man pages and completion" VERBATIM)
+  set(commands --commands ${made}/words/commands.md)
+  set(words ${made}/words.stamp)
+endif()
+
+# --- pages: every --help names the user guide, so a program that is installed by hand has them too
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/docs/*.md
+     ${PROJECT_SOURCE_DIR}/docs/pictures/*)
+add_custom_command(OUTPUT ${made}/pages.stamp
+                   COMMAND Python3::Interpreter -B ${packaging}/make_pages --out ${made}/pages ${commands}
+                   COMMAND ${CMAKE_COMMAND} -E touch ${made}/pages.stamp
+                   DEPENDS ${words} ${packaging}/make_pages ${pages} COMMENT "pages" VERBATIM)
+add_custom_target(package_words ALL DEPENDS ${words} ${made}/pages.stamp)
+install(DIRECTORY ${made}/pages/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
 if(NOT SONAR_PACKAGES)
-  # Every --help names the user guide: a program that is installed by hand has it too.
-  file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
-  install(FILES ${pages} ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-          DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
   return()
 endif()
 
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
-string(TIMESTAMP SONAR_DATE "%Y-%m-%d" UTC)  # SOURCE_DATE_EPOCH, where it is set
-
-# --- man pages, completion, pages
-set(programs --sonarx $<TARGET_FILE:sonarx>)
-set(built sonarx)
-if(TARGET sonar-explorer)
-  list(APPEND programs --explorer $<TARGET_FILE:sonar-explorer>)
-  list(APPEND built sonar-explorer)
-endif()
-file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/docs/*.md
-     ${PROJECT_SOURCE_DIR}/docs/pictures/*)
-add_custom_command(OUTPUT ${made}/words.stamp
-                   COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/words
-                   COMMAND Python3::Interpreter -B ${packaging}/make_man ${programs} --out ${made}/words --date ${SONAR_DATE}
-                   COMMAND gzip -9n -r ${made}/words/man
-                   COMMAND ${CMAKE_COMMAND} -E touch ${made}/words.stamp
-                   DEPENDS ${built} ${packaging}/make_man COMMENT "man pages and completion" VERBATIM)
-add_custom_command(OUTPUT ${made}/pages.stamp
-                   COMMAND Python3::Interpreter -B ${packaging}/make_pages --out ${made}/pages
-                           --commands ${made}/words/commands.md
-                   COMMAND ${CMAKE_COMMAND} -E touch ${made}/pages.stamp
-                   DEPENDS ${made}/words.stamp ${packaging}/make_pages ${pages} COMMENT "pages" VERBATIM)
-add_custom_target(package_words ALL DEPENDS ${made}/words.stamp ${made}/pages.stamp)
 install(DIRECTORY ${made}/words/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT cli
         PATTERN sonar-explorer.1.gz EXCLUDE)
 install(FILES ${made}/words/bash/sonarx DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT cli)
@@ -48,7 +48,6 @@ else()
 endif()
 install(FILES ${made}/words/zsh/_sonarx DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT cli)
 install(FILES ${made}/words/fish/sonarx.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT cli)
-install(DIRECTORY ${made}/pages/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
 install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT cli)
 
 # --- the manual

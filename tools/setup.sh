@@ -8,16 +8,16 @@
 # packages  build + what makes the Debian packages and the manual, and tries them in a bare root
 set -euo pipefail
 
-build=(g++ cmake ninja-build ccache pkg-config ca-certificates
+build=(g++ cmake ninja-build ccache pkg-config ca-certificates python3
        libfmt-dev libexpected-dev libtbb-dev libxxhash-dev libsleef-dev libproj-dev proj-data libhwy-dev
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
-test=(libgtest-dev libgmock-dev clang-format-16 git locales python3 python3-numpy python3-netcdf4
+test=(libgtest-dev libgmock-dev clang-format-16 git locales python3-numpy python3-netcdf4
       pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth
       bash-completion zsh fish)
 readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
 cluster=(munge slurmctld slurmd slurm-client)
-packages=(pybind11-dev python3-dev dpkg-dev file gzip python3 git mkdocs desktop-file-utils groff-base debootstrap
+packages=(pybind11-dev python3-dev dpkg-dev file gzip git mkdocs desktop-file-utils groff-base debootstrap
           patchelf squashfs-tools)
 full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)

@@ -45,7 +45,7 @@ int print(const RecipeOptions& o) {
   if (!recipe) return report(recipe.error());
   std::string text = recipe_text(*recipe);
   if (o.describe) {
-    ParameterTable table("Beside all stages");
+    ParameterTable table("The recipe as a whole");
     describe(table, *recipe);
     text = table.markdown();
   }

@@ -46,7 +46,7 @@ void note_silent_talkers(const Tracks& tracks, const NavigationParams& p, Diagno
   const auto note = [&](const std::string& wanted, const NavTrack& track, const char* what) {
     if (wanted.empty() || !track.samples.empty()) return;
     notes.push_back({DiagnosticCode::no_talker, "", -1, -1,
-                     fmt::format("talker {} was asked for, but it gives no {}", wanted, what)});
+                     fmt::format("the recipe asks for talker {}, which sent no {}", wanted, what)});
   };
   note(p.position_talker, tracks.position, "position");
   note(p.heading_talker, tracks.heading, "heading");
@@ -158,8 +158,8 @@ bool head_by_course(std::vector<PingNavigation>& pings, TimeNs limit, Diagnostic
   if (!last) return false;
   const auto first = std::find_if(pings.begin(), pings.end(), makes_way) - pings.begin();
   notes.push_back({DiagnosticCode::heading_from_course, "", -1, first,
-                   fmt::format("nobody gives a heading; course over ground stands for it in {} of {} pings", headed,
-                               pings.size())});
+                   fmt::format("no heading was recorded; the course over ground is used instead in {} of {} pings",
+                               headed, pings.size())});
   return true;
 }
 

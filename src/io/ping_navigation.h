@@ -119,13 +119,13 @@ void describe(Visitor& v, NavigationParams& p) {
            .text = "A ping farther in time than this from any NMEA sentence of the vessel's log has no log; raise it "
                    "for logs that report rarely."});
   v.field("max_speed_mps", p.max_speed_mps,
-          {.unit = "m/s",
+          {.unit = "m s-1",
            .min = 1,
            .max = 1000,
            .text = "Highest speed of the ship that is believed: positions that jump away and back faster are left out. "
                    "Raise it for a fast craft, lower it where wrong positions remain."});
   v.field("heading_from_course", p.heading_from_course,
-          {.text = "Use course over ground as heading above 1 m/s where no heading was recorded; switch it off where "
+          {.text = "Use course over ground as heading above 1 m s-1 where no heading was recorded; switch it off where "
                    "currents are strong."});
   v.field("position_talker", p.position_talker,
           {.text = "NMEA talker whose positions are used, for example GP; empty takes the most frequent. Set it when "

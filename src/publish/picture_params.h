@@ -24,7 +24,7 @@ struct TakenOut {
   bool surface = true;
   bool corrupted_packets = true;
   bool interference = true;
-  bool impulses = true;
+  bool impulse_noise = true;
   bool seabed = true;
 };
 
@@ -44,8 +44,8 @@ void describe(Visitor& v, TakenOut& p) {
           {.text = "take interference at constant range out of the pictures",
            .flag = "keep-interference",
            .suits = kOfSamples});
-  v.field("impulses", p.impulses,
-          {.text = "take impulse noise out of the pictures", .flag = "keep-impulses", .suits = kOfSamples});
+  v.field("impulse_noise", p.impulse_noise,
+          {.text = "take impulse noise out of the pictures", .flag = "keep-impulse-noise", .suits = kOfSamples});
   v.field(
       "seabed", p.seabed,
       {.text = "take the seabed and what lies behind out of the pictures", .flag = "keep-seabed", .suits = kOfSamples});

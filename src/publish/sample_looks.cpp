@@ -43,7 +43,7 @@ SampleFlags put_back(const DisplayParams& display) {
   unless(out.surface, SampleFlags::surface);
   unless(out.corrupted_packets, SampleFlags::corrupted);
   unless(out.interference, SampleFlags::interference);
-  unless(out.impulses, SampleFlags::impulse);
+  unless(out.impulse_noise, SampleFlags::impulse);
   unless(out.seabed, SampleFlags::seabed);
   return back;
 }

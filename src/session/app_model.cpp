@@ -53,7 +53,7 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
   return "Open a survey (Ctrl+O), or drop a folder of raw files here.\n\n"
          "Simrad MS70: schools are detected, followed and measured.\n"
          "ME70 and similar sonars: the same where the beams form fans.\n"
-         "EK60: read, but schools are not looked for in single beams yet.\n"
+         "EK60: read, but schools are not detected in single beams yet.\n"
          "EK80: named, but not read yet.";
 }
 

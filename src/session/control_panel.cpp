@@ -54,7 +54,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
       {"Noise",
        display,
        {"filtered", "take_out.near_field", "take_out.surface", "take_out.corrupted_packets", "take_out.interference",
-        "take_out.impulses", "take_out.seabed", "removed", "weak", "weak_below_db"}},
+        "take_out.impulse_noise", "take_out.seabed", "removed", "weak", "weak_below_db"}},
       {"Slices", display, {"grid_lines", "north_up"}, {}, false},
       {"Volume", volume, {}, {}, false},
       {"Views", views, {}, {}, false},

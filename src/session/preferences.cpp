@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/preferences.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/hash.h"
+#include "pipeline/recipe/earlier_parameters.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/json_parameters.h"
 #include "pipeline/recipe/transfer_function_json.h"
@@ -20,10 +23,11 @@ using nlohmann::json;
 constexpr std::size_t kMostCharts = 100;
 constexpr std::size_t kMostFiles = 10000;
 
-/// Visitor: takes from JSON what fits and passes over the rest.
+/// Visitor: takes from JSON what fits and passes over the rest; what was called otherwise before is noted.
 class LenientReader {
  public:
-  explicit LenientReader(const json& from) : from_(from) {}
+  LenientReader(const json& from, std::vector<std::string>& notes, std::string prefix = {})
+      : from_(from), notes_(notes), prefix_(std::move(prefix)) {}
 
   template <class T>
   void field(std::string_view name, T& value, const FieldInfo& info) {
@@ -51,7 +55,7 @@ class LenientReader {
   void group(std::string_view name, P& p, std::string_view) {
     const json* found = member(name);
     if (found == nullptr) return;
-    LenientReader inner(*found);
+    LenientReader inner(*found, notes_, prefix_ + std::string(name) + ".");
     describe(inner, p);
   }
 
@@ -59,10 +63,18 @@ class LenientReader {
   static bool within(double value, const FieldInfo& info) { return value >= info.min && value <= info.max; }
   [[nodiscard]] const json* member(std::string_view name) const {
     if (!from_.is_object()) return nullptr;
-    const auto found = from_.find(std::string(name));
+    auto found = from_.find(std::string(name));
+    const std::string whole = prefix_ + std::string(name);
+    if (const std::string earlier(earlier_name(whole)); !earlier.empty() && from_.contains(earlier)) {
+      notes_.push_back(fmt::format("{}{} is called {} now", prefix_, earlier, whole));
+      if (found == from_.end()) found = from_.find(earlier);
+    }
     return found == from_.end() ? nullptr : &*found;
   }
+
   const json& from_;
+  std::vector<std::string>& notes_;
+  std::string prefix_;
 };
 
 /// The members that are no lists.
@@ -162,8 +174,10 @@ LoadedPreferences Preferences::load(const fs::path& path) {
     loaded.notice = why + "; the window begins with its defaults";
     return loaded;
   }
-  LenientReader reader(*from);
+  std::vector<std::string> notes;
+  LenientReader reader(*from, notes);
   describe(reader, loaded.preferences);
+  if (!notes.empty()) loaded.notice = fmt::format("{}: {}", path.string(), fmt::join(notes, "; "));
   read_lists(*from, loaded.preferences);
   read_curves(*from, loaded.preferences);
   read_charts(*from, loaded.preferences);

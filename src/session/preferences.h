@@ -58,7 +58,7 @@ struct Preferences {
 
 struct LoadedPreferences {
   Preferences preferences;
-  std::string notice;  ///< what a user must be told: a damaged file; empty = nothing
+  std::string notice;  ///< what a user must be told: a damaged file, names of an earlier version; empty = nothing
 };
 
 /// Where the journal of a survey goes: SURVEY-work beside the survey, else a folder of the user's own. Never where raw

@@ -104,6 +104,16 @@ TEST(Preferences, WhatIsUnknownOrWrongIsPassedOver) {
   EXPECT_EQ(in.preferences.recent.size(), 1U);
 }
 
+TEST(Preferences, NamesOfTheVersionBeforeAreReadAndNoted) {
+  const fs::path path = TestSurvey::easy().fresh() / "preferences.json";
+  write(path, R"({"display": {"take_out": {"impulses": false}}})");
+  const auto in = Preferences::load(path);
+  EXPECT_FALSE(in.preferences.display.take_out.impulse_noise);
+  EXPECT_THAT(in.notice, HasSubstr("display.take_out.impulses is called display.take_out.impulse_noise now"));
+  ASSERT_TRUE(in.preferences.save());
+  EXPECT_EQ(Preferences::load(path).notice, "");
+}
+
 TEST(Preferences, ADamagedFileIsTheDefaultsAndANotice) {
   const fs::path path = TestSurvey::easy().fresh() / "preferences.json";
   for (const char* text : {"{\"dark\": tr", "[]", ""}) {

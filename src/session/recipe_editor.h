@@ -12,7 +12,7 @@
 
 namespace sonar {
 
-/// A recipe in a human's hands: the dozen parameters that every user sets first, each with its sentence, then the experts',
+/// A recipe in a human's hands: the 15 parameters that every user sets first, each with its sentence, then the experts',
 /// by group.
 /// threads  the window's
 class RecipeEditor {

@@ -81,7 +81,7 @@ void add_all_interference(const Layout& layout, const Scene& scene, int ping, Vi
 
 void add_impulses(const Layout& layout, const Scene& scene, int ping, View3<float> power_w) {
   RandomStream random = stream(scene, Purpose::impulse, ping);
-  for (int left = random.poisson(scene.noise.impulses * scene.noise.scale); left > 0; --left) {
+  for (int left = random.poisson(scene.noise.impulse_noise * scene.noise.scale); left > 0; --left) {
     const int row = random.index(static_cast<int>(layout.rows.size()));
     const int first = random.index(layout.shape.samples);
     const int count = 1 + random.index(3);

@@ -39,7 +39,7 @@ void easy(SurveyParams& p) {
 void faults(Noise& n, double much) {
   n.corrupted_packets = 0.3 * much;
   n.interference = 0.15 * much;
-  n.impulses = 150.0 * much;
+  n.impulse_noise = 150.0 * much;
   n.dropouts = 0.05 * much;
 }
 

@@ -166,13 +166,13 @@ void describe(Visitor& v, SurveyParams& p) {
            .text = "How far the core of every school is above the background at least. Lower it to test schools that "
                    "can hardly be detected; raise it for schools that stay clear."});
   v.field("own_speed_min_mps", p.own_speed_min_mps,
-          {.unit = "m/s",
+          {.unit = "m s-1",
            .min = 0,
            .max = 5,
            .text = "Speed of the slowest school. Set it to 0 to have schools that hardly move; raise it to test tracks "
                    "of fast schools alone."});
   v.field("own_speed_max_mps", p.own_speed_max_mps,
-          {.unit = "m/s",
+          {.unit = "m s-1",
            .min = 0,
            .max = 5,
            .text = "Speed of the fastest school. Raise it to test tracks of schools that move far between pings; set "

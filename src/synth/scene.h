@@ -91,7 +91,7 @@ struct Noise {
   double ringing_decay_db_per_m = 6.5;
   double corrupted_packets = 0.0;
   double interference = 0.0;
-  double impulses = 0.0;
+  double impulse_noise = 0.0;
   double dropouts = 0.0;
   double side_lobe_db = -400.0;  ///< energy of the side lobes (four times the main lobe's width); below -200 none
   double scale = 1.0;            ///< multiplies every noise's power and every rate
@@ -127,31 +127,31 @@ void describe(Visitor& v, Noise& p) {
            .text = "Power of the transducer's ringing at range 0. Raise it to test how much near field must be left "
                    "out; set it below -200 for no ringing."});
   v.field("ringing_decay_db_per_m", p.ringing_decay_db_per_m,
-          {.unit = "dB/m",
+          {.unit = "dB m-1",
            .min = 0.1,
            .max = 100,
            .text = "How fast the transducer's ringing weakens with range. Lower it to test ringing that reaches the "
                    "nearest schools."});
   v.field("corrupted_packets", p.corrupted_packets,
-          {.unit = "1/ping",
+          {.unit = "ping-1",
            .min = 0,
            .max = 100,
            .text = "Mean number of stretches of corrupted packets that begin in a ping. Raise it to test how they are "
                    "flagged, and schools that they cross; set it to 0 for none."});
   v.field("interference", p.interference,
-          {.unit = "1/ping",
+          {.unit = "ping-1",
            .min = 0,
            .max = 20,
            .text = "Mean number of shells of interference at constant range in a ping, as from another vessel's "
                    "sounder. Raise it to test how they are flagged; set it to 0 for none."});
-  v.field("impulses", p.impulses,
-          {.unit = "1/ping",
+  v.field("impulse_noise", p.impulse_noise,
+          {.unit = "ping-1",
            .min = 0,
            .max = 600,
            .text = "Mean number of peaks of impulse noise in a ping, each 1 to 3 samples of one beam. Raise it to test "
                    "how they are flagged and removed; set it to 0 for none."});
   v.field("dropouts", p.dropouts,
-          {.unit = "1/ping",
+          {.unit = "ping-1",
            .min = 0,
            .max = 100,
            .text = "Mean number of dropouts that begin in a ping, each of 1 to 10 channels for up to 3 pings. Raise it "

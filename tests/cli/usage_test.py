@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Help, versions, wrong usage, and every command that the README and the pages show."""
+import json
 import re
 import shlex
 
@@ -65,6 +66,14 @@ class Usage(Case):
                           ("score", gone, "--truth", gone), ("recipe", "--validate", gone / "r.json")]:
             with self.subTest(arguments):
                 self.one_line_error(*arguments, code=1, names=gone)
+
+    def test_earlier_names_of_simulator_parameters_are_read_and_noted(self):
+        params = self.fresh("earlier-names") / "params.json"
+        for earlier, name in (("walls", "interference"), ("impulses", "impulse_noise")):
+            params.write_text(json.dumps({"noise": {earlier: 3}}))
+            code, out, err = run("simulate", "x", "--params", params, "--print-params")
+            self.assertEqual((code, json.loads(out)["noise"][name]), (0, 3))
+            self.assertIn(f"noise.{earlier} is called noise.{name} now", err)
 
     def test_commands_in_the_pages_exist(self):
         pages = [PROJECT / "README.md", *sorted((PROJECT / "docs").glob("*.md"))]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The library as somebody else uses it: installed, found by CMake, its example built outside the tree and run."""
+"""The library as somebody else uses it: installed, found by CMake, its example built outside the tree and run; and the pages
+that are installed with the command line."""
 import os
 import re
 import shutil
@@ -8,8 +9,10 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+for folder in ("cli", "docs"):
+    sys.path.insert(0, str(Path(__file__).resolve().parent.parent / folder))
 import sonarx
+from links import broken
 from sonarx import OUT, SURVEY, WORK, Case
 
 BUILD = Path(sys.argv.pop(1))
@@ -31,8 +34,8 @@ class Installed(Case):
             shutil.rmtree(folder, ignore_errors=True)
         # What lies in the project must not help: the example is copied away from it.
         shutil.copytree(PROJECT / "examples" / "cpp", EXAMPLE / "source")
-        for words in (("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", "runtime"),
-                      ("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", "library"),
+        for words in (*(("cmake", "--install", BUILD, "--prefix", PREFIX, "--component", component)
+                        for component in ("runtime", "library", "cli")),
                       ("cmake", "-S", EXAMPLE / "source", "-B", EXAMPLE / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
                        "-DCMAKE_CXX_FLAGS=-std=c++20 -Wall -Wextra -Wpedantic -Werror"),
                       ("cmake", "--build", EXAMPLE / "build")):
@@ -75,6 +78,11 @@ class Installed(Case):
         foreign = [n for n in names if not re.match(r"((typeinfo|vtable|typeinfo name) for )?sonar_explorer(::|_)", n)
                    and not n.startswith("SONAR_EXPLORER")]
         self.assertEqual(foreign, [])
+
+    def test_links_of_the_pages_lead_to_what_is_installed(self):
+        manual = next(PREFIX.rglob("user-guide.md"))
+        self.assertTrue((manual.parent / "README.md").is_file())
+        self.assertEqual(broken(sorted(manual.parent.glob("*.md"))), [])
 
     def test_versions_are_the_projects(self):
         version = re.search(r"VERSION (\d+)\.(\d+)\.(\d+)", (PROJECT / "CMakeLists.txt").read_text().split("project(")[1])

@@ -132,7 +132,8 @@ constexpr std::array<std::string_view, 119> kGone = {
 static_assert(std::ranges::is_sorted(kGone));
 
 using Renamed = std::pair<std::string_view, std::string_view>;
-constexpr std::array<Renamed, 10> kRenamed = {{
+constexpr std::array<Renamed, 12> kRenamed = {{
+    {"display.take_out.impulse_noise", "impulses"},
     {"flags.corrupted_packets", "hot_beam"},
     {"flags.dropouts", "lost"},
     {"flags.impulse_noise", "impulse"},
@@ -142,6 +143,7 @@ constexpr std::array<Renamed, 10> kRenamed = {{
     {"measure.seabed_beyond_share", "bottom_beyond_share"},
     {"noise.corrupted_packets", "hot_beams"},
     {"noise.dropouts", "lost_channels"},
+    {"noise.impulse_noise", "impulses"},
     {"noise.interference", "walls"},
 }};
 

@@ -31,13 +31,15 @@ void ParameterTable::row(std::string_view name, std::string_view value, std::str
 
 std::string ParameterTable::markdown() const {
   std::string text;
+  std::string_view level = "##";
   if (!basic_rows_.empty()) {
-    text = fmt::format("## What a user sets\n\n{}{}\n# For experts\n", kHead, fmt::join(basic_rows_, ""));
+    text = fmt::format("## What a user sets\n\n{}{}\n## For experts\n", kHead, fmt::join(basic_rows_, ""));
+    level = "###";
   }
   for (const Section& section : sections_) {
     if (section.rows.empty()) continue;
     if (!text.empty()) text += "\n";
-    text += fmt::format("## {}\n\n{}{}", section.title, kHead, fmt::join(section.rows, ""));
+    text += fmt::format("{} {}\n\n{}{}", level, section.title, kHead, fmt::join(section.rows, ""));
   }
   return text;
 }

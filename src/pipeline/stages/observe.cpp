@@ -98,7 +98,7 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
   if (fans >= params.size.min_fans && beams >= params.size.min_beams) return;
   product.diagnostics.push_back(
       {DiagnosticCode::grid_too_small, "", -1, -1,
-       fmt::format("fans x beams: {} x {}; schools are looked for where there are {} x {} at least", fans, beams,
+       fmt::format("fans x beams: {} x {}; schools are detected where there are at least {} x {}", fans, beams,
                    params.size.min_fans, params.size.min_beams)});
 }
 

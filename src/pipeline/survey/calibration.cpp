@@ -154,8 +154,8 @@ void CalibrationTables::note_unmatched_gains(std::span<const std::size_t> channe
   notes.push_back(
       {DiagnosticCode::gain_not_matched, "", -1, -1,
        fmt::format(
-           "{} of {} channels, the first {}: a pulse of {:.6g} ms, the gain table has {}; the beam's own gain of "
-           "{:.6g} dB is taken and no sa correction: Sv may be wrong by some dB, a calibration file mends it",
+           "{} of {} channels, the first {}: the pulse is {:.6g} ms, the gain table has {}; the beam's own gain of "
+           "{:.6g} dB is used without an sa correction, so that Sv may be wrong by some dB: use a calibration table",
            std::count_if(channels.begin(), channels.end(), unmatched), channels.size(), *first,
            observation_.transmit[*first].pulse_length_s * 1e3, tabled.empty() ? "none" : tabled + " ms",
            beam.gain_db)});
@@ -167,7 +167,7 @@ Diagnostics CalibrationTables::diagnostics() const {
     const auto channel = static_cast<std::size_t>(beam.channel);
     if (beam.channel >= 0 && channel < row_of_channel_.size() && row_of_channel_[channel] >= 0) continue;
     notes.push_back({DiagnosticCode::calibration_unused, "", -1, -1,
-                     fmt::format("the calibration names channel {}, the grid has 0 to {}; the line changes nothing",
+                     fmt::format("the calibration names channel {}, the grid has 0 to {}; that line has no effect",
                                  beam.channel, row_of_channel_.size() - 1)});
   }
   std::vector<std::size_t> sound;
@@ -194,8 +194,8 @@ void CalibrationTables::note_impossible_psi(Diagnostics& notes) const {
   const PsiExcess excess = excess_over(psi_excess_db(calibrated_grid(*observation_.grid, params_)));
   if (excess.impossible == 0) return;
   notes.push_back({DiagnosticCode::psi_against_widths, "", -1, -1,
-                   text_of(excess) + "; calibration.psi chooses, backscatter_psi_error_db tells what it means for each "
-                                     "school"});
+                   text_of(excess) + "; calibration.psi chooses which is used, backscatter_psi_error_db gives the "
+                                     "difference for each school"});
 }
 
 void CalibrationTables::note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const {
@@ -206,8 +206,8 @@ void CalibrationTables::note_computed_absorption(std::span<const std::size_t> ch
   const WaterProperties& water = params_.water;
   notes.push_back(
       {DiagnosticCode::absorption_computed, "", -1, -1,
-       fmt::format("{} of {} channels: the files tell no absorption; Francois & Garrison's for {:g} C, {:g} "
-                   "psu, {:g} m and pH {:g} is taken",
+       fmt::format("{} of {} channels: the files state no absorption; that of Francois & Garrison for {:g} C, {:g} "
+                   "psu, {:g} m and pH {:g} is used",
                    computed, channels.size(), water.temperature_c, water.salinity_psu, water.depth_m, water.ph)});
 }
 

@@ -59,7 +59,7 @@ TEST(Calibration, APulseThatNoTableHasIsNoted) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].code, DiagnosticCode::gain_not_matched);
   EXPECT_THAT(found[0].text,
-              testing::StartsWith("6 of 6 channels, the first 0: a pulse of 4 ms, the gain table has 2 ms"));
+              testing::StartsWith("6 of 6 channels, the first 0: the pulse is 4 ms, the gain table has 2 ms"));
   ChannelPing head;
   head.pulse_length_s = 0.004;
   const ChannelCalibration taken = channel_calibration(survey.observations[0].config.beams[0], head, {}, nullptr);

@@ -32,8 +32,8 @@ void mark_silent_pings(const SurveyFiles& survey, ObservationFiles& observation)
   if (silent == 0) return;
   observation.diagnostics.push_back(
       {DiagnosticCode::passive_pings, "", -1, first,
-       fmt::format("{} of {} pings were made without transmitting, or as a test; they are bad, the first here", silent,
-                   observation.pings.size())});
+       fmt::format("{} of {} pings were made without transmitting, or as a test; they are marked bad, the first here",
+                   silent, observation.pings.size())});
 }
 
 void note_missing_channels(const SurveyFiles& survey, ObservationFiles& observation) {
@@ -71,8 +71,8 @@ void note_unused_attitude(ObservationFiles& observation) {
   observation.diagnostics.push_back(
       {DiagnosticCode::attitude_unused, "", -1, -1,
        fmt::format(
-           "sounder '{}' is not known; its beams were taken as stabilised although the ship rolls by up to {:.1f} "
-           "and pitches by up to {:.1f} degrees: navigation.beams_stabilised says otherwise",
+           "sounder '{}' is not known; its beams are taken as stabilised although the ship rolls by up to {:.1f} "
+           "and pitches by up to {:.1f} degrees: set navigation.beams_stabilised to false if they are not",
            observation.config.sounder_name, roll_deg, pitch_deg)});
 }
 

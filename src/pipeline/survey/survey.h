@@ -73,7 +73,7 @@ void describe(Visitor& v, SurveyParams& p) {
           {.text = "Take pings that were made without transmitting, or as a test, like all others; otherwise they are "
                    "marked bad. Switch it on to study noise."});
   v.field("sound_speed_mps", p.sound_speed_mps,
-          {.unit = "m/s",
+          {.unit = "m s-1",
            .min = 0,
            .max = 2000,
            .text = "Sound speed used in ranges, volumes, the sonar equation and absorption by Francois & Garrison; 0 "

@@ -18,7 +18,7 @@ struct DetectParams {
 template <class Visitor>
 void describe(Visitor& v, DetectParams& p) {
   v.field("false_alarm", p.false_alarm,
-          {.unit = "1/h",
+          {.unit = "h-1",
            .min = 1e-6,
            .max = 1e4,
            .text = "How many false schools an hour of water without fish may bring; lower it for fewer false schools, "

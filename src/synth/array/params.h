@@ -360,7 +360,7 @@ void describe(Visitor& v, ArrayParams& p) {
            .text = "Length of the longest school. Raise it to test large schools, which the border of the sector cuts "
                    "in many pings."});
   v.field("own_speed_max_mps", p.own_speed_max_mps,
-          {.unit = "m/s",
+          {.unit = "m s-1",
            .min = 0,
            .max = 5,
            .text = "Speed of the fastest school. Raise it to test tracks of schools that move far between pings; set "
