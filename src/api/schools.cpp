@@ -12,6 +12,7 @@
 #include "api/running_work.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
+#include "pipeline/journal/journal.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/observe.h"
@@ -71,9 +72,11 @@ Product selected(Observation::State& state, std::size_t ping, const sonar::Propa
   auto product =
       value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, running.work()));
   for (const sonar::Diagnostic& note : product.diagnostics) {
-    if (note.code == sonar::DiagnosticCode::decision_lost) {
-      raise({sonar::ErrorCode::bad_parameter, note.text, {"", -1, note.ping_index}});
-    }
+    if (note.code != sonar::DiagnosticCode::decision_lost) continue;
+    // That a selection is a line of a journal is no matter of the caller's.
+    const std::string said = sonar::said_of(line);
+    const std::string why = note.text.starts_with(said) ? note.text.substr(said.size()) : note.text;
+    raise({sonar::ErrorCode::bad_parameter, why, {"", -1, note.ping_index}});
   }
   return shared(std::move(product));
 }
