@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "api/throwing.h"
@@ -66,7 +68,14 @@ Product Product::read(const std::filesystem::path& file) {
   return Product(std::make_shared<const sonar::ObservationProduct>(value_or_throw(sonar::read_product(file))));
 }
 
-void Product::write(const std::filesystem::path& file) const { value_or_throw(sonar::write_product(*own_, file)); }
+void Product::write(const std::filesystem::path& file) const {
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code absent;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, absent)) {
+    raise({sonar::ErrorCode::not_found, "no such folder to write to", {folder.string()}});
+  }
+  value_or_throw(sonar::write_product(*own_, file));
+}
 
 const std::string& Product::observation() const { return own_->observation; }
 const std::string& Product::recipe_json() const { return own_->recipe_json; }

@@ -51,7 +51,7 @@ class Product {
   /// throws  Error: not_found, io, format, newer_version, older_version
   [[nodiscard]] static Product read(const std::filesystem::path& file);
   /// One netCDF file, whole or not at all.
-  /// throws  Error: io, no_space, usage (where raw files lie)
+  /// throws  Error: not_found (no such folder), io, no_space, usage (where raw files lie)
   void write(const std::filesystem::path& file) const;
 
   [[nodiscard]] const std::string& observation() const;
