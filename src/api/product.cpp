@@ -101,6 +101,20 @@ std::optional<Shape> Product::shape() const {
   return Shape{own_->grid->grid.fans(), own_->grid->grid.beams(), own_->grid->range.count};
 }
 
+std::vector<std::int32_t> Product::school_ids(std::int64_t ping) const {
+  require_ping(ping, own_->pings.size(), own_->observation);
+  const Shape all = shape().value_or(Shape{});
+  std::vector<std::int32_t> ids(all.size(), 0);
+  for (const sonar::SchoolMask& own : own_->masks) {
+    if (own.ping_index != ping) continue;
+    for (const sonar::Run& run : own.mask.runs) {
+      const auto first = static_cast<std::ptrdiff_t>(run.row) * all.samples + run.first_sample;
+      std::fill_n(ids.begin() + first, run.count, static_cast<std::int32_t>(own.school_id));
+    }
+  }
+  return ids;
+}
+
 std::vector<std::string> Product::notes() const { return lines_of(own_->diagnostics); }
 
 Product Product::with_masks(const std::vector<Mask>& masks) const {

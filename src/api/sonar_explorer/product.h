@@ -62,9 +62,12 @@ class Product {
   [[nodiscard]] Table school_pings() const;  ///< a row for each school and ping
   [[nodiscard]] Table rejected() const;      ///< echoes that were judged not to be schools
   [[nodiscard]] std::vector<Mask> masks() const;
+  /// [fan][beam][sample] the school of each voxel of a ping; 0 = none
+  /// throws  Error: usage: no such ping
+  [[nodiscard]] std::vector<std::int32_t> school_ids(std::int64_t ping) const;
   /// What is worth knowing, a line each.
   [[nodiscard]] std::vector<std::string> notes() const;
-  /// The same with other masks, whose figures measure() works out.
+  /// A product with other masks in place of its own, whose figures measure() works out.
   /// masks   of schools that the product has; of the others nothing stays
   /// throws  Error: bad_parameter: a mask that does not fit, or of no school of the product
   [[nodiscard]] Product with_masks(const std::vector<Mask>& masks) const;
