@@ -17,14 +17,37 @@
 namespace sonar_explorer {
 namespace {
 
+/// Visitor: the times of a row, which columns keep as texts.
+struct TimesOfRow {
+  Table& table;
+  std::size_t at = 0;
+  void operator()(std::string_view, std::string_view, sonar::TimeColumn time) {
+    table[at++].times_ns.push_back(time.value);
+  }
+  template <class T>
+  void operator()(std::string_view, std::string_view, const T&) {
+    ++at;
+  }
+};
+
 template <class Row>
 Table table_of(const std::vector<Row>& rows) {
   Table table;
   for (sonar::TableColumn& column : sonar::columns_of(rows)) {
-    const sonar::ColumnWords* words = sonar::words_of(column.name);
-    Column out{column.name, column.unit, words != nullptr ? std::string(words->long_name) : std::string{}, {}};
+    Column out{column.name, column.unit, {}, {}, {}};
+    if (const sonar::ColumnWords* words = sonar::words_of(column.name)) {
+      out.long_name = words->long_name;
+      out.standard_name = words->standard_name;
+      out.flags = words->flags();
+      out.flags_are_bits = words->bits;
+      out.flag_meanings = words->meanings;
+    }
     std::visit([&](auto& values) { out.values = std::move(values); }, column.values);
     table.push_back(std::move(out));
+  }
+  for (Row row : rows) {
+    TimesOfRow times{table};
+    columns(times, row);
   }
   return table;
 }

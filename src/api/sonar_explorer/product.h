@@ -19,11 +19,16 @@ namespace sonar_explorer {
 
 /// One column of a table, one value a row.
 struct Column {
-  std::string name;       ///< as in schools.csv
-  std::string unit;       ///< UDUNITS, or of decibels; "1" and empty = none
-  std::string long_name;  ///< what it is
+  std::string name;           ///< as in schools.csv
+  std::string unit;           ///< UDUNITS, or of decibels; "1" and empty = none
+  std::string long_name;      ///< what it is
+  std::string standard_name;  ///< of the CF table; empty = there is none
   /// Numbers (NaN = unknown), whole numbers or texts; times are texts, ISO 8601.
   std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>> values;
+  std::vector<std::int64_t> times_ns = {};  ///< of a column of times: since 1970, UTC, 0 = unknown; else empty
+  std::vector<std::int64_t> flags = {};     ///< what whole numbers may be, or their bits; empty = they are no flags
+  bool flags_are_bits = false;              ///< several may be set at once
+  std::string flag_meanings = {};           ///< a word for each of `flags`, apart by blanks
 };
 using Table = std::vector<Column>;
 
