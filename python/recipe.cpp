@@ -14,6 +14,18 @@
 namespace py = pybind11;
 
 namespace sonar_explorer::python {
+namespace {
+
+/// Its notes are warnings, at the line that reads it.
+Recipe warned_of(Recipe recipe) {
+  for (const std::string& note : recipe.notes()) {
+    if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+  }
+  return recipe;
+}
+
+}  // namespace
+
 void bind_recipe(py::module_& m) {
   py::class_<Recipe>(m, "Recipe",
                      "Every parameter of every stage; a value that does not change. Recipe() is the preset 'default'.")
@@ -22,16 +34,22 @@ void bind_recipe(py::module_& m) {
           "preset", &Recipe::preset, py::arg("name"),
           "The recipe of a preset: 'default', or 'paper', the article of 2007 to the letter. Raises Error: usage "
           "(no such preset).")
-      .def_static("from_json", &Recipe::from_json, py::arg("text"),
-                  "A recipe from JSON text as to_json() gives it, or part of it: what is absent keeps its default. "
-                  "Raises Error: format, newer_version, "
-                  "bad_parameter.")
       .def_static(
-          "from_file", &Recipe::from_file, py::arg("path"),
+          "from_json", [](const std::string& text) { return warned_of(Recipe::from_json(text)); }, py::arg("text"),
+          "A recipe from JSON text as to_json() gives it, or part of it: what is absent keeps its default. Warns of "
+          "parameters that are named as earlier versions did, see `notes`. Raises Error: format, newer_version, "
+          "bad_parameter.")
+      .def_static(
+          "from_file", [](const std::filesystem::path& path) { return warned_of(Recipe::from_file(path)); },
+          py::arg("path"),
           "A recipe from a JSON file, read as from_json() reads text. Raises Error: not_found, io, and those of "
           "from_json().")
       .def("to_json", &Recipe::to_json, "All parameters as JSON text, defaults filled in, keys sorted.")
       .def_property_readonly("hash", &Recipe::hash, "str: hexadecimal; equal recipes have equal hashes")
+      .def_property_readonly(
+          "notes", &Recipe::notes,
+          "list of str, a line each: parameters that the text named as earlier versions did, or that have no effect "
+          "any more")
       .def(
           "with_value",
           [](const Recipe& recipe, const std::string& name, const py::object& value) {

@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 import unittest
+import warnings
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
@@ -262,10 +263,30 @@ class Interrupted(Opened):
 
 
 class Recipes(Case):
+    OLD = '{"recipe_version": 1, "flags": {"wall": {"enabled": false}}}'
+
     def test_with_another_value(self):
         recipe = se.Recipe().with_value("detect.tolerance_db", 8.5).with_value("automatic", False)
         self.assertNotEqual(recipe.hash, se.Recipe().hash)
         self.assertEqual(se.Recipe.from_json(recipe.to_json()).hash, recipe.hash)
+
+    def test_names_of_earlier_versions_are_warned_of_at_the_line_that_reads_them(self):
+        file = self.fresh("python-recipe") / "old.json"
+        file.write_text(self.OLD)
+        for read, what in ((se.Recipe.from_json, self.OLD), (se.Recipe.from_file, file)):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                recipe = read(what)
+            self.assertEqual([(str(w.message), w.filename) for w in caught],
+                             [("flags.wall is called flags.interference now", __file__)])
+            self.assertEqual(recipe.notes, ["flags.wall is called flags.interference now"])
+
+    def test_a_warning_may_be_an_error(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaisesRegex(UserWarning, "flags.interference"):
+                se.Recipe.from_json(self.OLD)
+            self.assertEqual(se.Recipe.from_json(se.Recipe().to_json()).notes, [])
 
 
 class Documented(Opened):
