@@ -63,11 +63,16 @@ void bind_product(py::module_& m) {
           "of "
           "numbers and lists of str")
       .def(
-          "schools_dataset", [](const Product& p) { return dataset_of(p.schools(), "school"); },
-          "xarray.Dataset [school] of the schools, with units. Raises ImportError without xarray.")
+          "schools_dataset", [](const Product& p) { return dataset_of(p.schools(), "school", "first_time"); },
+          "xarray.Dataset [school] of the schools, named and described as in the product's netCDF: units, flags, "
+          "coordinates first_time, latitude, longitude and depth_m. Times are datetime64[ns], equal to those of "
+          "/pings. "
+          "Raises ImportError without xarray.")
       .def(
-          "school_pings_dataset", [](const Product& p) { return dataset_of(p.school_pings(), "row"); },
-          "xarray.Dataset [row] of schools in pings, with units. Raises ImportError without xarray.")
+          "school_pings_dataset", [](const Product& p) { return dataset_of(p.school_pings(), "row", "time"); },
+          "xarray.Dataset [row] of schools in pings, named and described as in the product's netCDF: units, flags, "
+          "coordinates time, latitude, longitude and depth_m. Times are datetime64[ns], equal to those of /pings. "
+          "Raises ImportError without xarray.")
       .def_property_readonly("masks", &Product::masks, "list of Mask, by school and ping")
       .def(
           "school_ids",

@@ -9,7 +9,9 @@ namespace sonar_explorer::python {
 
 /// Columns by name: arrays of numbers, lists of texts.
 [[nodiscard]] pybind11::dict dict_of(const Table& table);
-/// xarray.Dataset: along one dimension, with units and long names.
-[[nodiscard]] pybind11::object dataset_of(const Table& table, const char* dimension);
+/// xarray.Dataset with the names, coordinates and attributes that the table has in a product's netCDF, and the same times.
+/// dimension  of its rows
+/// when       the coordinate of time
+[[nodiscard]] pybind11::object dataset_of(const Table& table, const char* dimension, const char* when);
 
 }  // namespace sonar_explorer::python

@@ -168,12 +168,48 @@ class Schools(Opened):
                          ("not_found", f"{missing}: no such folder to write to"))
         self.assertFalse(missing.exists())
 
-    @unittest.skipIf(xarray is None, "python3-xarray is not installed")
-    def test_datasets_have_units(self):
-        schools = self.product.schools_dataset()
-        self.assertEqual(schools["volume_m3"].attrs["units"], "m3")
-        self.assertEqual(schools.sizes["school"], len(self.product.schools["school_id"]))
-        self.assertIn("sv_mean_db", self.product.school_pings_dataset())
+
+@unittest.skipIf(xarray is None, "python3-xarray is not installed")
+class Datasets(Opened):
+    FILE = OUT / "products" / "obs-0001.nc"
+
+    def test_are_named_and_described_as_in_the_file(self):
+        def told(attributes):
+            return {k: v.tolist() if isinstance(v, numpy.ndarray) else v for k, v in attributes.items()}
+
+        for group, mine in (("schools", self.product.schools_dataset()),
+                            ("school_pings", self.product.school_pings_dataset())):
+            with xarray.open_dataset(self.FILE, group=group) as file:
+                self.assertEqual(set(mine.coords), set(file.coords))
+                self.assertEqual(set(mine.variables), set(file.variables))
+                self.assertEqual(mine.sizes, file.sizes)
+                for name, variable in file.variables.items():
+                    self.assertEqual(told(mine[name].attrs), told(variable.attrs), f"{group}/{name}")
+        self.assertEqual(mine["volume_m3"].attrs["units"], "m3")
+        self.assertEqual(mine["edge_flags"].attrs["flag_masks"].tolist(), [2 ** i for i in range(9)])
+        self.assertIn("seabed", mine["edge_flags"].attrs["flag_meanings"].split())
+
+    def test_times_are_those_of_the_pings_to_the_last_bit(self):
+        with xarray.open_dataset(self.FILE, group="pings") as file:
+            times = file["time"].values
+        rows, schools = self.product.school_pings_dataset(), self.product.schools_dataset()
+        for dataset in (rows, schools):
+            for name in (n for n in dataset.variables if n.endswith("time")):
+                self.assertEqual(dataset[name].dtype, numpy.dtype("datetime64[ns]"), name)
+        self.assertTrue((rows["time"].values == times[self.product.school_pings["ping_index"]]).all())
+        for school in schools["school_id"].values:
+            seen = rows["ping_index"].values[rows["school_id"].values == school]
+            of = schools.isel(school=schools["school_id"].values == school)
+            self.assertEqual((of["first_time"].item(), of["last_time"].item()),
+                             (times[seen.min()].item(), times[seen.max()].item()))
+        self.assertTrue(numpy.isnat(schools["decided_time"].values).all())
+
+    def test_can_be_written_and_read(self):
+        file = self.fresh("python-dataset") / "rows.nc"
+        rows = self.product.school_pings_dataset()
+        rows.to_netcdf(file)
+        with xarray.open_dataset(file) as again:
+            self.assertEqual(list(again["sv_mean_db"].values), list(rows["sv_mean_db"].values))
 
 
 class Errors(Opened):
