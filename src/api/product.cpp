@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "api/throwing.h"
@@ -15,14 +17,37 @@
 namespace sonar_explorer {
 namespace {
 
+/// Visitor: the times of a row, which columns keep as texts.
+struct TimesOfRow {
+  Table& table;
+  std::size_t at = 0;
+  void operator()(std::string_view, std::string_view, sonar::TimeColumn time) {
+    table[at++].times_ns.push_back(time.value);
+  }
+  template <class T>
+  void operator()(std::string_view, std::string_view, const T&) {
+    ++at;
+  }
+};
+
 template <class Row>
 Table table_of(const std::vector<Row>& rows) {
   Table table;
   for (sonar::TableColumn& column : sonar::columns_of(rows)) {
-    const sonar::ColumnWords* words = sonar::words_of(column.name);
-    Column out{column.name, column.unit, words != nullptr ? std::string(words->long_name) : std::string{}, {}};
+    Column out{column.name, column.unit, {}, {}, {}};
+    if (const sonar::ColumnWords* words = sonar::words_of(column.name)) {
+      out.long_name = words->long_name;
+      out.standard_name = words->standard_name;
+      out.flags = words->flags();
+      out.flags_are_bits = words->bits;
+      out.flag_meanings = words->meanings;
+    }
     std::visit([&](auto& values) { out.values = std::move(values); }, column.values);
     table.push_back(std::move(out));
+  }
+  for (Row row : rows) {
+    TimesOfRow times{table};
+    columns(times, row);
   }
   return table;
 }
@@ -66,7 +91,14 @@ Product Product::read(const std::filesystem::path& file) {
   return Product(std::make_shared<const sonar::ObservationProduct>(value_or_throw(sonar::read_product(file))));
 }
 
-void Product::write(const std::filesystem::path& file) const { value_or_throw(sonar::write_product(*own_, file)); }
+void Product::write(const std::filesystem::path& file) const {
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code absent;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, absent)) {
+    raise({sonar::ErrorCode::not_found, "no such folder to write to", {folder.string()}});
+  }
+  value_or_throw(sonar::write_product(*own_, file));
+}
 
 const std::string& Product::observation() const { return own_->observation; }
 const std::string& Product::recipe_json() const { return own_->recipe_json; }
@@ -90,6 +122,20 @@ std::vector<Mask> Product::masks() const {
 std::optional<Shape> Product::shape() const {
   if (!own_->grid) return std::nullopt;
   return Shape{own_->grid->grid.fans(), own_->grid->grid.beams(), own_->grid->range.count};
+}
+
+std::vector<std::int32_t> Product::school_ids(std::int64_t ping) const {
+  require_ping(ping, own_->pings.size(), own_->observation);
+  const Shape all = shape().value_or(Shape{});
+  std::vector<std::int32_t> ids(all.size(), 0);
+  for (const sonar::SchoolMask& own : own_->masks) {
+    if (own.ping_index != ping) continue;
+    for (const sonar::Run& run : own.mask.runs) {
+      const auto first = static_cast<std::ptrdiff_t>(run.row) * all.samples + run.first_sample;
+      std::fill_n(ids.begin() + first, run.count, static_cast<std::int32_t>(own.school_id));
+    }
+  }
+  return ids;
 }
 
 std::vector<std::string> Product::notes() const { return lines_of(own_->diagnostics); }

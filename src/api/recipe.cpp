@@ -41,6 +41,8 @@ std::string Recipe::to_json() const { return sonar::recipe_text(*own_); }
 
 std::string Recipe::hash() const { return sonar::recipe_hash(*own_); }
 
+const std::vector<std::string>& Recipe::notes() const { return own_->notes; }
+
 Recipe Recipe::with(const std::string& name, const std::string& value) const {
   nlohmann::json json = value_or_throw(sonar::parse_json(to_json()));
   const nlohmann::json new_value = value_or_throw(sonar::parse_json(value));

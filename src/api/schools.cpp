@@ -12,6 +12,7 @@
 #include "api/running_work.h"
 #include "api/throwing.h"
 #include "pipeline/commands/command.h"
+#include "pipeline/journal/journal.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/observe.h"
@@ -24,14 +25,12 @@ Product shared(sonar::ObservationProduct product) {
   return Product(std::make_shared<const sonar::ObservationProduct>(std::move(product)));
 }
 
-sonar::PropagateCommand command_of(Observation::State& state, std::size_t ping, const std::vector<Seed>& seeds,
+sonar::PropagateCommand command_of(Observation::State& state, std::int64_t ping, const std::vector<Seed>& seeds,
                                    const GrowOptions& options) {
   const sonar::Recipe& recipe = state.recipe.own();
   const sonar::BeamGrid& grid = state.engine_or_throw().grid();
   const auto wrong = [](std::string text) { raise({sonar::ErrorCode::bad_parameter, std::move(text), {}}); };
-  if (ping >= state.files->pings.size()) {
-    wrong(fmt::format("no ping {}: {} has pings 0 to {}", ping, state.files->name, state.files->pings.size() - 1));
-  }
+  require_ping(ping, state.files->pings.size(), state.files->name);
   if (seeds.empty()) wrong("no seed is given");
   if (options.mode && *options.mode != "tracked" && *options.mode != "paper") {
     wrong(fmt::format("mode '{}' is none of tracked, paper", *options.mode));
@@ -59,21 +58,23 @@ sonar::PropagateCommand command_of(Observation::State& state, std::size_t ping, 
 }
 
 /// What a journal with this one line makes of the observation, nothing detected.
-Product selected(Observation::State& state, std::size_t ping, const sonar::PropagateCommand& command) {
+Product selected(Observation::State& state, std::int64_t ping, const sonar::PropagateCommand& command) {
   sonar::Recipe recipe = state.recipe.own();
   recipe.automatic = false;
   sonar::JournalLine line;
   line.n = 1;
   line.command = "propagate";
-  line.ping_time = state.survey->ping_time(*state.files, ping);
+  line.ping_time = state.survey->ping_time(*state.files, static_cast<std::size_t>(ping));
   line.args = sonar::to_json(command);
   RunningWork running(state.threads);
   auto product =
       value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, running.work()));
   for (const sonar::Diagnostic& note : product.diagnostics) {
-    if (note.code == sonar::DiagnosticCode::decision_lost) {
-      raise({sonar::ErrorCode::bad_parameter, note.text, {"", -1, note.ping_index}});
-    }
+    if (note.code != sonar::DiagnosticCode::decision_lost) continue;
+    // That a selection is a line of a journal is no matter of the caller's.
+    const std::string said = sonar::said_of(line);
+    const std::string why = note.text.starts_with(said) ? note.text.substr(said.size()) : note.text;
+    raise({sonar::ErrorCode::bad_parameter, why, {"", -1, note.ping_index}});
   }
   return shared(std::move(product));
 }
@@ -90,12 +91,12 @@ Product detect(const Observation& observation) {
       value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {}, version()}, running.work())));
 }
 
-Product grow(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,
+Product grow(const Observation& observation, std::int64_t ping, const std::vector<Seed>& seeds,
              const GrowOptions& options) {
   return propagate(observation, ping, seeds, 0, options);
 }
 
-Product propagate(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds, std::int64_t reach,
+Product propagate(const Observation& observation, std::int64_t ping, const std::vector<Seed>& seeds, std::int64_t reach,
                   const GrowOptions& options) {
   sonar::PropagateCommand command = command_of(observation.state(), ping, seeds, options);
   command.reach = reach < 0 ? -1 : reach;

@@ -65,20 +65,17 @@ std::vector<double> Observation::cell_volumes_m3() const {
   return volumes;
 }
 
-Ping Observation::ping(std::size_t index) const {
+Ping Observation::ping(std::int64_t index) const {
   sonar::Engine& engine = state_->engine_or_throw();
-  if (index >= pings()) {
-    raise({sonar::ErrorCode::usage, fmt::format("no ping {}: {} has pings 0 to {}", index, name(), pings() - 1), {}});
-  }
-  const auto ping = static_cast<std::int64_t>(index);
+  require_ping(index, pings(), name());
   {
     const std::scoped_lock lock(state_->estimating);
     RunningWork running(1);
-    value_or_throw(engine.estimate_background(ping, ping, running.work()));
+    value_or_throw(engine.estimate_background(index, index, running.work()));
   }
-  auto power = value_or_throw(sonar::load_volume(*state_->survey, *state_->files, index));
-  auto arrays =
-      std::make_shared<Ping::Arrays>(Ping::Arrays{std::move(power.volume.counts), value_or_throw(engine.staged(ping))});
+  auto power = value_or_throw(sonar::load_volume(*state_->survey, *state_->files, static_cast<std::size_t>(index)));
+  auto arrays = std::make_shared<Ping::Arrays>(
+      Ping::Arrays{std::move(power.volume.counts), value_or_throw(engine.staged(index))});
   return Ping(std::move(arrays));
 }
 

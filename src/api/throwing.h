@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +30,14 @@ T value_or_throw(sonar::Result<T> result) {
 }
 inline void value_or_throw(const sonar::Result<void>& result) {
   if (!result) raise(result.error());
+}
+
+/// Refuses a ping that is not there. They are counted from 0.
+inline void require_ping(std::int64_t ping, std::size_t pings, const std::string& observation) {
+  const auto count = static_cast<std::int64_t>(pings);
+  if (ping >= 0 && ping < count) return;
+  const std::string has = count == 0 ? "has no pings" : fmt::format("has pings 0 to {}", count - 1);
+  raise({sonar::ErrorCode::usage, fmt::format("no ping {}: {} {}", ping, observation, has), {}});
 }
 
 /// Notes, a line each.

@@ -99,7 +99,7 @@ class Propagate(Case):
                                   "--transfer-function", curve, "--out", self.fresh("propagate-noise"))
         self.assertEqual(code, 2, err)
         self.assertEqual(len(err.strip().splitlines()), 1, err)
-        self.assertRegex(err, r"--seed 0,15,\d+,1250: .* stands no 3 dB above the noise")
+        self.assertRegex(err, r"--seed 0,15,\d+,1250: .* is less than 3 dB above the noise")
 
     def test_what_is_grown_with_26_neighbours_is_followed_with_them(self):
         place, _ = seed()

@@ -48,7 +48,7 @@ class Ping {
   [[nodiscard]] std::span<const std::int16_t> power() const;
   /// [fan][beam][sample] volume backscattering strength as calibrated, counts re 1 m^-1
   [[nodiscard]] std::span<const std::int16_t> sv() const;
-  /// The same after the median filter, in which schools are grown and detected.
+  /// [fan][beam][sample] Sv after the median filter, in which schools are grown and detected, counts re 1 m^-1
   [[nodiscard]] std::span<const std::int16_t> sv_filtered() const;
   /// [fan][beam][sample] bits: why a sample is not to be trusted; 0 = sound
   [[nodiscard]] std::span<const std::uint8_t> flags() const;

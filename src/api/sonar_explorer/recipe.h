@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace sonar {
 struct Recipe;
@@ -31,11 +32,14 @@ class Recipe {
   [[nodiscard]] std::string to_json() const;
   /// Equal recipes have equal hashes.
   [[nodiscard]] std::string hash() const;
-  /// The same with another value.
+  /// A recipe that differs from this one in one value.
   /// name    path of the parameter, "detect.tolerance_db"
   /// value   as it stands in JSON: "8.5", "true", "\"paper\""
   /// throws  Error: bad_parameter: no such parameter, or out of its range; format: no JSON
   [[nodiscard]] Recipe with(const std::string& name, const std::string& value) const;
+
+  /// On parameters that its text named as earlier versions did, or that have no effect any more, a line each.
+  [[nodiscard]] const std::vector<std::string>& notes() const;
 
   [[nodiscard]] const sonar::Recipe& own() const { return *own_; }
 

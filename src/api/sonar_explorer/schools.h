@@ -20,8 +20,8 @@ struct Seed {
 
 /// How a selection grows; what is empty is the recipe's.
 struct GrowOptions {
-  std::optional<double> tolerance_db;       ///< mode tracked: members lie no deeper below the reference level
-  std::optional<double> tolerance_opacity;  ///< mode paper: members differ no more in opacity
+  std::optional<double> tolerance_db;  ///< mode tracked: members lie at most this much below the reference level, dB
+  std::optional<double> tolerance_opacity;  ///< mode paper: members differ at most this much in opacity, 0 to 1
   std::optional<std::string> mode;          ///< "tracked" or "paper"
 };
 
@@ -31,13 +31,14 @@ struct GrowOptions {
 
 /// One school in one ping: what a click selects.
 /// seeds    in the ping; what they grow is joined
-/// throws   Error: bad_parameter: no such voxel, or nothing grows there; io
-[[nodiscard]] Product grow(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,
+/// throws   Error: usage: no such ping, or the beams make no grid; bad_parameter: no such voxel, or nothing grows there; io
+[[nodiscard]] Product grow(const Observation& observation, std::int64_t ping, const std::vector<Seed>& seeds,
                            const GrowOptions& options = {});
 
-/// The same, followed through the pings before and after.
+/// One school, grown in one ping as by grow() and followed through the pings before and after.
 /// reach    pings to each side; negative = as far as it goes
-[[nodiscard]] Product propagate(const Observation& observation, std::size_t ping, const std::vector<Seed>& seeds,
+/// throws   as grow()
+[[nodiscard]] Product propagate(const Observation& observation, std::int64_t ping, const std::vector<Seed>& seeds,
                                 std::int64_t reach = -1, const GrowOptions& options = {});
 
 /// All figures of a product's masks worked out anew, under the recipe that the survey was opened with.

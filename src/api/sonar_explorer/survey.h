@@ -57,7 +57,7 @@ class Observation {
   [[nodiscard]] std::vector<double> cell_volumes_m3() const;
   /// Reads and processes one ping.
   /// throws  Error: usage (no such ping, no grid), io, format
-  [[nodiscard]] Ping ping(std::size_t index) const;
+  [[nodiscard]] Ping ping(std::int64_t index) const;
 
   [[nodiscard]] State& state() const { return *state_; }
 

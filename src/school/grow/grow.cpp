@@ -209,7 +209,7 @@ Result<PingMask> grow_from_click(View3<const std::int16_t> sv, View3<const Sampl
   if (!(centre > 0.0)) return refuse(fmt::format("has opacity 0 ({:.1f} dB)", db_from_counts(count)));
   if (inside != nullptr && !contains(*inside, seed.row, seed.sample)) {
     return refuse(
-        fmt::format("({:.1f} dB) stands no {:g} dB above the noise", db_from_counts(count), params.margin_db));
+        fmt::format("({:.1f} dB) is less than {:g} dB above the noise", db_from_counts(count), params.margin_db));
   }
   const MemberTable members = params.mode == GrowMode::paper
                                   ? MemberTable::by_opacity(opacity, centre, params.tolerance_opacity)
