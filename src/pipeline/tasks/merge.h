@@ -38,8 +38,8 @@ struct MergeFailure {
 
 struct MergeReport {
   Survey survey;
-  std::vector<MergeFailure> failures;  ///< those handed in, and products that could not be read
-  std::vector<std::string> missing;    ///< in plan.json, but without a product
+  std::vector<MergeFailure> failures;  ///< those handed in, those of tasks, and products that could not be read
+  std::vector<std::string> missing;    ///< in plan.json, but without a product, and nobody told why
   std::vector<std::string> not_run;    ///< those of them that were not asked for
   std::vector<std::string> unplanned;  ///< products that plan.json does not know; left out
   Diagnostics notes;                   ///< of the survey as a whole, from plan.json

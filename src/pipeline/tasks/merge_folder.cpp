@@ -19,6 +19,7 @@
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
+#include "pipeline/tasks/task_record.h"
 
 namespace sonar {
 namespace {
@@ -173,7 +174,13 @@ Result<void> hold_against_plan(const fs::path& out, const std::optional<std::str
     const bool failed = std::any_of(report.failures.begin(), report.failures.end(),
                                     [&](const MergeFailure& f) { return f.observation == task.observation; });
     const bool asked = (!only || *only == task.observation) && has_pings(task, plan->pings);
-    if (!there && !failed) (asked ? report.missing : report.not_run).push_back(task.observation);
+    if (there || failed) continue;
+    const auto record = asked ? read_record(out, task.observation) : std::nullopt;
+    if (record && !record->error.empty()) {
+      report.failures.push_back({task.observation, printable(record->error)});
+    } else {
+      (asked ? report.missing : report.not_run).push_back(task.observation);
+    }
   }
   return {};
 }
