@@ -59,7 +59,7 @@ Result<Source> read_source(const fs::path& out, Work& work) {
   }
   auto survey = merge(std::move(products));
   if (!survey) return pass_on(survey);
-  (void)number_schools(*survey, kept_numbers(out));
+  number_as_merged(*survey, out);
   return Source{std::move(*files), std::move(*survey)};
 }
 

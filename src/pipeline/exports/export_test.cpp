@@ -51,6 +51,16 @@ TEST_F(Export, tables_maps_and_masks) {
   }
 }
 
+TEST_F(Export, schools_have_the_numbers_of_the_tables) {
+  const auto number = [this] {
+    const auto csv = run("csv");
+    return csv ? read_csv_rows<SchoolRow>(csv->files.at(0))->at(0).survey_school : -1;
+  };
+  EXPECT_EQ(number(), 1) << "not merged yet";
+  ASSERT_TRUE(write_file(folder_ / "out" / "survey.json", R"({"survey_schools":[]})"));
+  EXPECT_EQ(number(), 0) << "merged while observations were missing";
+}
+
 TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
