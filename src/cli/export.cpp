@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/exit_codes.h"
+#include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/numbers.h"
@@ -40,10 +41,13 @@ int run_export(const ExportArguments& arguments) {
   const ExportOptions options{arguments.out,    arguments.format,
                               arguments.dest,   arguments.survey,
                               arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are};
-  const auto files = export_products(options, work);
+  const auto done = export_products(options, work);
   clear_progress();
-  if (!files) return report(naming_option(files.error(), kOptions));
-  for (const auto& file : *files) fmt::print("{}\n", file.string());
+  if (!done) return report(naming_option(done.error(), kOptions));
+  for (const auto& file : done->files) fmt::print("{}\n", file.string());
+  for (const std::string& name : done->without_grid) {
+    print_note(fmt::format("no-grid: {}: left out, for it has no grid of fans and beams", printable(name)));
+  }
   return kExitDone;
 }
 

@@ -47,12 +47,19 @@ class ProgressLine {
                left_text(done, total, now));
     std::fflush(stderr);
   }
+  /// Makes room for another line; what is told next is drawn below it.
+  void hide() {
+    fmt::print(stderr, "\r\x1b[K");
+    drawn_ = {};
+  }
 
  private:
+  /// What follows the last observation belongs to none.
   void begin_observation(std::int64_t done, std::int64_t total, Clock::time_point now) {
-    observation_ = fmt::format("observation {} of {}: ", done + 1, total);
+    const bool over = done >= total;
+    observation_ = over ? "" : fmt::format("observation {} of {}: ", done + 1, total);
     if (done == 0) begun_ = now;
-    observations_done_ = done;
+    observations_done_ = over ? 0 : done;
     observations_ = total;
   }
   /// Of all observations once one is done, of the stage before; empty while nobody can know.
@@ -75,23 +82,30 @@ class ProgressLine {
   Clock::time_point stage_begun_;
 };
 
+/// What --verbose tells; empty where nothing begins.
+std::string step_text(std::string_view stage, std::int64_t done, std::int64_t total) {
+  if (stage != kObservations) return fmt::format("{}: {}", stage, total);
+  return done < total ? fmt::format("observation {} of {}", done + 1, total) : "";
+}
+
 bool is_shown() { return isatty(STDERR_FILENO) != 0 && log_level() != LogLevel::quiet; }
 
 }  // namespace
 
 void show_progress(Work& work) {
-  if (is_shown()) {
-    work.set_progress([line = ProgressLine()](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
-      line.tell(stage, done, total);
-    });
-  } else if (log_level() == LogLevel::verbose) {
-    work.set_progress([last = std::string()](std::string_view stage, std::int64_t done, std::int64_t total) mutable {
-      const std::string now = stage == kObservations ? fmt::format("observation {} of {}", done + 1, total)
-                                                     : fmt::format("{}: {}", stage, total);
-      if (now != last) print_detail(now);
-      last = now;
-    });
-  }
+  const bool shown = is_shown();
+  const bool steps = log_level() == LogLevel::verbose;
+  if (!shown && !steps) return;
+  work.set_progress([shown, steps, line = ProgressLine(), last = std::string()](
+                        std::string_view stage, std::int64_t done, std::int64_t total) mutable {
+    const std::string step = steps ? step_text(stage, done, total) : "";
+    if (!step.empty() && step != last) {
+      if (shown) line.hide();
+      print_detail(step);
+      last = step;
+    }
+    if (shown) line.tell(stage, done, total);
+  });
 }
 
 void clear_progress() {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -133,6 +135,18 @@ Submission make_scripts(const SubmitOptions& options, const fs::path& out, const
   return made;
 }
 
+/// What another program said over several lines, as one.
+std::string joined_lines(std::string_view text) {
+  std::string joined;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    if (!line.empty()) joined += (joined.empty() ? "" : "; ") + std::string(line);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return joined;
+}
+
 /// The job of an array that was handed in; "--parsable" says "57" or "57;cluster".
 Result<std::string> hand_in(const Script& script, const fs::path& logs, const std::string& after) {
   std::vector<std::string> words = {"sbatch", "--parsable", "--chdir=" + logs.string()};
@@ -141,7 +155,7 @@ Result<std::string> hand_in(const Script& script, const fs::path& logs, const st
   const auto said = run_command(words);
   if (!said) return fail(said.error().code, said.error().text + ": is Slurm installed here? --dry-run needs none");
   if (said->exit_code != 0) {
-    return fail(ErrorCode::io, fmt::format("sbatch refused: {}", printable(said->errors)), {script.file.string()});
+    return fail(ErrorCode::io, fmt::format("sbatch refused: {}", joined_lines(said->errors)), {script.file.string()});
   }
   return said->output.substr(0, said->output.find_first_of(";\n"));
 }
@@ -256,6 +270,33 @@ CLI::Validator plain_word() {
           "", ""};
 }
 
+/// Whether Slurm would read it as a time limit.
+bool is_slurm_time(std::string_view text) {
+  const std::string word = CLI::detail::to_lower(std::string(text));
+  if (word == "unlimited" || word == "infinite") return true;
+  const auto is_number = [](std::string_view part) {
+    return !part.empty() && std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
+  };
+  if (const std::size_t dash = text.find('-'); dash != std::string_view::npos) {
+    if (!is_number(text.substr(0, dash))) return false;
+    text.remove_prefix(dash + 1);
+  }
+  for (int numbers = 1; numbers <= 3; ++numbers) {
+    const std::size_t colon = text.find(':');
+    if (!is_number(text.substr(0, colon))) return false;
+    if (colon == std::string_view::npos) return true;
+    text.remove_prefix(colon + 1);
+  }
+  return false;
+}
+
+CLI::Validator slurm_time() {
+  return {[](std::string& text) {
+            return std::string(is_slurm_time(text) ? "" : "expected M, M:S, H:M:S, D-H, D-H:M, D-H:M:S or UNLIMITED");
+          },
+          "", ""};
+}
+
 }  // namespace
 
 void add_submit(CLI::App& app, VerbRunner& run) {
@@ -273,7 +314,7 @@ void add_submit(CLI::App& app, VerbRunner& run) {
   verb->add_option("--partition", options->partition, "Slurm's partition")->check(plain_word());
   verb->add_option("--account", options->account, "Slurm's account")->check(plain_word());
   verb->add_option("--time", options->time, "Time limit of a task, as Slurm writes it; reckoned if not given")
-      ->check(plain_word());
+      ->check(slurm_time());
   verb->add_option("--cpus", options->cpus, "Cores of a task")->check(whole_within(1, 1024));
   verb->add_flag("--dry-run", options->dry_run, "Write the plan and print the scripts, hand in nothing");
   verb->callback([options, &run] { run = [options] { return run_submit(*options); }; });

@@ -122,7 +122,7 @@ Sector BeamGrid::sector(const RangeAxis& range) const {
 Result<BeamGrid> derive_beam_grid(const SounderConfig& config, double mounting_azimuth_deg, double tolerance_deg) {
   if (config.beams.empty()) return no_grid("there are no beams");
   if (config.kind == SounderKind::ek60 || config.kind == SounderKind::me70 || config.kind == SounderKind::omni) {
-    return no_grid(fmt::format("{} does not look sideways in fans", config.sounder_name));
+    return no_grid(fmt::format("{} does not look sideways in fans", model_and_name(config)));
   }
   std::vector<double> elevations;
   std::vector<double> azimuths;

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace sonar {
@@ -203,13 +205,16 @@ TEST(BeamGrid, WhatIsNoGridIsRefusedWithASentence) {
 }
 
 TEST(BeamGrid, SoundersThatLookDownHaveNoGrid) {
-  for (const SounderKind kind : {SounderKind::ek60, SounderKind::me70, SounderKind::omni}) {
+  for (const auto& [kind, name] :
+       {std::pair{SounderKind::ek60, "Simrad EK60 (ER60)"}, std::pair{SounderKind::me70, "Simrad ME70 (ER60)"},
+        std::pair{SounderKind::omni, "ER60"}}) {
     SounderConfig config = regular(1, 15);
     config.kind = kind;
     config.sounder_name = "ER60";
     const Result<BeamGrid> grid = derive_beam_grid(config, 270.0);
     ASSERT_FALSE(grid);
-    EXPECT_NE(grid.error().text.find("ER60"), std::string::npos);
+    EXPECT_EQ(grid.error().text,
+              std::string("the beams make no product grid: ") + name + " does not look sideways in fans");
   }
 }
 

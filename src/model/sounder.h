@@ -47,4 +47,9 @@ struct SounderConfig {
   std::string con1_xml;                  ///< as recorded; empty where there was none
 };
 
+/// "Simrad MS70"; as the file calls it where the family is not known.
+[[nodiscard]] std::string model_of(const SounderConfig& config);
+/// The same, with the name that the recorder gives it where that is another: "Simrad MS70 (MBS)".
+[[nodiscard]] std::string model_and_name(const SounderConfig& config);
+
 }  // namespace sonar

@@ -122,10 +122,13 @@ Result<std::string> exported(const Snapshot& snapshot, const std::string& format
   if (passing.path().empty()) return fail(ErrorCode::io, "cannot be written to", {folder.string()});
   const auto products = write_products(*snapshot.survey, passing.path(), source_of_products(snapshot, work), work);
   if (!products) return pass_on(products);
-  const auto files = export_products({passing.path(), format, folder, snapshot.paths.front(), snapshot.reduce}, work);
-  if (!files) return pass_on(files);
-  if (files->size() == 1) return fmt::format("written: {}", files->front().string());
-  return fmt::format("written: {} files in {}", files->size(), folder.string());
+  const auto done = export_products({passing.path(), format, folder, snapshot.paths.front(), snapshot.reduce}, work);
+  if (!done) return pass_on(done);
+  std::string line = done->files.size() == 1
+                         ? fmt::format("written: {}", done->files.front().string())
+                         : fmt::format("written: {} files in {}", done->files.size(), folder.string());
+  if (!done->without_grid.empty()) line += fmt::format("; without a grid: {}", fmt::join(done->without_grid, ", "));
+  return line;
 }
 
 /// Runs something behind the window and tells how it ended.

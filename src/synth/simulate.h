@@ -15,7 +15,7 @@ namespace sonar::synth {
 /// Writes a synthetic survey: OUT/SYNTHETIC-Dyyyymmdd-Thhmmss.raw files, and OUT/truth beside them, with the seabed's
 /// depths as truth/depth.tif.
 /// force     write into a folder that already holds raw files
-/// errors    bad_parameter; usage: the folder holds raw files; no_space; io; cancelled
+/// errors    bad_parameter; usage: the folder holds raw files, or results; no_space; io; cancelled
 /// threads   pings are made on work's threads; the bytes are the same for any number
 [[nodiscard]] Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const SurveyParams& params,
                                                      const std::vector<Beam>& beams, bool force,

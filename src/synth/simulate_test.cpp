@@ -164,6 +164,24 @@ TEST_F(Simulate, RefusesAFolderWithRawFiles) {
   EXPECT_EQ(no_pings.error().code, ErrorCode::bad_parameter);
 }
 
+TEST_F(Simulate, RefusesTheFolderOfASurveysResults) {
+  Work work(1);
+  SurveyParams params = small();
+  params.observations = 1;
+  params.pings = 1;
+  for (const bool force : {false, true}) {
+    for (const char* folder : {"planned/plan.json", "run/products"}) {
+      const std::filesystem::path results = folder_ / folder;
+      std::filesystem::create_directories(results);
+      const auto refused = simulate_survey(results.parent_path(), params, ms70_beams(), force, "test", work);
+      ASSERT_FALSE(refused) << folder;
+      EXPECT_EQ(refused.error().code, ErrorCode::usage);
+      EXPECT_NE(refused.error().text.find("holds a survey's results"), std::string::npos) << refused.error().text;
+      EXPECT_EQ(tree(results.parent_path()).size(), 0U);
+    }
+  }
+}
+
 TEST_F(Simulate, NamesTheRangeThatIsUpsideDown) {
   Work work(1);
   SurveyParams params = small();

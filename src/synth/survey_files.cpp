@@ -22,6 +22,8 @@ constexpr double kWaterTemperature_c = 8.0;
 /// Beside the products; of both physics.
 constexpr std::array<std::string_view, 8> kTruthFiles{"schools.csv", "school_pings.csv", "bodies.csv", "fish.csv",
                                                       "company.csv", "water.csv",        "beams.csv",  "depth.tif"};
+/// By which a folder is told that holds the results of a survey.
+constexpr std::array<std::string_view, 2> kOfResults{"plan.json", "products"};
 
 void append_navigation(RawBytes& bytes, const Voyage& voyage, TimeNs after, TimeNs until) {
   for (TimeNs t = (after / kSecondNs + 1) * kSecondNs; t <= until; t += kSecondNs) {
@@ -59,8 +61,15 @@ namespace {
 
 Result<void> require_free(const std::filesystem::path& out, bool force) {
   if (auto own = require_own_folder(out / "truth"); !own) return own;
-  if (force) return {};
   std::error_code problem;
+  for (const std::string_view name : kOfResults) {
+    // Beside raw files nothing of it could be written any more.
+    if (std::filesystem::exists(out / name, problem)) {
+      return fail(ErrorCode::usage, fmt::format("the folder holds a survey's results ({}); choose another", name),
+                  {.file = out.string()});
+    }
+  }
+  if (force) return {};
   for (const auto& entry : std::filesystem::directory_iterator(out, problem)) {
     if (is_named_raw(entry.path())) {
       return fail(ErrorCode::usage, "the folder already holds raw files; choose another, or --force",

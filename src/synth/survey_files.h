@@ -24,7 +24,7 @@ class SurveyFolder {
   /// Makes the folder.
   /// force     it may hold raw files, and an earlier simulated survey is taken out of it
   /// bytes     that the survey takes at most
-  /// errors    io; no_space; usage: it holds raw files
+  /// errors    io; no_space; usage: it holds raw files, or, forced or not, the results of a survey
   static Result<SurveyFolder> prepare(const std::filesystem::path& out, bool force, std::uint64_t bytes);
   SurveyFolder(SurveyFolder&& other) noexcept
       : out_(std::exchange(other.out_, {})), before_(std::move(other.before_)), made_(other.made_) {}

@@ -66,6 +66,34 @@ class Exports(Case):
                 voxels += sum(int((v[:] > 0).sum()) for k, v in mask.variables.items() if "confidence" in k)
         self.assertEqual(voxels, sum(int(row["n_voxels"]) for row in sonarx.read_csv(OUT / "school_pings.csv")))
 
+    def single_beam(self, raw, to):
+        """A copy of a recording that names an EK60 as its sounder."""
+        data = bytearray(raw.read_bytes())
+        name = 16 + 256  # of the first datagram, which is CON0: length, type and time, then the names of survey and transect
+        self.assertEqual((data[4:8], data[name:name + 4]), (b"CON0", b"MBS\0"))
+        data[name:name + 5] = b"ER60\0"
+        to.write_bytes(data)
+
+    def test_sv_of_single_beams_is_no_silent_nothing(self):
+        folder = self.fresh("single-beams")
+        survey, out = folder / "survey", folder / "out"
+        survey.mkdir()
+        first, second = sorted(SURVEY.glob("*.raw"))
+        self.single_beam(first, survey / first.name)
+        self.sonarx("run", survey, "--out", out)
+        self.one_line_error("export", out, "--to", "sv", "--survey", survey, "--dest", folder / "none", code=1,
+                            names="no observation has a grid of fans and beams")
+        self.assertFalse((folder / "none").exists())
+        (survey / second.name).write_bytes(second.read_bytes())
+        self.sonarx("run", survey, "--out", out)
+        observations = json.loads((out / "survey.json").read_text())["observations"]
+        self.assertEqual(len(observations), 2)
+        single, = [o["name"] for o in observations if o["grid"] is None]
+        code, said, told = sonarx.run("export", out, "--to", "sv", "--survey", survey, "--dest", folder / "some")
+        self.assertEqual((code, told), (0, f"note no-grid: {single}: left out, for it has no grid of fans and beams\n"))
+        self.assertEqual(len(said.splitlines()), 1)
+        self.assertNotIn(single, said)
+
     def test_reduced_raw_gives_the_same_masks(self):
         dest = self.export("raw-reduced", "--survey", SURVEY)
         # The schools fill about a hundredth of the sector.

@@ -118,6 +118,12 @@ class SmallSurvey(Case):
             self.one_line_error("simulate", inner, "--preset", "easy", code=2, names=inner)
         self.assertEqual(sonarx.snapshot(SURVEY), before)
 
+    def test_nothing_is_simulated_among_results(self):
+        before = sonarx.snapshot(OUT)
+        for force in ((), ("--force",)):
+            self.one_line_error("simulate", OUT, "--preset", "easy", *force, code=2, names="holds a survey's results")
+        self.assertEqual(sonarx.snapshot(OUT), before)
+
     def test_a_run_that_looks_for_nothing_says_so(self):
         folder = self.fresh("nothing")
         recipe = json.loads(self.sonarx("recipe"))

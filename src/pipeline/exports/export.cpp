@@ -59,7 +59,7 @@ Result<Source> read_source(const fs::path& out, Work& work) {
   }
   auto survey = merge(std::move(products));
   if (!survey) return pass_on(survey);
-  (void)number_schools(*survey, kept_numbers(out));
+  number_as_merged(*survey, out);
   return Source{std::move(*files), std::move(*survey)};
 }
 
@@ -76,15 +76,15 @@ Result<ObservationProduct> with_masks(const Source& source, std::size_t i) {
   return product;
 }
 
-Result<Files> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
+Result<Exported> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
   Files files = {dest / "schools.csv", dest / "school_pings.csv"};
   auto written = write_csv_rows(files[0], source.survey.schools, texts);
   if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
   if (!written) return pass_on(written);
-  return files;
+  return Exported{std::move(files)};
 }
 
-Result<Files> export_masks(const Source& source, const fs::path& dest, Work& work) {
+Result<Exported> export_masks(const Source& source, const fs::path& dest, Work& work) {
   Files files;
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
@@ -94,10 +94,10 @@ Result<Files> export_masks(const Source& source, const fs::path& dest, Work& wor
     if (auto written = write_mask_volume(*product, files.back(), work); !written) return pass_on(written);
     work.progress("masks", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
-  return files;
+  return Exported{std::move(files)};
 }
 
-Result<Files> export_map(const Source& source, const fs::path& dest, MapFormat format, Work& work) {
+Result<Exported> export_map(const Source& source, const fs::path& dest, MapFormat format, Work& work) {
   const fs::path target = format == MapFormat::geopackage ? dest / "survey.gpkg" : dest;
   auto map = SurveyMapWriter::create(target, format, source.survey.observations);
   if (!map) return pass_on(map);
@@ -109,7 +109,7 @@ Result<Files> export_map(const Source& source, const fs::path& dest, MapFormat f
     work.progress("map", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
   if (auto finished = map->finish(); !finished) return pass_on(finished);
-  return Files{target};
+  return Exported{{target}};
 }
 
 /// The raw files of the products, under their recipe.
@@ -130,21 +130,26 @@ Result<RawSource> open_raw(const Source& source, const ExportOptions& options, W
   return RawSource{std::move(*recipe), std::move(*survey)};
 }
 
-Result<Files> export_all_sv(const Source& source, const ExportOptions& options, Work& work) {
+Result<Exported> export_all_sv(const Source& source, const ExportOptions& options, Work& work) {
   const auto raw = open_raw(source, options, work);
   if (!raw) return pass_on(raw);
-  Files files;
+  Exported done;
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     const auto product = with_masks(source, i);
     if (!product) return pass_on(product);
     auto made = export_sv(raw->survey, *product, raw->recipe, options.dest, work);
     if (!made) return pass_on(made);
-    files.insert(files.end(), made->begin(), made->end());
+    if (made->empty()) done.without_grid.push_back(product->observation);
+    done.files.insert(done.files.end(), made->begin(), made->end());
   }
-  return files;
+  if (done.files.empty()) {
+    return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams: there is nothing for sv to hold",
+                {.file = options.survey.string()});
+  }
+  return done;
 }
 
-Result<Files> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
+Result<Exported> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
   const auto raw = open_raw(source, options, work);
   if (!raw) return pass_on(raw);
   std::vector<ObservationProduct> products;
@@ -160,7 +165,7 @@ Result<Files> export_reduced(const Source& source, const ExportOptions& options,
   }
   auto reduced = reduce_survey(raw->survey, products, raw->recipe, options.dest, options.reduce, work);
   if (!reduced) return pass_on(reduced);
-  return std::move(reduced->files);
+  return Exported{std::move(reduced->files)};
 }
 
 /// Whether a folder holds every raw file that the products were made of: the survey itself, copied or moved.
@@ -192,7 +197,7 @@ Result<void> require_outside(const ExportOptions& options) {
 
 std::span<const ExportFormat> export_formats() { return kFormats; }
 
-Result<Files> export_products(const ExportOptions& options, Work& work) {
+Result<Exported> export_products(const ExportOptions& options, Work& work) {
   const auto format =
       std::find_if(kFormats.begin(), kFormats.end(), [&](const ExportFormat& f) { return f.name == options.format; });
   if (format == kFormats.end()) {

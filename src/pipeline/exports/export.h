@@ -33,10 +33,15 @@ struct ExportOptions {
   CsvTexts texts = CsvTexts::as_they_are;  ///< for csv
 };
 
+struct Exported {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> without_grid = {};  ///< observations that sv cannot hold
+};
+
 /// Writes the products of a work folder in another format.
-/// out     the files written
 /// errors  usage: an unknown format (the line lists those that exist), no survey where one is needed; not_found; io;
-///         no_space; mismatch: the raw files are not those of the products; cancelled
-[[nodiscard]] Result<std::vector<std::filesystem::path>> export_products(const ExportOptions& options, Work& work);
+///         no_space; mismatch: the raw files are not those of the products; unsupported: none of them has what the format is
+///         of; cancelled
+[[nodiscard]] Result<Exported> export_products(const ExportOptions& options, Work& work);
 
 }  // namespace sonar

@@ -11,6 +11,7 @@
 #include "io/csv.h"
 #include "io/product_example.h"
 #include "io/product_file.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 namespace {
@@ -28,7 +29,7 @@ class Export : public testing::Test {
   ~Export() override { fs::remove_all(folder_); }
   Export(const Export&) = delete;
   Export& operator=(const Export&) = delete;
-  Result<std::vector<fs::path>> run(const std::string& format) {
+  Result<Exported> run(const std::string& format) {
     ExportOptions options;
     options.out = folder_ / "out";
     options.format = format;
@@ -42,12 +43,22 @@ class Export : public testing::Test {
 TEST_F(Export, tables_maps_and_masks) {
   const auto csv = run("csv");
   ASSERT_TRUE(csv) << to_line(csv.error());
-  EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->at(1))->size(), 4U);
+  EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->files.at(1))->size(), 4U);
   for (const char* format : {"gpkg", "geojson", "netcdf-mask"}) {
     const auto files = run(format);
     ASSERT_TRUE(files) << to_line(files.error());
     EXPECT_FALSE(fs::is_empty(folder_ / format)) << format;
   }
+}
+
+TEST_F(Export, schools_have_the_numbers_of_the_tables) {
+  const auto number = [this] {
+    const auto csv = run("csv");
+    return csv ? read_csv_rows<SchoolRow>(csv->files.at(0))->at(0).survey_school : -1;
+  };
+  EXPECT_EQ(number(), 1) << "not merged yet";
+  ASSERT_TRUE(write_file(folder_ / "out" / "survey.json", R"({"survey_schools":[]})"));
+  EXPECT_EQ(number(), 0) << "merged while observations were missing";
 }
 
 TEST_F(Export, refuses_in_one_line) {
@@ -58,6 +69,21 @@ TEST_F(Export, refuses_in_one_line) {
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   fs::remove_all(folder_ / "out");
   EXPECT_EQ(run("csv").error().code, ErrorCode::not_found);
+}
+
+TEST_F(Export, sv_of_a_survey_without_a_grid_is_refused) {
+  ObservationProduct p = example::empty("obs-0001", 5);
+  p.grid.reset();
+  p.recipe_json = recipe_text(Recipe{});
+  ASSERT_TRUE(write_product(p, folder_ / "single beam" / "products" / "obs-0001.nc"));
+  ASSERT_TRUE(write_file(folder_ / "raw" / "a.raw", "of another format, and of no matter here"));
+  const ExportOptions options{
+      .out = folder_ / "single beam", .format = "sv", .dest = folder_ / "sv", .survey = folder_ / "raw", .reduce = {}};
+  const auto refused = export_products(options, work_);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+  EXPECT_THAT(to_line(refused.error()), HasSubstr("raw: no observation has a grid of fans and beams"));
+  EXPECT_FALSE(fs::exists(options.dest));
 }
 
 TEST_F(Export, nothing_is_written_where_raw_files_lie) {

@@ -97,19 +97,6 @@ Result<std::int64_t> power_count_sum(const SurveyFile& file, BlockPool& blocks, 
   return sum;
 }
 
-std::string model_of(const SounderConfig& config) {
-  switch (config.kind) {
-    case SounderKind::ek60:
-      return "Simrad EK60";
-    case SounderKind::me70:
-      return "Simrad ME70";
-    case SounderKind::ms70:
-      return "Simrad MS70";
-    default:
-      return config.sounder_name;
-  }
-}
-
 /// The gain that the sounder's table has for a pulse; the beam's own where the table does not know it.
 double gain_for(const BeamConfig& beam, double pulse_length_s) {
   constexpr double kTolerance = 1e-3;
@@ -123,6 +110,7 @@ double gain_for(const BeamConfig& beam, double pulse_length_s) {
 InstrumentInfo instrument_info(const ObservationFiles& observation) {
   InstrumentInfo info;
   info.model = model_of(observation.config);
+  info.model_and_name = model_and_name(observation.config);
   info.beams = std::ssize(observation.config.beams);
   for (std::size_t i = 0; i < observation.config.beams.size(); ++i) {
     const BeamConfig& beam = observation.config.beams[i];

@@ -46,14 +46,15 @@ struct SettingRange {
 
 /// What the beams of an observation were set to.
 struct InstrumentInfo {
-  std::string model;  ///< "Simrad MS70"; as the file calls it where the family is not known
+  std::string model;           ///< model_of()
+  std::string model_and_name;  ///< model_and_name()
   std::int64_t beams = 0;
   SettingRange frequency_hz;
   SettingRange pulse_length_s;
   SettingRange transmit_power_w;
   SettingRange gain_db;
-  SettingRange width_alongship_deg;
-  SettingRange width_athwartship_deg;
+  SettingRange width_alongship_deg;    ///< in fans: vertical
+  SettingRange width_athwartship_deg;  ///< in fans: horizontal
 };
 
 struct SurveyInfo {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/simrad/test_bytes.h"
 
@@ -58,6 +59,45 @@ TEST(Info, JsonHasTheNamesAndUnitsOfTheInterface) {
   EXPECT_THAT(info_text(*info),
               testing::HasSubstr("psi is 1.4 to 1.4 dB (mean 1.4) more than the widths give\n  by fan, "
                                  "deepest first, dB: 1.4 1.4\n"));
+}
+
+// The test file's beams: 7 degrees in the first field of widths, which an MS70 has for vertical, 3 in the second.
+TEST(Info, WidthsAreNamedAsTheSounderLooks) {
+  const test::TemporaryFolder folder;
+  folder.write("fans.raw", test::small_file(1));
+  const auto fans = info_of({folder.path() / "fans.raw"});
+  ASSERT_TRUE(fans);
+  EXPECT_THAT(info_text(*fans), testing::HasSubstr(", -3 dB width vertical 7 deg, horizontal 3 deg\n"));
+  const json seven{{"min", 7.0}, {"max", 7.0}};
+  const json three{{"min", 3.0}, {"max", 3.0}};
+  const json of_fans = json::parse(info_json(*fans)).at("observations").at(0).at("instrument");
+  EXPECT_EQ(of_fans.at("width_vertical_deg"), seven);
+  EXPECT_EQ(of_fans.at("width_horizontal_deg"), three);
+  EXPECT_EQ(of_fans.at("width_alongship_deg"), seven);
+
+  folder.write("down.raw",
+               test::con0({.sounder = "ER60", .beams = {{}}}).add(test::raw0(test::kStart, {.channel = 1}, {1, 2})));
+  const auto down = info_of({folder.path() / "down.raw"});
+  ASSERT_TRUE(down);
+  EXPECT_THAT(info_text(*down), testing::HasSubstr(", -3 dB width alongship 7 deg, athwartship 3 deg\n"));
+  const json of_down = json::parse(info_json(*down)).at("observations").at(0).at("instrument");
+  EXPECT_EQ(of_down.at("width_alongship_deg"), seven);
+  EXPECT_EQ(of_down.at("width_vertical_deg"), nullptr);
+}
+
+TEST(Info, AnObservationIsHeadedByTheModel) {
+  for (const auto& [recorder, head] : {std::pair{"MBS", "obs-0001: Simrad MS70 (MBS), 1 ping, 2 fans x 3 beams, "},
+                                       std::pair{"Simrad MS70", "obs-0001: Simrad MS70, 1 ping, 2 fans x 3 beams, "},
+                                       std::pair{"ER60", "obs-0001: Simrad EK60 (ER60), 1 ping, no grid, "},
+                                       std::pair{"XYZ", "obs-0001: XYZ, 1 ping, "}}) {
+    const test::TemporaryFolder folder;
+    test::Con0Spec spec = test::small_ms70();
+    spec.sounder = recorder;
+    folder.write("a.raw", test::con0(spec).add(test::small_ping(test::kStart)));
+    const auto info = info_of({folder.path()});
+    ASSERT_TRUE(info);
+    EXPECT_THAT(info_text(*info), testing::HasSubstr(head)) << recorder;
+  }
 }
 
 TEST(Info, DamagedFileIsListedWithItsNotes) {

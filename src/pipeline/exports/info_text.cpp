@@ -92,7 +92,7 @@ Json range_json(const SettingRange& range) {
   return range.empty() ? Json(nullptr) : Json{{"min", range.least}, {"max", range.greatest}};
 }
 
-Json instrument_json(const InstrumentInfo& instrument) {
+Json instrument_json(const InstrumentInfo& instrument, bool fans) {
   return {{"model", instrument.model},
           {"beams", instrument.beams},
           {"frequency_hz", range_json(instrument.frequency_hz)},
@@ -100,7 +100,9 @@ Json instrument_json(const InstrumentInfo& instrument) {
           {"transmit_power_w", range_json(instrument.transmit_power_w)},
           {"gain_db", range_json(instrument.gain_db)},
           {"width_alongship_deg", range_json(instrument.width_alongship_deg)},
-          {"width_athwartship_deg", range_json(instrument.width_athwartship_deg)}};
+          {"width_athwartship_deg", range_json(instrument.width_athwartship_deg)},
+          {"width_vertical_deg", fans ? range_json(instrument.width_alongship_deg) : Json(nullptr)},
+          {"width_horizontal_deg", fans ? range_json(instrument.width_athwartship_deg) : Json(nullptr)}};
 }
 
 /// "75 to 112 kHz, ", or "38 kHz, "; nothing where no beam tells.
@@ -111,14 +113,13 @@ std::string range_text(const char* what, const SettingRange& range, double unit,
   return fmt::format(", {}{} {}", what, least == greatest ? least : least + " to " + greatest, unit_name);
 }
 
-std::string instrument_text(const InstrumentInfo& instrument) {
+std::string instrument_text(const InstrumentInfo& instrument, bool fans) {
   return fmt::format(
-      "  {}, {}{}{}{}{}{}{}\n", printable(instrument.model),
-      count_of(static_cast<std::size_t>(instrument.beams), "beam"), range_text("", instrument.frequency_hz, 1e3, "kHz"),
-      range_text("pulse ", instrument.pulse_length_s, 1e-3, "ms"),
+      "  {}{}{}{}{}{}{}\n", count_of(static_cast<std::size_t>(instrument.beams), "beam"),
+      range_text("", instrument.frequency_hz, 1e3, "kHz"), range_text("pulse ", instrument.pulse_length_s, 1e-3, "ms"),
       range_text("power ", instrument.transmit_power_w, 1.0, "W"), range_text("gain ", instrument.gain_db, 1.0, "dB"),
-      range_text("-3 dB width alongship ", instrument.width_alongship_deg, 1.0, "deg"),
-      range_text("athwartship ", instrument.width_athwartship_deg, 1.0, "deg"));
+      range_text(fans ? "-3 dB width vertical " : "-3 dB width alongship ", instrument.width_alongship_deg, 1.0, "deg"),
+      range_text(fans ? "horizontal " : "athwartship ", instrument.width_athwartship_deg, 1.0, "deg"));
 }
 
 Json observation_json(const SurveyInfo::Observation& observation, bool counted) {
@@ -131,7 +132,7 @@ Json observation_json(const SurveyInfo::Observation& observation, bool counted) 
   return {{"name", observation.name},
           {"files", observation.files},
           {"sounder", observation.sounder},
-          {"instrument", instrument_json(observation.instrument)},
+          {"instrument", instrument_json(observation.instrument, observation.grid.has_value())},
           {"pings", counted ? Json(observation.pings) : Json(nullptr)},
           {"first_time_utc", iso_time(observation.first_time)},
           {"last_time_utc", iso_time(observation.last_time)},
@@ -187,10 +188,10 @@ std::string observation_text(const SurveyInfo::Observation& o, bool counted) {
   const std::string grid =
       o.grid ? fmt::format("{} fans x {} beams", o.grid->fans(), o.grid->beams()) : std::string("no grid");
   std::string text =
-      fmt::format("{}: {}, {}{}, {} to {}{}\n", printable(o.name), printable(o.sounder),
+      fmt::format("{}: {}, {}{}, {} to {}{}\n", printable(o.name), printable(o.instrument.model_and_name),
                   counted ? count_of(static_cast<std::size_t>(o.pings), "ping") + ", " : std::string{}, grid,
                   iso_time(o.first_time), iso_time(o.last_time), o.continues_cut ? ", goes on the one before" : "");
-  text += instrument_text(o.instrument);
+  text += instrument_text(o.instrument, o.grid.has_value());
   text += o.grid ? psi_text(*o.grid) : std::string("  schools are not looked for in single-beam data\n");
   for (const std::string& file : o.files) text += fmt::format("  {}\n", printable(file));
   return text + notes_text(o.notes);

@@ -38,13 +38,17 @@ struct MergeFailure {
 
 struct MergeReport {
   Survey survey;
-  std::vector<MergeFailure> failures;  ///< those handed in, and products that could not be read
-  std::vector<std::string> missing;    ///< in plan.json, but without a product
-  std::vector<std::string> not_run;    ///< those of them that were not asked for
-  std::vector<std::string> unplanned;  ///< products that plan.json does not know; left out
-  Diagnostics notes;                   ///< of the survey as a whole, from plan.json
-  bool all_planned = false;            ///< there is a plan, and each of its observations has its product
+  std::vector<MergeFailure> failures;   ///< those handed in, those of tasks, and products that could not be read
+  std::vector<std::string> missing;     ///< in plan.json, but without a product, and nobody told why
+  std::vector<std::string> not_run;     ///< those of them that were not asked for
+  std::vector<std::string> partly_run;  ///< observations of whose pings a run was asked for some only
+  std::vector<std::string> unplanned;   ///< products that plan.json does not know; left out
+  Diagnostics notes;                    ///< of the survey as a whole, from plan.json
+  bool all_planned = false;             ///< there is a plan, and each of its observations has its product
   [[nodiscard]] bool complete() const { return failures.empty() && missing.empty() && not_run.empty(); }
+  /// Every observation has its product, of all its pings: then its schools get numbers in the survey. Files that gave
+  /// nothing are as files that are not there yet.
+  [[nodiscard]] bool all_observed() const;
 };
 
 /// Product files of a result: OUT/products/obs-*.nc, or OUT/obs-*.nc where there is no such folder; by name.

@@ -19,6 +19,7 @@
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
+#include "pipeline/tasks/task_record.h"
 
 namespace sonar {
 namespace {
@@ -27,9 +28,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// Those of whose pings a run was asked for some only.
-std::vector<std::string> partly_run(const MergeReport& report) {
+std::vector<std::string> partly_run(const std::vector<ObservationProduct>& products) {
   std::vector<std::string> names;
-  for (const ObservationProduct& product : report.survey.observations) {
+  for (const ObservationProduct& product : products) {
     const bool partly = std::any_of(product.diagnostics.begin(), product.diagnostics.end(),
                                     [](const Diagnostic& note) { return note.code == DiagnosticCode::pings_left_out; });
     if (partly) names.push_back(product.observation);
@@ -123,13 +124,13 @@ std::string survey_json(const MergeReport& report, const std::vector<SurveyNumbe
                       {"school_rows_continued", std::ssize(rows) - rejected - std::ssize(schools)},
                       {"schools_continued_over_a_cut", over_a_cut},
                       {"school_pings", report.survey.school_pings.size()},
-                      {"complete", report.complete() && partly_run(report).empty()}}},
+                      {"complete", report.failures.empty() && report.all_observed()}}},
                     {"provenance", provenance},
                     {"observations", observations},
                     {"failures", failures},
                     {"missing", report.missing},
                     {"not_run", report.not_run},
-                    {"partly_run", partly_run(report)},
+                    {"partly_run", report.partly_run},
                     {"notes", notes},
                     {"unplanned", report.unplanned},
                     {"survey_schools", numbers_json(numbers)}};
@@ -173,7 +174,13 @@ Result<void> hold_against_plan(const fs::path& out, const std::optional<std::str
     const bool failed = std::any_of(report.failures.begin(), report.failures.end(),
                                     [&](const MergeFailure& f) { return f.observation == task.observation; });
     const bool asked = (!only || *only == task.observation) && has_pings(task, plan->pings);
-    if (!there && !failed) (asked ? report.missing : report.not_run).push_back(task.observation);
+    if (there || failed) continue;
+    const auto record = asked ? read_record(out, task.observation) : std::nullopt;
+    if (record && !record->error.empty()) {
+      report.failures.push_back({task.observation, printable(record->error)});
+    } else {
+      (asked ? report.missing : report.not_run).push_back(task.observation);
+    }
   }
   return {};
 }
@@ -195,6 +202,11 @@ Result<void> write_map(const fs::path& out, const Survey& survey, const std::vec
 }
 
 }  // namespace
+
+bool MergeReport::all_observed() const {
+  return missing.empty() && not_run.empty() && partly_run.empty() &&
+         std::ranges::none_of(failures, [](const MergeFailure& failure) { return failure.observation.has_value(); });
+}
 
 Result<std::vector<fs::path>> product_files(const fs::path& out) {
   std::error_code error;
@@ -248,10 +260,8 @@ Result<MergeReport> merge_folder(const fs::path& out, std::vector<MergeFailure> 
   std::vector<fs::path> in_order;
   for (const auto& [observation, file] : sound) in_order.push_back(file);
 
-  // What a survey that is not whole yet makes of its numbers is not kept: whole, it has them in the order of its schools.
-  std::vector<SurveyNumber> kept = kept_numbers(out);
-  std::vector<SurveyNumber> numbers = number_schools(report.survey, kept);
-  if (!report.complete()) numbers = std::move(kept);
+  report.partly_run = partly_run(report.survey.observations);
+  const std::vector<SurveyNumber> numbers = number_schools(report.survey, kept_numbers(out), report.all_observed());
 
   auto written = require_free_space(out, kLeastFreeBytes);
   if (written) written = write_csv_rows(out / "schools.csv", report.survey.schools);
@@ -286,7 +296,7 @@ std::string merge_text(const MergeReport& report, const fs::path& out) {
   };
   list("missing", report.missing);
   list("not asked for", report.not_run);
-  list("asked for some pings only", partly_run(report));
+  list("asked for some pings only", report.partly_run);
   list("left out, not in plan.json", report.unplanned);
   for (const char* name : {"schools.csv", "school_pings.csv", "survey.gpkg", "survey.json"}) {
     text += (out / name).string() + "\n";

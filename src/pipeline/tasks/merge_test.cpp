@@ -8,15 +8,19 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product_example.h"
 #include "io/product_file.h"
 #include "pipeline/recipe/recipe.h"
+#include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/run.h"
+#include "pipeline/tasks/task_record.h"
 
 namespace sonar {
 namespace {
@@ -146,6 +150,15 @@ class MergeFolder : public testing::Test {
   void put(const ObservationProduct& p) const {
     ASSERT_TRUE(write_product(p, out_ / "products" / (p.observation + ".nc")));
   }
+  void plan(const std::vector<std::string>& observations) const {
+    Plan plan;
+    for (const std::string& name : observations) {
+      PlanTask task;
+      task.observation = name;
+      plan.tasks.push_back(task);
+    }
+    ASSERT_TRUE(write_file(out_ / "plan.json", plan_text(plan)));
+  }
   [[nodiscard]] nlohmann::json survey_json() const { return nlohmann::json::parse(*read_file(out_ / "survey.json")); }
   fs::path out_;
   Work work_{1};
@@ -188,6 +201,55 @@ TEST_F(MergeFolder, lists_damaged_and_failed_observations) {
   EXPECT_EQ(json["failures"][0]["observation"], "obs-0003");
   EXPECT_EQ(json["failures"][1]["observation"], "obs-0002");
   EXPECT_EQ(json["summary"]["observations"], 1);
+}
+
+// What `status` tells of a task that failed.
+TEST_F(MergeFolder, tells_why_a_task_failed) {
+  plan({"obs-0001", "obs-0002", "obs-0003"});
+  put(before_cut());
+  TaskRecord record = record_of_this_process(0);
+  ASSERT_TRUE(write_record(out_, "obs-0003", record)) << "at work, or gone without a word";
+  record.error = "no such\nfile";
+  ASSERT_TRUE(write_record(out_, "obs-0002", record));
+  const auto report = merge_folder(out_, {}, work_);
+  ASSERT_TRUE(report) << to_line(report.error());
+  EXPECT_THAT(report->missing, testing::ElementsAre("obs-0003"));
+  ASSERT_EQ(report->failures.size(), 1U);
+  EXPECT_EQ(report->failures[0].observation, "obs-0002");
+  EXPECT_EQ(report->failures[0].text, "no such?file");
+  EXPECT_EQ(survey_json()["failures"][0]["error"], "no such?file");
+  // A run of that observation knows better, and one of another has no part in it.
+  EXPECT_EQ(merge_folder(out_, {{"obs-0002", "it broke"}}, work_)->failures[0].text, "it broke");
+  EXPECT_THAT(merge_folder(out_, {}, work_, "obs-0001")->not_run, testing::ElementsAre("obs-0002", "obs-0003"));
+}
+
+// A number that the next observation, or the rest of the pings, would change is none.
+TEST_F(MergeFolder, numbers_schools_once_all_is_observed) {
+  plan({"obs-0001", "obs-0002"});
+  const auto numbers = [this](std::vector<MergeFailure> failures = {}, const std::optional<std::string>& only = {}) {
+    std::vector<std::int64_t> made;
+    EXPECT_TRUE(merge_folder(out_, std::move(failures), work_, only));
+    const auto rows = read_csv_rows<SchoolRow>(out_ / "schools.csv").value_or(std::vector<SchoolRow>{});
+    for (const SchoolRow& row : rows) made.push_back(row.survey_school);
+    return made;
+  };
+  put(after_cut());
+  EXPECT_THAT(numbers({}, "obs-0002"), testing::ElementsAre(0, 0));
+  ObservationProduct some_pings = before_cut();
+  some_pings.diagnostics = {{DiagnosticCode::pings_left_out, "", -1, -1, "pings 0 to 9 of 20"}};
+  put(some_pings);
+  EXPECT_THAT(numbers(), testing::ElementsAre(0, 0, 0));
+  EXPECT_EQ(survey_json()["survey_schools"].size(), 0U);
+  EXPECT_EQ(survey_json()["partly_run"], nlohmann::json::array({"obs-0001"}));
+  put(before_cut());
+  EXPECT_THAT(numbers({{"obs-0002", "it broke"}}), testing::ElementsAre(0, 0, 0));
+  // A file that gave nothing is as one that is not there yet.
+  EXPECT_THAT(numbers({{std::nullopt, "b.raw: is empty"}}), testing::ElementsAre(1, 2, 3));
+  EXPECT_FALSE(survey_json()["summary"]["complete"].get<bool>());
+  EXPECT_THAT(numbers(), testing::ElementsAre(1, 2, 3));
+  EXPECT_TRUE(survey_json()["summary"]["complete"].get<bool>());
+  fs::remove(out_ / "products" / "obs-0001.nc");
+  EXPECT_THAT(numbers(), testing::ElementsAre(2, 3)) << "what had a number keeps it";
 }
 
 TEST(RunOptions, pings_are_asked_of_the_observations_that_have_them) {

@@ -152,6 +152,7 @@ Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::spa
     if (work.cancelled()) return fail(ErrorCode::cancelled, "interrupted; finished observations are kept");
     if (!worked) report.failures.push_back({task.observation, worked.error()});
   }
+  work.progress(kObservations, std::ssize(*tasks), std::ssize(*tasks));
   return report;
 }
 

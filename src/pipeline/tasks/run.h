@@ -23,7 +23,7 @@ struct RunOptions {
   std::string program_version;
 };
 
-/// Stage of run_plan()'s progress: how many observations are done, of how many.
+/// Stage of run_plan()'s progress: how many observations are done, of how many; all of them when it ends.
 inline constexpr std::string_view kObservations = "observations";
 
 struct RunFailure {

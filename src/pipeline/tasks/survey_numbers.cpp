@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -29,6 +30,30 @@ TimeNs overlap(const SurveyNumber& kept, const SchoolRow& school) {
   return std::min(kept.last_time, school.last_time_utc) - std::max(kept.first_time, school.first_time_utc);
 }
 
+/// The rows of each ping, as the schools are numbered.
+void number_rows(ObservationProduct& product) {
+  std::map<std::int64_t, std::int64_t> numbers;
+  for (const SchoolRow& school : product.schools) numbers[school.school_id] = school.survey_school;
+  for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[row.school_id];
+}
+
+/// Empty where a result has none to tell: it was not merged yet, or by a program that gave none.
+std::optional<std::vector<SurveyNumber>> told_numbers(const std::filesystem::path& out) {
+  const auto json = read_json_file((out / "survey.json").string());
+  if (!json || !json->is_object() || !json->contains("survey_schools")) return std::nullopt;
+  std::vector<SurveyNumber> numbers;
+  for (const auto& kept : json->at("survey_schools")) {
+    const auto whole = [&](const char* member) {
+      const auto found = kept.is_object() ? kept.find(member) : kept.end();
+      return kept.is_object() && found != kept.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+    };
+    SurveyNumber number{whole("survey_school"), "", whole("school_id"), whole("first_time_ns"), whole("last_time_ns")};
+    if (kept.is_object() && kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
+    if (number.number > 0) numbers.push_back(std::move(number));
+  }
+  return numbers;
+}
+
 }  // namespace
 
 void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept) {
@@ -46,6 +71,7 @@ void recall_numbers(std::span<ObservationProduct> products, const std::vector<Su
     }
     if (longest != nullptr) longest->survey_school = one.number;
   }
+  for (ObservationProduct& product : products) number_rows(product);
 }
 
 std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products, std::vector<SurveyNumber> earlier) {
@@ -54,23 +80,25 @@ std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products
   recall_numbers(products, earlier);
   for (ObservationProduct& product : products) {
     const std::set<std::int64_t> provisional = provisional_schools(product);
-    std::map<std::int64_t, std::int64_t> numbers;
     for (SchoolRow& school : product.schools) {
       const bool had = school.survey_school > 0;
       if (!had) school.survey_school = next++;
-      numbers[school.school_id] = school.survey_school;
       if (!had && !provisional.contains(school.school_id)) {
         earlier.push_back(
             {school.survey_school, product.source, school.school_id, school.first_time_utc, school.last_time_utc});
       }
     }
-    for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[row.school_id];
+    number_rows(product);
   }
   return earlier;
 }
 
-std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier) {
-  earlier = number_products(survey.observations, std::move(earlier));
+std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier, bool all) {
+  if (all) {
+    earlier = number_products(survey.observations, std::move(earlier));
+  } else {
+    recall_numbers(survey.observations, earlier);
+  }
   std::map<std::pair<std::string, std::int64_t>, std::int64_t> numbers;
   for (const ObservationProduct& product : survey.observations) {
     for (const SchoolRow& school : product.schools) {
@@ -82,20 +110,14 @@ std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumbe
   return earlier;
 }
 
+void number_as_merged(Survey& survey, const std::filesystem::path& out) {
+  auto told = told_numbers(out);
+  const bool all = !told;
+  (void)number_schools(survey, std::move(told).value_or(std::vector<SurveyNumber>{}), all);
+}
+
 std::vector<SurveyNumber> kept_numbers(const std::filesystem::path& out) {
-  const auto json = read_json_file((out / "survey.json").string());
-  if (!json || !json->is_object() || !json->contains("survey_schools")) return {};
-  std::vector<SurveyNumber> numbers;
-  for (const auto& kept : json->at("survey_schools")) {
-    const auto whole = [&](const char* member) {
-      const auto found = kept.is_object() ? kept.find(member) : kept.end();
-      return kept.is_object() && found != kept.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
-    };
-    SurveyNumber number{whole("survey_school"), "", whole("school_id"), whole("first_time_ns"), whole("last_time_ns")};
-    if (kept.is_object() && kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
-    if (number.number > 0) numbers.push_back(std::move(number));
-  }
-  return numbers;
+  return told_numbers(out).value_or(std::vector<SurveyNumber>{});
 }
 
 }  // namespace sonar

@@ -30,13 +30,16 @@ struct SurveyNumber {
 [[nodiscard]] std::vector<SurveyNumber> number_products(std::span<ObservationProduct> products,
                                                         std::vector<SurveyNumber> earlier);
 /// The same, in the survey's tables too.
-[[nodiscard]] std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier);
+/// all  whether every observation of the survey is there; else as recall_numbers(), and those that were kept stay: a
+///      number that would change with the next observation is none
+[[nodiscard]] std::vector<SurveyNumber> number_schools(Survey& survey, std::vector<SurveyNumber> earlier, bool all);
+/// Numbers a result's schools as its tables have them; all of them where it was not merged yet.
+void number_as_merged(Survey& survey, const std::filesystem::path& out);
 
-/// Gives the schools of products the numbers that a merge gave them; 0 where it knows nothing of them.
+/// Gives the schools of products, in all their rows, the numbers that a merge gave them; 0 where it knows nothing of them.
 void recall_numbers(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept);
 
-/// As number_products() where all observations of a survey are there, else as recall_numbers(): a number that would change
-/// with the next observation is none.
+/// As number_products() where all observations of a survey are there, else as recall_numbers().
 inline void number_known(std::span<ObservationProduct> products, const std::vector<SurveyNumber>& kept, bool all) {
   all ? void(number_products(products, kept)) : recall_numbers(products, kept);
 }
