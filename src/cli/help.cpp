@@ -12,7 +12,7 @@
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/one_of.h"
-#include "cli/suggestion.h"
+#include "cli/usage.h"
 
 namespace sonar {
 namespace {
@@ -96,13 +96,6 @@ class PlainFormatter : public CLI::Formatter {
   }
 };
 
-std::vector<std::string> verb_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(verb->get_name());
-  return names;
-}
-
 int print_help(const CLI::App& app, const std::string& name) {
   if (name.empty()) {
     fmt::print("{}", app.help());
@@ -113,10 +106,7 @@ int print_help(const CLI::App& app, const std::string& name) {
     fmt::print("{}", named.front()->help("sonarx"));
     return kExitDone;
   }
-  const std::string meant = suggestion(name, verb_names(app));
-  return report({ErrorCode::usage,
-                 fmt::format("there is no verb '{}'{}", name, meant.empty() ? "" : "; did you mean " + meant + "?"),
-                 {}});
+  return report({ErrorCode::usage, no_verb_text(app, name), {}});
 }
 
 void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter) {

@@ -34,7 +34,8 @@ CLI::Validator whole_within(std::int64_t least, std::int64_t most) {
 CLI::Validator within(double least, double most) {
   const auto problem = [least, most](const std::string& text) -> std::string {
     double value = 0.0;
-    const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    if (!CLI::detail::lexical_cast(text, value)) return fmt::format("{} is no number", text);
+    const bool inside = value >= least && value <= most;
     return inside ? std::string{} : fmt::format("{} is outside {} .. {}", text, least, most);
   };
   return {problem, fmt::format("FLOAT in [{} - {}]", least, most)};

@@ -36,7 +36,15 @@ class Usage(Case):
     def test_wrong_usage_names_what_was_wrong(self):
         for arguments, said in [(("foo",), "there is no verb 'foo'; see sonarx --help"),
                                 (("run", "x", "--out", "y", "--only", ""), "--only: an empty name names nothing"),
-                                (("simulate", "x", "--seed", "9" * 30), "9: out of range, or no whole number"),
+                                (("simulate", "x", "--seed", "9" * 30), "9 is out of range"),
+                                (("simulate", "x", "--seed", "word"), "--seed: word is no whole number; see"),
+                                (("simulate", "x", "--seed", "1.5"), "--seed: 1.5 is no whole number; see"),
+                                (("simulate", "x", "--noise", "word"), "--noise: word is no number; see"),
+                                (("render", "volume", "x", "--out", "y", "--ping", "abc"),
+                                 "--ping: abc is no whole number; see"),
+                                (("render", "volume", "x", "--out", "y", "--low-db", "abc"), "--low-db: abc is no number"),
+                                (("render", "volume", "x", "--out", "y", "--scale", "x"), "--scale: x is no number"),
+                                (("follow", "x", "--out", "y", "--idle-exit", "x"), "--idle-exit: x is no number"),
                                 ((), "a verb is needed; see sonarx --help"),
                                 (("simulate", "x", "--pings", "-3"), "--pings: -3 is outside 1 .. 100000"),
                                 (("simulate", "x", "--speed-knots", "-1"), "--speed-knots: -1 is outside "),
@@ -46,7 +54,17 @@ class Usage(Case):
                                 (("run", "--plan", "plan.json", "--task", "-1"), "--task: -1 is no whole number in 0"),
                                 (("propagate", "x", "--observation", "obs-0001", "--seed", "0,0,0,0", "--out", "y",
                                   "--tolerance-db", "nan"), "--tolerance-db: nan is outside 0.1 .. 60"),
-                                (("info", "--no-such-flag"), "see sonarx info --help")]:
+                                (("recipe", "foo"), "sonarx: 'foo' is one word too many; see sonarx recipe --help"),
+                                (("status", "OUT", "one", "two"), "sonarx: 'one' is one word too many; see"),
+                                (("help", "run", "extra"), "sonarx: 'extra' is one word too many; see"),
+                                (("run", "x", "-o", "a", "--out", "b"), "sonarx: --out is given more than once; see"),
+                                (("run", "x", "--out"), "sonarx: --out needs a value; see"),
+                                (("run", "x", "--out", "y", "--json=word"), "sonarx: --json takes no value; see"),
+                                (("render", "volume", "x", "-o", "y", "--no-masks=word"), "sonarx: --no-masks takes no value; see"),
+                                (("info", "--no-such-flag"), "there is no option --no-such-flag; see sonarx info --help"),
+                                (("run", "x", "--ouf", "y"), "there is no option --ouf; did you mean --out?"),
+                                (("--no-such-flag",), "there is no option --no-such-flag; see sonarx --help"),
+                                (("merge", "OUT", "--jsn"), "there is no option --jsn; did you mean --json?")]:
             with self.subTest(arguments):
                 code, _, err = run(*arguments)
                 self.assertEqual(code, 2)
