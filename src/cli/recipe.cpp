@@ -9,6 +9,7 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/file_to_write.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/verb.h"
@@ -39,6 +40,10 @@ int check(const RecipeOptions& o) {
 }
 
 int print(const RecipeOptions& o) {
+  const bool to_file = !o.out.empty() && o.out != kStandardOutput;
+  if (to_file) {
+    if (auto place = require_place(o.out); !place) return report(place.error());
+  }
   const auto preset = recipe_preset(o.preset);
   if (!preset) return report(preset.error());
   auto recipe = with_measured(*preset, o.measured);
@@ -49,7 +54,7 @@ int print(const RecipeOptions& o) {
     describe(table, *recipe);
     text = table.markdown();
   }
-  if (o.out.empty() || o.out == "-") {
+  if (!to_file) {
     fmt::print("{}", text);
     return kExitDone;
   }

@@ -84,6 +84,15 @@ class Usage(Case):
             with self.subTest(arguments):
                 self.one_line_error(*arguments, code=1, names=gone)
 
+    def test_a_file_is_written_only_where_its_folder_is(self):
+        folder = self.fresh("file-to-write")
+        for arguments in (("recipe",), ("render", "slice-top", sonarx.WORK)):
+            with self.subTest(arguments[0]):
+                self.one_line_error(*arguments, "-o", folder, code=2, names=f"{folder}: is a folder; a file is meant")
+                self.one_line_error(*arguments, "-o", folder / "none" / "x.png", code=1,
+                                    names=f"{folder / 'none'}: no such folder to write to")
+        self.assertEqual(list(folder.iterdir()), [])
+
     def test_commands_in_the_pages_exist(self):
         pages = [PROJECT / "README.md", *sorted((PROJECT / "docs").glob("*.md"))]
         commands = []
