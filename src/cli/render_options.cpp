@@ -123,6 +123,10 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   describe(volume, a.picture.volume);
   KindFlags kind(verb, a);
   describe(kind, a.picture.kind);
+  for (const char* place : {"--eye", "--target", "--point", "--normal"}) {
+    verb.get_option(place)->check(numbers_between_commas("X,Y,Z"));
+  }
+  verb.get_option("--through")->check(numbers_between_commas("X,Y,X,Y"));
 }
 
 void settle_options(const CLI::App& verb, RenderArguments& a) {
@@ -135,6 +139,8 @@ void settle_options(const CLI::App& verb, RenderArguments& a) {
   const bool noise_removed = a.kind == "volume" ? picture.volume.filtered : picture.display.filtered;
   if (!given("--removed")) picture.display.removed = noise_removed ? NoiseLook::transparent : NoiseLook::shown;
   if (given("--weak-db") && !given("--weak")) throw CLI::ValidationError("--weak-db", "goes with --weak");
+  if (given("--eye") && !given("--target")) throw CLI::ValidationError("--eye", "goes with --target");
+  if (given("--target") && !given("--eye")) throw CLI::ValidationError("--target", "goes with --eye");
   // A plane's figures tell how it lies.
   const std::array<std::pair<const char*, PlaneLies>, 4> planes{{{"--depth-m", PlaneLies::horizontal},
                                                                  {"--bearing-deg", PlaneLies::along_bearing},
