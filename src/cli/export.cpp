@@ -6,11 +6,13 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/exit_codes.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/numbers.h"
+#include "cli/one_of.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 
@@ -53,9 +55,13 @@ void add_export(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* verb = app.add_subcommand("export", "Write products in another program's format");
   std::string formats = "Format:";
-  for (const ExportFormat& format : export_formats()) formats += fmt::format("\n{} - {}", format.name, format.text);
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) {
+    formats += fmt::format("\n{} - {}", format.name, format.text);
+    names.emplace_back(format.name);
+  }
   verb->add_option("OUT", arguments->out, "Work folder of a run")->required()->check(named_path());
-  verb->add_option("--to", arguments->format, formats)->required();
+  verb->add_option("--to", arguments->format, formats)->required()->check(one_of(names));
   verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")
       ->required()
       ->check(named_folder());

@@ -12,6 +12,7 @@
 #include "cli/file_to_write.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
+#include "cli/one_of.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
 #include "pipeline/recipe/parameter_table.h"
@@ -76,7 +77,8 @@ std::string set_by_users() {
 void add_recipe(CLI::App& app, VerbRunner& run) {
   const auto o = std::make_shared<RecipeOptions>();
   CLI::App* verb = app.add_subcommand("recipe", "Print or check the parameters of every stage");
-  CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
+  CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter")
+                            ->check(one_of({"default", "paper"}));
   CLI::Option* validate =
       verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_path());
   add_measured_options(*verb, o->measured);
