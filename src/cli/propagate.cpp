@@ -80,7 +80,7 @@ Result<std::vector<Seed>> parse_seeds(const PropagateArguments& arguments, const
                               observation.grid->beams(), observation.range.count));
     }
     if (!seeds.empty() && seeds.front().ping != seed->ping) {
-      return fail(ErrorCode::usage, "all seeds of one selection lie in one ping");
+      return fail(ErrorCode::usage, fmt::format("--seed {}: all seeds of one selection lie in one ping", text));
     }
     seeds.push_back(*seed);
   }
@@ -159,6 +159,26 @@ const Diagnostic* refusal(const ObservationProduct& product) {
   const auto found = std::find_if(product.diagnostics.begin(), product.diagnostics.end(),
                                   [](const Diagnostic& note) { return note.code == DiagnosticCode::decision_lost; });
   return found == product.diagnostics.end() ? nullptr : &*found;
+}
+
+/// Whether the text began so; what follows is left of it.
+bool take_off(std::string& text, const std::string& beginning) {
+  if (!text.starts_with(beginning)) return false;
+  text.erase(0, beginning.size());
+  return true;
+}
+
+/// "--seed 6,6,7,3: has no data": the seed that is refused, as the user wrote it. That it is a line of a journal is no matter
+/// of theirs.
+std::string refusal_text(const JournalLine& line, std::string why, const std::vector<std::string>& seeds) {
+  take_off(why, said_of(line));
+  for (const std::string& text : seeds) {
+    const auto seed = parse_seed(text);
+    if (!seed) continue;
+    const auto place = fmt::format("the seed at fan {}, beam {}, sample {} ", seed->fan, seed->beam, seed->sample);
+    if (take_off(why, place)) return fmt::format("--seed {}: {}", text, why);
+  }
+  return fmt::format("--seed {}: {}", fmt::join(seeds, " "), why);
 }
 
 struct Clicked {
@@ -250,11 +270,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   clear_progress();
   if (!product) return report(product.error());
   if (const Diagnostic* why = refusal(*product)) {
-    // The user clicked; that a click is a line of a journal is no matter of theirs.
-    const std::string line_name = said_of(line);
-    const std::string text = why->text.starts_with(line_name) ? why->text.substr(line_name.size()) : why->text;
-    const std::string seeds = fmt::format("--seed {}: {}", fmt::join(arguments.seeds, " "), text);
-    return report({ErrorCode::bad_parameter, seeds, {arguments.survey, -1, why->ping_index}});
+    return report({ErrorCode::bad_parameter, refusal_text(line, why->text, arguments.seeds), {}});
   }
   if (auto written = write_outcome(*clicked, line, *product, *recipe, options); !written)
     return report(written.error());
