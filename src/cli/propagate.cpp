@@ -284,12 +284,16 @@ int propagate_verb(const PropagateArguments& arguments) {
 
 void add_propagate(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<PropagateArguments>();
-  CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and propagate it through time both ways");
+  CLI::App* verb = app.add_subcommand(
+      "propagate", "Grow a school from a seed, as a click in the window does, and propagate it through time both ways");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
-  verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
+  verb->add_option("--observation", arguments->observation, "Observation in which the seed lies, e.g. obs-0001")
+      ->required()
+      ->check(some_name());
   verb->add_option("--seed", arguments->seeds,
-                   "PING,FAN,BEAM,SAMPLE from 0: fans from the deepest, beams clockwise; several are joined")
-      ->required();
+                   "Voxel to grow from, counted from 0: fans from the deepest, beams clockwise; several are joined")
+      ->required()
+      ->type_name("PING,FAN,BEAM,SAMPLE");
   auto* in_db =
       verb->add_option(
               "--tolerance-db", arguments->tolerance_db,
@@ -303,10 +307,10 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
       ->check(one_of({"tracked", "paper"}));
   verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(whole_within(0, 1000000));
-  verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
-  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json")->check(named_file());
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--operator", arguments->operator_name, "Name of the operator");
+  verb->add_option("--operator", arguments->operator_name, "Who clicked, for the journal")->type_name("NAME");
   verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")
       ->required()
       ->check(named_folder());

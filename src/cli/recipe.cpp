@@ -80,13 +80,13 @@ void add_recipe(CLI::App& app, VerbRunner& run) {
   CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter")
                             ->check(one_of({"default", "paper"}));
   CLI::Option* validate =
-      verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_path());
+      verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_file());
   add_measured_options(*verb, o->measured);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);
-  verb->add_option("-o,--out", o->out, "File; default, and -: standard output")
+  verb->add_option("-o,--out", o->out, "File to write; default, and -: standard output")
       ->excludes(validate)
-      ->check(named_path());
+      ->check(named_file());
   verb->footer(set_by_users());
   verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });
 }

@@ -14,9 +14,28 @@ class Usage(Case):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
 
     def test_every_verb_has_help(self):
+        self.assertIn("Usage: sonarx [OPTIONS] VERB\n", self.sonarx("--help"))
+        self.assertIn("\nVerbs:\n", self.sonarx("--help"))
         for verb in VERBS:
             with self.subTest(verb):
                 self.assertGreater(len(self.sonarx(verb, "--help")), 80)
+
+    def test_help_says_what_stands_for_a_value(self):
+        kinds = {"N", "X", "X|FILE", "FILE", "FOLDER", "PATH", "NAME", "WORD", "A:B", "HOST:PORT", "RULE", "TIME", "N,N", "WIDTHxHEIGHT",
+                 "X,Y,Z", "X,Y,X,Y", "PING,FAN,BEAM,SAMPLE"}
+        found = set()
+        for verb in VERBS:
+            found |= set(re.findall(r"(?m)^  -\S+ ([A-Z]\S*)", self.sonarx(verb, "--help")))
+        self.assertEqual(found, kinds)
+        for verb, line in (("run", "-o,--out FOLDER  "), ("run", "--recipe FILE  "), ("run", "--session PATH  "), ("run", "--only NAME  "),
+                           ("recipe", "--preset WORD  "), ("recipe", "-o,--out FILE  "), ("render", "--eye X,Y,Z  "),
+                           ("render", "--size WIDTHxHEIGHT (1200x900)"), ("export", "--to WORD (required)"), ("follow", "--nmea HOST:PORT  ")):
+            self.assertIn(f"\n  {line}", self.sonarx(verb, "--help"))
+
+    def test_an_empty_value_of_an_unset_variable_is_refused(self):
+        for option in ("--recipe", "--session", "--calibration", "--sound-speed"):
+            code, _, err = run("run", "x", "--out", "y", option, "")
+            self.assertEqual((code, err), (2, f"sonarx: {option}: an empty path names nothing; see sonarx run --help\n"))
 
     def test_version_is_the_projects(self):
         project = re.search(r"project\(sonar-explorer VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text()).group(1)
