@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/manual.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/one_of.h"
@@ -18,7 +19,6 @@ namespace sonar {
 namespace {
 
 constexpr const char* kVerbs = "Verbs";
-constexpr std::string_view kManual = "Manual: " SONAR_MANUAL;
 
 struct Examples {
   std::string_view verb;
@@ -114,7 +114,7 @@ int print_help(const CLI::App& app, const std::string& name) {
   return report({ErrorCode::usage, no_verb_text(app, name), {}});
 }
 
-void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter) {
+void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter, const std::string& manual) {
   verb.formatter(formatter);
   verb.group(kVerbs);
   auto* quiet = verb.add_flag_callback(
@@ -133,7 +133,7 @@ void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatte
   for (const Examples& examples : kExamples) {
     if (examples.verb == verb.get_name()) footer += fmt::format("Examples:\n{}\n", examples.lines);
   }
-  verb.footer(footer + std::string(kManual));
+  verb.footer(footer + manual);
 }
 
 }  // namespace
@@ -141,9 +141,11 @@ void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatte
 void add_help(CLI::App& app, VerbRunner& run) {
   const auto formatter = std::make_shared<PlainFormatter>();
   formatter->label("SUBCOMMAND", "VERB");
+  const std::string manual = "Manual: " + manual_place();
   app.formatter(formatter);
-  app.footer(fmt::format("sonarx help VERB, or sonarx VERB --help, tells what a verb takes.\n{}", kManual));
-  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) finish_verb(*verb, formatter);
+  app.footer(fmt::format("sonarx help VERB, or sonarx VERB --help, tells what a verb takes.\n{}", manual));
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    finish_verb(*verb, formatter, manual);
   const auto name = std::make_shared<std::string>();
   CLI::App* help = app.add_subcommand("help", "Tell what a verb does and takes");
   help->formatter(formatter);

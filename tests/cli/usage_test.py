@@ -32,6 +32,11 @@ class Usage(Case):
                            ("render", "--size WIDTHxHEIGHT (1200x900)"), ("export", "--to WORD (required)"), ("follow", "--nmea HOST:PORT  ")):
             self.assertIn(f"\n  {line}", self.sonarx(verb, "--help"))
 
+    def test_help_names_a_manual_that_is_there(self):
+        for arguments in (("--help",), ("run", "--help")):
+            manual = re.search(r"(?m)^Manual: (.*)$", self.sonarx(*arguments)).group(1)
+            self.assertTrue((PROJECT / manual).is_file(), manual)
+
     def test_an_empty_value_of_an_unset_variable_is_refused(self):
         for option in ("--recipe", "--session", "--calibration", "--sound-speed"):
             code, _, err = run("run", "x", "--out", "y", option, "")
