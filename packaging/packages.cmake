@@ -17,6 +17,7 @@ if(SONAR_PACKAGES)
   add_custom_command(OUTPUT ${made}/words.stamp
                      COMMAND ${CMAKE_COMMAND} -E rm -rf ${made}/words
                      COMMAND Python3::Interpreter -B ${packaging}/make_man ${programs} --out ${made}/words --date ${SONAR_DATE}
+                             --manual ${CMAKE_INSTALL_FULL_DOCDIR}/user-guide.md
                      COMMAND gzip -9n -r ${made}/words/man
                      COMMAND ${CMAKE_COMMAND} -E touch ${made}/words.stamp
                      DEPENDS ${built} ${packaging}/make_man COMMENT "man pages and completion" VERBATIM)

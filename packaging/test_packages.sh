@@ -80,12 +80,13 @@ mkdir "$work/cli" "$work/desktop"
 dpkg-deb -x "$sonarx" "$work/cli"
 usr=$work/cli/usr
 check "the manual that --help names is in the package" \
-  bash -c "test -f '$work/cli'\$('$usr/bin/sonarx' --help | sed -n 's/^Manual: //p')"
+  bash -c "manual=\$('$usr/bin/sonarx' --help | sed -n 's/^Manual: //p'); [[ \$manual == '$usr'/* && -f \$manual ]]"
+check "man pages name it where it will be" zgrep -qF '/usr/share/doc/sonarx/user\-guide.md' "$usr/share/man/man1/sonarx.1.gz"
 check "man pages: no warning" bash -c "
   cd '$usr/share/man/man1'; for page in *.gz; do zcat \$page | groff -ww -man -Kutf8 -Tutf8 -z || exit 1; done 2>&1 | tee '$work/man'
   ! test -s '$work/man'"
 check "a man page for every verb" bash -c "
-  '$usr/bin/sonarx' --help | sed -n '/^Subcommands/,/^\$/s/^  \([a-z]*\) .*/\1/p' | grep -v '^help\$' |
+  '$usr/bin/sonarx' --help | sed -n '/^Verbs/,/^\$/s/^  \([a-z]*\) .*/\1/p' | grep -v '^help\$' |
     while read -r verb; do test -f '$usr/share/man/man1/sonarx-'\$verb.1.gz || exit 1; done"
 check "completion: bash" bash -n "$usr/share/bash-completion/completions/sonarx"
 if command -v zsh >/dev/null; then check "completion: zsh" zsh -n "$usr/share/zsh/vendor-completions/_sonarx"; fi

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cli/log.h"
+#include "cli/named_path.h"
 
 namespace sonar {
 namespace {
@@ -19,8 +20,8 @@ Error of_file(Error error) {
 }  // namespace
 
 void add_measured_options(CLI::App& verb, Measured& measured) {
-  verb.add_option("--calibration", measured.calibration, kCalibrationHelp);
-  verb.add_option("--sound-speed", measured.sound_speed, kSoundSpeedHelp);
+  verb.add_option("--calibration", measured.calibration, kCalibrationHelp)->check(named_file());
+  verb.add_option("--sound-speed", measured.sound_speed, kSoundSpeedHelp)->check(named_path("X|FILE"));
 }
 
 Result<Recipe> chosen_recipe(const std::string& recipe, const Measured& measured) {

@@ -41,7 +41,8 @@ int run_compare(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, VerbRunner& run) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* verb = app.add_subcommand("compare", "Two products or results: equal, or the first difference");
+  CLI::App* verb =
+      app.add_subcommand("compare", "Tell whether two products or results are equal, or where they differ first");
   verb->add_option("A", options->a, "A product (.nc), a table (.csv) or a work folder")->required();
   verb->add_option("B", options->b, "The same kind")->required();
   verb->add_flag("--ignore-provenance", options->ignore_provenance,

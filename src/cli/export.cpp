@@ -6,12 +6,14 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/naming_option.h"
 #include "cli/numbers.h"
+#include "cli/one_of.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
 
@@ -57,19 +59,24 @@ void add_export(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* verb = app.add_subcommand("export", "Write products in another program's format");
   std::string formats = "Format:";
-  for (const ExportFormat& format : export_formats()) formats += fmt::format("\n{} - {}", format.name, format.text);
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) {
+    formats += fmt::format("\n{} - {}", format.name, format.text);
+    names.emplace_back(format.name);
+  }
   verb->add_option("OUT", arguments->out, "Work folder of a run")->required()->check(named_path());
-  verb->add_option("--to", arguments->format, formats)->required();
+  verb->add_option("--to", arguments->format, formats)->required()->check(one_of(names));
   verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")
       ->required()
       ->check(named_folder());
-  verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, raw-reduced)")->check(named_path());
+  verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, raw-reduced)")
+      ->check(named_path("FOLDER"));
   verb->add_option("--margin-samples", arguments->reduce.margin_samples,
-                   "raw-reduced: samples kept round each school beside its need");
-  verb->add_option("--margin-beams", arguments->reduce.margin_beams, "raw-reduced: the same in beams");
-  verb->add_option("--margin-fans", arguments->reduce.margin_fans, "raw-reduced: the same in fans");
+                   "raw-reduced: samples before and after each school that are kept beyond what its figures need");
+  verb->add_option("--margin-beams", arguments->reduce.margin_beams, "raw-reduced: the same in beams, on either side");
+  verb->add_option("--margin-fans", arguments->reduce.margin_fans, "raw-reduced: the same in fans, above and below");
   verb->add_option("--margin-pings", arguments->reduce.margin_pings,
-                   "raw-reduced: pings that hold none of a school, before and after it");
+                   "raw-reduced: pings kept before each school's first ping and after its last");
   verb->add_option("--coarsen", arguments->reduce.coarsen_beams,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
   verb->add_flag("--no-formulas", arguments->no_formulas,

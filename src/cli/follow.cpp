@@ -273,7 +273,8 @@ int follow_survey(const FollowArguments& arguments) {
 
 void add_follow(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<FollowArguments>();
-  CLI::App* verb = app.add_subcommand("follow", "Like run, on files that are still being written; Ctrl-C ends it");
+  CLI::App* verb =
+      app.add_subcommand("follow", "Process a survey while its files are still being written; Ctrl-C ends it");
   verb->add_option("SURVEY", arguments->run.survey, "Folder in which raw files appear, or raw files")->required();
   verb->add_option("-o,--out", arguments->run.out, "Work folder for products and tables")
       ->required()
@@ -281,18 +282,21 @@ void add_follow(CLI::App& app, VerbRunner& run) {
   verb->add_option("--idle-exit", arguments->idle_exit_s,
                    "End when nothing was written for so many seconds: then all is over; 0 = never")
       ->check(within(0.0, 1e9));
-  verb->add_option("--recipe", arguments->run.recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--recipe", arguments->run.recipe, "Parameters of every stage (see sonarx recipe)")
+      ->check(named_file());
   add_measured_options(*verb, arguments->run.measured);
   verb->add_option("--session", arguments->run.session,
-                   "Journal of decisions to replay, or the folder of several people's; read again when it grows");
+                   "Journal of decisions to replay, or the folder of several people's; read again when it grows")
+      ->check(named_path());
   verb->add_option("-j,--jobs", arguments->run.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->add_option(
           "--alarm", arguments->alarms,
           "Tell when a school's row of school_pings.csv begins to be so: \"volume_m3 > 20000, range_m < 150\"; "
           "may be given again")
+      ->type_name("RULE")
       ->allow_extra_args(false);
-  verb->add_option("--nmea", arguments->nmea, "HOST:PORT: schools as NMEA 0183 TLL and TTM by UDP, for the chart")
-      ->check(some_name());
+  verb->add_option("--nmea", arguments->nmea, "Schools as NMEA 0183 TLL and TTM by UDP, for the chart")
+      ->check(some_name("HOST:PORT"));
   verb->add_flag("--json", arguments->json, "Print reports as JSON, one object per line");
   verb->callback([arguments, &run] { run = [arguments] { return follow_survey(*arguments); }; });
 }

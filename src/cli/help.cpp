@@ -9,15 +9,16 @@
 #include <string>
 #include <string_view>
 
+#include "base/manual.h"
 #include "cli/exit_codes.h"
 #include "cli/log.h"
 #include "cli/one_of.h"
-#include "cli/suggestion.h"
+#include "cli/usage.h"
 
 namespace sonar {
 namespace {
 
-constexpr std::string_view kManual = "Manual: " SONAR_MANUAL;
+constexpr const char* kVerbs = "Verbs";
 
 struct Examples {
   std::string_view verb;
@@ -66,17 +67,21 @@ std::string choices_of(const CLI::Option& option) {
   return choices;
 }
 
+/// What stands for a value: what its validator says of itself, "TEXT:FILE" -> "FILE", or else the option.
+std::string value_word(const std::string& type) {
+  if (type.starts_with("INT")) return "N";
+  if (type.starts_with("FLOAT")) return "X";
+  if (type.find('{') != std::string::npos) return "WORD";
+  return type.starts_with("TEXT:") ? type.substr(5) : type;
+}
+
 /// Options in plain words: what kind of value stands there, and of choices what they are.
 class PlainFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
     std::string text;
     if (option->get_items_expected_max() > 0) {
-      const std::string type = option->get_type_name();
-      text = type.starts_with("INT")     ? " N"
-             : type.starts_with("FLOAT") ? " X"
-             : option->get_positional()  ? ""
-                                         : " TEXT";
+      if (!option->get_positional()) text = " " + value_word(option->get_type_name());
       if (option->get_expected_max() > 1) text += " ...";
       if (!option->get_default_str().empty()) text += " (" + option->get_default_str() + ")";
     }
@@ -96,13 +101,6 @@ class PlainFormatter : public CLI::Formatter {
   }
 };
 
-std::vector<std::string> verb_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(verb->get_name());
-  return names;
-}
-
 int print_help(const CLI::App& app, const std::string& name) {
   if (name.empty()) {
     fmt::print("{}", app.help());
@@ -113,14 +111,12 @@ int print_help(const CLI::App& app, const std::string& name) {
     fmt::print("{}", named.front()->help("sonarx"));
     return kExitDone;
   }
-  const std::string meant = suggestion(name, verb_names(app));
-  return report({ErrorCode::usage,
-                 fmt::format("there is no verb '{}'{}", name, meant.empty() ? "" : "; did you mean " + meant + "?"),
-                 {}});
+  return report({ErrorCode::usage, no_verb_text(app, name), {}});
 }
 
-void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter) {
+void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatter, const std::string& manual) {
   verb.formatter(formatter);
+  verb.group(kVerbs);
   auto* quiet = verb.add_flag_callback(
       "-q,--quiet", [] { set_log_level(LogLevel::quiet); }, "Print errors only, no notes and no progress");
   verb.add_flag_callback(
@@ -137,19 +133,23 @@ void finish_verb(CLI::App& verb, const std::shared_ptr<CLI::Formatter>& formatte
   for (const Examples& examples : kExamples) {
     if (examples.verb == verb.get_name()) footer += fmt::format("Examples:\n{}\n", examples.lines);
   }
-  verb.footer(footer + std::string(kManual));
+  verb.footer(footer + manual);
 }
 
 }  // namespace
 
 void add_help(CLI::App& app, VerbRunner& run) {
   const auto formatter = std::make_shared<PlainFormatter>();
+  formatter->label("SUBCOMMAND", "VERB");
+  const std::string manual = "Manual: " + manual_place();
   app.formatter(formatter);
-  app.footer(fmt::format("sonarx help VERB, or sonarx VERB --help, tells what a verb takes.\n{}", kManual));
-  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) finish_verb(*verb, formatter);
+  app.footer(fmt::format("sonarx help VERB, or sonarx VERB --help, tells what a verb takes.\n{}", manual));
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    finish_verb(*verb, formatter, manual);
   const auto name = std::make_shared<std::string>();
   CLI::App* help = app.add_subcommand("help", "Tell what a verb does and takes");
   help->formatter(formatter);
+  help->group(kVerbs);
   help->add_option("VERB", *name, "Verb; none = what all do in a line each");
   help->callback([&app, name, &run] { run = [&app, name] { return print_help(app, *name); }; });
 }

@@ -8,12 +8,11 @@
 #include <new>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "cli/exit_codes.h"
 #include "cli/help.h"
 #include "cli/log.h"
-#include "cli/suggestion.h"
+#include "cli/usage.h"
 #include "cli/verb.h"
 
 namespace sonar {
@@ -33,59 +32,6 @@ extern "C" void on_interrupt(int) {
   for (auto& slot : watched) {
     if (Work* work = slot.load()) work->cancel();
   }
-}
-
-/// "--seed = 99999999999999999999: out of range, or no whole number"; the parser's own words say nothing of what was wrong.
-std::string conversion_text(const CLI::App& app, const std::string& told) {
-  const std::string call = told.substr(told.find("--") == std::string::npos ? 0 : told.find("--"));
-  const auto verbs = app.get_subcommands();
-  const CLI::Option* option =
-      verbs.empty() ? nullptr : verbs.front()->get_option_no_throw(call.substr(0, call.find(' ')));
-  if (option == nullptr) return told;
-  return call + (option->get_type_name().starts_with("FLOAT") ? ": out of range, or no number"
-                                                              : ": out of range, or no whole number");
-}
-
-/// "; did you mean --out?", or nothing.
-std::string meant_text(const std::string& word, const std::vector<std::string>& known) {
-  const std::string meant = suggestion(word, known);
-  return meant.empty() ? "" : "; did you mean " + meant + "?";
-}
-
-/// "there is no option --ouf; did you mean --out?"; empty where no option was too many.
-std::string unknown_option_text(const CLI::App& app) {
-  const auto verbs = app.get_subcommands();
-  if (verbs.empty()) return {};
-  const CLI::App& verb = *verbs.front();
-  std::vector<std::string> known;
-  for (const CLI::Option* option : verb.get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
-  for (const std::string& word : verb.remaining()) {
-    if (!word.starts_with("-")) continue;
-    const std::string name = word.substr(0, word.find('='));
-    return "there is no option " + name + meant_text(name, known);
-  }
-  return {};
-}
-
-/// What was wrong with a call. The parser misses a verb before it looks at what stands in its place.
-std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::span<char*> words) {
-  const std::string first = words.size() > 1 ? words[1] : "";
-  if (!first.empty() && first[0] != '-' &&
-      app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; }).empty()) {
-    std::vector<std::string> verbs;
-    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-      verbs.push_back(verb->get_name());
-    return "there is no verb '" + first + "'" + meant_text(first, verbs);
-  }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    if (const std::string text = unknown_option_text(app); !text.empty()) return text;
-  }
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return conversion_text(app, error.what());
-  return dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && app.get_subcommands().empty()
-             ? "a verb is needed"
-             : error.what();
 }
 
 int run_program(int argc, char** argv) {

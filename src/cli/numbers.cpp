@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <string>
 
 namespace sonar {
@@ -34,10 +37,25 @@ CLI::Validator whole_within(std::int64_t least, std::int64_t most) {
 CLI::Validator within(double least, double most) {
   const auto problem = [least, most](const std::string& text) -> std::string {
     double value = 0.0;
-    const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    if (!CLI::detail::lexical_cast(text, value)) return fmt::format("{} is no number", text);
+    const bool inside = value >= least && value <= most;
     return inside ? std::string{} : fmt::format("{} is outside {} .. {}", text, least, most);
   };
   return {problem, fmt::format("FLOAT in [{} - {}]", least, most)};
+}
+
+CLI::Validator numbers_between_commas(const std::string& kind) {
+  const std::size_t count = CLI::detail::split(kind, ',').size();
+  const auto problem = [kind, count](const std::string& text) -> std::string {
+    const std::vector<std::string> parts = CLI::detail::split(text, ',');
+    const bool all = std::all_of(parts.begin(), parts.end(), [](const std::string& part) {
+      double value = 0.0;
+      return CLI::detail::lexical_cast(part, value) && std::isfinite(value);
+    });
+    return all && parts.size() == count ? std::string{}
+                                        : fmt::format("{} is not {}, {} numbers between commas", text, kind, count);
+  };
+  return {problem, kind};
 }
 
 }  // namespace sonar

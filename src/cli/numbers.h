@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,5 +17,7 @@ namespace sonar {
 [[nodiscard]] CLI::Validator whole_within(std::int64_t least, std::int64_t most);
 /// Refuses what is no number between least and most; the parser's own range lets "nan" through.
 [[nodiscard]] CLI::Validator within(double least, double most);
+/// Refuses what is not as many numbers between commas as `kind` has letters: "X,Y,Z", as help shows the value.
+[[nodiscard]] CLI::Validator numbers_between_commas(const std::string& kind);
 
 }  // namespace sonar

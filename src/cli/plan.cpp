@@ -19,15 +19,15 @@ namespace sonar {
 
 void add_plan(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RunArguments>();
-  CLI::App* verb = app.add_subcommand("plan", "Divide the work of run into independent tasks");
+  CLI::App* verb = app.add_subcommand("plan", "Divide the processing of a survey into independent tasks");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files")->required();
   verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")
       ->required()
       ->check(named_folder());
-  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--session", arguments->session,
-                   "Journal of decisions to replay, or the folder of several people's");
+  verb->add_option("--session", arguments->session, "Journal of decisions to replay, or the folder of several people's")
+      ->check(named_path());
   verb->add_flag("--json", arguments->json, "Print what stands in OUT/plan.json instead of a text");
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([arguments, &run] {

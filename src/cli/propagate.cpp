@@ -80,7 +80,7 @@ Result<std::vector<Seed>> parse_seeds(const PropagateArguments& arguments, const
                               observation.grid->beams(), observation.range.count));
     }
     if (!seeds.empty() && seeds.front().ping != seed->ping) {
-      return fail(ErrorCode::usage, "all seeds of one selection lie in one ping");
+      return fail(ErrorCode::usage, fmt::format("--seed {}: all seeds of one selection lie in one ping", text));
     }
     seeds.push_back(*seed);
   }
@@ -159,6 +159,26 @@ const Diagnostic* refusal(const ObservationProduct& product) {
   const auto found = std::find_if(product.diagnostics.begin(), product.diagnostics.end(),
                                   [](const Diagnostic& note) { return note.code == DiagnosticCode::decision_lost; });
   return found == product.diagnostics.end() ? nullptr : &*found;
+}
+
+/// Whether the text began so; what follows is left of it.
+bool take_off(std::string& text, const std::string& beginning) {
+  if (!text.starts_with(beginning)) return false;
+  text.erase(0, beginning.size());
+  return true;
+}
+
+/// "--seed 6,6,7,3: has no data": the seed that is refused, as the user wrote it. That it is a line of a journal is no matter
+/// of theirs.
+std::string refusal_text(const JournalLine& line, std::string why, const std::vector<std::string>& seeds) {
+  take_off(why, said_of(line));
+  for (const std::string& text : seeds) {
+    const auto seed = parse_seed(text);
+    if (!seed) continue;
+    const auto place = fmt::format("the seed at fan {}, beam {}, sample {} ", seed->fan, seed->beam, seed->sample);
+    if (take_off(why, place)) return fmt::format("--seed {}: {}", text, why);
+  }
+  return fmt::format("--seed {}: {}", fmt::join(seeds, " "), why);
 }
 
 struct Clicked {
@@ -250,11 +270,7 @@ int propagate_verb(const PropagateArguments& arguments) {
   clear_progress();
   if (!product) return report(product.error());
   if (const Diagnostic* why = refusal(*product)) {
-    // The user clicked; that a click is a line of a journal is no matter of theirs.
-    const std::string line_name = said_of(line);
-    const std::string text = why->text.starts_with(line_name) ? why->text.substr(line_name.size()) : why->text;
-    const std::string seeds = fmt::format("--seed {}: {}", fmt::join(arguments.seeds, " "), text);
-    return report({ErrorCode::bad_parameter, seeds, {arguments.survey, -1, why->ping_index}});
+    return report({ErrorCode::bad_parameter, refusal_text(line, why->text, arguments.seeds), {}});
   }
   if (auto written = write_outcome(*clicked, line, *product, *recipe, options); !written)
     return report(written.error());
@@ -268,12 +284,16 @@ int propagate_verb(const PropagateArguments& arguments) {
 
 void add_propagate(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<PropagateArguments>();
-  CLI::App* verb = app.add_subcommand("propagate", "One click: grow a school and propagate it through time both ways");
+  CLI::App* verb = app.add_subcommand(
+      "propagate", "Grow a school from a seed, as a click in the window does, and propagate it through time both ways");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
-  verb->add_option("--observation", arguments->observation, "e.g. obs-0001")->required();
+  verb->add_option("--observation", arguments->observation, "Observation in which the seed lies, e.g. obs-0001")
+      ->required()
+      ->check(some_name());
   verb->add_option("--seed", arguments->seeds,
-                   "PING,FAN,BEAM,SAMPLE from 0: fans from the deepest, beams clockwise; several are joined")
-      ->required();
+                   "Voxel to grow from, counted from 0: fans from the deepest, beams clockwise; several are joined")
+      ->required()
+      ->type_name("PING,FAN,BEAM,SAMPLE");
   auto* in_db =
       verb->add_option(
               "--tolerance-db", arguments->tolerance_db,
@@ -287,10 +307,10 @@ void add_propagate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--mode", arguments->mode, "tracked, or paper: as the 2007 paper did")
       ->check(one_of({"tracked", "paper"}));
   verb->add_option("--reach", arguments->reach, "Pings to each side; default: all")->check(whole_within(0, 1000000));
-  verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json");
-  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--transfer-function", arguments->curve, "Growth curve TF.json")->check(named_file());
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--operator", arguments->operator_name, "Name of the operator");
+  verb->add_option("--operator", arguments->operator_name, "Who clicked, for the journal")->type_name("NAME");
   verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")
       ->required()
       ->check(named_folder());

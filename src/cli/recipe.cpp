@@ -9,8 +9,10 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/file_to_write.h"
 #include "cli/log.h"
 #include "cli/named_path.h"
+#include "cli/one_of.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
 #include "pipeline/recipe/parameter_table.h"
@@ -39,6 +41,10 @@ int check(const RecipeOptions& o) {
 }
 
 int print(const RecipeOptions& o) {
+  const bool to_file = !o.out.empty() && o.out != kStandardOutput;
+  if (to_file) {
+    if (auto place = require_place(o.out); !place) return report(place.error());
+  }
   const auto preset = recipe_preset(o.preset);
   if (!preset) return report(preset.error());
   auto recipe = with_measured(*preset, o.measured);
@@ -49,7 +55,7 @@ int print(const RecipeOptions& o) {
     describe(table, *recipe);
     text = table.markdown();
   }
-  if (o.out.empty() || o.out == "-") {
+  if (!to_file) {
     fmt::print("{}", text);
     return kExitDone;
   }
@@ -71,15 +77,16 @@ std::string set_by_users() {
 void add_recipe(CLI::App& app, VerbRunner& run) {
   const auto o = std::make_shared<RecipeOptions>();
   CLI::App* verb = app.add_subcommand("recipe", "Print or check the parameters of every stage");
-  CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter");
+  CLI::Option* preset = verb->add_option("--preset", o->preset, "default, or paper: the 2007 paper to the letter")
+                            ->check(one_of({"default", "paper"}));
   CLI::Option* validate =
-      verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_path());
+      verb->add_option("--validate", o->validate, "Check this recipe file")->excludes(preset)->check(named_file());
   add_measured_options(*verb, o->measured);
   verb->add_flag("--describe", o->describe, "Value, unit, range and meaning of every parameter, as Markdown tables")
       ->excludes(validate);
-  verb->add_option("-o,--out", o->out, "File; default, and -: standard output")
+  verb->add_option("-o,--out", o->out, "File to write; default, and -: standard output")
       ->excludes(validate)
-      ->check(named_path());
+      ->check(named_file());
   verb->footer(set_by_users());
   verb->callback([o, &run] { run = [o] { return o->validate.empty() ? print(*o) : check(*o); }; });
 }

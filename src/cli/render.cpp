@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/file_to_write.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/verb.h"
@@ -22,18 +22,13 @@
 namespace sonar {
 namespace {
 
-/// The name that means standard output, as PNG.
-constexpr std::string_view kStandardOutput = "-";
-
 /// What would be found out only after the drawing.
 Result<void> check_output(const RenderArguments& arguments) {
   namespace fs = std::filesystem;
   std::error_code absent;
   for (const std::string& name : {arguments.out, arguments.difference}) {
-    const fs::path folder = fs::path(name).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder, absent)) {
-      return fail(ErrorCode::not_found, "no such folder to write to", {folder.string()});
-    }
+    if (name.empty() || name == kStandardOutput) continue;
+    if (auto place = require_place(name); !place) return place;
   }
   if (!arguments.out.empty() && arguments.out != kStandardOutput && !is_picture_file(arguments.out)) {
     return fail(ErrorCode::usage, "expected a name that ends in .png, .svg or .pdf", {arguments.out});

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/named_path.h"
 #include "cli/numbers.h"
 #include "cli/one_of.h"
 #include "pipeline/recipe/transfer_function_json.h"
@@ -45,17 +46,19 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   const auto suits = [&a](const CLI::Option* option, const char* kinds) {
     a.suits.push_back({option->get_name(), kinds});
   };
-  suits(verb.add_option("--observation", a.observation, "e.g. obs-0001; default: the first"),
+  suits(verb.add_option("--observation", a.observation, "Observation to draw, e.g. obs-0001; default: the first")
+            ->check(some_name()),
         "slice- volume propagation observation-map timeline");
   suits(verb.add_option("--ping", a.picture.ping, "Ping index; default: the first with a school, else the middle one"),
         kOfPing);
-  verb.add_option("--schools", a.schools, "School ids between commas; default: all");
+  verb.add_option("--schools", a.schools, "School ids between commas; default: all")->type_name("N,N");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");
   auto* unfiltered = verb.add_flag("--unfiltered", a.unfiltered, "As recorded; default of slices")->excludes(filtered);
   suits(filtered, kOfSv);
   suits(unfiltered, kOfSv);
-  verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default");
-  verb.add_option("--size", a.size, "WIDTHxHEIGHT, pixels")->capture_default_str();
+  verb.add_option("--recipe", a.recipe, "Parameters of every stage; default: the product's, else the preset default")
+      ->check(named_file());
+  verb.add_option("--size", a.size, "Pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
   verb.add_option("--scale", a.picture.scale, "Pixels per unit of --size: 2 for print or high-density screens")
       ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
@@ -64,10 +67,12 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--beam", a.picture.beam,
                         "Beam from 0, clockwise (looking to port: from aft); default: through the largest school"),
         "slice-side");
-  suits(verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of --map"),
+  suits(verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of --map")
+            ->check(named_file()),
         kOfSv);
   suits(verb.add_option("--depth-raster", a.picture.depth_raster,
-                        "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed"),
+                        "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed")
+            ->check(named_file()),
         "volume survey-map");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
@@ -75,7 +80,9 @@ void add_common(CLI::App& verb, RenderArguments& a) {
 
 void add_comparing(CLI::App& verb, RenderArguments& a) {
   const std::string group = "Comparing";
-  verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")->group(group);
+  verb.add_option("--reference", a.reference, "Compare with this PNG; exit code 1 where it differs")
+      ->check(named_file())
+      ->group(group);
   verb.add_option("--largest-difference", a.largest_difference, "Allowed difference of any channel, 0..255")
       ->check(within(0.0, 255.0))
       ->capture_default_str()
@@ -84,7 +91,7 @@ void add_comparing(CLI::App& verb, RenderArguments& a) {
       ->check(within(0.0, 255.0))
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--difference", a.difference, "Write what differs as a PNG")->group(group);
+  verb.add_option("--difference", a.difference, "Write what differs as a PNG")->check(named_file())->group(group);
 }
 
 /// Flags of what is asked for one kind: the group's name is the kind's.
@@ -110,7 +117,7 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("KIND", a.kind, kinds)->required()->check(one_of(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
-  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf; - = PNG on standard output");
+  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf; - = PNG on standard output")->check(named_file());
   add_comparing(verb, a);
   add_common(verb, a);
   // A file is drawn once, where a window goes on while one looks.
@@ -123,6 +130,10 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   describe(volume, a.picture.volume);
   KindFlags kind(verb, a);
   describe(kind, a.picture.kind);
+  for (const char* place : {"--eye", "--target", "--point", "--normal"}) {
+    verb.get_option(place)->check(numbers_between_commas("X,Y,Z"));
+  }
+  verb.get_option("--through")->check(numbers_between_commas("X,Y,X,Y"));
 }
 
 void settle_options(const CLI::App& verb, RenderArguments& a) {
@@ -135,6 +146,8 @@ void settle_options(const CLI::App& verb, RenderArguments& a) {
   const bool noise_removed = a.kind == "volume" ? picture.volume.filtered : picture.display.filtered;
   if (!given("--removed")) picture.display.removed = noise_removed ? NoiseLook::transparent : NoiseLook::shown;
   if (given("--weak-db") && !given("--weak")) throw CLI::ValidationError("--weak-db", "goes with --weak");
+  if (given("--eye") && !given("--target")) throw CLI::ValidationError("--eye", "goes with --target");
+  if (given("--target") && !given("--eye")) throw CLI::ValidationError("--target", "goes with --eye");
   // A plane's figures tell how it lies.
   const std::array<std::pair<const char*, PlaneLies>, 4> planes{{{"--depth-m", PlaneLies::horizontal},
                                                                  {"--bearing-deg", PlaneLies::along_bearing},

@@ -169,20 +169,21 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or raw files");
   auto* out =
       verb->add_option("-o,--out", arguments->out, "Work folder for products and tables")->check(named_folder());
-  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   add_measured_options(*verb, arguments->measured);
-  verb->add_option("--session", arguments->session,
-                   "Journal of decisions to replay, or the folder of several people's");
+  verb->add_option("--session", arguments->session, "Journal of decisions to replay, or the folder of several people's")
+      ->check(named_path());
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
-  verb->add_option("--only", arguments->only, "One observation, e.g. obs-0002")->check(some_name());
+  verb->add_option("--only", arguments->only, "Only this observation, e.g. obs-0002")->check(some_name());
   verb->add_option(
-      "--pings", arguments->pings,
-      "Ping indices A:B of each observation, both included, from 0; shorter observations give the pings they have");
+          "--pings", arguments->pings,
+          "Ping indices of each observation, both included, from 0; shorter observations give the pings they have")
+      ->type_name("A:B");
   verb->add_flag("--remeasure", arguments->remeasure, "Keep masks and decisions, recompute every number");
   verb->add_flag("--why", arguments->why,
                  "List every echo above the background that was judged not to be a school, with the reason");
   verb->add_flag("--json", arguments->json, "Print what stands in OUT/survey.json instead of a text");
-  auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan");
+  auto* plan = verb->add_option("--plan", arguments->plan, "OUT/plan.json made by sonarx plan")->check(named_file());
   auto* task =
       verb->add_option("--task", arguments->task, "Which task of the plan, from 0")->check(whole_within(0, kMostTasks));
   for (const char* own : {"--recipe", "--calibration", "--session", "--only", "--pings", "--remeasure"}) {

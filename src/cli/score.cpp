@@ -44,7 +44,9 @@ void add_score(CLI::App& app, VerbRunner& run) {
   const auto options = std::make_shared<ScoreOptions>();
   CLI::App* verb = app.add_subcommand("score", "Tell how well a result matches a known truth");
   verb->add_option("OUT", options->out, "Work folder of a run")->required()->check(named_path());
-  verb->add_option("--truth", options->truth, "Folder with the truth, as simulate writes it")->required();
+  verb->add_option("--truth", options->truth, "Folder with the truth, as simulate writes it")
+      ->required()
+      ->check(named_path("FOLDER"));
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return run_score(*options); }; });
 }

@@ -219,7 +219,8 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--pings", o->pings, "Pings in each observation");
   verb->add_option("--schools", o->schools, "Schools in each observation");
   verb->add_option("--speed-knots", o->speed_knots, "The ship's speed over ground");
-  verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams");
+  verb->add_option("--beams", o->beams, "Beam table (CSV) instead of the MS70's 20 fans of 25 beams")
+      ->check(named_file());
   verb->add_option("--beam-pattern", o->beam_pattern,
                    "Shape of the beams: gaussian, uniform_line (with side lobes), or sending wider than receiving: "
                    "wide_transmit (both ways), wide_fan (along the fan)")
@@ -228,7 +229,8 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "Array physics: the strengths of other scatterers as the parameters state them, or drawn from the "
                    "seed (random)")
       ->check(one_of({"stated", "random"}));
-  verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params");
+  verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params")
+      ->check(named_file());
   auto* print =
       verb->add_flag("--print-params", o->print_params, "Print every parameter of the survey and write nothing");
   verb->add_flag("--describe", o->describe, "The same with unit, range and meaning of each, as Markdown tables")

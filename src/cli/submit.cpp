@@ -260,14 +260,14 @@ int run_submit(const SubmitOptions& options) {
 }
 
 /// Of names that stand in a script's line as they are.
-CLI::Validator plain_word() {
+CLI::Validator plain_word(const std::string& kind) {
   return {[](std::string& text) {
             const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
               return std::isalnum(c) != 0 || c == '_' || c == '-' || c == ',' || c == '.' || c == ':';
             });
             return plain ? std::string{} : "expected letters, digits and _-,.: alone";
           },
-          "", ""};
+          kind};
 }
 
 /// Whether Slurm would read it as a time limit.
@@ -294,25 +294,27 @@ CLI::Validator slurm_time() {
   return {[](std::string& text) {
             return std::string(is_slurm_time(text) ? "" : "expected M, M:S, H:M:S, D-H, D-H:M, D-H:M:S or UNLIMITED");
           },
-          "", ""};
+          "TIME"};
 }
 
 }  // namespace
 
 void add_submit(CLI::App& app, VerbRunner& run) {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* verb =
-      app.add_subcommand("submit", "Hand a survey to Slurm: a job array, an observation a task, then merge");
+  CLI::App* verb = app.add_subcommand(
+      "submit", "Hand a survey to Slurm: a job array with a task for each observation, then a job that merges");
   verb->add_option("SURVEY", options->run.survey, "Folder of raw files, or raw files")->required();
   verb->add_option("-o,--out", options->run.out, "Work folder for products and tables, seen by all nodes")
       ->required()
       ->check(named_folder());
-  verb->add_option("--recipe", options->run.recipe, "Parameters of every stage (see sonarx recipe)");
+  verb->add_option("--recipe", options->run.recipe, "Parameters of every stage (see sonarx recipe)")
+      ->check(named_file());
   add_measured_options(*verb, options->run.measured);
   verb->add_option("--session", options->run.session,
-                   "Journal of decisions to replay, or the folder of several people's");
-  verb->add_option("--partition", options->partition, "Slurm's partition")->check(plain_word());
-  verb->add_option("--account", options->account, "Slurm's account")->check(plain_word());
+                   "Journal of decisions to replay, or the folder of several people's")
+      ->check(named_path());
+  verb->add_option("--partition", options->partition, "Slurm's partition")->check(plain_word("NAME"));
+  verb->add_option("--account", options->account, "Slurm's account")->check(plain_word("NAME"));
   verb->add_option("--time", options->time, "Time limit of a task, as Slurm writes it; reckoned if not given")
       ->check(slurm_time());
   verb->add_option("--cpus", options->cpus, "Cores of a task")->check(whole_within(1, 1024));

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <QApplication>
 #include <QCommandLineParser>
-#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <span>
-#include <string_view>
+#include <string>
 #include <utility>
 
+#include "base/manual.h"
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
 #include "session/live_watch.h"
@@ -35,8 +36,16 @@ DocumentOptions document_options(const Preferences& preferences) {
   return options;
 }
 
+constexpr const char* kExamples =
+    "\nExamples:\n"
+    "  sonar-explorer --demo                    a simulated survey, made first where it is not there yet\n"
+    "  sonar-explorer SURVEY --recipe R.json    a folder of raw files under a recipe\n"
+    "  sonar-explorer --live SURVEY             a survey that is still being recorded\n";
+
 struct CommandLine {
   QCommandLineParser parser;
+  QCommandLineOption help{{"h", "help"}, "Show this help and end"};
+  QCommandLineOption version{{"V", "version"}, "Show the version and end"};
   QCommandLineOption demo{"demo", "Open a simulated survey; it is made first where it is not there yet"};
   QCommandLineOption dark{"dark", "Begin in dark colours"};
   QCommandLineOption live{"live", "The survey is still being recorded: follow it"};
@@ -46,21 +55,28 @@ struct CommandLine {
     QCoreApplication::setApplicationName("sonar-explorer");
     QCoreApplication::setApplicationVersion(SONAR_VERSION);
     parser.setApplicationDescription("Explores fishery-sonar surveys: detect schools, follow them, map them");
-    parser.addHelpOption();
-    parser.addVersionOption();
+    parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);  // as Qt takes its own
     parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
-    parser.addOptions({demo, dark, live, recipe});
+    parser.addOptions({help, version, demo, dark, live, recipe});
+    // Qt takes these itself, and its own pages tell them.
+    QCommandLineOption flags(QStringList{"dograb", "nograb", "reverse", "widgetcount"});
+    QCommandLineOption values(
+        {"display", "geometry", "name", "platform", "platformpluginpath", "platformtheme", "plugin", "qwindowgeometry",
+         "qwindowicon", "qwindowtitle", "session", "style", "stylesheet"},
+        {}, "value");
+    for (QCommandLineOption* of_qt : {&flags, &values}) {
+      of_qt->setFlags(QCommandLineOption::HiddenFromHelp);
+      parser.addOption(*of_qt);
+    }
+  }
+
+  /// What could not be parsed, without a full stop.
+  [[nodiscard]] std::string problem() const {
+    const QStringList unknown = parser.unknownOptionNames();
+    if (unknown.isEmpty()) return parser.errorText().chopped(1).toStdString();
+    return (unknown[0].size() > 1 ? "there is no option --" : "there is no option -") + unknown[0].toStdString();
   }
 };
-
-/// What is asked of the program needs no window, or is no sense: it is answered where there is no display, too.
-bool asks_for_text(int argc, char** argv) {
-  const std::span<char*> words(argv + 1, argv + argc);
-  return std::any_of(words.begin(), words.end(), [](const char* word) {
-    const std::string_view text(word);
-    return text == "-h" || text == "--help" || text == "--help-all" || text == "-v" || text == "--version";
-  });
-}
 
 /// Qt says several lines and aborts where it finds no display.
 void end_without_display(QtMsgType type, const QMessageLogContext& /*where*/, const QString& /*text*/) {
@@ -74,26 +90,34 @@ void end_without_display(QtMsgType type, const QMessageLogContext& /*where*/, co
 }
 
 int run_program(int argc, char** argv) {
-  if (asks_for_text(argc, argv)) {
-    QCoreApplication plain(argc, argv);
-    CommandLine().parser.process(plain);
+  CommandLine line;
+  QCommandLineParser& parser = line.parser;
+  QStringList words;
+  for (const char* word : std::span(argv, static_cast<std::size_t>(argc))) words << QString::fromLocal8Bit(word);
+  // Before a display is asked for: help, and what is no sense, need none.
+  if (!parser.parse(words)) {
+    std::fprintf(stderr, "sonar-explorer: %s; see sonar-explorer --help\n", line.problem().c_str());
+    return 2;
+  }
+  if (parser.isSet(line.version)) {
+    std::puts("sonar-explorer " SONAR_VERSION);
+    return 0;
+  }
+  if (parser.isSet(line.help)) {
+    const QCoreApplication plain(argc, argv);  // the text names the program as it was called
+    std::printf("%s%s\nManual: %s\n", parser.helpText().toStdString().c_str(), kExamples, manual_place().c_str());
     return 0;
   }
   qInstallMessageHandler(end_without_display);
   const QApplication application(argc, argv);
   qInstallMessageHandler(nullptr);
-  CommandLine line;
-  QCommandLineParser& parser = line.parser;
-  const QCommandLineOption& demo = line.demo;
-  const QCommandLineOption& dark = line.dark;
-  parser.process(application);
 
   const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());
   QueuePump pump;
   AppModel app(pump.queue(), document_options(loaded.preferences));
   app.preferences = loaded.preferences;
   app.preferences.apply(app.workspace);
-  if (parser.isSet(dark)) app.workspace.dark.set(true);
+  if (parser.isSet(line.dark)) app.workspace.dark.set(true);
   if (parser.isSet(line.recipe)) {
     auto recipe = named_recipe(parser.value(line.recipe).toStdString());
     if (!recipe) {
@@ -108,7 +132,7 @@ int run_program(int argc, char** argv) {
   if (!loaded.notice.empty()) app.workspace.document.tell(loaded.notice);
   std::vector<std::filesystem::path> paths;
   for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());
-  if (parser.isSet(demo)) {
+  if (parser.isSet(line.demo)) {
     open_demo(app);
   } else if (!paths.empty()) {
     if (parser.isSet(line.live)) app.live->follow_next();

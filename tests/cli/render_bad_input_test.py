@@ -140,7 +140,11 @@ class BadInput(unittest.TestCase):
         self.refused("slice-top", *BOTH, "--size", "huge", *picture, code=2, says="--size huge")
         self.refused("slice-plane", *BOTH, "--point", "1,2", "--normal", "0,0,1", *picture, code=2, says="--point")
         self.refused("slice-plane", *BOTH, "--point", "1,2,3", *picture, code=2, says="--normal")
-        self.refused("volume", *BOTH, "--eye", "1,2,3", *picture, code=2, says="--eye and target")
+        self.refused("volume", *BOTH, "--eye", "1,2,3", *picture, code=2, says="--eye: goes with --target")
+        self.refused("volume", *BOTH, "--target", "1,2,3", *picture, code=2, says="--target: goes with --eye")
+        self.refused("volume", *BOTH, "--eye", "1,2", *picture, code=2, says="--eye: 1,2 is not X,Y,Z, 3 numbers between commas")
+        self.refused("slice-plane", *BOTH, "--through", "1,2,3", *picture, code=2,
+                     says="--through: 1,2,3 is not X,Y,X,Y, 4 numbers between commas")
         self.refused("volume", *BOTH, "--eye", "1,2,nan", "--target", "0,0,0", *picture, code=2, says="--eye")
         self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "bad.gif", code=2, says=".png")
         self.refused("slice-top", *BOTH, code=2, says="--out")

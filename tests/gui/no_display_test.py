@@ -1,22 +1,51 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The desktop program where there is no display: one line, and no abort."""
+"""The desktop program where there is no display: one line and no abort; help, version and wrong usage need none."""
 import os
+import re
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 
 PROGRAM = sys.argv.pop(1)
+PROJECT = Path(__file__).resolve().parent.parent.parent
+BARE = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+
+
+def run(*arguments, **more):
+    """(exit code, standard output, standard error)"""
+    done = subprocess.run([PROGRAM, *arguments], env={**BARE, **more}, capture_output=True, text=True, timeout=60, check=False)
+    return done.returncode, done.stdout, done.stderr
 
 
 class NoDisplay(unittest.TestCase):
     def test_it_ends_with_one_line(self):
-        bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
         for more in ({}, {"DISPLAY": ":987"}):
-            done = subprocess.run([PROGRAM], env={**bare, **more}, capture_output=True, text=True, timeout=60, check=False)
-            self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
-            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-            self.assertIn("no display", done.stderr)
-            self.assertIn(f"'{more.get('DISPLAY', '')}'", done.stderr)
+            code, out, err = run(**more)
+            self.assertEqual((code, out), (1, ""), err)
+            self.assertEqual(len(err.splitlines()), 1, err)
+            self.assertIn("no display", err)
+            self.assertIn(f"'{more.get('DISPLAY', '')}'", err)
+
+    def test_options_are_read_before_a_display_is_asked_for(self):
+        see = "; see sonar-explorer --help\n"
+        for word, said in (("--colour", "there is no option --colour"), ("-x", "there is no option -x"),
+                           ("-v", "there is no option -v"), ("--recipe", "Missing value after '--recipe'")):
+            self.assertEqual(run(word), (2, "", f"sonar-explorer: {said}{see}"))
+        for words in (("-style", "fusion"), ("-platform=xcb",), ("--dark", "a survey")):
+            self.assertIn("no display", run(*words)[2], "Qt's own, or ours")
+
+    def test_help_and_version(self):
+        code, out, err = run("--help")
+        self.assertEqual((code, err), (0, ""))
+        self.assertEqual(run("-h")[1], out)
+        self.assertIn("\nExamples:\n  sonar-explorer --demo ", out)
+        manual = re.search(r"(?m)^Manual: (.*)$", out).group(1)
+        self.assertTrue((PROJECT / manual).is_file(), manual)
+        self.assertRegex(out, r"-V, --version ")
+        self.assertNotIn("platform", out, "what Qt takes is told by Qt")
+        self.assertEqual(run("-V"), run("--version"))
+        self.assertRegex(run("-V")[1], r"^sonar-explorer \d+\.\d+\.\d+\n$")
 
 
 if __name__ == "__main__":

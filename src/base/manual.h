@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace sonar {
+
+/// Where the user guide lies: installed with this program, or in the tree that it was built in; where it is neither, its place
+/// in any source tree.
+[[nodiscard]] std::string manual_place();
+/// The same of the program with this path.
+[[nodiscard]] std::string manual_place(const std::filesystem::path& program);
+
+}  // namespace sonar
