@@ -85,8 +85,8 @@ ColourMap map_of(const std::array<std::uint32_t, N>& knots) {
 }
 
 template <std::size_t N>
-ColourMap map_of(const std::array<Rgba8, N>& knots, bool stepped = false, bool clear_below = false) {
-  return {{knots.begin(), knots.end()}, stepped, clear_below};
+ColourMap map_of(const std::array<Rgba8, N>& knots, bool stepped = false) {
+  return {{knots.begin(), knots.end()}, stepped};
 }
 
 std::uint8_t mixed(std::uint8_t a, std::uint8_t b, double weight_of_b) {
@@ -122,16 +122,9 @@ Rgba8 ColourMap::at(double t) const {
 }
 
 const ColourMap& colour_map(ColourMapName name) {
-  static const std::array<ColourMap, kColourMaps> maps = {map_of(kEk500, true, true),
-                                                          map_of(kEk500, false, true),
-                                                          map_of(kViridis),
-                                                          map_of(kCividis),
-                                                          map_of(kThermal),
-                                                          map_of(kHaline),
-                                                          map_of(kDense),
-                                                          map_of(kDeep),
-                                                          map_of(kGrey),
-                                                          map_of(kGreyInverted)};
+  static const std::array<ColourMap, kColourMaps> maps = {
+      map_of(kEk500, true), map_of(kEk500), map_of(kViridis), map_of(kCividis), map_of(kThermal),
+      map_of(kHaline),      map_of(kDense), map_of(kDeep),    map_of(kGrey),    map_of(kGreyInverted)};
   return maps[std::min(static_cast<std::size_t>(name), maps.size() - 1)];
 }
 

@@ -14,7 +14,7 @@ namespace sonar {
 
 /// The colour maps that every picture chooses from.
 enum class ColourMapName : std::uint8_t {
-  ek500,         ///< the field's twelve colours, one a 3 dB step; white (nothing) below, the last colour above
+  ek500,         ///< the field's twelve colours, one a 3 dB step, the last colour above
   ek500_smooth,  ///< the same colours, interpolated
   viridis,       ///< this and the maps below: even in lightness, safe for colour-blind eyes
   cividis,
@@ -35,7 +35,6 @@ inline constexpr int kColourMaps = 10;
 struct ColourMap {
   std::vector<Rgba8> knots;  ///< even steps; stepped: colour of each step
   bool stepped = false;      ///< n colours share 0..1 in equal steps, none is mixed
-  bool clear_below = false;  ///< values below the range are not drawn (else they take the first colour)
 
   /// Opaque colour at t; t outside 0..1 takes the end's colour, NaN the first.
   [[nodiscard]] Rgba8 at(double t) const;

@@ -17,7 +17,7 @@ constexpr int kSmoothBar = 192;
 
 /// Colour at an Sv, the limits alone at work. Steps begin exactly at low + k * (span / n).
 Rgba8 colour_at(const SvScale& scale, const ColourMap& map, double sv_db) {
-  if (sv_db < scale.low_db && map.clear_below) return {0, 0, 0, 0};
+  if (sv_db < scale.low_db) return {0, 0, 0, 0};
   if (!map.stepped) return map.at((sv_db - scale.low_db) / scale.span_db);
   const auto n = static_cast<double>(map.knots.size());
   const double step = std::clamp(std::floor((sv_db - scale.low_db) / (scale.span_db / n)), 0.0, n - 1.0);

@@ -19,10 +19,10 @@ namespace sonar {
 /// Below every count, so that nothing is cut.
 inline constexpr double kNoThreshold_db = -400.0;
 
-/// How Sv becomes colour. Display limits and analysis threshold are two things: the limits only spread the colours; what
-/// lies below the threshold is neither shown nor integrated.
+/// How Sv becomes colour. Display limits and analysis threshold are two things: below the lower limit nothing is drawn;
+/// what lies below the threshold is neither shown nor integrated.
 struct SvScale {
-  ColourMapName map = ColourMapName::ek500;
+  ColourMapName map = ColourMapName::viridis;
   double low_db = -60.0;                  ///< display limit: where the first colour begins
   double span_db = 36.0;                  ///< from the first colour's beginning to the last one's end
   double threshold_db = kNoThreshold_db;  ///< analysis threshold

@@ -75,16 +75,16 @@ Theme dark_theme(PixelSize size) {
 }
 
 Rgba8 school_colour(int number) {
-  // Okabe and Ito's seven, five more and twelve again, each as far as may be from the others as all kinds of eyes see
-  // them, from the backgrounds, from the grey of rejected schools and from EK500's colours; in the order that sets
-  // numbers one and two apart, and twelve apart, farthest from each other. A number alone tells its colour: chosen for
+  // Each as far as may be from the others as all kinds of eyes see them, from the backgrounds, from the grey of rejected
+  // schools and from the colours of viridis and EK500; in the order that sets numbers one and two apart, and twelve
+  // apart, farthest from each other, the dull ones last. A number alone tells its colour: chosen for
   // what happens to be in a picture, it would change from ping to ping and from view to view.
   static constexpr std::array<Rgba8, kSchoolColours> kColours = {
-      {{230, 159, 0, 255},   {86, 180, 233, 255},  {0, 158, 115, 255},   {187, 34, 255, 255}, {119, 0, 136, 255},
-       {213, 94, 0, 255},    {0, 114, 178, 255},   {240, 228, 66, 255},  {136, 0, 51, 255},   {204, 121, 167, 255},
-       {51, 0, 204, 255},    {153, 68, 119, 255},  {146, 207, 252, 255}, {237, 193, 93, 255}, {86, 0, 85, 255},
-       {172, 7, 2, 255},     {147, 177, 119, 255}, {35, 254, 255, 255},  {105, 0, 8, 255},    {203, 0, 170, 255},
-       {174, 197, 173, 255}, {85, 60, 92, 255},    {137, 121, 221, 255}, {166, 249, 153, 255}}};
+      {{230, 159, 0, 255},   {86, 180, 233, 255},  {172, 7, 2, 255},     {187, 34, 255, 255}, {119, 0, 136, 255},
+       {213, 94, 0, 255},    {0, 108, 192, 255},   {35, 254, 255, 255},  {136, 0, 51, 255},   {204, 121, 167, 255},
+       {51, 0, 204, 255},    {153, 68, 119, 255},  {146, 207, 252, 255}, {237, 193, 93, 255}, {78, 12, 48, 255},
+       {126, 120, 96, 255},  {147, 177, 119, 255}, {36, 12, 96, 255},    {105, 0, 8, 255},    {203, 0, 170, 255},
+       {174, 197, 173, 255}, {84, 60, 90, 255},    {137, 121, 221, 255}, {166, 249, 153, 255}}};
   const int n = static_cast<int>(kColours.size());
   return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
 }

@@ -69,9 +69,10 @@ TEST(SchoolColours, AreToldApartByAllEyes) {
 }
 
 TEST(SchoolColours, AreNoneOfSv) {
-  const ColourMap& ek500 = colour_map(ColourMapName::ek500);
-  for (int i = 0; i < kSchoolColours; ++i) {
-    for (const Rgba8& sv : ek500.knots) EXPECT_GT(apart(school_colour(i), sv, kEyes[0]), 7.5) << i;
+  for (const ColourMapName map : {ColourMapName::viridis, ColourMapName::ek500}) {
+    for (int i = 0; i < kSchoolColours; ++i) {
+      for (const Rgba8& sv : colour_map(map).knots) EXPECT_GT(apart(school_colour(i), sv, kEyes[0]), 7.5) << i;
+    }
   }
 }
 

@@ -43,20 +43,17 @@ void add_switch(AppModel& app, const char* id, const char* text, const char* key
 }  // namespace
 
 void add_display_actions(AppModel& app) {
-  add_scale(app, "display.ek500", "EK500 colours, \u221260 to \u221224 dB", "F5", "Twelve steps of 3 dB",
+  add_scale(
+      app, "display.usual", "Usual colours and limits", "F5",
+      "Even steps that colour-blind eyes tell apart, \u221260 to \u221224 dB, no threshold; the view curve follows",
+      [](DisplayParams& p) { p.scale = kUsual; });
+  add_scale(app, "display.weak", "Limits for weak schools", "F6", "\u221270 to \u221234 dB; the colours stay",
             [](DisplayParams& p) {
-              p.scale.map = ColourMapName::ek500;
-              p.scale.low_db = kUsual.low_db;
-              p.scale.span_db = kUsual.span_db;
-            });
-  add_scale(app, "display.weak", "EK500 colours, \u221270 to \u221234 dB", "F6", "For weak schools",
-            [](DisplayParams& p) {
-              p.scale.map = ColourMapName::ek500;
               p.scale.low_db = kWeakLow_db;
               p.scale.span_db = kUsual.span_db;
             });
-  add_scale(app, "display.smooth", "Smooth colours", "F7", "Told apart by colour-blind eyes too; the limits stay",
-            [](DisplayParams& p) { p.scale.map = ColourMapName::viridis; });
+  add_scale(app, "display.ek500", "EK500 colours", "F7", "Twelve steps of the echo sounder; the limits stay",
+            [](DisplayParams& p) { p.scale.map = ColourMapName::ek500; });
   add_switch(app, "display.filtered", "Slices: filtered data", "F8", &DisplayParams::filtered);
   add_switch(app, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
   add_switch(app, "display.refused", "Refused echoes over the data", "Shift+M", &DisplayParams::refused_echoes);
