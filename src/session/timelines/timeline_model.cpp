@@ -128,6 +128,7 @@ LivePicture::Build TimelineModel::build() {
     if (index != shown->index()) fill.push_back(index);
   }
   echograms_->want(this, std::move(fill));
+  wish.sv = workspace_.display.values().scale;
   wish.dark = workspace_.dark();
   wish.shown = shown_;
   wish.scale = scale();

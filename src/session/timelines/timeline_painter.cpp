@@ -67,6 +67,8 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
   }
   const Theme theme = dock_theme(size, wish.scale, wish.dark);
   TimelineStyle style;
+  style.value = EchogramValue::maximum;
+  style.scale = wish.sv;
   style.by_school = true;
   style.raw_there = true;
   style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;

@@ -26,6 +26,7 @@ struct TimelineWish {
   std::shared_ptr<const SurveyFiles> survey;
   std::vector<Observation> observations;
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
+  SvScale sv;                             ///< of a beam's own Sv, as in slices
   bool rejected = true;
   bool dark = false;
   double scale = 1.0;  ///< pixels a unit of the window
