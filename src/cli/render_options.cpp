@@ -49,7 +49,8 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--observation", a.observation, "Observation to draw, e.g. obs-0001; default: the first")
             ->check(some_name()),
         "slice- volume propagation observation-map timeline");
-  suits(verb.add_option("--ping", a.picture.ping, "Ping index; default: the first with a school, else the middle one"),
+  suits(verb.add_option("--ping", a.picture.ping,
+                        "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
   verb.add_option("--schools", a.schools, "School ids between commas; default: all")->type_name("N,N");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");

@@ -38,13 +38,17 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
     return fail(ErrorCode::usage,
                 fmt::format("no ping {} in {}: it has pings 0 to {}", *options.ping, observation.name(), count - 1));
   }
-  std::int64_t first = count;
-  if (options.display.masks) {
-    for (const SchoolMask& mask : observation.product().masks) {
-      if (wanted(observation.product(), mask.school_id, options)) first = std::min(first, mask.ping_index);
-    }
+  // The same whether schools are shown or not: a picture without them is to be laid beside the one with them.
+  const ObservationProduct& product = observation.product();
+  const auto rank = [](const SchoolPingRow& row) {
+    return std::pair(row.touches_edge == 0, std::isfinite(row.backscatter_m2) ? row.backscatter_m2 : 0.0);
+  };
+  const SchoolPingRow* strongest = nullptr;
+  for (const SchoolPingRow& row : product.school_pings) {
+    if (row.ping_index < 0 || row.ping_index >= count || !wanted(product, row.school_id, options)) continue;
+    if (strongest == nullptr || rank(row) > rank(*strongest)) strongest = &row;
   }
-  return first < count ? first : count / 2;
+  return strongest != nullptr ? strongest->ping_index : count / 2;
 }
 
 namespace {
@@ -68,8 +72,11 @@ std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& 
 }
 
 std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options) {
+  return options.display.masks ? chosen_layers(ping, options) : std::vector<MaskLayer>{};
+}
+
+std::vector<MaskLayer> chosen_layers(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<MaskLayer> layers;
-  if (!options.display.masks) return layers;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const Rgba8 colour = colour_of(drawn, options);

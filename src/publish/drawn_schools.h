@@ -15,11 +15,14 @@ namespace sonar {
 /// Whether the options ask for a school of an observation.
 [[nodiscard]] bool wanted(const ObservationProduct& product, std::int64_t school_id, const PictureOptions& options);
 
-/// The ping to draw: the one asked for, else the first with a school that is drawn, else the middle one.
+/// The ping to draw: the one asked for, else that of the strongest whole school that the options ask for, else the middle
+/// one.
 /// errors  usage: no such ping
 [[nodiscard]] Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options);
 
-/// A ping's masks that the options ask for, each in its school's colour.
+/// A ping's masks that the options choose, each in its school's colour, whether schools are shown or not.
+[[nodiscard]] std::vector<MaskLayer> chosen_layers(const DrawnPing& ping, const PictureOptions& options);
+/// Those that are shown.
 [[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
 
 /// A school of a ping as a key names it: "school 3, unreviewed". Rejected ones are grey, as their masks are.

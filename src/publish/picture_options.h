@@ -32,7 +32,7 @@ struct PictureOptions {
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
-  std::optional<int> ping;                   ///< empty = the first with a school, else the middle one
+  std::optional<int> ping;                   ///< empty = that of the strongest whole school, else the middle one
   std::vector<std::int64_t> schools;         ///< empty = all
   std::optional<int> fan;                    ///< of slices; empty = through the largest school, else the middle
   std::optional<int> beam;
