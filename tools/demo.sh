@@ -61,7 +61,7 @@ pictures=$folder/pictures
 mkdir -p "$pictures"
 "$sonarx" render survey-map "$folder/out" --depth-raster "$folder/survey/truth/depth.tif" --out "$pictures/survey-map.pdf"
 "$sonarx" render timeline "$folder/survey" "$folder/out" --whole-survey --out "$pictures/timeline.png"
-"$sonarx" render volume "$folder/survey" "$folder/out" --lighting --out "$pictures/volume.png"
+"$sonarx" render volume "$folder/survey" "$folder/out" --out "$pictures/volume.png"
 "$sonarx" render slice-top "$folder/survey" "$folder/out" --out "$pictures/slice-top.png"
 
 echo "== where it is"

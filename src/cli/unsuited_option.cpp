@@ -26,8 +26,8 @@ std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const Render
   if (given("--masks-alone") && given("--no-masks")) {
     return UnsuitedOption{"--masks-alone", "not together with --no-masks, which leaves nothing to draw"};
   }
-  if (given("--mask-outline") && (given("--no-masks") || given("--masks-alone"))) {
-    return UnsuitedOption{"--mask-outline", "not together with --no-masks or --masks-alone: it is drawn round both"};
+  if (given("--tint") && given("--no-masks")) {
+    return UnsuitedOption{"--tint", "not together with --no-masks"};
   }
   return std::nullopt;
 }

@@ -15,14 +15,14 @@ namespace {
 
 /// Of a pixel, until the first picture tells: a slow processor's, so that nobody waits for it.
 constexpr double kFirstPace_s = 1e-6;
-/// A silhouette is two pictures of a mask alone, each a twentieth of what the data take; at a quarter of the resolution
-/// a processor's one core does that in about 3 ms for 900 x 700 pixels.
+/// Silhouettes are two pictures of the masks alone, each a twentieth of what the data take; at a quarter of the
+/// resolution a processor's one core does that in about 3 ms for 900 x 700 pixels.
 constexpr int kMovingDivisor = 4;
-constexpr std::size_t kMovingOutlines = 4;
 
 bool same_masks(const std::vector<MaskLayer>& a, const std::vector<MaskLayer>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const MaskLayer& x, const MaskLayer& y) { return x.mask == y.mask && x.rgb == y.rgb; });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const MaskLayer& x, const MaskLayer& y) {
+    return x.mask == y.mask && x.rgb == y.rgb && x.selected == y.selected;
+  });
 }
 
 /// What the surroundings depend on beside the sector.
@@ -191,15 +191,15 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
   PictureOptions labelled = input.options;
   if (input.scale_bar) labelled.transfer.reset();
   refinement->restart(view);
-  std::optional<std::vector<MaskSilhouette>> moving;
-  std::optional<std::vector<MaskSilhouette>> at_rest;
+  std::optional<MaskSilhouettes> moving;
+  std::optional<MaskSilhouettes> at_rest;
   for (Work* work = &first;; work = &better) {
     auto frame = refinement->next(*work);
     if (!frame) return pass_on(frame);
-    // While something moves the data comes first: outlines are coarse then, and where they are many they wait.
+    // While something moves the data comes first: outlines are coarse then.
     const bool fine = frame->quality.divisor == 1 && (work != &first || frame->done);
-    if (figure.outlined && (fine || figure.masks.size() <= kMovingOutlines)) {
-      std::optional<std::vector<MaskSilhouette>>& silhouettes = fine ? at_rest : moving;
+    if (figure.outlined) {
+      std::optional<MaskSilhouettes>& silhouettes = fine ? at_rest : moving;
       if (!silhouettes) {
         auto seen = mask_silhouettes(*offscreen->renderer, figure.masks, view, *work, fine ? 1 : kMovingDivisor);
         masks_set = false;

@@ -3,17 +3,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
-
-#include "render/refinement.h"
 
 namespace sonar {
 namespace {
 
-/// What is seen of a mask from a confidence on.
-Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
-                                            int divisor) {
+/// A mask's place in the list as a colour that comes back from the rays as it went in.
+std::array<float, 3> colour_of(std::size_t number) {
+  return {static_cast<float>(number % 256) / 255.0F, static_cast<float>(number / 256 % 256) / 255.0F, 0.0F};
+}
+
+std::uint16_t number_of(const std::array<float, 4>& pixel) {
+  if (pixel[3] < 0.5F) return 0;
+  const auto channel = [&](std::size_t k) { return static_cast<int>(std::lround(255.0F * pixel[k] / pixel[3])); };
+  return static_cast<std::uint16_t>(channel(0) + 256 * channel(1));
+}
+
+/// Whose mask is seen from a confidence on. Rays of a smaller picture stand for those beside them.
+Result<std::vector<std::uint16_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
+                                             int divisor) {
   view.mode = RayMode::accumulate;
   view.lighting.on = false;
   view.masks = {.fuzzy_above = confidence,
@@ -23,111 +33,118 @@ Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView
                 .data_too = false};
   DrawQuality quality;
   quality.divisor = divisor;
-  auto alone = renderer.draw(view, quality, work);
-  if (!alone) return pass_on(alone);
-  if (divisor > 1) alone = enlarged(*alone, view.size, divisor, work);
-  std::vector<std::uint8_t> out(alone->rgba.size());
-  std::transform(alone->rgba.begin(), alone->rgba.end(), out.begin(),
-                 [](const auto& pixel) { return static_cast<std::uint8_t>(pixel[3] >= 0.5F); });
+  const auto rays = renderer.draw(view, quality, work);
+  if (!rays) return pass_on(rays);
+  std::vector<std::uint16_t> out(view.size.count());
+  auto pixel = out.begin();
+  for (int y = 0; y < view.size.height; ++y) {
+    for (int x = 0; x < view.size.width; ++x) {
+      const int u = std::min(x / divisor, rays->size.width - 1);
+      const int v = std::min(y / divisor, rays->size.height - 1);
+      *pixel++ = number_of(rays->rgba[static_cast<std::size_t>(v) * static_cast<std::size_t>(rays->size.width) +
+                                      static_cast<std::size_t>(u)]);
+    }
+  }
   return out;
 }
 
 class Drawing {
  public:
-  Drawing(RayImage& rays, int line_px) : rays_(rays), line_px_(line_px) {}
+  Drawing(RayImage& rays, std::span<const MaskLayer> masks, int line_px)
+      : rays_(rays), masks_(masks), line_px_(line_px) {}
 
-  /// Pixels of a silhouette with one outside it nearer than the line's width.
-  void line(const std::vector<std::uint8_t>& inside, std::array<float, 4> colour, bool broken) {
+  /// Pixels of a silhouette with another's or none's nearer than the line's width.
+  void lines(const std::vector<std::uint16_t>& of, bool broken) {
     const int dash = 4 * line_px_;
-    for_each(inside, true, line_px_, [&](int x, int y, std::array<float, 4>& pixel) {
-      if (!broken || ((x + y) / dash) % 2 == 0) pixel = colour;
+    for_each_near_edge(of, [&](int x, int y, std::uint16_t own, int distance2) {
+      const int width = width_of(own);
+      if (own == 0 || own > masks_.size() || distance2 > width * width) return;
+      if (broken && ((x + y) / dash) % 2 != 0) return;
+      const auto& c = masks_[own - 1U].rgb;
+      pixel(x, y) = {c[0], c[1], c[2], 1.0F};
     });
   }
-  /// Pixels outside it that touch it.
-  void rim(const std::vector<std::uint8_t>& inside, std::array<float, 4> colour) {
-    for_each(inside, false, std::max(1, line_px_ / 2), [&](int, int, std::array<float, 4>& pixel) { pixel = colour; });
+  /// Pixels of none that touch a silhouette.
+  void rim(const std::vector<std::uint16_t>& of, std::array<float, 4> colour) {
+    const int width = std::max(1, line_px_ / 2);
+    for_each_near_edge(of, [&](int x, int y, std::uint16_t own, int distance2) {
+      if (own == 0 && distance2 <= width * width) pixel(x, y) = colour;
+    });
   }
 
  private:
-  /// Of what is inside; first behind last where nothing is.
-  struct Bounds {
-    int first_x = 0;
-    int last_x = -1;
-    int first_y = 0;
-    int last_y = -1;
-  };
-  [[nodiscard]] Bounds bounds(const std::vector<std::uint8_t>& inside) const {
-    const auto [width, height] = rays_.size;
-    Bounds b{width, -width, height, -height};
-    for (int y = 0; y < height; ++y) {
-      const auto row = inside.begin() + static_cast<std::ptrdiff_t>(y) * width;
-      const auto first = std::find(row, row + width, 1);
-      if (first == row + width) continue;
-      b.first_y = std::min(b.first_y, y);
-      b.last_y = y;
-      b.first_x = std::min(b.first_x, static_cast<int>(first - row));
-      for (int x = width - 1; x > b.last_x; --x) {
-        if (row[x] != 0) b.last_x = x;
-      }
-    }
-    return b;
+  [[nodiscard]] int width_of(std::uint16_t number) const {
+    return number > 0 && number <= masks_.size() && masks_[number - 1U].selected ? 2 * line_px_ : line_px_;
+  }
+  [[nodiscard]] std::array<float, 4>& pixel(int x, int y) {
+    return rays_
+        .rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.size.width) + static_cast<std::size_t>(x)];
   }
 
+  /// act  (x, y, number there, square of the distance to the nearest pixel of another number) of pixels that have one
+  ///      within the widest line
   template <class Act>
-  void for_each(const std::vector<std::uint8_t>& inside, bool own, int reach, const Act& act) {
+  void for_each_near_edge(const std::vector<std::uint16_t>& of, const Act& act) {
     const auto [width, height] = rays_.size;
-    const auto at = [&](int x, int y) {
-      return inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] != 0;
+    const auto place = [w = width](int x, int y) {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
     };
-    // Most of a picture is far from any school.
-    const Bounds b = bounds(inside);
-    for (int y = std::max(0, b.first_y - reach); y <= std::min(height - 1, b.last_y + reach); ++y) {
-      for (int x = std::max(0, b.first_x - reach); x <= std::min(width - 1, b.last_x + reach); ++x) {
-        if (at(x, y) != own) continue;
-        bool met = false;
-        for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach) && !met; ++v) {
-          for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach) && !met; ++u) {
-            met = (u - x) * (u - x) + (v - y) * (v - y) <= reach * reach && at(u, v) != own;
-          }
+    const int reach = std::ranges::any_of(masks_, &MaskLayer::selected) ? 2 * line_px_ : line_px_;
+    std::vector<int> nearest2(of.size(), reach * reach + 1);
+    // The nearest pixel of another number has a neighbour that is nearer still, and so lies on an edge itself.
+    const auto on_edge = [&](int x, int y) {
+      const std::uint16_t own = of[place(x, y)];
+      return (x > 0 && of[place(x - 1, y)] != own) || (x + 1 < width && of[place(x + 1, y)] != own) ||
+             (y > 0 && of[place(x, y - 1)] != own) || (y + 1 < height && of[place(x, y + 1)] != own);
+    };
+    const auto spread = [&](int x, int y) {
+      for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v) {
+        for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) {
+          if (of[place(u, v)] == of[place(x, y)]) continue;
+          int& nearest = nearest2[place(u, v)];
+          nearest = std::min(nearest, (u - x) * (u - x) + (v - y) * (v - y));
         }
-        if (!met) continue;
-        act(x, y,
-            rays_.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]);
+      }
+    };
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (on_edge(x, y)) spread(x, y);
+      }
+    }
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (const int distance2 = nearest2[place(x, y)]; distance2 <= reach * reach)
+          act(x, y, of[place(x, y)], distance2);
       }
     }
   }
 
   RayImage& rays_;
+  std::span<const MaskLayer> masks_;
   int line_px_;
 };
 
 }  // namespace
 
-Result<std::vector<MaskSilhouette>> mask_silhouettes(VolumeRenderer& renderer, std::span<const MaskLayer> masks,
-                                                     const VolumeView& view, Work& work, int divisor) {
-  std::vector<MaskSilhouette> out;
-  for (const MaskLayer& mask : masks) {
-    if (auto set = renderer.set_masks(std::span(&mask, 1)); !set) return pass_on(set);
-    auto fuzzy = seen_from(renderer, view, view.masks.fuzzy_above, work, divisor);
-    if (!fuzzy) return pass_on(fuzzy);
-    auto core = seen_from(renderer, view, view.masks.core_at, work, divisor);
-    if (!core) return pass_on(core);
-    out.push_back({std::move(*fuzzy), std::move(*core)});
-  }
-  return out;
+Result<MaskSilhouettes> mask_silhouettes(VolumeRenderer& renderer, std::span<const MaskLayer> masks,
+                                         const VolumeView& view, Work& work, int divisor) {
+  std::vector<MaskLayer> numbered(masks.begin(), masks.end());
+  for (std::size_t i = 0; i < numbered.size(); ++i) numbered[i].rgb = colour_of(i + 1);
+  if (auto set = renderer.set_masks(numbered); !set) return pass_on(set);
+  auto fuzzy = seen_from(renderer, view, view.masks.fuzzy_above, work, divisor);
+  if (!fuzzy) return pass_on(fuzzy);
+  auto core = seen_from(renderer, view, view.masks.core_at, work, divisor);
+  if (!core) return pass_on(core);
+  return MaskSilhouettes{std::move(*fuzzy), std::move(*core)};
 }
 
-void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, std::span<const MaskSilhouette> silhouettes,
-                  int line_px, Rgba8 rim) {
-  Drawing drawing(rays, line_px);
-  for (std::size_t i = 0; i < std::min(masks.size(), silhouettes.size()); ++i) {
-    const auto& c = masks[i].rgb;
-    const std::array<float, 4> colour{c[0], c[1], c[2], 1.0F};
-    drawing.rim(silhouettes[i].fuzzy, {static_cast<float>(rim.r) / 255.0F, static_cast<float>(rim.g) / 255.0F,
-                                       static_cast<float>(rim.b) / 255.0F, 1.0F});
-    drawing.line(silhouettes[i].core, colour, true);
-    drawing.line(silhouettes[i].fuzzy, colour, false);
-  }
+void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, const MaskSilhouettes& silhouettes, int line_px,
+                  Rgba8 rim) {
+  Drawing drawing(rays, masks, line_px);
+  drawing.rim(silhouettes.fuzzy, {static_cast<float>(rim.r) / 255.0F, static_cast<float>(rim.g) / 255.0F,
+                                  static_cast<float>(rim.b) / 255.0F, 1.0F});
+  drawing.lines(silhouettes.core, true);
+  drawing.lines(silhouettes.fuzzy, false);
 }
 
 }  // namespace sonar

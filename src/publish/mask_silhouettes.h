@@ -12,23 +12,24 @@
 
 namespace sonar {
 
-/// Which pixels show a mask, were it alone: [height][width], 0 or 1.
-struct MaskSilhouette {
-  std::vector<std::uint8_t> fuzzy;  ///< all of the mask that the style shows
-  std::vector<std::uint8_t> core;
+/// Whose mask each pixel shows, the nearest one's where they lie behind one another: [height][width], 0 = none, else the
+/// mask's place in the list, from 1.
+struct MaskSilhouettes {
+  std::vector<std::uint16_t> fuzzy;  ///< all of the masks that the style shows
+  std::vector<std::uint16_t> core;
 };
 
-/// Of every mask in turn. The renderer has its volume and transfer function; its masks are changed.
+/// The renderer has its volume and transfer function; its masks are changed. Two pictures, however many masks.
 /// view     camera, size, thresholds and opaque things count
 /// divisor  of the rays, as DrawQuality: above 1 the silhouettes are nearly as large as they should be, and cheap
 /// errors  as VolumeRenderer::draw()
-[[nodiscard]] Result<std::vector<MaskSilhouette>> mask_silhouettes(VolumeRenderer& renderer,
-                                                                   std::span<const MaskLayer> masks,
-                                                                   const VolumeView& view, Work& work, int divisor = 1);
+[[nodiscard]] Result<MaskSilhouettes> mask_silhouettes(VolumeRenderer& renderer, std::span<const MaskLayer> masks,
+                                                       const VolumeView& view, Work& work, int divisor = 1);
 
 /// Draws silhouettes as lines in their schools' colours: a whole one with a rim round the fuzzy area, a broken one
-/// round the core. Inside, the rays keep their colours, so that Sv can be read off the colour bar.
-void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, std::span<const MaskSilhouette> silhouettes,
-                  int line_px, Rgba8 rim);
+/// round the core; the selected school's are twice as wide. Inside, the rays keep their colours, so that Sv can be read
+/// off the colour bar.
+void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, const MaskSilhouettes& silhouettes, int line_px,
+                  Rgba8 rim);
 
 }  // namespace sonar

@@ -14,8 +14,8 @@ namespace {
 constexpr PixelSize kSize{20, 20};
 constexpr std::array<float, 4> kData{0.1F, 0.2F, 0.3F, 0.5F};
 
-std::vector<std::uint8_t> square(int first, int last) {
-  std::vector<std::uint8_t> out(kSize.count(), 0);
+std::vector<std::uint16_t> square(int first, int last) {
+  std::vector<std::uint16_t> out(kSize.count(), 0);
   for (int y = first; y <= last; ++y) {
     for (int x = first; x <= last; ++x) out[static_cast<std::size_t>(y * kSize.width + x)] = 1;
   }
@@ -26,8 +26,7 @@ std::vector<std::uint8_t> square(int first, int last) {
 TEST(MaskOutlines, AreLinesAndLeaveWhatLiesInside) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const MaskLayer layer{nullptr, {1.0F, 0.0F, 0.0F}};
-  const MaskSilhouette silhouette{square(5, 14), square(9, 8)};
-  lay_outlines(rays, std::span(&layer, 1), std::span(&silhouette, 1), 2, {0, 0, 0, 255});
+  lay_outlines(rays, std::span(&layer, 1), {square(5, 14), square(9, 8)}, 2, {0, 0, 0, 255});
   const auto at = [&](int x) { return rays.rgba[static_cast<std::size_t>(9 * kSize.width + x)]; };
   const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F};
   const std::array<float, 4> black{0.0F, 0.0F, 0.0F, 1.0F};
@@ -41,8 +40,8 @@ TEST(MaskOutlines, AreLinesAndLeaveWhatLiesInside) {
 TEST(MaskOutlines, AreBrokenRoundTheCore) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const MaskLayer layer{nullptr, {1.0F, 0.0F, 0.0F}};
-  const MaskSilhouette silhouette{std::vector<std::uint8_t>(kSize.count(), 1), square(2, 17)};
-  lay_outlines(rays, std::span(&layer, 1), std::span(&silhouette, 1), 1, {0, 0, 0, 255});
+  lay_outlines(rays, std::span(&layer, 1), {std::vector<std::uint16_t>(kSize.count(), 1), square(2, 17)}, 1,
+               {0, 0, 0, 255});
   int drawn = 0;
   for (int x = 2; x <= 17; ++x) drawn += rays.rgba[static_cast<std::size_t>(2 * kSize.width + x)] == kData ? 0 : 1;
   EXPECT_EQ(drawn, 8);
@@ -60,8 +59,27 @@ PingMask block(const Shape3& shape, int fan0, int beam0, int sample0, int size) 
   return mask;
 }
 
-// A pixel belongs to a silhouette where the mask drawn alone as a veil leaves anything; a core lies in its fuzzy area.
-TEST(MaskSilhouettes, AreWhatIsSeenOfEachMaskAlone) {
+// The selected school's line is twice as wide, and a line runs between schools of which one stands before the other.
+TEST(MaskOutlines, OfTheSelectedSchoolAreWide) {
+  RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
+  const std::array<MaskLayer, 2> layers{{{nullptr, {1.0F, 0.0F, 0.0F}}, {nullptr, {0.0F, 1.0F, 0.0F}}}};
+  auto selected = layers;
+  selected[0].selected = true;
+  MaskSilhouettes both{square(2, 17), std::vector<std::uint16_t>(kSize.count(), 0)};
+  for (int y = 2; y <= 17; ++y) {
+    for (int x = 10; x <= 17; ++x) both.fuzzy[static_cast<std::size_t>(y * kSize.width + x)] = 2;
+  }
+  lay_outlines(rays, selected, both, 2, {0, 0, 0, 255});
+  const auto at = [&](int x) { return rays.rgba[static_cast<std::size_t>(9 * kSize.width + x)]; };
+  const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F};
+  const std::array<float, 4> green{0.0F, 1.0F, 0.0F, 1.0F};
+  for (int x = 2; x <= 9; ++x) EXPECT_EQ(at(x), std::min(x - 2, 9 - x) < 4 ? red : kData) << x;
+  for (int x = 10; x <= 17; ++x) EXPECT_EQ(at(x), std::min(x - 10, 17 - x) < 2 ? green : kData) << x;
+}
+
+// A pixel belongs to the silhouettes where a mask drawn alone as a veil leaves anything, to one of those that do; a core
+// lies in its fuzzy area.
+TEST(MaskSilhouettes, AreWhatIsSeenOfTheMasks) {
   const Sector sector = scenes::fan();
   const auto volume = scenes::volume(sector);
   const Shape3 shape = volume->sv.shape();
@@ -75,26 +93,33 @@ TEST(MaskSilhouettes, AreWhatIsSeenOfEachMaskAlone) {
   view.camera = scenes::looking({-20.0, -10.0, -5.0}, {30.0, 0.0, 15.0});
   view.mode = RayMode::maximum;
   Work work(1);
-  const auto silhouettes = mask_silhouettes(*renderer, masks, view, work);
-  ASSERT_TRUE(silhouettes) << to_line(silhouettes.error());
-  ASSERT_EQ(silhouettes->size(), 2U);
-  for (std::size_t k = 0; k < masks.size(); ++k) {
-    ASSERT_TRUE(renderer->set_masks(std::span(&masks[k], 1)));
+  const auto s = mask_silhouettes(*renderer, masks, view, work);
+  ASSERT_TRUE(s) << to_line(s.error());
+  std::vector<std::vector<bool>> veiled;
+  for (const MaskLayer& mask : masks) {
+    ASSERT_TRUE(renderer->set_masks(std::span(&mask, 1)));
     VolumeView veil = view;
     veil.masks = {.fuzzy_opacity = 0.35F, .core_extinction_per_m = 0.0F, .data_too = false};
     const auto alone = renderer->draw(veil, {}, work);
     ASSERT_TRUE(alone);
-    const MaskSilhouette& s = (*silhouettes)[k];
-    int fuzzy = 0;
-    int core = 0;
-    for (std::size_t i = 0; i < s.fuzzy.size(); ++i) {
-      ASSERT_EQ(s.fuzzy[i] != 0, alone->rgba[i][3] > 0.0F) << k << " " << i;
-      ASSERT_LE(s.core[i], s.fuzzy[i]) << k << " " << i;
-      fuzzy += s.fuzzy[i];
-      core += s.core[i];
+    veiled.emplace_back();
+    for (const auto& pixel : alone->rgba) veiled.back().push_back(pixel[3] > 0.0F);
+  }
+  std::array<int, 3> fuzzy{};
+  std::array<int, 3> core{};
+  for (std::size_t i = 0; i < s->fuzzy.size(); ++i) {
+    ASSERT_LE(s->fuzzy[i], masks.size());
+    ASSERT_EQ(s->fuzzy[i] != 0, veiled[0][i] || veiled[1][i]) << i;
+    if (s->fuzzy[i] != 0) {
+      ASSERT_TRUE(veiled[s->fuzzy[i] - 1U][i]) << i;
     }
-    EXPECT_GT(core, 20);
-    EXPECT_GT(fuzzy, core + 20);
+    ASSERT_TRUE(s->core[i] == 0 || s->fuzzy[i] != 0) << i;
+    ++fuzzy[s->fuzzy[i]];
+    ++core[s->core[i]];
+  }
+  for (const std::size_t k : {1U, 2U}) {
+    EXPECT_GT(core[k], 20);
+    EXPECT_GT(fuzzy[k], core[k] + 20);
   }
 }
 

@@ -60,6 +60,7 @@ struct DisplayParams {
   NoiseLook weak = NoiseLook::transparent;
   double weak_below_db = 3.0;
   bool masks = true;
+  bool tint = false;
   double core_at = 0.64;
   double fuzzy_above = 0.0;
   bool rejected = true;
@@ -90,6 +91,10 @@ void describe(Visitor& v, DisplayParams& p) {
            .flag = "weak-db",
            .suits = kOfSamples});
   v.field("masks", p.masks, {.text = "show schools over the data"});
+  v.field(
+      "tint", p.tint,
+      {.text = "tint schools over the data, beside their outlines: the data's colours are no longer those of the bar",
+       .suits = kOfSamples});
   v.field("core_at", p.core_at,
           {.unit = "1",
            .min = 0.01,
@@ -128,10 +133,9 @@ inline constexpr std::array<std::string_view, 3> kRendererNames{"auto", "cpu", "
 struct VolumeParams {
   RayMode mode = RayMode::accumulate;
   double first_hit_db = -50.0;
-  bool lighting = false;
+  bool lighting = true;
   bool data = true;
   bool filtered = true;
-  bool mask_outline = false;
   bool context = true;
   double ship_length_m = 60.0;
   double moving_budget_ms = 50.0;
@@ -155,9 +159,6 @@ void describe(Visitor& v, VolumeParams& p) {
           {.text = "show Sv after the median filter, without speckle; off = as recorded",
            .tier = Tier::basic,
            .flag = kNoFlag});
-  v.field("mask_outline", p.mask_outline,
-          {.text = "schools as outlines, so that the data keeps its colours; first hit and maximum have them always",
-           .tier = Tier::basic});
   v.field("context", p.context,
           {.text = "show the sector's frame, range rings, sea surface, ship and axes", .tier = Tier::basic});
   v.field("ship_length_m", p.ship_length_m, {.unit = "m", .min = 1, .max = 500, .text = "length of the drawn ship"});

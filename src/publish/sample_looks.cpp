@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/sample_looks.h"
 
+#include <utility>
+
 namespace sonar {
 namespace {
 
@@ -30,6 +32,17 @@ FlagStyle flag_style(const DisplayParams& display) {
   style.faded = style.faded & styled;
   if (display.weak == NoiseLook::hatched) style.hatched |= SampleFlags::low_snr;
   if (display.weak == NoiseLook::transparent) style.faded |= SampleFlags::low_snr;
+  return style;
+}
+
+SliceStyle slice_style(const DisplayParams& display, SvColours colours) {
+  SliceStyle style;
+  style.colours = std::move(colours);
+  style.flags = flag_style(display);
+  style.masks.core_at = display.core_at;
+  style.masks.tint = display.tint;
+  style.grid = display.grid_lines;
+  style.north_up = display.north_up;
   return style;
 }
 

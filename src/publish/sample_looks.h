@@ -13,6 +13,9 @@ namespace sonar {
 /// hatched or left out, places without water are faded or left out.
 [[nodiscard]] FlagStyle flag_style(const DisplayParams& display);
 
+/// How a slice looks that a user set so, but for its colours.
+[[nodiscard]] SliceStyle slice_style(const DisplayParams& display, SvColours colours);
+
 /// Reasons whose samples are shown as recorded: those that are not taken out.
 [[nodiscard]] SampleFlags put_back(const DisplayParams& display);
 

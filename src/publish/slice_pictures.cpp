@@ -110,7 +110,8 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   const auto ping = observation.ping(*index, work);
   if (!ping) return pass_on(ping);
   const std::vector<MaskLayer> masks = mask_layers(*ping, options);
-  const Chosen chosen{*sector, ping->navigation, middle_of_largest(masks, sector->beams()), options};
+  const Chosen chosen{*sector, ping->navigation, middle_of_largest(chosen_layers(*ping, options), sector->beams()),
+                      options};
   const auto slice = slice_of(kind, chosen);
   if (!slice) return pass_on(slice);
   const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
@@ -144,12 +145,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   titled.transducer_depth_m = ping->navigation.transducer_depth_m;
   titled.frequency_hz = observation.frequency_hz();
   SliceView view{*slice, options.display.north_up ? -chosen.heading_rad() : 0.0, std::nullopt};
-  SliceStyle style;
-  style.colours = colours_of(options);
-  style.flags = flag_style(options.display);
-  style.masks.core_at = options.display.core_at;
-  style.grid = options.display.grid_lines;
-  style.north_up = options.display.north_up;
+  SliceStyle style = slice_style(options.display, colours_of(options));
   style.key = slice_key_of(*ping, options);
   auto picture = slice_picture(*sector, data, titled, view, style, theme_of(options), options.size);
   if (!picture) return pass_on(picture);

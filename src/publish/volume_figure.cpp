@@ -169,7 +169,7 @@ std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const Stage
 }
 
 bool wants_outlines(const VolumeFigure& figure, const PictureOptions& options) {
-  return (options.volume.mode != RayMode::accumulate || options.volume.mask_outline) && options.volume.data &&
+  return (options.volume.mode != RayMode::accumulate || !options.display.tint) && options.volume.data &&
          figure.samples && !figure.masks.empty();
 }
 

@@ -125,11 +125,11 @@ TEST_F(PictureFile, OfAVolumeLooksFromWhereTheWindowDoes) {
 }
 
 TEST_F(PictureFile, OfAVolumeHasSchoolsAsTheWindowDoes) {
-  for (const bool outline : {true, false}) {
-    VolumeParams params;
-    params.mask_outline = outline;
-    workspace().volume.assign(params);
-    EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->volume.mask_outline, outline);
+  for (const bool tint : {true, false}) {
+    DisplayParams params;
+    params.tint = tint;
+    workspace().display.assign(params);
+    EXPECT_EQ(picture_options(workspace(), PictureKind::volume)->display.tint, tint);
   }
 }
 

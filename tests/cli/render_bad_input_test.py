@@ -174,7 +174,7 @@ class BadInput(unittest.TestCase):
             (["--fuzzy", "0.1"], "slice-top", "volume"),
             (["--masks-alone"], "slice-top", "volume"),
             (["--refused"], "survey-map", "slice-top"),
-            (["--mask-outline"], "slice-top", "volume"),
+            (["--tint"], "timeline", "volume"),
             (["--no-context"], "slice-top", "volume"),
             (["--ship-length-m", "40"], "observation-map", "volume"),
             (["--depth-raster", str(DEPTHS)], "observation-map", "survey-map"),
@@ -187,7 +187,7 @@ class BadInput(unittest.TestCase):
             with self.subTest(option=option[0], kind=kind):
                 self.refused(kind, *BOTH, *option, "--out", sonarx.WORK / "bad.png", code=2,
                              says=[option[0], f"no option of {kind}", suits])
-        for options in (["--masks-alone", "--no-masks"], ["--mask-outline", "--no-masks"], ["--mask-outline", "--masks-alone"]):
+        for options in (["--masks-alone", "--no-masks"], ["--tint", "--no-masks"]):
             self.refused("volume", *BOTH, *options, "--out", sonarx.WORK / "bad.png", code=2, says=[*options, "together"])
         self.refused("timeline", *BOTH, "--whole-survey", "--observation", "obs-0001", "--out", sonarx.WORK / "bad.png",
                      code=2, says=["--observation", "--whole-survey"])

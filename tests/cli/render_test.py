@@ -56,8 +56,9 @@ WITH_REFUSED = [sonarx.SURVEY, REFUSED, "--refused"]
 NEAR = ["--eye", "180,-60,-40", "--target", "30,-110,60"]
 PICTURES = {
     "slice-top": (["slice-top", *BOTH], DRAWN),
-    "slice-top-dark-north-up": (["slice-top", *BOTH, "--dark", "--north-up", "--map", "viridis"], DRAWN),
+    "slice-top-dark-north-up": (["slice-top", *BOTH, "--dark", "--north-up", "--map", "ek500"], DRAWN),
     "slice-side": (["slice-side", *BOTH], DRAWN),
+    "slice-side-tint": (["slice-side", *BOTH, "--tint", "--map", "ek500"], DRAWN),
     "slice-side-noise": (["slice-side", *BOTH, "--removed", "hatched", "--weak", "transparent"], DRAWN),
     "slice-range": (["slice-range", *BOTH], DRAWN),
     "slice-plane-horizontal": (["slice-plane", *BOTH, "--filtered"], DRAWN),
@@ -66,12 +67,13 @@ PICTURES = {
     "slice-product-alone": (["slice-top", sonarx.OUT], DRAWN),
     "volume": (["volume", *BOTH, "--frames", "2"], TRACED),
     "volume-seabed": (["volume", *BOTH, "--frames", "2", "--depth-raster", DEPTHS, "--dark"], TRACED),
-    "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--first-hit-db", "-42", "--map", "grey", "--lighting", "--no-masks"], TRACED),
-    "volume-maximum": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--no-masks"], TRACED),
+    "volume-first-hit": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--first-hit-db", "-42", "--map", "grey", "--no-masks"], TRACED),
+    "volume-maximum": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--no-masks", "--no-lighting"], TRACED),
     "volume-first-hit-masks": (["volume", *BOTH, "--frames", "0", "--mode", "first-hit", "--ping", "9", *NEAR], TRACED),
     "volume-maximum-masks": (["volume", *BOTH, "--frames", "0", "--mode", "maximum", "--ping", "9", *NEAR, "--dark"], TRACED),
-    "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone", "--lighting"], TRACED),
-    "volume-mask-outline": (["volume", *BOTH, "--frames", "2", "--mask-outline", "--ping", "9", *NEAR], TRACED),
+    "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone"], TRACED),
+    "volume-tint": (["volume", *BOTH, "--frames", "2", "--tint", "--ping", "9", *NEAR], TRACED),
+    "volume-many-lines": (["volume", *BOTH, "--frames", "2", "--ping", "9", *NEAR, "--map", "ek500", "--no-lighting"], TRACED),
     "propagation-raw-alone": (["propagation", sonarx.SURVEY, "--ping", "0"], DRAWN),
     "survey-map-raw-alone": (["survey-map", sonarx.SURVEY], DRAWN),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
@@ -150,7 +152,7 @@ class Goldens(unittest.TestCase):
 
     def test_both_back_ends_draw_the_same_volume(self):
         reference = sonarx.WORK / "cpu.png"
-        for arguments, (largest, mean) in ((["--no-masks"], SMOOTH), ([], SURFACES), (["--masks-alone", "--lighting"], SURFACES)):
+        for arguments, (largest, mean) in ((["--no-masks", "--no-lighting"], SMOOTH), (["--tint"], SURFACES), (["--masks-alone"], SURFACES)):
             with self.subTest(arguments):
                 arguments = ["volume", *BOTH, "--frames", "2", *SIZE, *arguments]
                 self.assertEqual(render(*arguments, "--renderer", "cpu", "--out", reference)[0], 0)

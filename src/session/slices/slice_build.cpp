@@ -91,11 +91,7 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
     data.masks.push_back(std::move(layer));
   }
   data.refused = wish.refused;
-  SliceStyle style;
-  style.colours = *wish.colours;
-  style.flags = flag_style(wish.display);
-  style.masks.core_at = wish.display.core_at;
-  style.grid = wish.display.grid_lines;
+  SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;
   const Theme theme = screen_theme(size, wish.scale, wish.dark);
   auto picture =

@@ -27,6 +27,7 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
     const bool tried = school.number == 0;
     if (!tried && input.masks.size() >= kMostMasks) continue;
     input.masks.push_back(school.layer);
+    input.masks.back().selected = school.selected;
     if (tried) ++input.tried;
     if (!tried) input.legend.emplace_back(colour_of(school.layer), school.title);
   }

@@ -164,13 +164,13 @@ TEST_F(VolumeAtWork, WhatIsTriedIsDrawnButPointersPassThroughIt) {
   settle();
   EXPECT_NE(model_->image(), before);
   EXPECT_TRUE(model_->shown()->masks.empty());
-  // As a line instead of a tint: all that lies off it has the data's own colours.
-  const Image tint = model_->image();
-  VolumeParams params = workspace_.volume.values();
-  params.mask_outline = true;
-  workspace_.volume.assign(params);
-  settle();
+  // As a line: all that lies off it has the data's own colours. As a tint: where it lies they change.
   const Image line = model_->image();
+  DisplayParams params = workspace_.display.values();
+  params.tint = true;
+  workspace_.display.assign(params);
+  settle();
+  const Image tint = model_->image();
   const auto unlike = [&](const Image& image) {
     int count = 0;
     for (std::size_t i = 0; i < before.pixels.size(); ++i) count += image.pixels[i] == before.pixels[i] ? 0 : 1;
@@ -178,8 +178,8 @@ TEST_F(VolumeAtWork, WhatIsTriedIsDrawnButPointersPassThroughIt) {
   };
   EXPECT_NE(line, tint);
   EXPECT_GT(unlike(line), 0);
-  params.mask_outline = false;
-  workspace_.volume.assign(params);
+  params.tint = false;
+  workspace_.display.assign(params);
   workspace_.preview.set({});
   settle();
   EXPECT_EQ(model_->image(), before);

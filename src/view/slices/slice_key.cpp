@@ -125,6 +125,16 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>
          }});
   }
   if (!areas) return out;
+  const std::string core = fmt::format("core, confidence {:g} and more", style.masks.core_at);
+  if (!style.masks.tint) {
+    out.push_back({core, [theme](FrameDescription& frame, const PixelRect& at) {
+                     const double middle = at.y + 0.5 * at.height;
+                     PathItem line = line_item({at.x, middle}, {at.x + at.width, middle}, theme.text, theme.line_px);
+                     line.stroke.dashes_px = {theme.line_px, 3.0 * theme.line_px};
+                     frame.items.emplace_back(std::move(line));
+                   }});
+    return out;
+  }
   // Any colour may be a school's: the key shows how much of it covers the data.
   const auto area = [&](double strength, std::string text) {
     const Rgba8 colour = mixed(theme.water, theme.text, static_cast<int>(std::lround(255.0 * strength)));
@@ -132,7 +142,7 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>
                      frame.items.emplace_back(rectangle_item(at, colour, theme.axis, 0.5 * theme.line_px));
                    }});
   };
-  area(style.masks.core_strength, fmt::format("core, confidence {:g} and more", style.masks.core_at));
+  area(style.masks.core_strength, core);
   area(style.masks.fuzzy_strength, "fuzzy area, below that");
   return out;
 }

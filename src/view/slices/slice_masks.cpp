@@ -150,6 +150,13 @@ class MaskPixels {
     }
     return false;
   }
+  /// Whether this is so of any pixel that touches one; beyond the picture's edge all is the same.
+  template <class Is>
+  [[nodiscard]] bool beside(int x, int y, const Is& is) {
+    const PixelSize size = map_->size();
+    return is(at(std::max(x - 1, 0), y)) || is(at(std::min(x + 1, size.width - 1), y)) ||
+           is(at(x, std::max(y - 1, 0))) || is(at(x, std::min(y + 1, size.height - 1)));
+  }
   /// Whether the outline of a pixel's layer goes rather across than down here.
   [[nodiscard]] bool runs_across(int x, int y) {
     const PixelSize size = map_->size();
@@ -259,8 +266,9 @@ Result<void> blend_masks(Image& image, const SliceMap& map, const std::vector<Ma
   const int fuzzy = weight_of(style.fuzzy_strength);
   std::array<int, 256> strength{};
   for (std::size_t q = 0; q < strength.size(); ++q) {
-    strength[q] = static_cast<double>(q) / 255.0 >= style.core_at ? core : fuzzy;
+    strength[q] = !style.tint ? 0 : static_cast<double>(q) / 255.0 >= style.core_at ? core : fuzzy;
   }
+  const auto is_core = [&](MaskWord word) { return static_cast<double>(word % 256) / 255.0 >= style.core_at; };
   const Dashes dashes(masks, theme);
   const int line_px = std::max(1, static_cast<int>(std::lround(theme.line_px)));
   MaskPixels pixels(map, voxels, line_px, dashes.any() ? std::max(line_px, kWindow_px) : line_px);
@@ -272,7 +280,9 @@ Result<void> blend_masks(Image& image, const SliceMap& map, const std::vector<Ma
       if (word == 0) continue;
       const bool edged = style.outline && pixels.on_edge(x, y) && dashes.drawn(word / 256 - 1, pixels, x, y);
       Rgba8& pixel = image.at(x, y);
-      pixel = mixed(pixel, colours[word / 256 - 1], edged ? 255 : strength[word % 256]);
+      const bool dotted = !style.tint && style.outline && !edged && (x + y) / line_px % 4 == 0 && is_core(word) &&
+                          pixels.beside(x, y, [&](MaskWord other) { return !is_core(other); });
+      pixel = mixed(pixel, colours[word / 256 - 1], edged || dotted ? 255 : strength[word % 256]);
       if (edged) rim(image, pixels, x, y, theme);
     }
   }

@@ -34,7 +34,8 @@ struct FlagStyle {
 /// How selected areas lie over the data.
 struct SliceMaskStyle {
   double core_at = 0.64;       ///< confidence from which a voxel is core; below it is fuzzy
-  double core_strength = 0.5;  ///< of the colour, 0 = data alone .. 1 = colour alone
+  bool tint = false;           ///< over the data, whose colours it changes; else a dotted line round the core
+  double core_strength = 0.5;  ///< of the tint, 0 = data alone .. 1 = colour alone
   double fuzzy_strength = 0.25;
   bool outline = true;  ///< in full colour, along the cells' edges, with a contrasting rim outside
   friend bool operator==(const SliceMaskStyle&, const SliceMaskStyle&) = default;

@@ -89,6 +89,7 @@ TEST(SliceImage, MasksAreBlendedOverTheData) {
     SliceData data = volume.data();
     data.masks.push_back({std::make_shared<PingMask>(one_voxel(kLit, confidence)), {1.0F, 0.0F, 0.0F}});
     SliceMaskStyle style;
+    style.tint = true;
     style.core_strength = 0.5;
     style.fuzzy_strength = 0.25;
     style.outline = outline;
