@@ -20,8 +20,8 @@ Theme screen_theme(PixelSize pixels, double scale, bool dark) {
 }
 
 Theme dock_theme(PixelSize pixels, double scale, bool dark) {
-  constexpr double kLeast_px = 10.5;
-  constexpr double kMost_px = 13.0;
+  constexpr double kLeast_px = 12.0;
+  constexpr double kMost_px = 13.5;
   constexpr double kTitle = 1.15;
   Theme theme = screen_theme(pixels, scale, dark);
   theme.text_px = std::clamp(theme.text_px, kLeast_px * scale, kMost_px * scale);
