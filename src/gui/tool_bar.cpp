@@ -103,7 +103,7 @@ void add_rate(QToolBar& bar, Playback& playback) {
   rate->setObjectName("play_rate");
   rate->setToolTip("Speed of playing, and what is reached; + and - change it");
   // What it says while it plays must not push the buttons behind it about.
-  rate->setMinimumWidth(rate->fontMetrics().horizontalAdvance("5x, 99.9 pings/s"));
+  rate->setMinimumWidth(rate->fontMetrics().horizontalAdvance("20 pings/s, 19.9 reached"));
   rate->setAlignment(Qt::AlignCenter);
   bar.addWidget(rate);
   const auto show = [rate = QPointer<QLabel>(rate), &playback] {

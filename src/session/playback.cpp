@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace sonar {
 namespace {
 
 constexpr const char* kName = "playback";
 constexpr std::size_t kRatePings = 11;  // ten steps: as much as an eye averages
-constexpr std::array<double, 3> kTimes{1.0, 2.0, 5.0};
-constexpr std::array<const char*, 4> kTexts{"1x", "2x", "5x", "as fast as possible"};
 
 }  // namespace
 
@@ -52,11 +50,11 @@ void Playback::pause() {
 }
 
 double Playback::wait_s(std::int64_t ping) const {
-  if (speed_ == PlaySpeed::fastest) return 0.0;
+  if (rate_ > kRealTime) return 1.0 / rate_;
   const auto& times = workspace_.document.shown()->context().times;
   const auto i = static_cast<std::size_t>(ping);
   const double between_s = static_cast<double>(times[i + 1] - times[i]) / static_cast<double>(kSecondNs);
-  return std::clamp(between_s, 0.0, kLongestWait_s) / kTimes[static_cast<std::size_t>(speed_)];
+  return std::clamp(between_s, 0.0, kLongestWait_s);
 }
 
 bool Playback::step(double now_s) {
@@ -64,7 +62,8 @@ bool Playback::step(double now_s) {
   if (!playing_ || !document.shown()) return false;
   const std::int64_t ping = document.ping();
   if (!unreadable_ && (!document.staged() || document.staged()->ping_index != ping)) return true;
-  if (ping + 1 >= document.shown()->pings()) {
+  const bool last = ping + 1 >= document.shown()->pings();
+  if (last && !loops_) {
     pause();
     return false;
   }
@@ -74,35 +73,47 @@ bool Playback::step(double now_s) {
     came_s_.push_back(now_s);
     if (came_s_.size() > kRatePings) came_s_.pop_front();
     changed_.tell();
-    if (speed_ != PlaySpeed::fastest) return true;
+    if (rate_ != kFastest) return true;
   }
-  if (now_s - since_s_ < wait_s(ping)) return true;
+  // At the end of a loop one sees that it ends: no ping comes after the last, as long as the one before it stayed.
+  if (now_s - since_s_ < wait_s(last ? ping - 1 : ping)) return true;
   unreadable_ = false;
-  document.look_at(ping + 1);
+  document.look_at(last ? 0 : ping + 1);
   return true;
 }
 
-void Playback::set_speed(PlaySpeed speed) {
-  if (speed == speed_) return;
-  speed_ = speed;
+void Playback::set_rate(double pings_per_s) {
+  if (pings_per_s == rate_ || !(pings_per_s >= 0.0)) return;
+  rate_ = pings_per_s;
   came_s_.clear();
+  changed_.tell();
+}
+
+void Playback::set_loops(bool loops) {
+  loops_ = loops;
   changed_.tell();
 }
 
 std::string Playback::rate_text() const {
   if (!playing_ || came_s_.size() < 2 || !(came_s_.back() > came_s_.front())) return speed_text();
   const double per_s = static_cast<double>(came_s_.size() - 1) / (came_s_.back() - came_s_.front());
-  return fmt::format("{}, {:.{}f} pings/s", speed_text(), per_s, per_s < 10.0 ? 1 : 0);
+  return fmt::format("{}, {:.{}f} reached", speed_text(), per_s, per_s < 10.0 ? 1 : 0);
 }
 
 void Playback::faster() {
-  if (speed_ != PlaySpeed::fastest) set_speed(static_cast<PlaySpeed>(static_cast<int>(speed_) + 1));
+  const auto* next = std::ranges::upper_bound(kRates, rate_);
+  if (next != kRates.end()) set_rate(*next);
 }
 
 void Playback::slower() {
-  if (speed_ != PlaySpeed::real_time) set_speed(static_cast<PlaySpeed>(static_cast<int>(speed_) - 1));
+  const auto* next = std::ranges::lower_bound(kRates, rate_);
+  if (next != kRates.begin()) set_rate(*std::prev(next));
 }
 
-std::string Playback::speed_text() const { return kTexts[static_cast<std::size_t>(speed_)]; }
+std::string Playback::speed_text() const {
+  if (rate_ == kRealTime) return "real time";
+  if (rate_ == kFastest) return "as fast as possible";
+  return fmt::format("{:g} pings/s", rate_);
+}
 
 }  // namespace sonar

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -10,9 +12,6 @@
 #include "session/workspace.h"
 
 namespace sonar {
-
-/// How fast pings follow each other.
-enum class PlaySpeed : std::uint8_t { real_time, twice, five_times, fastest };
 
 /// Plays through the pings of the observation on show. It waits for each ping that it asks for, so that what plays is
 /// every ping in its order and the window never stalls.
@@ -31,15 +30,27 @@ class Playback {
   void pause();
   void toggle() { playing_ ? pause() : play(); }
 
-  [[nodiscard]] PlaySpeed speed() const { return speed_; }
+  /// Pings a second that are asked for; kRealTime = as they were recorded, kFastest = as fast as they can be shown.
+  [[nodiscard]] double rate() const { return rate_; }
+  /// Any rate above 0, or one of these two.
+  void set_rate(double pings_per_s);
+  /// The next of kRates.
   void faster();
   void slower();
-  /// "5x", "as fast as possible".
+  static constexpr double kRealTime = 0.0;
+  static constexpr double kFastest = std::numeric_limits<double>::infinity();
+  static constexpr std::array<double, 8> kRates{kRealTime, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, kFastest};
+
+  /// After the last ping comes the first.
+  [[nodiscard]] bool loops() const { return loops_; }
+  void set_loops(bool loops);
+
+  /// "2 pings/s", "real time", "as fast as possible".
   [[nodiscard]] std::string speed_text() const;
-  /// "5x, 2.3 pings/s" while it plays and two pings have come at least, else as speed_text(): what is reached, which
-  /// recording and machine may hold below what was asked for.
+  /// "5 pings/s, 2.3 reached" while it plays and two pings have come at least, else as speed_text(): recording and machine
+  /// may hold what is reached below what was asked for.
   [[nodiscard]] std::string rate_text() const;
-  /// Called when playing(), speed() or the rate have changed.
+  /// Called when playing(), loops(), rate() or what is reached have changed.
   [[nodiscard]] Listeners<>& changed() { return changed_; }
 
   /// Longest time between two pings at real time: gaps in the recording are not sat out, s.
@@ -48,12 +59,12 @@ class Playback {
  private:
   bool step(double now_s);
   [[nodiscard]] double wait_s(std::int64_t ping) const;
-  void set_speed(PlaySpeed speed);
 
   Workspace& workspace_;
   AnimationDriver& animations_;
   bool playing_ = false;
-  PlaySpeed speed_ = PlaySpeed::real_time;
+  double rate_ = 2.0;
+  bool loops_ = false;
   std::shared_ptr<const int> identity_;  ///< of what is played
   std::int64_t ping_ = -1;               ///< that waits for its successor
   double since_s_ = 0.0;                 ///< when it was there

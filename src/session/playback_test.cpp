@@ -43,11 +43,11 @@ class PlaybackAtWork : public testing::Test {
 
 // Two pings a second on the test's own clock.
 TEST_F(PlaybackAtWork, TellsHowManyPingsASecondItReaches) {
-  EXPECT_EQ(playback().rate_text(), "1x");
-  for (int i = 0; i < 3; ++i) app_.ask("ping.faster");
+  EXPECT_EQ(playback().rate_text(), "2 pings/s");
+  for (int i = 0; i < 4; ++i) app_.ask("ping.faster");
   app_.ask("ping.play");
   for (int i = 0; i < 6; ++i) tick(0.5 * i);
-  EXPECT_EQ(playback().rate_text(), "as fast as possible, 2.0 pings/s");
+  EXPECT_EQ(playback().rate_text(), "as fast as possible, 2.0 reached");
   app_.ask("ping.play");
   EXPECT_EQ(playback().rate_text(), "as fast as possible");
 }
@@ -57,8 +57,8 @@ TEST_F(PlaybackAtWork, ShowsEveryPingInItsOrderAndThenRests) {
   document().changes().add([&](DocumentChange change) {
     if (change == DocumentChange::ping) arrived.push_back(document().staged()->ping_index);
   });
-  for (int i = 0; i < 3; ++i) app_.ask("ping.faster");
-  EXPECT_EQ(playback().speed(), PlaySpeed::fastest);
+  for (int i = 0; i < 4; ++i) app_.ask("ping.faster");
+  EXPECT_EQ(playback().rate(), Playback::kFastest);
   app_.ask("ping.play");
   EXPECT_TRUE(playback().playing());
   for (int i = 0; i < 3 * TestSurvey::kPings && app_.app.animations.running(); ++i) tick(0.02 * i);
@@ -72,7 +72,7 @@ TEST_F(PlaybackAtWork, ShowsEveryPingInItsOrderAndThenRests) {
 }
 
 TEST_F(PlaybackAtWork, WaitsForThePingThatItAskedFor) {
-  for (int i = 0; i < 3; ++i) playback().faster();
+  playback().set_rate(Playback::kFastest);
   playback().play();
   document().look_at(8);  // not made ahead: on its way
   for (int i = 0; i < 100; ++i) app_.app.animations.tick(1.0 * i);
@@ -86,23 +86,56 @@ TEST_F(PlaybackAtWork, KeepsTheTimeOfTheRecording) {
   const auto& times = document().shown()->context().times;
   const double between_s = static_cast<double>(times[1] - times[0]) / static_cast<double>(kSecondNs);
   ASSERT_GT(between_s, 1.0);
+  playback().set_rate(Playback::kRealTime);
   playback().play();
   tick(0.0);
   tick(0.98 * between_s);
   EXPECT_EQ(document().ping(), 0);
   tick(1.02 * between_s);
   EXPECT_EQ(document().ping(), 1);
-  playback().faster();
-  playback().faster();
-  EXPECT_EQ(playback().speed_text(), "5x");
-  tick(2.0 * between_s);
-  tick(2.19 * between_s);
-  EXPECT_EQ(document().ping(), 1);
-  tick(2.21 * between_s);
-  EXPECT_EQ(document().ping(), 2);
   playback().toggle();
   tick(100.0);
+  EXPECT_EQ(document().ping(), 1);
+}
+
+TEST_F(PlaybackAtWork, ShowsTwoPingsASecondUnlessAnotherRateIsAskedFor) {
+  playback().play();
+  tick(0.0);
+  tick(0.49);
+  EXPECT_EQ(document().ping(), 0);
+  tick(0.51);
+  EXPECT_EQ(document().ping(), 1);
+  std::string answer = "8";
+  app_.app.dialogs.text = [&](const std::string&, const std::string&, const std::string&) {
+    return std::optional(answer);
+  };
+  app_.ask("ping.rate");
+  EXPECT_EQ(playback().speed_text(), "8 pings/s");
+  tick(1.0);
+  tick(1.12);
+  EXPECT_EQ(document().ping(), 1);
+  tick(1.13);
   EXPECT_EQ(document().ping(), 2);
+  app_.ask("ping.slower");
+  EXPECT_EQ(playback().rate(), 5.0) << "the next lower of those that the keys go through";
+  answer = "many";
+  app_.ask("ping.rate");
+  EXPECT_EQ(playback().rate(), 5.0);
+  EXPECT_EQ(document().notices().back(), "'many' is no rate: expected pings a second, up to 1000");
+}
+
+TEST_F(PlaybackAtWork, LoopsWhereThatIsAskedFor) {
+  app_.ask("ping.loop");
+  playback().set_rate(Playback::kFastest);
+  document().look_at(TestSurvey::kPings - 2);
+  app_.settle();
+  playback().play();
+  for (int i = 0; i < 8; ++i) tick(0.02 * i);
+  EXPECT_TRUE(playback().playing());
+  EXPECT_LT(document().ping(), 8);
+  app_.ask("ping.loop");
+  for (int i = 0; i < 3 * TestSurvey::kPings && playback().playing(); ++i) tick(1.0 + 0.02 * i);
+  EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
 }
 
 TEST_F(PlaybackAtWork, StepsAndEndsByKeys) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
+#include "base/number_text.h"
 #include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
@@ -11,6 +15,7 @@ namespace {
 
 constexpr const char* kMenu = "&Navigate";
 constexpr std::int64_t kPage = 10;
+constexpr double kMostRate = 1000.0;  ///< pings a second: beyond any screen
 
 bool has_pings(const AppModel& app) { return app.workspace.document.shown() != nullptr; }
 
@@ -64,6 +69,19 @@ void add_place(AppModel& app, const char* id, const char* text, const char* key,
                    [&app] { return has_pings(app); }});
 }
 
+void ask_rate(AppModel& app, Playback& playback) {
+  if (!app.dialogs.text) return;
+  const double now = playback.rate();
+  const auto answer = app.dialogs.text("Play at a rate", "pings a second",
+                                       now > Playback::kRealTime && now < Playback::kFastest ? shortest(now) : "2");
+  if (!answer) return;
+  double rate = 0.0;
+  const char* end = answer->data() + answer->size();
+  const auto [after, problem] = std::from_chars(answer->data(), end, rate);
+  if (problem == std::errc{} && after == end && rate > 0.0 && rate <= kMostRate) return playback.set_rate(rate);
+  app.workspace.document.tell(fmt::format("'{}' is no rate: expected pings a second, up to {:g}", *answer, kMostRate));
+}
+
 void add_playing(AppModel& app) {
   Playback& playback = *app.playback;
   app.actions.add({"ping.play",
@@ -79,16 +97,33 @@ void add_playing(AppModel& app) {
                    kMenu,
                    "Play faster",
                    {"+", "="},
-                   "Real time, twice, five times, as fast as possible",
+                   "Real time, 0.5, 1, 2, 5, 10, 20 pings a second, as fast as possible",
                    [&playback] { playback.faster(); },
-                   [&playback] { return playback.speed() != PlaySpeed::fastest; }});
+                   [&playback] { return playback.rate() != Playback::kFastest; }});
   app.actions.add({"ping.slower",
                    kMenu,
                    "Play slower",
                    {"-"},
-                   "As fast as possible, five times, twice, real time",
+                   "As fast as possible, 20, 10, 5, 2, 1, 0.5 pings a second, real time",
                    [&playback] { playback.slower(); },
-                   [&playback] { return playback.speed() != PlaySpeed::real_time; }});
+                   [&playback] { return playback.rate() != Playback::kRealTime; }});
+  app.actions.add({"ping.rate",
+                   kMenu,
+                   "Play at a rate...",
+                   {},
+                   "Any number of pings a second",
+                   [&app, &playback] { ask_rate(app, playback); },
+                   {},
+                   {},
+                   [&playback] { return "Play at a rate... (" + playback.speed_text() + ")"; }});
+  app.actions.add({"ping.loop",
+                   kMenu,
+                   "Play in a loop",
+                   {"Ctrl+Space"},
+                   "After the last ping comes the first",
+                   [&playback] { playback.set_loops(!playback.loops()); },
+                   {},
+                   [&playback] { return playback.loops(); }});
 }
 
 void add_live(AppModel& app) {
