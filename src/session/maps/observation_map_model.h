@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/live_picture.h"
-#include "session/maps/listening.h"
 #include "session/maps/map_gesture.h"
 #include "session/maps/masked_pings.h"
 #include "session/workspace.h"

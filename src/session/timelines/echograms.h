@@ -11,7 +11,7 @@
 #include "base/task_thread.h"
 #include "session/document.h"
 #include "session/listeners.h"
-#include "session/maps/listening.h"
+#include "session/listening.h"
 #include "view/timelines/echogram_pyramid.h"
 
 namespace sonar {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/live_picture.h"
-#include "session/maps/listening.h"
 #include "session/timelines/echograms.h"
 #include "session/workspace.h"
 #include "view/timelines/timeline.h"
