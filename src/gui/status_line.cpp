@@ -9,10 +9,14 @@
 #include <QStatusBar>
 #include <QTimer>
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "gui/own_keys.h"
 #include "session/beyond_reach.h"
+#include "session/live_watch.h"
 
 namespace sonar {
 namespace {
@@ -49,18 +53,18 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   bar.setValue(static_cast<int>(progress.done));
 }
 
-/// A school that was carried as far as its reach waits for a human to go on: a button beside the notice that says so.
-void add_continue_button(QStatusBar& status, AppModel& app) {
-  const Action action = *app.actions.find(kContinueAction);
+/// What waits for a human to go on: a button that is there as long as it does.
+void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const char* name, std::function<bool()> waits) {
+  const Action action = *app.actions.find(id);
   auto* button = new QPushButton(QString::fromStdString(action.text), &status);
-  button->setObjectName("continue");
+  button->setObjectName(name);
   button->setToolTip(QString::fromStdString(action.tip));
   keep_own_keys(*button);
   status.addPermanentWidget(button);
-  const auto show = [button, action] { button->setVisible(action.enabled()); };
+  const auto show = [button, waits = std::move(waits)] { button->setVisible(waits()); };
   show();
   QObject::connect(button, &QPushButton::clicked, &status, [action] {
-    if (action.enabled()) action.run();
+    if (!action.enabled || action.enabled()) action.run();
   });
   app.workspace.school.changed().add(show);
   app.workspace.document.changes().add([show](DocumentChange change) {
@@ -88,7 +92,13 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   cancel->setFlat(true);
   keep_own_keys(*cancel);
   status->addWidget(cursor, 1);
-  add_continue_button(*status, app);
+  // A school that was carried as far as its reach; an observation in which nobody has detected schools or marked any.
+  add_offer(*status, app, kContinueAction, "continue", app.actions.find(kContinueAction)->enabled);
+  add_offer(*status, app, "schools.detect", "detect", [&document = workspace.document, &live = *app.live] {
+    const auto& shown = document.shown();
+    return shown && !document.detected(shown->index()) && document.state().schools.empty() &&
+           document.progress().stage.empty() && !live.on();
+  });
   status->addPermanentWidget(bar);
   status->addPermanentWidget(cancel);
   // What comes and goes must not push the views about.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/school_totals.h"
+#include "model/strongest_ping.h"
 #include "view/school_look.h"
 
 namespace sonar {
@@ -39,16 +40,9 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
                 fmt::format("no ping {} in {}: it has pings 0 to {}", *options.ping, observation.name(), count - 1));
   }
   // The same whether schools are shown or not: a picture without them is to be laid beside the one with them.
-  const ObservationProduct& product = observation.product();
-  const auto rank = [](const SchoolPingRow& row) {
-    return std::pair(row.touches_edge == 0, std::isfinite(row.backscatter_m2) ? row.backscatter_m2 : 0.0);
-  };
-  const SchoolPingRow* strongest = nullptr;
-  for (const SchoolPingRow& row : product.school_pings) {
-    if (row.ping_index < 0 || row.ping_index >= count || !wanted(product, row.school_id, options)) continue;
-    if (strongest == nullptr || rank(row) > rank(*strongest)) strongest = &row;
-  }
-  return strongest != nullptr ? strongest->ping_index : count / 2;
+  const SchoolPingRow* strongest = strongest_ping(
+      observation.product(), [&](const SchoolRow& school) { return wanted(school.school_id, school.status, options); });
+  return strongest != nullptr && strongest->ping_index < count ? strongest->ping_index : count / 2;
 }
 
 namespace {

@@ -17,9 +17,11 @@
 namespace sonar {
 
 class BrushTool;
+class FirstSight;
 class LiveWatch;
 class Playback;
 class SeedTool;
+class SlicesFollow;
 
 enum class DockPlace : std::uint8_t { centre, left, right, bottom };
 
@@ -59,6 +61,8 @@ class AppModel {
   std::shared_ptr<SeedTool> seed_tool;
   std::shared_ptr<BrushTool> brush_tool;
   std::shared_ptr<Playback> playback;
+  std::shared_ptr<SlicesFollow> slices_follow;
+  std::shared_ptr<FirstSight> first_sight;
   std::shared_ptr<LiveWatch> live;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;

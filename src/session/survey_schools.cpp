@@ -51,7 +51,8 @@ std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers_in_survey(c
   return numbers;
 }
 
-/// Fan and beam through the middle of a mask, each voxel counted by its confidence.
+}  // namespace
+
 SlicePlaces middle_of(const PingMask& mask, int beams) {
   double fan = 0.0;
   double beam = 0.0;
@@ -69,8 +70,6 @@ SlicePlaces middle_of(const PingMask& mask, int beams) {
   if (!(all > 0.0)) return {};
   return {static_cast<int>(std::lround(fan / all)), static_cast<int>(std::lround(beam / all))};
 }
-
-}  // namespace
 
 std::string title_of(const Document& document, const SchoolName& school) {
   const auto& schools = document.state(school.observation).schools;

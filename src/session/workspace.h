@@ -114,6 +114,7 @@ struct Workspace {
 
   Shared<std::optional<Voxel>> cursor;       ///< the voxel pointed at, in the ping looked at
   Shared<SlicePlaces> slices;                ///< where the slices lie
+  Shared<bool> slices_locked{false};         ///< they stay where they are, whatever is selected
   Shared<std::optional<SchoolName>> school;  ///< the selected school
   Shared<std::optional<EchoName>> echo;      ///< the refused echo last pointed at or chosen: its mark is highlighted
   Shared<Preview> preview;

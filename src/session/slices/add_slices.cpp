@@ -2,10 +2,12 @@
 #include <memory>
 
 #include "session/app_parts.h"
+#include "session/first_sight.h"
 #include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_model.h"
+#include "session/slices/slices_follow.h"
 
 namespace sonar {
 
@@ -14,6 +16,8 @@ void add_slices(AppModel& app) {
   app.seed_tool = std::make_shared<SeedTool>(workspace, app.animations);
   app.brush_tool = std::make_shared<BrushTool>(workspace);
   app.playback = std::make_shared<Playback>(workspace, app.animations);
+  app.slices_follow = std::make_shared<SlicesFollow>(workspace);
+  app.first_sight = std::make_shared<FirstSight>(workspace);
   app.live = std::make_shared<LiveWatch>(workspace, app.animations);
   app.pictures.push_back({"top_slice", "Slice from above", DockPlace::centre, "top_slice",
                           std::make_unique<SliceModel>(SliceSide::top, workspace, *app.seed_tool, *app.brush_tool)});

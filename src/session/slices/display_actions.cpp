@@ -58,6 +58,14 @@ void add_display_actions(AppModel& app) {
   add_switch(app, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
   add_switch(app, "display.refused", "Refused echoes over the data", "Shift+M", &DisplayParams::refused_echoes);
   add_switch(app, "display.north_up", "North up", "Ctrl+U", &DisplayParams::north_up);
+  app.actions.add({"slices.lock",
+                   kMenu,
+                   "Slices: stay where they are",
+                   {"Ctrl+Shift+L"},
+                   "Else they follow the selected school",
+                   [&app] { app.workspace.slices_locked.set(!app.workspace.slices_locked()); },
+                   {},
+                   [&app] { return app.workspace.slices_locked(); }});
   app.actions.add({"display.all",
                    kMenu,
                    "Slices: show all",

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "session/app_parts.h"
+#include "session/survey_schools.h"
 #include "session/tools/seed_tool.h"
 #include "session/volume/volume_model.h"
 
@@ -25,6 +27,25 @@ constexpr std::array<Side, 5> kSides{{
     {VolumeSide::overview, "volume.overview", "Volume: overview", "Ctrl+5", "The whole sector, obliquely from above"},
 }};
 
+/// Of the selected school in the ping looked at; empty where it is not there.
+std::optional<Point<Sonar>> middle_of_selected(const Workspace& workspace) {
+  const auto selected = workspace.selected();
+  if (!selected) return std::nullopt;
+  const Document& document = workspace.document;
+  const auto* there = in_ping(document.state().schools[*selected]->masks, document.ping());
+  if (there == nullptr) return std::nullopt;
+  const Sector& sector = document.shown()->sector();
+  const SlicePlaces middle = middle_of(there->mask, sector.beams());
+  double range_m = 0.0;
+  double voxels = 0.0;
+  for (const Run& run : there->mask.runs) {
+    range_m += run.count * sector.range().range_m(run.first_sample + run.count / 2);
+    voxels += run.count;
+  }
+  if (!(voxels > 0.0)) return std::nullopt;
+  return Sector::direction(sector.elevation_rad(middle.fan), sector.azimuth_rad(middle.beam)) * (range_m / voxels);
+}
+
 }  // namespace
 
 void add_volume(AppModel& app) {
@@ -43,6 +64,15 @@ void add_volume(AppModel& app) {
   volume->hooks.leave = [&app] {
     if (app.seed_tool) app.seed_tool->leave();
   };
+  app.actions.add({"volume.school",
+                   "&View",
+                   "Volume: centre on school",
+                   {"Ctrl+6"},
+                   "The selected school in the middle; turning goes round it",
+                   [&app, volume] {
+                     if (const auto middle = middle_of_selected(app.workspace)) volume->look_at(*middle);
+                   },
+                   [&app, volume] { return volume->seen() && middle_of_selected(app.workspace).has_value(); }});
   app.pictures.push_back({"volume", "Volume", DockPlace::centre, "volume", std::move(model)});
   for (const Side& side : kSides) {
     app.actions.add({side.id,

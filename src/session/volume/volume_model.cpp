@@ -148,6 +148,16 @@ void VolumeModel::look_from(VolumeSide side) {
   set_camera(seen_from(observation->sector(), from(), rays));
 }
 
+void VolumeModel::look_at(const Point<Sonar>& place) {
+  const auto& observation = workspace_.document.shown();
+  if (!observation) return;
+  Camera camera = workspace_.camera() ? *workspace_.camera()
+                                      : overview(observation->sector(), shown_ ? shown_->view.size : units());
+  camera.eye = camera.eye + (place - camera.target);
+  camera.target = place;
+  set_camera(camera);
+}
+
 void VolumeModel::pointer(const PointerEvent& pointed) {
   PointerEvent event = pointed;
   event.at = in_frame(pointed.at);

@@ -31,6 +31,8 @@ class VolumeModel : public LivePicture {
   ~VolumeModel() override;
 
   void look_from(VolumeSide side);
+  /// Looks at a place from the same side and as far from it; turning goes round it from then on.
+  void look_at(const Point<Sonar>& place);
   [[nodiscard]] const std::optional<Camera>& camera() const { return workspace_.camera(); }
   /// Of the picture on show; null before the first.
   [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }

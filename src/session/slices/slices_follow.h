@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/listening.h"
+#include "session/workspace.h"
+
+namespace sonar {
+
+/// Keeps the slices on the selected school, wherever it was selected, and while pings play: a slice that misses it goes to
+/// its middle, one that cuts it stays, so that a click in a slice does not move that slice. Where the ping looked at has
+/// none of the school, selecting it goes to the nearest one that has. Nothing follows while workspace.slices_locked.
+/// threads  the window's
+class SlicesFollow {
+ public:
+  /// Outlives the follower.
+  explicit SlicesFollow(Workspace& workspace);
+
+ private:
+  void follow();
+  void go_to_selected();
+
+  Workspace& workspace_;
+  Listening listening_;
+};
+
+}  // namespace sonar
