@@ -50,7 +50,7 @@ void add_opening(AppModel& app) {
                    .menu = kFile,
                    .text = "Open folder...",
                    .keys = {"Ctrl+O"},
-                   .tip = "Open a folder of raw files as a survey",
+                   .tip = "Open a survey: a folder of raw files, or the folder of a run's results",
                    .run = [&app] { open_folder(app); }});
   app.actions.add({.id = "file.open_files",
                    .menu = kFile,
@@ -195,7 +195,7 @@ void add_exports(AppModel& app) {
                    }});
   app.workspace.document.changes().add([&app](DocumentChange change) {
     if (change != DocumentChange::survey || app.workspace.document.survey() == nullptr) return;
-    app.preferences.remember(app.workspace.document.paths());
+    app.preferences.remember(app.workspace.document.named());
     keep_preferences(app);
   });
 }
