@@ -63,8 +63,8 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
     return QFileDialog::getSaveFileName(&window, text(title), text(name), text(pattern)).toStdString();
   };
-  dialogs.folder_to_save = [&window](const std::string& title) {
-    return QFileDialog::getExistingDirectory(&window, text(title)).toStdString();
+  dialogs.folder_to_save = [&window](const std::string& title, const std::string& start) {
+    return QFileDialog::getExistingDirectory(&window, text(title), text(start)).toStdString();
   };
   dialogs.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
     bool given = false;

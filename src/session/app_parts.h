@@ -33,6 +33,10 @@ template <class P>
   return false;
 }
 
+/// Asks for a folder to write into, and proposes one beside the survey; empty = the human declined.
+/// ending  of its name: "-out"
+[[nodiscard]] std::string asked_folder(AppModel& app, const std::string& title, const std::string& ending);
+
 /// Writes the preferences with what the window shows now; what hinders it is told once.
 void keep_preferences(AppModel& app);
 

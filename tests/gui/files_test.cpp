@@ -38,7 +38,7 @@ class Files : public WindowAtWork {
   void SetUp() override {
     WindowAtWork::SetUp();
     real_parameters_ = std::exchange(app_->dialogs.parameters, [](const auto&, const auto&) { return true; });
-    app_->dialogs.folder_to_save = [this](const std::string&) { return out_.string(); };
+    app_->dialogs.folder_to_save = [this](const std::string&, const std::string&) { return out_.string(); };
     app_->dialogs.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
       saved_ = out_ / name;
       return saved_.string();
