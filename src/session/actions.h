@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -61,6 +62,7 @@ struct Dialogs {
   std::function<bool(RecipeEditor& editor)> recipe;  ///< lets a human change a recipe; false = declined
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_keys;                                   ///< the sheet of keys
+  std::function<bool(const std::filesystem::path& page)> show_page;  ///< outside the program; false = nothing shows it
   std::function<void()> show_about;
   std::function<void()> reset_layout;
   std::function<void()> full_screen;  ///< on and off

@@ -12,6 +12,7 @@
 #include "session/app_parts.h"
 #include "session/exports.h"
 #include "session/live_watch.h"
+#include "session/open_demo.h"
 #include "session/recipe_editor.h"
 
 namespace sonar {
@@ -58,6 +59,12 @@ void add_opening(AppModel& app) {
                    .keys = {"Ctrl+Shift+O"},
                    .tip = "Open some raw files as a survey",
                    .run = [&app] { open_files(app); }});
+  app.actions.add({.id = "file.demo",
+                   .menu = kFile,
+                   .text = "Demo survey",
+                   .keys = {},
+                   .tip = "Open a simulated survey; it is made first where it is not there yet",
+                   .run = [&app] { open_demo(app); }});
   for (std::size_t i = 0; i < Preferences::kMostRecent; ++i) {
     app.actions.add({.id = fmt::format("file.recent.{}", i + 1),
                      .menu = "&File/Open &recent",
@@ -133,13 +140,6 @@ void add_calibration(AppModel& app) {
                    .enabled = with_ping});
 }
 
-/// Asks for a folder and hands it on.
-std::function<void()> into_folder(AppModel& app, std::string title, std::function<void(const fs::path&)> write,
-                                  std::string ending = "-out") {
-  return [&app, title = std::move(title), write = std::move(write), ending = std::move(ending)] {
-    if (const std::string folder = asked_folder(app, title, ending); !folder.empty()) write(folder);
-  };
-}
 /// SURVEY-out, or SURVEY-out-2 and so on where a run has its results there; empty where nothing may be written.
 fs::path proposed_folder(const Document& document, const std::string& ending) {
   if (document.paths().empty()) return {};
@@ -151,6 +151,13 @@ fs::path proposed_folder(const Document& document, const std::string& ending) {
   return !folder.empty() && require_not_beneath_raw(folder) ? folder : fs::path{};
 }
 
+/// Asks for a folder and hands it on.
+std::function<void()> into_folder(AppModel& app, std::string title, std::function<void(const fs::path&)> write,
+                                  std::string ending = "-out") {
+  return [&app, title = std::move(title), write = std::move(write), ending = std::move(ending)] {
+    if (const std::string folder = asked_folder(app, title, ending); !folder.empty()) write(folder);
+  };
+}
 
 std::string menu_text(std::string_view format) {
   if (format == "csv") return "Tables (CSV)...";
@@ -192,13 +199,6 @@ void add_formats(AppModel& app) {
 
 }  // namespace
 
-void add_exports(AppModel& app) {
-  add_opening(app);
-  add_calibration(app);
-  add_formats(app);
-  add_pictures(app);
-  app.actions.add({.id = "file.quit",
-                   .menu = kFile,
 std::string asked_folder(AppModel& app, const std::string& title, const std::string& ending) {
   if (!app.dialogs.folder_to_save) return {};
   const fs::path proposed = proposed_folder(app.workspace.document, ending);
@@ -211,6 +211,13 @@ std::string asked_folder(AppModel& app, const std::string& title, const std::str
   return folder;
 }
 
+void add_exports(AppModel& app) {
+  add_opening(app);
+  add_calibration(app);
+  add_formats(app);
+  add_pictures(app);
+  app.actions.add({.id = "file.quit",
+                   .menu = kFile,
                    .text = "Quit",
                    .keys = {"Ctrl+Q"},
                    .tip = "Everything that was decided is in the journal already",
