@@ -1,32 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/manual.h"
 
+#include <initializer_list>
 #include <system_error>
 
 namespace sonar {
+namespace {
 
 namespace fs = std::filesystem;
 
-std::string manual_place() {
+fs::path this_program() {
   std::error_code unknown;
-  return manual_place(fs::read_symlink("/proc/self/exe", unknown));
+  return fs::read_symlink("/proc/self/exe", unknown);
 }
 
-std::string manual_place(const fs::path& program) {
-  const auto is_there = [](const fs::path& file) {
-    std::error_code absent;
-    return fs::is_regular_file(file, absent);
-  };
+bool is_there(const fs::path& file) {
+  std::error_code absent;
+  return fs::is_regular_file(file, absent);
+}
+
+/// A page that was installed with a program, or lies in the tree that it was built in; empty where it is neither.
+/// installed  its names below the folder of pages, the best first; the last is its name in the tree's docs/
+fs::path page_of(const fs::path& program, std::initializer_list<const char*> installed) {
   // Above bin/ where it is installed, above build/ where it is not: no path of the machine it was built on is needed.
   for (fs::path folder = program; folder != folder.parent_path();) {
     folder = folder.parent_path();
-    const fs::path installed = folder / SONAR_DOCDIR / "user-guide.md";
-    if (is_there(installed)) return installed.string();
-    const fs::path guide = folder / "docs" / "user-guide.md";
-    if (is_there(guide) && is_there(folder / "src" / "base" / "manual.h"))
-      return guide.string();  // not another's pages
+    for (const char* name : installed) {
+      if (fs::path page = folder / SONAR_DOCDIR / name; is_there(page)) return page;
+    }
+    fs::path page = folder / "docs" / *(installed.end() - 1);
+    if (is_there(page) && is_there(folder / "src" / "base" / "manual.h")) return page;  // not another's pages
   }
-  return "docs/user-guide.md";
+  return {};
 }
+
+}  // namespace
+
+std::string manual_place() { return manual_place(this_program()); }
+
+std::string manual_place(const fs::path& program) {
+  const fs::path page = page_of(program, {"user-guide.md"});
+  return page.empty() ? "docs/user-guide.md" : page.string();
+}
+
+fs::path guide_place() { return guide_place(this_program()); }
+
+fs::path guide_place(const fs::path& program) { return page_of(program, {"html/guide.html", "guide.md"}); }
 
 }  // namespace sonar

@@ -12,4 +12,9 @@ namespace sonar {
 /// The same of the program with this path.
 [[nodiscard]] std::string manual_place(const std::filesystem::path& program);
 
+/// The guide to the desktop: as HTML where it was installed with this program, else the page that it is made from; empty where
+/// there is neither.
+[[nodiscard]] std::filesystem::path guide_place();
+[[nodiscard]] std::filesystem::path guide_place(const std::filesystem::path& program);
+
 }  // namespace sonar

@@ -41,5 +41,21 @@ TEST(Manual, OfWhichNothingIsKnownNamesNoFolderOfAMachine) {
   EXPECT_EQ(manual_place(""), "docs/user-guide.md");
 }
 
+TEST(Manual, TheGuideIsHtmlWhereThatWasInstalled) {
+  const fs::path html = "usr/share/doc/sonarx/html/guide.html";
+  const fs::path page = "usr/share/doc/sonarx/guide.md";
+  const fs::path whole = tree_with({html, page});
+  EXPECT_EQ(guide_place(whole / "usr/bin/sonar-explorer"), whole / html);
+  const fs::path plain = tree_with({page});
+  EXPECT_EQ(guide_place(plain / "usr/bin/sonar-explorer"), plain / page);
+}
+
+TEST(Manual, TheGuideOfATreeIsItsPageAndElsewhereThereIsNone) {
+  const fs::path root = tree_with({"docs/guide.md", "src/base/manual.h"});
+  EXPECT_EQ(guide_place(root / "build/dev/src/gui/sonar-explorer"), root / "docs/guide.md");
+  EXPECT_EQ(guide_place(tree_with({"docs/guide.md"}) / "bin/sonar-explorer"), "") << "another program's";
+  EXPECT_EQ(guide_place(""), "");
+}
+
 }  // namespace
 }  // namespace sonar

@@ -40,6 +40,7 @@ constexpr const char* kExamples =
     "\nExamples:\n"
     "  sonar-explorer --demo                    a simulated survey, made first where it is not there yet\n"
     "  sonar-explorer SURVEY --recipe R.json    a folder of raw files under a recipe\n"
+    "  sonar-explorer OUT                       what sonarx run SURVEY --out OUT found, in its survey\n"
     "  sonar-explorer --live SURVEY             a survey that is still being recorded\n";
 
 struct CommandLine {
@@ -56,7 +57,8 @@ struct CommandLine {
     QCoreApplication::setApplicationVersion(SONAR_VERSION);
     parser.setApplicationDescription("Explores fishery-sonar surveys: detect schools, follow them, map them");
     parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);  // as Qt takes its own
-    parser.addPositionalArgument("survey", "Folders of raw files, or raw files", "[survey...]");
+    parser.addPositionalArgument("survey", "Folders of raw files, raw files, or folders of results (sonarx run --out)",
+                                 "[survey...]");
     parser.addOptions({help, version, demo, dark, live, recipe});
     // Qt takes these itself, and its own pages tell them.
     QCommandLineOption flags(QStringList{"dograb", "nograb", "reverse", "widgetcount"});

@@ -30,7 +30,8 @@
 namespace sonar {
 namespace {
 
-constexpr QSize kFirstSize{1600, 1000};
+constexpr QSize kLeastSize{1280, 800};
+constexpr QSize kMostSize{3840, 2160};
 constexpr int kLayoutVersion = 2;  // raised when docks come or go
 
 QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
@@ -64,7 +65,11 @@ View& view_of(const QMainWindow& window, const std::string& id) {
 
 }  // namespace
 
-MainWindow::MainWindow(AppModel& app) : app_(app), animations_(app.animations) {
+QSize first_size(const QSize& available) {
+  return (available * 9 / 10).boundedTo(kMostSize).expandedTo(kLeastSize).boundedTo(available);
+}
+
+MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app), animations_(app.animations) {
   setObjectName("main");
   setWindowTitle("Sonar Explorer");
   setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: each step of the way would be drawn anew
@@ -109,16 +114,16 @@ MainWindow::MainWindow(AppModel& app) : app_(app), animations_(app.animations) {
     }
   });
   const QScreen* on = screen();
-  const QSize first_size = on == nullptr ? kFirstSize : kFirstSize.boundedTo(on->availableSize());
-  resize(first_size);
+  const QSize wanted = at_first.value_or(on == nullptr ? kLeastSize : first_size(on->availableSize()));
+  resize(wanted);
   lay_out_docks(*this);
-  if (size() != first_size) {
+  if (size() != wanted) {
     // Until they had their places the docks stood side by side, and were wider than a small screen.
     QMainWindow::layout()->activate();
-    resize(first_size);
+    resize(wanted);
     lay_out_docks(*this);
     QMainWindow::layout()->activate();
-    resize(first_size);
+    resize(wanted);
   }
   // Keys belong to the picture at first, not to a line of text.
   if (auto* first = findChild<QWidget*>("top_slice.view")) first->setFocus();

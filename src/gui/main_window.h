@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QSize>
+#include <optional>
 #include <string>
 
 #include "gui/animation_timer.h"
@@ -9,11 +11,16 @@
 
 namespace sonar {
 
+/// Of a window at its first start: nine tenths of what the screen has to give, within 1280 x 800 and 3840 x 2160, and no more
+/// than there is.
+[[nodiscard]] QSize first_size(const QSize& available);
+
 /// Composes docks, menus and the status line from an app; has no behaviour of its own.
 class MainWindow : public QMainWindow {
  public:
   /// The app outlives the window.
-  explicit MainWindow(AppModel& app);
+  /// at_first  its size; empty = as first_size() has it for its screen
+  explicit MainWindow(AppModel& app, std::optional<QSize> at_first = {});
   ~MainWindow() override;
 
   /// Docks and size as text, for the preferences.

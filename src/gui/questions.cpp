@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QCursor>
+#include <QDesktopServices>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QDockWidget>
@@ -11,6 +12,7 @@
 #include <QGuiApplication>
 #include <QInputDialog>
 #include <QMessageBox>
+#include <QUrl>
 #include <QVBoxLayout>
 
 #include "gui/panel_section.h"
@@ -63,8 +65,11 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
     return QFileDialog::getSaveFileName(&window, text(title), text(name), text(pattern)).toStdString();
   };
-  dialogs.folder_to_save = [&window](const std::string& title) {
-    return QFileDialog::getExistingDirectory(&window, text(title)).toStdString();
+  dialogs.folder_to_save = [&window](const std::string& title, const std::string& start) {
+    return QFileDialog::getExistingDirectory(&window, text(title), text(start)).toStdString();
+  };
+  dialogs.show_page = [](const std::filesystem::path& page) {
+    return QDesktopServices::openUrl(QUrl::fromLocalFile(text(page.string())));
   };
   dialogs.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
     bool given = false;

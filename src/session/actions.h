@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -51,7 +52,8 @@ struct Dialogs {
   std::function<std::string()> folder_to_open;
   std::function<std::string(const std::string& title, const std::string& pattern, const std::string& name)>
       file_to_save;
-  std::function<std::string(const std::string& title)> folder_to_save;
+  /// start  a folder that is there; empty = whichever
+  std::function<std::string(const std::string& title, const std::string& start)> folder_to_save;
   std::function<std::optional<std::string>(const std::string& title, const std::string& label, const std::string& text)>
       text;
   std::function<bool(const std::string& question)> yes;
@@ -59,7 +61,8 @@ struct Dialogs {
   std::function<bool(const std::string& title, const PanelSection& section)> parameters;
   std::function<bool(RecipeEditor& editor)> recipe;  ///< lets a human change a recipe; false = declined
   std::function<void(const std::string& text)> copy;
-  std::function<void()> show_keys;  ///< the sheet of keys
+  std::function<void()> show_keys;                                   ///< the sheet of keys
+  std::function<bool(const std::filesystem::path& page)> show_page;  ///< outside the program; false = nothing shows it
   std::function<void()> show_about;
   std::function<void()> reset_layout;
   std::function<void()> full_screen;  ///< on and off

@@ -50,7 +50,8 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
     return words + percent + ".\nEsc, or Cancel below, stops it." + glanced;
   }
   if (dock != "top_slice") return "";
-  return "Open a survey (Ctrl+O), or drop a folder of raw files here.\n\n"
+  return "Open a survey (Ctrl+O), or drop a folder of raw files, or of results, here.\n"
+         "File > Demo survey opens a simulated one.\n\n"
          "Simrad MS70: schools are detected, followed and measured.\n"
          "ME70 and similar sonars: the same where the beams form fans.\n"
          "EK60: read, but schools are not detected in single beams yet.\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,6 +33,14 @@ template <class P>
   parameters.assign(before);
   return false;
 }
+
+/// Asks for a folder to write into, and proposes one beside the survey; empty = the human declined.
+/// ending  of its name: "-out"
+[[nodiscard]] std::string asked_folder(AppModel& app, const std::string& title, const std::string& ending);
+
+/// Shows the guide to the desktop, or tells why it cannot.
+/// page  as guide_place() has it
+void show_guide(AppModel& app, const std::filesystem::path& page);
 
 /// Writes the preferences with what the window shows now; what hinders it is told once.
 void keep_preferences(AppModel& app);

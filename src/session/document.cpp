@@ -12,6 +12,7 @@
 #include "base/within_memory.h"
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/observe.h"
+#include "pipeline/tasks/work_folders.h"
 
 namespace sonar {
 
@@ -296,13 +297,17 @@ void Document::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std:
   recipe.automatic = true;
   const ObserveOptions observe_options{{}, {}, options_.program_version};
   const auto file = detected_file(options_.cache, *survey, observation);
-  const std::string key = observation_key(*survey, observation, recipe, observe_options);
+  const std::string key = key_of(*survey, observation, recipe);
   const auto take = [&, earlier = earlier_found(file, *survey, observation)](const ObservationProduct& product) {
     post(token, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
       if (survey == survey_) take_detected(index, found, step);
     });
   };
   if (const auto kept = kept_detected(file, key)) return take(*kept);
+  if (const auto of_run = kept_detected(product_in(work_folders_, observation.name, key), key)) {
+    take(*of_run);
+    return keep_detected(file, *of_run);
+  }
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;

@@ -82,7 +82,8 @@ class Document {
   [[nodiscard]] Listeners<DocumentChange>& changes() { return changes_; }
 
   // --- the survey
-  /// Reads the survey in the background and then looks at its first observation; what was open is let go.
+  /// Reads the survey in the background and then looks at its first observation; what was open is let go. A work folder of
+  /// a run opens the survey that it was made of, under the run's recipe and with the run's schools.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {});
   /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
@@ -101,7 +102,10 @@ class Document {
   void open_glanced(std::size_t observation);
   /// Why nothing of the survey is shown, in a line; empty where something is, or no survey is open.
   [[nodiscard]] std::string nothing_shown() const;
+  /// The survey's raw files, and folders of them.
   [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
+  /// What open() was given: those, or work folders of runs on them.
+  [[nodiscard]] const std::vector<std::filesystem::path>& named() const { return named_; }
   [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_path_; }
   /// What choices stand on.
   [[nodiscard]] const Recipe& recipe() const { return options_.recipe; }
@@ -197,8 +201,14 @@ class Document {
   };
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
+  void end_opening(const Error& error, const CancelToken& token);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
-  void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place);
+  [[nodiscard]] std::string key_of(const SurveyFiles& survey, const ObservationFiles& observation, Recipe recipe) const;
+  [[nodiscard]] std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_folders,
+                                               const SurveyFiles& survey, const Recipe& recipe) const;
+  void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place,
+                   const std::set<std::size_t>& found);
+  void await_schools(const std::vector<JournalLine>& lines, const std::set<std::size_t>& found);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
   OpenObservationPtr opened(std::size_t index);
@@ -231,6 +241,8 @@ class Document {
   std::optional<std::pair<std::size_t, std::int64_t>> back_to_;  ///< observation and ping that it begins with
   Listeners<DocumentChange> changes_;
   std::vector<std::filesystem::path> paths_;
+  std::vector<std::filesystem::path> named_;
+  std::vector<std::filesystem::path> work_folders_;  ///< of runs, in which schools were found before
   std::shared_ptr<const SurveyFiles> survey_;
   std::shared_ptr<const SurveyFiles> glance_;
   std::filesystem::path journal_path_;
@@ -239,7 +251,7 @@ class Document {
   std::map<std::size_t, OpenObservationPtr> chosen_on_;  ///< under the recipe: what choices stand on
   std::map<std::size_t, OpenObservationPtr> open_;       ///< the same, or under a calibration that a human chose
   std::set<std::size_t> unreplayed_;                     ///< of these the journal's lines wait until something is seen
-  std::vector<std::size_t> undetected_;                  ///< so does the detection that they ask for
+  std::vector<std::size_t> undetected_;  ///< so does the detection that they ask for, and what runs found
   std::shared_ptr<const CalibrationParams> calibration_;
   OpenObservationPtr shown_;
   std::int64_t ping_ = 0;

@@ -1,60 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a survey comes to be open: its files' ends first, then all of them, then what was chosen in it before.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "base/number_text.h"
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/observe.h"
+#include "pipeline/tasks/work_folders.h"
 #include "session/document.h"
 
 namespace sonar {
+namespace {
+
+/// Takes the recipe of a run, for schools that are detected when that is asked for. False where it is the same.
+bool take_recipe(const std::optional<Recipe>& of_run, Recipe& recipe) {
+  if (!of_run) return false;
+  Recipe taken = *of_run;
+  taken.automatic = false;
+  if (recipe_hash(taken) == recipe_hash(recipe)) return false;
+  recipe = std::move(taken);
+  return true;
+}
+
+/// What a journal begins with.
+Journal head_of(const SurveyFiles& files, const Recipe& recipe) {
+  Journal head;
+  head.recipe = recipe_text(recipe);
+  head.recipe_hash = recipe_hash(recipe);
+  for (const ObservationFiles& observation : files.observations) {
+    for (InputFile& file : input_files(files, observation)) head.files.push_back(std::move(file));
+  }
+  return head;
+}
+
+}  // namespace
 
 void Document::open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
   opening_first_ = first;
   run([this, paths, first = std::move(first), none = survey_ == nullptr, asked = asked_recipe_,
        back = std::exchange(back_to_, std::nullopt)](Work& work, const CancelToken& token) {
-    if (const auto done = first ? first(work) : Result<void>{}; !done) {
-      return post(token, [this, line = to_line(done.error())] {
-        opening_.clear();
-        tell(line);
-      });
-    }
-    const auto folders = options_.journal_folders && !paths.empty() ? options_.journal_folders(paths.front())
-                                                                    : std::vector<std::filesystem::path>{};
+    if (const auto done = first ? first(work) : Result<void>{}; !done) return end_opening(done.error(), token);
+    const auto named = told_apart(paths);
+    if (!named) return end_opening(named.error(), token);
+    const auto folders = options_.journal_folders && !named->raw.empty() ? options_.journal_folders(named->raw.front())
+                                                                         : std::vector<std::filesystem::path>{};
     Recipe recipe = asked ? *asked : recipe_of(folders, token);
     recipe.automatic = false;  // schools are detected when that is asked for
-    if (none) glance_at(paths, recipe, work, token);
-    auto survey = open_survey(paths, recipe.survey, recipe.navigation, options_.cache, work);
-    if (!survey) {
-      return post(token, [this, line = to_line(survey.error())] {
-        opening_.clear();
-        tell(line);
-      });
-    }
+    const bool of_run = !asked && take_recipe(named->recipe, recipe);
+    if (none) glance_at(named->raw, recipe, work, token);
+    auto survey = open_survey(named->raw, recipe.survey, recipe.navigation, options_.cache, work);
+    if (!survey) return end_opening(survey.error(), token);
     auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
-    Journal head;
-    head.recipe = recipe_text(recipe);
-    head.recipe_hash = recipe_hash(recipe);
-    for (const ObservationFiles& observation : files->observations) {
-      for (InputFile& file : input_files(*files, observation)) head.files.push_back(std::move(file));
-    }
-    auto place = place_journal(folders, head, options_.operator_name);
-    if (asked && place) {
+    auto place = place_journal(folders, head_of(*files, recipe), options_.operator_name);
+    if ((asked || of_run) && place) {
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
     }
-    post(token, [this, files, paths, recipe, asked, back, place = std::move(place)] {
-      paths_ = paths;
+    if (of_run && place) {
+      place->notices.push_back(fmt::format("from now on this survey is opened under the recipe of {}",
+                                           named->work_folders.front().string()));
+    }
+    const auto found = found_in(named->work_folders, *files, recipe);
+    post(token, [this, files, paths, named = *named, recipe, asked, back, found, place = std::move(place)] {
+      paths_ = named.raw;
+      named_ = paths;
+      work_folders_ = named.work_folders;
       opening_.clear();
       if (asked == asked_recipe_) asked_recipe_.reset();
       options_.recipe = recipe;
-      take_survey(files, place);
+      take_survey(files, place, found);
       if (back) (void)show(back->first, back->second);
     });
   });
   opening_ = std::move(paths);
+}
+
+void Document::end_opening(const Error& error, const CancelToken& token) {
+  post(token, [this, line = to_line(error)] {
+    opening_.clear();
+    tell(line);
+  });
 }
 
 void Document::use_recipe(Recipe recipe) {
@@ -94,7 +123,25 @@ void Document::open_glanced(std::size_t observation) {
   open(std::move(files));
 }
 
-void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place) {
+/// Of a find under this recipe.
+std::string Document::key_of(const SurveyFiles& survey, const ObservationFiles& observation, Recipe recipe) const {
+  recipe.automatic = true;
+  return observation_key(survey, observation, recipe, {{}, {}, options_.program_version});
+}
+
+/// Observations whose schools one of these folders has as detect() would find them.
+std::set<std::size_t> Document::found_in(const std::vector<std::filesystem::path>& work_folders,
+                                         const SurveyFiles& survey, const Recipe& recipe) const {
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < survey.observations.size() && !work_folders.empty(); ++i) {
+    const ObservationFiles& observation = survey.observations[i];
+    if (!product_in(work_folders, observation.name, key_of(survey, observation, recipe)).empty()) found.insert(i);
+  }
+  return found;
+}
+
+void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place,
+                           const std::set<std::size_t>& found) {
   choices_thread_.reset();
   chosen_on_.clear();
   unreadable_.clear();
@@ -138,10 +185,26 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
   if (first == all.end()) {
     return tell(nothing_shown());
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].grid && asks_for_detection(lines, datagram_times(*survey_, all[i]))) undetected_.push_back(i);
-  }
+  await_schools(lines, found);
   (void)show(static_cast<std::size_t>(first - all.begin()));
+}
+
+/// After the first picture come the schools that the journal asks for, and those that a run found.
+/// found  in work folders
+void Document::await_schools(const std::vector<JournalLine>& lines, const std::set<std::size_t>& found) {
+  std::size_t lacking = 0;
+  for (std::size_t i = 0; i < survey_->observations.size(); ++i) {
+    const ObservationFiles& observation = survey_->observations[i];
+    if (!observation.grid) continue;
+    if (found.contains(i) || asks_for_detection(lines, datagram_times(*survey_, observation))) {
+      undetected_.push_back(i);
+    } else {
+      ++lacking;
+    }
+  }
+  if (lacking == 0 || work_folders_.empty()) return;
+  tell(fmt::format("{}: the schools of {} are not those of this version and recipe; Ctrl+D detects them again",
+                   work_folders_.front().string(), count_of(lacking, "observation")));
 }
 
 }  // namespace sonar

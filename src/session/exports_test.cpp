@@ -230,7 +230,7 @@ TEST_F(Exports, EveryFormatIsInTheMenuAndIsWritten) {
   document().settle();
   for (const char* format : {"netcdf-mask", "gpkg", "geojson", "raw-reduced"}) {
     const fs::path folder = out_ / format;
-    app_->dialogs.folder_to_save = [&](const auto&) { return folder.string(); };
+    app_->dialogs.folder_to_save = [&](const auto&, const auto&) { return folder.string(); };
     press(std::string("export.") + format);
     document().settle();
     EXPECT_THAT(told(), HasSubstr("written: ")) << format;

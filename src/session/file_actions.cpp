@@ -12,6 +12,7 @@
 #include "session/app_parts.h"
 #include "session/exports.h"
 #include "session/live_watch.h"
+#include "session/open_demo.h"
 #include "session/recipe_editor.h"
 
 namespace sonar {
@@ -50,7 +51,7 @@ void add_opening(AppModel& app) {
                    .menu = kFile,
                    .text = "Open folder...",
                    .keys = {"Ctrl+O"},
-                   .tip = "Open a folder of raw files as a survey",
+                   .tip = "Open a survey: a folder of raw files, or the folder of a run's results",
                    .run = [&app] { open_folder(app); }});
   app.actions.add({.id = "file.open_files",
                    .menu = kFile,
@@ -58,6 +59,12 @@ void add_opening(AppModel& app) {
                    .keys = {"Ctrl+Shift+O"},
                    .tip = "Open some raw files as a survey",
                    .run = [&app] { open_files(app); }});
+  app.actions.add({.id = "file.demo",
+                   .menu = kFile,
+                   .text = "Demo survey",
+                   .keys = {},
+                   .tip = "Open a simulated survey; it is made first where it is not there yet",
+                   .run = [&app] { open_demo(app); }});
   for (std::size_t i = 0; i < Preferences::kMostRecent; ++i) {
     app.actions.add({.id = fmt::format("file.recent.{}", i + 1),
                      .menu = "&File/Open &recent",
@@ -133,11 +140,22 @@ void add_calibration(AppModel& app) {
                    .enabled = with_ping});
 }
 
+/// SURVEY-out, or SURVEY-out-2 and so on where a run has its results there; empty where nothing may be written.
+fs::path proposed_folder(const Document& document, const std::string& ending) {
+  if (document.paths().empty()) return {};
+  std::error_code absent;
+  fs::path folder = folder_beside(document.paths().front(), ending);
+  for (int i = 2; !folder.empty() && fs::exists(folder / "plan.json", absent); ++i) {
+    folder = folder_beside(document.paths().front(), fmt::format("{}-{}", ending, i));
+  }
+  return !folder.empty() && require_not_beneath_raw(folder) ? folder : fs::path{};
+}
+
 /// Asks for a folder and hands it on.
-std::function<void()> into_folder(AppModel& app, std::string title, std::function<void(const fs::path&)> write) {
-  return [&app, title = std::move(title), write = std::move(write)] {
-    if (!app.dialogs.folder_to_save) return;
-    if (const std::string folder = app.dialogs.folder_to_save(title); !folder.empty()) write(folder);
+std::function<void()> into_folder(AppModel& app, std::string title, std::function<void(const fs::path&)> write,
+                                  std::string ending = "-out") {
+  return [&app, title = std::move(title), write = std::move(write), ending = std::move(ending)] {
+    if (const std::string folder = asked_folder(app, title, ending); !folder.empty()) write(folder);
   };
 }
 
@@ -162,23 +180,36 @@ void add_formats(AppModel& app) {
                    .enabled = with_survey(app)});
   for (const ExportFormat& format : export_formats()) {
     const std::string name(format.name);
-    app.actions.add(
-        {.id = "export." + name,
-         .menu = kExport,
-         .text = menu_text(name),
-         .keys = {},
-         .tip = std::string(format.text),
-         .run =
-             [&app, name,
-              into = into_folder(app, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
-                                 [&workspace, name](const fs::path& folder) { export_as(workspace, name, folder); })] {
-               if (name != "raw-reduced" || asked(app, "Reduced raw files", app.workspace.reduce)) into();
-             },
-         .enabled = with_survey(app)});
+    app.actions.add({.id = "export." + name,
+                     .menu = kExport,
+                     .text = menu_text(name),
+                     .keys = {},
+                     .tip = std::string(format.text),
+                     .run =
+                         [&app, name,
+                          into = into_folder(
+                              app, "Folder for " + menu_text(name).substr(0, menu_text(name).size() - 3),
+                              [&workspace, name](const fs::path& folder) { export_as(workspace, name, folder); },
+                              name == "raw-reduced" ? "-reduced" : "-out")] {
+                           if (name != "raw-reduced" || asked(app, "Reduced raw files", app.workspace.reduce)) into();
+                         },
+                     .enabled = with_survey(app)});
   }
 }
 
 }  // namespace
+
+std::string asked_folder(AppModel& app, const std::string& title, const std::string& ending) {
+  if (!app.dialogs.folder_to_save) return {};
+  const fs::path proposed = proposed_folder(app.workspace.document, ending);
+  // Dialogs choose only among folders that are there.
+  std::error_code cannot;
+  const bool made = !proposed.empty() && fs::create_directory(proposed, cannot);
+  const bool there = made || (!proposed.empty() && fs::is_directory(proposed, cannot));
+  const std::string folder = app.dialogs.folder_to_save(title, there ? proposed.string() : std::string{});
+  if (made && fs::path(folder) != proposed) fs::remove(proposed, cannot);  // it is empty, or stays
+  return folder;
+}
 
 void add_exports(AppModel& app) {
   add_opening(app);
@@ -195,7 +226,7 @@ void add_exports(AppModel& app) {
                    }});
   app.workspace.document.changes().add([&app](DocumentChange change) {
     if (change != DocumentChange::survey || app.workspace.document.survey() == nullptr) return;
-    app.preferences.remember(app.workspace.document.paths());
+    app.preferences.remember(app.workspace.document.named());
     keep_preferences(app);
   });
 }

@@ -56,7 +56,7 @@ void add_picture_kinds(AppModel& app) {
 
 void ask_for_movie(AppModel& app, PictureKind kind) {
   if (!app.dialogs.folder_to_save || !asked(app, "Movie", app.workspace.picture_file, asked_for(kind, true))) return;
-  const std::string folder = app.dialogs.folder_to_save("Folder for the movie");
+  const std::string folder = asked_folder(app, "Folder for the movie", "-out");
   if (!folder.empty()) save_movie(app.workspace, kind, folder);
 }
 

@@ -163,7 +163,7 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
   paint(4, 6, 5, 5, 200);
   document().settle();
   select(1);
-  app_->dialogs.folder_to_save = [this](const auto&) { return out_.string(); };
+  app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return out_.string(); };
   answer([](ParameterSource& source) {
     (void)source.set("frame_s", 0.5);
     (void)source.set("width_px", 400);
@@ -181,7 +181,7 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
 TEST_F(PictureFile, ReducedRawFilesAreAskedForTheirMargins) {
   paint(4, 6, 5, 5, 200);
   document().settle();
-  app_->dialogs.folder_to_save = [this](const auto&) { return (out_ / "reduced").string(); };
+  app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return (out_ / "reduced").string(); };
   const auto size = [&] {
     press("export.raw-reduced");
     document().settle();

@@ -156,6 +156,15 @@ fs::path home_folder(const char* variable, const char* below_home) {
   return {};
 }
 
+/// The folder of a survey's raw files, links followed.
+fs::path raw_folder(const fs::path& survey) {
+  std::error_code unknown;
+  fs::path whole = fs::weakly_canonical(fs::absolute(survey, unknown), unknown);
+  if (unknown || whole.empty()) whole = survey.lexically_normal();
+  if (whole.filename().empty()) whole = whole.parent_path();
+  return fs::is_directory(whole, unknown) ? whole : whole.parent_path();
+}
+
 }  // namespace
 
 fs::path Preferences::path_of_user() {
@@ -255,14 +264,15 @@ void Preferences::remember(std::vector<fs::path> opened) {
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);
 }
 
+fs::path folder_beside(const fs::path& survey, const std::string& ending) {
+  const fs::path folder = raw_folder(survey);
+  return folder.has_filename() ? folder.parent_path() / (folder.filename().string() + ending) : fs::path{};
+}
+
 std::vector<fs::path> journal_folders_for(const fs::path& survey) {
   std::vector<fs::path> folders;
-  std::error_code unknown;
-  fs::path whole = fs::weakly_canonical(fs::absolute(survey, unknown), unknown);
-  if (unknown || whole.empty()) whole = survey.lexically_normal();
-  if (whole.filename().empty()) whole = whole.parent_path();
-  const fs::path folder = fs::is_directory(whole, unknown) ? whole : whole.parent_path();
-  if (folder.has_filename()) folders.push_back(folder.parent_path() / (folder.filename().string() + "-work"));
+  const fs::path folder = raw_folder(survey);
+  if (fs::path beside = folder_beside(survey, "-work"); !beside.empty()) folders.push_back(std::move(beside));
   const fs::path own = home_folder("XDG_STATE_HOME", ".local/state");
   if (!own.empty()) {
     const std::string hash = to_hex(hash_text(folder.string())).substr(0, 16);

@@ -61,6 +61,11 @@ struct LoadedPreferences {
   std::string notice;  ///< what a user must be told: a damaged file, names of an earlier version; empty = nothing
 };
 
+/// SURVEY-out beside a survey, say; empty where the survey's folder has no name.
+/// survey  a folder of raw files, or a raw file
+/// ending  "-out"
+[[nodiscard]] std::filesystem::path folder_beside(const std::filesystem::path& survey, const std::string& ending);
+
 /// Where the journal of a survey goes: SURVEY-work beside the survey, else a folder of the user's own. Never where raw
 /// files lie.
 /// survey  a folder of raw files, or a raw file

@@ -186,6 +186,16 @@ TEST(JournalFolders, LieBesideTheSurveyThenInTheUsersOwnAndNeverInIt) {
   EXPECT_THAT(place->notices.front(), HasSubstr("cannot be written to"));
 }
 
+TEST(FolderBeside, IsNamedAfterTheSurvey) {
+  const fs::path folder = fs::canonical(TestSurvey::easy().fresh());
+  fs::create_directories(folder / "cruise");
+  write(folder / "cruise" / "x.raw", "");
+  EXPECT_EQ(folder_beside(folder / "cruise", "-out"), folder / "cruise-out");
+  EXPECT_EQ(folder_beside((folder / "cruise").string() + "/", "-out"), folder / "cruise-out");
+  EXPECT_EQ(folder_beside(folder / "cruise" / "x.raw", "-out"), folder / "cruise-out");
+  EXPECT_EQ(folder_beside("/", "-out"), "");
+}
+
 TEST(JournalFolders, AReadOnlyFolderLeadsToTheUsersOwn) {
   const fs::path folder = TestSurvey::easy().fresh();
   fs::create_directories(folder / "cruise");

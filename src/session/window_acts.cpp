@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "base/manual.h"
 #include "session/app_parts.h"
 
 namespace sonar {
@@ -57,6 +58,13 @@ void add_view_switches(AppModel& app) {
 
 }  // namespace
 
+void show_guide(AppModel& app, const std::filesystem::path& page) {
+  Document& document = app.workspace.document;
+  if (page.empty()) return document.tell("the guide was not installed with this program; its page is docs/guide.md");
+  if (!app.dialogs.show_page || app.dialogs.show_page(page)) return;
+  document.tell("no program here shows " + page.string());
+}
+
 void add_window_acts(AppModel& app) {
   add_view_switches(app);
   app.actions.add(toggle("view.dark", "Dark", "F9", "Dark colours for night watches", app.workspace.dark));
@@ -74,6 +82,10 @@ void add_window_acts(AppModel& app) {
                    asked(app, &Dialogs::reset_layout)});
   app.actions.add(
       toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", app.workspace.latencies));
+  app.actions.add(
+      {"help.guide", kHelp, "Guide", {}, "The guide to the desktop, from opening a survey to its map", [&app] {
+         show_guide(app, guide_place());
+       }});
   app.actions.add({"help.keys", kHelp, "Keys", {"F1"}, "Every key and what it does", asked(app, &Dialogs::show_keys)});
   app.actions.add({"help.about", kHelp, "About", {}, "Version and licences", asked(app, &Dialogs::show_about)});
 }

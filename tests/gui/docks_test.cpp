@@ -2,8 +2,10 @@
 // Docks: floating and coming back, views that are switched off, sizes.
 #include <gtest/gtest.h>
 
+#include <QScreen>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "window_at_work.h"
 
@@ -118,6 +120,21 @@ TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
       EXPECT_EQ(one.picture->image().size.width, view(one.id)->width()) << one.id;
     }
   }
+}
+
+TEST_F(Docks, AtItsFirstStartTheWindowFitsItsScreen) {
+  const auto begun = [](std::optional<QSize> at_first) {
+    ChangeQueue queue;
+    AppModel app(queue, {});
+    const MainWindow window(app, at_first);
+    return std::pair(window.size(), first_size(window.screen()->availableSize()));
+  };
+  EXPECT_EQ(begun(first_size({1280, 800})).first, QSize(1280, 800)) << "all views have room in it, and in no less";
+  EXPECT_EQ(begun(first_size({3840, 2160})).first, QSize(3456, 1944)) << "nine tenths";
+  EXPECT_EQ(first_size({1024, 700}), QSize(1024, 700)) << "nothing lies beyond the screen";
+  EXPECT_EQ(first_size({7680, 4320}), QSize(3840, 2160));
+  const auto [size, fitting] = begun({});
+  EXPECT_EQ(size, fitting);
 }
 
 TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {

@@ -25,6 +25,7 @@
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/draw_frame.h"
+#include "session/test_run.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -37,7 +38,7 @@ class Files : public WindowAtWork {
   void SetUp() override {
     WindowAtWork::SetUp();
     real_parameters_ = std::exchange(app_->dialogs.parameters, [](const auto&, const auto&) { return true; });
-    app_->dialogs.folder_to_save = [this](const std::string&) { return out_.string(); };
+    app_->dialogs.folder_to_save = [this](const std::string&, const std::string&) { return out_.string(); };
     app_->dialogs.file_to_save = [this](const std::string&, const std::string&, const std::string& name) {
       saved_ = out_ / name;
       return saved_.string();
@@ -237,6 +238,19 @@ TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
   settle();
   EXPECT_EQ(opened, 2);
   EXPECT_EQ(document().shown()->name(), "obs-0001");
+}
+
+TEST_F(Files, ADroppedFolderOfResultsOpensItsSurveyWithTheirSchools) {
+  ASSERT_TRUE(run_easy(out_));
+  QMimeData dropped;
+  dropped.setUrls({QUrl::fromLocalFile(QString::fromStdString(out_.string()))});
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+  QApplication::sendEvent(window_.get(), &drop);
+  settle();
+  EXPECT_EQ(document().paths(), std::vector<fs::path>{survey_});
+  EXPECT_EQ(document().named(), std::vector<fs::path>{out_});
+  EXPECT_TRUE(document().detected(0) && document().detected(1)) << told();
+  EXPECT_GE(app_->rows("schools")->rows(), 2U);
 }
 
 TEST_F(Files, AFolderWithoutPingsAndOneThatIsNotThereSaySo) {

@@ -7,6 +7,7 @@
 #include <QStatusBar>
 #include <fstream>
 
+#include "base/manual.h"
 #include "gui/action_menus.h"
 #include "session/open_demo.h"
 #include "window_at_work.h"
@@ -71,6 +72,17 @@ TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {
   keep_picture("latencies");
   key(Qt::Key_F12);
   EXPECT_FALSE(workspace().latencies());
+}
+
+TEST_F(Surroundings, TheGuideIsShownOutsideTheProgram) {
+  ASSERT_TRUE(app_->dialogs.show_page) << "the window answers";
+  fs::path shown;
+  app_->dialogs.show_page = [&](const fs::path& page) {
+    shown = page;
+    return true;
+  };
+  trigger("help.guide");
+  EXPECT_EQ(shown, guide_place());
 }
 
 TEST_F(Surroundings, ADemoThatWasMadeOpensWithItsDepthChart) {

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window_at_work.h"
 
+#include <QScreen>
 #include <algorithm>
 
 #include "pipeline/stages/observe.h"
 
 namespace sonar {
+namespace {
+
+constexpr QSize kSize{1600, 1000};
+
+}  // namespace
 
 void WindowAtWork::open() {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
@@ -16,7 +22,8 @@ void WindowAtWork::open() {
   VolumeParams quick;
   quick.frames = 1;
   workspace().volume.assign(quick);
-  window_ = std::make_unique<MainWindow>(*app_);
+  // The same room on every screen that has it.
+  window_ = std::make_unique<MainWindow>(*app_, kSize.boundedTo(QApplication::primaryScreen()->availableSize()));
   window_->show();
   window_->activateWindow();  // keys go to the window that is active
   ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/tasks/work_folders.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "base/number_text.h"
+#include "io/product_file.h"
+#include "pipeline/survey/survey.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/run.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlan = "plan.json";
+
+bool has_plan(const fs::path& folder) {
+  std::error_code absent;
+  return fs::is_regular_file(folder / kPlan, absent);
+}
+
+/// A folder of raw files may have a folder `products` of its own.
+bool is_work_folder(const fs::path& path) {
+  if (has_plan(path)) return true;
+  std::error_code absent;
+  if (!fs::is_directory(path / "products", absent)) return false;
+  const auto raw = list_survey(std::span(&path, 1));
+  return raw && raw->empty();
+}
+
+/// Names of the files that a plan's observations are in, without folder.
+std::set<std::string> files_of(const Plan& plan) {
+  std::set<std::string> names;
+  for (const PlanTask& task : plan.tasks) names.insert(task.files.begin(), task.files.end());
+  return names;
+}
+
+/// "a.raw", "a.raw and 4 more files".
+std::string some_of(const std::set<std::string>& names) {
+  if (names.empty()) return "raw files";
+  return names.size() == 1 ? *names.begin()
+                           : fmt::format("{} and {}", *names.begin(), count_of(names.size() - 1, "more file"));
+}
+
+/// The raw files that a plan was made of, where one of them at least is still there.
+Result<std::vector<fs::path>> raw_of(const Plan& plan, const fs::path& out) {
+  std::vector<fs::path> raw(plan.survey.begin(), plan.survey.end());
+  const std::set<std::string> expected = files_of(plan);
+  const auto there = list_survey(raw);
+  const auto is_expected = [&](const fs::path& file) { return expected.contains(file.filename().string()); };
+  if (there && (expected.empty() || std::any_of(there->begin(), there->end(), is_expected))) return raw;
+  if (!there && there.error().code != ErrorCode::not_found) return pass_on(there);
+  return fail(
+      ErrorCode::not_found,
+      fmt::format("the raw files of these results are gone: expected {} ({}); open the folder where they lie now "
+                  "together with this one",
+                  fmt::join(plan.survey, ", "), some_of(expected)),
+      {out.string()});
+}
+
+/// Of a folder's first product; empty where it cannot be read.
+std::optional<Recipe> recipe_of_products(const fs::path& out) {
+  const auto files = product_files(out);
+  if (!files || files->empty()) return std::nullopt;
+  const auto key = read_product_key(files->front());
+  auto recipe = key ? recipe_from_text(key->recipe_json) : Result<Recipe>(pass_on(key));
+  return recipe ? std::optional(std::move(*recipe)) : std::nullopt;
+}
+
+/// Adds a work folder's survey and recipe.
+/// stands_alone  no raw files are named beside it
+Result<void> take_work_folder(const fs::path& out, bool stands_alone, NamedToOpen& named) {
+  std::optional<Recipe> recipe;
+  if (has_plan(out)) {
+    auto plan = read_plan(out / kPlan);
+    if (!plan) return pass_on(plan);
+    auto raw = stands_alone ? raw_of(*plan, out) : Result<std::vector<fs::path>>{};
+    if (!raw) return pass_on(raw);
+    for (fs::path& one : *raw) {
+      if (std::find(named.raw.begin(), named.raw.end(), one) == named.raw.end()) named.raw.push_back(std::move(one));
+    }
+    recipe = std::move(plan->recipe);
+  } else if (stands_alone) {
+    return fail(
+        ErrorCode::usage,
+        "these results do not say where their raw files lie (there is no plan.json); open the folder of the raw "
+        "files together with this one",
+        {out.string()});
+  } else {
+    recipe = recipe_of_products(out);
+  }
+  if (!named.recipe) named.recipe = std::move(recipe);
+  return {};
+}
+
+}  // namespace
+
+Result<NamedToOpen> told_apart(std::span<const fs::path> paths) {
+  NamedToOpen named;
+  for (const fs::path& path : paths) (is_work_folder(path) ? named.work_folders : named.raw).push_back(path);
+  const bool stand_alone = named.raw.empty();
+  for (const fs::path& out : named.work_folders) {
+    if (auto taken = take_work_folder(out, stand_alone, named); !taken) return pass_on(taken);
+  }
+  return named;
+}
+
+fs::path product_in(std::span<const fs::path> work_folders, const std::string& observation, const std::string& key) {
+  for (const fs::path& folder : work_folders) {
+    fs::path file = product_path(folder, observation);
+    std::error_code absent;
+    if (!fs::exists(file, absent)) continue;
+    const auto known = read_product_key(file);
+    if (known && known->input_hash == key) return file;
+  }
+  return {};
+}
+
+}  // namespace sonar

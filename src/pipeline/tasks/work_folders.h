@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "pipeline/recipe/recipe.h"
+
+namespace sonar {
+
+// OUT of `sonarx run` can be opened like the survey that it was made of.
+
+/// What was named to be opened, told apart.
+struct NamedToOpen {
+  std::vector<std::filesystem::path> raw;           ///< files, and folders of them
+  std::vector<std::filesystem::path> work_folders;  ///< results of runs on them
+  std::optional<Recipe> recipe;                     ///< of the first run whose recipe is known
+};
+
+/// A work folder stands for the raw files that its plan names, unless others are named beside it.
+/// errors  not_found: those are gone; usage: it has no plan, and nothing is named beside it; as read_plan()
+[[nodiscard]] Result<NamedToOpen> told_apart(std::span<const std::filesystem::path> paths);
+
+/// The product of an observation that was made from the same pings in the same way; empty where no folder has it.
+/// key  observation_key() of them
+[[nodiscard]] std::filesystem::path product_in(std::span<const std::filesystem::path> work_folders,
+                                               const std::string& observation, const std::string& key);
+
+}  // namespace sonar
