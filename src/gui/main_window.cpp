@@ -42,6 +42,15 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
   return dock;
 }
 
+/// A list in its dock. A key must not decide about rows behind a tab.
+void add_list(QMainWindow& window, RowsDock& list) {
+  auto* view = new RowsView(*list.rows, list.tree);
+  QDockWidget* dock = add_dock(window, list.id, list.title, view);
+  QObject::connect(dock, &QDockWidget::visibilityChanged, view, [view](bool in_front) {
+    if (!in_front) view->let_go();
+  });
+}
+
 /// Every dock can be had back from the menu bar, not only by who knows that titles have a menu.
 void add_panels_menu(QMainWindow& window) {
   QMenu* panels = window.createPopupMenu();
@@ -81,7 +90,7 @@ MainWindow::MainWindow(AppModel& app) : app_(app), animations_(app.animations) {
     if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
     view->set_idle_text([&app, id = dock.id] { return QString::fromStdString(idle_text(app, id)); });
   }
-  for (RowsDock& dock : app.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
+  for (RowsDock& dock : app.lists) add_list(*this, dock);
   add_dock(*this, "controls", "Controls", new ControlPanelView(*app.transfer, app.workspace, app.panel));
   add_menus(*this, app.actions);
   for (const PictureDock& dock : app.pictures) {

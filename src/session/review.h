@@ -52,7 +52,7 @@ class Review : public SchoolTable {
   /// behind. Opens what is not open yet. Who scatters most is known when all are measured: until then it waits, says so,
   /// and goes there by itself, unless another school is selected meanwhile.
   void next();
-  /// About the selected school; goes on to the next where preferences say so.
+  /// About the selected schools; goes on to the next where preferences say so.
   void decide(std::string status);
   /// Name of the digit's species, 1 to 9; 0 = none. Empty where there is no such species.
   [[nodiscard]] std::string species(int digit) const;
@@ -69,7 +69,7 @@ class Review : public SchoolTable {
  private:
   [[nodiscard]] bool waits(const SurveySchool& school) const;
   [[nodiscard]] bool waits_for_figures() const;
-  void say(Decision decision, const SurveySchool& school);
+  void go_to(const SchoolName& school);
   void go_back();
 
   const Preferences& preferences_;

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "session/test_app.h"
 
@@ -223,6 +225,92 @@ TEST_F(ReviewAtWork, ARuleReachesAllObservationsAtOnce) {
   document().settle();
   EXPECT_EQ(with_status("rejected"), 0);
   EXPECT_FALSE(review().decide_all("pings > 100 -> reject"));
+}
+
+TEST_F(ReviewAtWork, SeveralSelectedSchoolsAreDecidedInOneStep) {
+  paint_schools(6);
+  app_->preferences.advance = false;
+  const std::size_t lines = document().choices().lines->size();
+  review().select(4);
+  review().choose({0, 2, 4});
+  EXPECT_EQ(app_->actions.find("review.accept")->text_now(), "Accept (3 schools)");
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(document().choices().lines->size(), lines + 1);
+  EXPECT_EQ(last_line().command, "bulk_decide");
+  EXPECT_EQ(document().choices().undo_text, "Undo accept 3 schools");
+  EXPECT_EQ(with_status("accepted"), 3);
+  // They have gone to the end, and are what is selected still.
+  EXPECT_EQ(review().chosen(), (std::vector<std::size_t>{3, 4, 5}));
+  press("review.species.2");
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo set species of 3 schools");
+  press("edit.undo");
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(with_status("accepted"), 0);
+  begin();  // the journal says the same
+  press("edit.redo");
+  document().settle();
+  EXPECT_EQ(with_status("accepted"), 3);
+}
+
+TEST_F(ReviewAtWork, AfterSeveralTheNextThatIsNotReviewedIsShown) {
+  paint_schools(4);
+  review().select(0);
+  const auto first = workspace().school();
+  review().choose({0, 1, 2});
+  press("review.reject");
+  EXPECT_NE(workspace().school(), first);
+  EXPECT_TRUE(workspace().chosen_schools().empty()) << "the next one alone";
+  document().settle();
+  EXPECT_EQ(with_status("rejected"), 3);
+  EXPECT_EQ(review().unreviewed(), 1U);
+  EXPECT_EQ(survey_schools(document())[static_cast<std::size_t>(workspace().school()->number - 1)].decided().status,
+            "unreviewed");
+}
+
+TEST_F(ReviewAtWork, AnotherSchoolEndsTheChoiceOfSeveral) {
+  paint_schools(4);
+  app_->preferences.advance = false;
+  review().select(0);
+  review().choose({0, 1});
+  const std::set<SchoolName> chosen = workspace().chosen_schools();
+  ASSERT_EQ(chosen.size(), 2U);
+  workspace().school.set(*chosen.rbegin());
+  EXPECT_EQ(workspace().chosen_schools(), chosen) << "one of them may be looked at";
+  review().select(3);
+  EXPECT_TRUE(workspace().chosen_schools().empty());
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(last_line().command, "decide");
+  // One that is deleted is none of them any more, and one alone is not several.
+  review().select(0);
+  review().choose({0, 1});
+  press("school.delete");
+  document().settle();
+  EXPECT_TRUE(workspace().chosen_schools().empty());
+  EXPECT_EQ(with_status("accepted"), 1);
+}
+
+TEST_F(ReviewAtWork, ACommentIsOfAllThatAreSelectedInWhicheverObservation) {
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  review().select(0);
+  review().choose({0, 1});
+  app_->dialogs.text = [](const std::string& title, const auto&, const std::string& now) {
+    EXPECT_EQ(title, "2 schools");
+    EXPECT_EQ(now, "");
+    return std::string("near the wreck");
+  };
+  press("school.comment");
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo comment on 2 schools");
+  for (const SurveySchool& school : survey_schools(document())) EXPECT_EQ(school.decided().comment, "near the wreck");
 }
 
 }  // namespace
