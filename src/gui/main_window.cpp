@@ -11,6 +11,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPointer>
 #include <QScreen>
 #include <QUrl>
 
@@ -42,12 +43,16 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
   return dock;
 }
 
-/// A list in its dock. A key must not decide about rows behind a tab.
+/// A list in its dock. Its title has what the list counts, also behind a tab.
 void add_list(QMainWindow& window, RowsDock& list) {
   auto* view = new RowsView(*list.rows, list.tree);
   QDockWidget* dock = add_dock(window, list.id, list.title, view);
   QObject::connect(dock, &QDockWidget::visibilityChanged, view, [view](bool in_front) {
     if (!in_front) view->let_go();
+  });
+  list.rows->changed().add([shown = QPointer<QDockWidget>(dock), &list] {
+    const std::string note = list.rows->note();
+    if (shown) shown->setWindowTitle(QString::fromStdString(note.empty() ? list.title : list.title + ": " + note));
   });
 }
 

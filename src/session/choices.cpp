@@ -18,6 +18,12 @@ constexpr TimeNs kMillisecondNs = 1'000'000;
 
 }  // namespace
 
+const JournalLine* line_done(const ChoicesShown& shown) {
+  if (shown.done_line <= 0 || !shown.lines || shown.lines->empty()) return nullptr;
+  const JournalLine& last = shown.lines->back();
+  return last.n == shown.done_line ? &last : nullptr;
+}
+
 History Choices::own_history(const JournalPlace& place) {
   History history(first_number(place.place));
   for (const JournalLine& line : place.journal.lines) history.add(among_all(line, place.place));

@@ -26,6 +26,7 @@ Review::Review(Workspace& workspace, const Preferences& preferences)
     : SchoolTable(workspace), preferences_(preferences) {
   measured_listening_ = workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey) goes_on_ = false;
+    if (change == DocumentChange::state) follow_act();
     if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
     goes_on_ = false;
     next();

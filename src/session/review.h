@@ -38,7 +38,7 @@ inline constexpr std::string_view kDefaultBulkRule = "pings >= 5, snr > 10, no e
 [[nodiscard]] bool meets(const BulkRule& rule, const SurveySchool& school);
 
 /// The schools of the whole survey in the order in which they want to be looked at: unreviewed first, and of these those
-/// that scatter most.
+/// that scatter most. Tells after each decision how many are left.
 class Review : public SchoolTable {
  public:
   /// preferences  outlive it
@@ -61,6 +61,8 @@ class Review : public SchoolTable {
   /// errors  usage: a rule that is not understood, or that no school meets
   Result<void> decide_all(std::string_view rule);
   [[nodiscard]] std::size_t unreviewed() const;
+  /// "7 of 20 left", of the survey's schools.
+  [[nodiscard]] std::string note() const override;
 
  protected:
   void make() override;
@@ -71,6 +73,8 @@ class Review : public SchoolTable {
   [[nodiscard]] bool waits_for_figures() const;
   void go_to(const SchoolName& school);
   void go_back();
+  void follow_act();
+  void tell_decided(const DecideCommand& command) const;
 
   const Preferences& preferences_;
   std::string filter_;

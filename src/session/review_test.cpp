@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/review.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -240,6 +241,7 @@ TEST_F(ReviewAtWork, SeveralSelectedSchoolsAreDecidedInOneStep) {
   EXPECT_EQ(last_line().command, "bulk_decide");
   EXPECT_EQ(document().choices().undo_text, "Undo accept 3 schools");
   EXPECT_EQ(with_status("accepted"), 3);
+  EXPECT_EQ(document().notices().back(), "3 schools accepted; 3 of 6 left to review");
   // They have gone to the end, and are what is selected still.
   EXPECT_EQ(review().chosen(), (std::vector<std::size_t>{3, 4, 5}));
   press("review.species.2");
@@ -311,6 +313,31 @@ TEST_F(ReviewAtWork, ACommentIsOfAllThatAreSelectedInWhicheverObservation) {
   document().settle();
   EXPECT_EQ(document().choices().undo_text, "Undo comment on 2 schools");
   for (const SurveySchool& school : survey_schools(document())) EXPECT_EQ(school.decided().comment, "near the wreck");
+}
+
+TEST_F(ReviewAtWork, EachDecisionTellsHowManyAreLeft) {
+  EXPECT_EQ(review().note(), "");
+  paint_schools(3);
+  EXPECT_EQ(review().note(), "3 of 3 left");
+  press("review.next");
+  const SchoolName first = *workspace().school();
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(document().notices().back(), fmt::format("school {} accepted; 2 of 3 left to review", first.number));
+  EXPECT_EQ(review().note(), "2 of 3 left");
+  const std::size_t told = document().notices().size();
+  press("review.species.1");
+  document().settle();
+  EXPECT_EQ(document().notices().size(), told) << "a species decides nothing";
+  app_->preferences.advance = false;
+  workspace().school.set(first);
+  press("review.unreview");
+  document().settle();
+  EXPECT_EQ(document().notices().back(), fmt::format("school {} not reviewed; 3 of 3 left to review", first.number));
+  press("review.next");
+  press("review.next");
+  press("review.next");
+  EXPECT_EQ(workspace().school(), first) << "it waits for a review again";
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ class Rows {
   virtual void choose(const std::vector<std::size_t>& /*rows*/) {}
   /// All rows to be shown as selected; nullopt = several are the widget's own affair.
   [[nodiscard]] virtual std::optional<std::vector<std::size_t>> chosen() const { return std::nullopt; }
+  /// What stands behind the list's title: "7 of 20 left"; empty = nothing.
+  [[nodiscard]] virtual std::string note() const { return {}; }
   /// Depth in a tree, 0 = top; rows of a plain table are all 0.
   [[nodiscard]] virtual int level(std::size_t /*row*/) const { return 0; }
   /// Whether the rows stand here only until those come that are meant.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists by mouse and keys: order, filter, jump, copy.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -241,6 +242,17 @@ TEST_F(Lists, KeysDecideAboutNoRowThatIsNotSeen) {
   key(Qt::Key_R);
   EXPECT_EQ(with_status("rejected"), 1U);
   EXPECT_EQ(document().state(1).schools.front()->masks.decided.status, "rejected");
+}
+
+TEST_F(Lists, TheTabOfTheReviewCountsWhatIsLeft) {
+  EXPECT_EQ(dock("review")->windowTitle(), "Review");
+  make_schools();
+  const std::size_t all = rows("schools").rows();
+  EXPECT_EQ(dock("review")->windowTitle().toStdString(), fmt::format("Review: {} of {} left", all, all));
+  key(Qt::Key_N);
+  key(Qt::Key_A);
+  EXPECT_EQ(dock("review")->windowTitle().toStdString(), fmt::format("Review: {} of {} left", all - 1, all))
+      << "also behind another tab";
 }
 
 }  // namespace
