@@ -117,6 +117,8 @@ void Document::tell_unseen(const ChoicesShown& before) {
   const bool turned = line->command == "undo" || line->command == "redo";
   const bool takes_over = line->command == "propagate" || line->command == "grow" || line->command == "brush";
   if (!turned && !takes_over) return;
+  // A review goes to the school that it was about.
+  if (const JournalLine* undone = line_undone(choices_); undone != nullptr && is_decision(undone->command)) return;
   for (const auto& [index, now] : choices_.states) {
     const auto old = before.states.find(index);
     if (old == before.states.end() || !old->second || !now || same_choices(*old->second, *now)) continue;

@@ -38,7 +38,7 @@ inline constexpr std::string_view kDefaultBulkRule = "pings >= 5, snr > 10, no e
 [[nodiscard]] bool meets(const BulkRule& rule, const SurveySchool& school);
 
 /// The schools of the whole survey in the order in which they want to be looked at: unreviewed first, and of these those
-/// that scatter most. Tells after each decision how many are left.
+/// that scatter most. Tells after each decision how many are left; one that is undone has its school brought back into sight.
 class Review : public SchoolTable {
  public:
   /// preferences  outlive it
@@ -75,6 +75,7 @@ class Review : public SchoolTable {
   void go_back();
   void follow_act();
   void tell_decided(const DecideCommand& command) const;
+  void show_again(const DecideCommand& undone);
 
   const Preferences& preferences_;
   std::string filter_;

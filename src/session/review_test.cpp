@@ -340,5 +340,58 @@ TEST_F(ReviewAtWork, EachDecisionTellsHowManyAreLeft) {
   EXPECT_EQ(workspace().school(), first) << "it waits for a review again";
 }
 
+TEST_F(ReviewAtWork, UndoOfADecisionBringsItsSchoolBackIntoSight) {
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(8, 9, 5, 5, 200);
+  document().settle();
+  press("review.next");
+  const SchoolName first = *workspace().school();
+  press("review.reject");
+  document().settle();
+  ASSERT_NE(document().shown()->index(), first.observation) << "it goes on to the other observation";
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(workspace().school(), first);
+  EXPECT_EQ(document().shown()->index(), first.observation);
+  EXPECT_NE(in_ping(selected_school(workspace())->state->masks, document().ping()), nullptr);
+  EXPECT_EQ(document().notices().back(),
+            fmt::format("taken back: reject school {}; 2 of 2 left to review", first.number));
+  // Redo, and an undo of anything else, leave the view where it is.
+  ASSERT_TRUE(document().show(1 - first.observation));
+  press("edit.redo");
+  document().settle();
+  EXPECT_NE(document().shown()->index(), first.observation);
+}
+
+TEST_F(ReviewAtWork, UndoLeavesWhoeverLooksAtItsSchoolWhereTheyAre) {
+  paint(2, 6, 5, 5, 200);
+  document().settle();
+  app_->preferences.advance = false;
+  select(1);
+  document().look_at(5);
+  press("review.accept");
+  document().settle();
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(with_status("unreviewed"), 1);
+  EXPECT_EQ(document().ping(), 5);
+}
+
+TEST_F(ReviewAtWork, UndoOfARuleShowsTheFirstOfItsSchools) {
+  paint_schools(3);
+  ASSERT_TRUE(review().decide_all("pings > 0 -> accept"));
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo accept 3 schools");
+  EXPECT_EQ(document().notices().back(), "3 schools accepted; 0 of 3 left to review");
+  workspace().school.set(std::nullopt);
+  press("edit.undo");
+  document().settle();
+  EXPECT_TRUE(workspace().school());
+  EXPECT_EQ(document().notices().back(), "taken back: accept 3 schools; 3 of 3 left to review");
+}
+
 }  // namespace
 }  // namespace sonar
