@@ -11,6 +11,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPointer>
 #include <QScreen>
 #include <QUrl>
 
@@ -41,6 +42,19 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
   dock->setWidget(inside);
   window.addDockWidget(Qt::TopDockWidgetArea, dock);
   return dock;
+}
+
+/// A list in its dock. Its title has what the list counts, also behind a tab.
+void add_list(QMainWindow& window, RowsDock& list) {
+  auto* view = new RowsView(*list.rows, list.tree);
+  QDockWidget* dock = add_dock(window, list.id, list.title, view);
+  QObject::connect(dock, &QDockWidget::visibilityChanged, view, [view](bool in_front) {
+    if (!in_front) view->let_go();
+  });
+  list.rows->changed().add([shown = QPointer<QDockWidget>(dock), &list] {
+    const std::string note = list.rows->note();
+    if (shown) shown->setWindowTitle(QString::fromStdString(note.empty() ? list.title : list.title + ": " + note));
+  });
 }
 
 /// Every dock can be had back from the menu bar, not only by who knows that titles have a menu.
@@ -86,7 +100,7 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
     if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
     view->set_idle_text([&app, id = dock.id] { return QString::fromStdString(idle_text(app, id)); });
   }
-  for (RowsDock& dock : app.lists) add_dock(*this, dock.id, dock.title, new RowsView(*dock.rows, dock.tree));
+  for (RowsDock& dock : app.lists) add_list(*this, dock);
   add_dock(*this, "controls", "Controls", new ControlPanelView(*app.transfer, app.workspace, app.panel));
   add_menus(*this, app.actions);
   for (const PictureDock& dock : app.pictures) {

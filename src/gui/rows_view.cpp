@@ -5,6 +5,7 @@
 #include <QClipboard>
 #include <QContextMenuEvent>
 #include <QHeaderView>
+#include <QItemSelection>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QMenu>
@@ -76,19 +77,53 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
     QMetaObject::invokeMethod(
         this,
         [this, at = QPersistentModelIndex(now)] {
-          if (at.isValid()) rows_.select(RowsModel::row_of(order_.mapToSource(at)));
+          if (at.isValid() && !was_let_go(at)) rows_.select(RowsModel::row_of(order_.mapToSource(at)));
         },
         Qt::QueuedConnection);
   });
+  connect(list_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    if (following_) return;
+    tell_chosen(chosen_rows());
+    QMetaObject::invokeMethod(
+        this, [this] { stay_with_chosen(); }, Qt::QueuedConnection);
+  });
   // A click on the row that is current already goes there once more.
-  connect(list_, &QTreeView::clicked, this,
-          [this](const QModelIndex& at) { go_to(RowsModel::row_of(order_.mapToSource(at))); });
+  connect(list_, &QTreeView::clicked, this, [this](const QModelIndex& at) {
+    if (!was_let_go(at)) go_to(RowsModel::row_of(order_.mapToSource(at)));
+  });
   connect(list_, &QTreeView::doubleClicked, this,
           [this](const QModelIndex& at) { rows_.open(RowsModel::row_of(order_.mapToSource(at))); });
   listening_ = rows_.changed().add([this] { rows_changed(); });
   following_moves_ = rows_.moved().add([this] {
-    if (!stale_) show_selected();
+    if (!stale_ && !following_) show_selected();
   });
+}
+
+/// By a click with Ctrl: it is current, and others alone are chosen.
+bool RowsView::was_let_go(const QModelIndex& at) const {
+  const QItemSelectionModel& chosen = *list_->selectionModel();
+  return chosen.hasSelection() && !chosen.isSelected(at);
+}
+
+void RowsView::tell_chosen(const std::vector<std::size_t>& rows) {
+  following_ = true;  // what the rows make of it is seen here already
+  rows_.choose(rows);
+  following_ = false;
+}
+
+/// What the window has selected is one of the rows that are chosen: also where Ctrl has let go of it, or all were chosen
+/// before any was clicked.
+void RowsView::stay_with_chosen() {
+  const std::vector<std::size_t> chosen = chosen_rows();
+  const auto row = rows_.selected();
+  const bool stays = row && std::find(chosen.begin(), chosen.end(), *row) != chosen.end();
+  if (rows_.chosen() && !chosen.empty() && !stays) rows_.select(chosen.back());
+}
+
+/// A key must not decide about what the filter hides.
+void RowsView::leave_out_hidden(std::vector<std::size_t> chosen) {
+  const auto hidden = [&](std::size_t row) { return !order_.mapFromSource(model_.index_of(row)).isValid(); };
+  if (std::erase_if(chosen, hidden) > 0) tell_chosen(chosen);
 }
 
 void RowsView::go_to(std::size_t row) {
@@ -114,9 +149,11 @@ void RowsView::add_filter_line() {
     rows_.narrow(text.toStdString());
     // The list moves on where its current row goes. Nobody clicked there, and rows that are made anew meanwhile would pull
     // the ground from under the filter.
+    const std::vector<std::size_t> chosen = chosen_rows();
     following_ = true;
     order_.set_filter(text.toStdString());
     following_ = false;
+    leave_out_hidden(chosen);
     show_selected();
   });
 }
@@ -147,6 +184,11 @@ void RowsView::rows_changed() {
 }
 
 void RowsView::show_selected() {
+  show_current();
+  show_chosen();
+}
+
+void RowsView::show_current() {
   const auto row = rows_.selected();
   const QModelIndex at = row ? order_.mapFromSource(model_.index_of(*row)) : QModelIndex();
   const bool let_go = !row && showed_;
@@ -165,6 +207,27 @@ void RowsView::show_selected() {
         at, chosen ? QItemSelectionModel::NoUpdate : QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     list_->scrollTo(at);
   }
+  following_ = false;
+}
+
+/// In as few ranges as there are: thousands one by one take seconds.
+void RowsView::show_chosen() {
+  const auto chosen = rows_.chosen();
+  if (!chosen) return;
+  std::vector<int> at;
+  for (const std::size_t row : *chosen) {
+    const QModelIndex index = order_.mapFromSource(model_.index_of(row));
+    if (index.isValid()) at.push_back(index.row());
+  }
+  std::sort(at.begin(), at.end());
+  QItemSelection shown;
+  for (std::size_t first = 0, end = 0; first < at.size(); first = end) {
+    for (end = first + 1; end < at.size() && at[end] == at[end - 1] + 1;) ++end;
+    shown.select(order_.index(at[first], 0), order_.index(at[end - 1], order_.columnCount() - 1));
+  }
+  if (shown == list_->selectionModel()->selection()) return;
+  following_ = true;
+  list_->selectionModel()->select(shown, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   following_ = false;
 }
 

@@ -43,6 +43,8 @@ class RowsView : public QWidget {
   [[nodiscard]] QSize sizeHint() const override { return {420, 220}; }
   /// The marked rows into the clipboard, in the order in which they are seen.
   void copy();
+  /// Several selected rows are no more than the current one: nobody sees them any longer.
+  void let_go() { rows_.choose({}); }
   /// What a right click opens; it outlives the view.
   void set_menu(QMenu* menu) { menu_ = menu; }
 
@@ -55,6 +57,12 @@ class RowsView : public QWidget {
   void add_filter_line();
   void rows_changed();
   void show_selected();
+  void show_current();
+  void show_chosen();
+  [[nodiscard]] bool was_let_go(const QModelIndex& at) const;
+  void tell_chosen(const std::vector<std::size_t>& rows);
+  void stay_with_chosen();
+  void leave_out_hidden(std::vector<std::size_t> chosen);
   void go_to(std::size_t row);
   /// Rows that are marked, in no order; and marking them again.
   [[nodiscard]] std::vector<std::size_t> chosen_rows() const;

@@ -18,6 +18,21 @@ constexpr TimeNs kMillisecondNs = 1'000'000;
 
 }  // namespace
 
+const JournalLine* line_done(const ChoicesShown& shown) {
+  if (shown.done_line <= 0 || !shown.lines || shown.lines->empty()) return nullptr;
+  const JournalLine& last = shown.lines->back();
+  return last.n == shown.done_line ? &last : nullptr;
+}
+
+const JournalLine* line_undone(const ChoicesShown& shown) {
+  const JournalLine* undo = line_done(shown);
+  if (undo == nullptr || undo->command != "undo") return nullptr;
+  const std::int64_t target = undo->args.value("target", std::int64_t{0});
+  const auto found =
+      std::find_if(shown.lines->begin(), shown.lines->end(), [&](const JournalLine& line) { return line.n == target; });
+  return found == shown.lines->end() ? nullptr : &*found;
+}
+
 History Choices::own_history(const JournalPlace& place) {
   History history(first_number(place.place));
   for (const JournalLine& line : place.journal.lines) history.add(among_all(line, place.place));

@@ -43,6 +43,11 @@ struct ChoicesShown {
   std::int64_t done_line = 0;                 ///< n of the line that was just written; 0 = none
 };
 
+/// The line that was just written; null where none was.
+[[nodiscard]] const JournalLine* line_done(const ChoicesShown& shown);
+/// The line that was just taken back; null where none was.
+[[nodiscard]] const JournalLine* line_undone(const ChoicesShown& shown);
+
 /// Lines of the journal that are undone and redone together. Whoever asks for them hands the same one over with each;
 /// after one that cannot be done the others are left.
 /// threads  that of the acts alone

@@ -14,12 +14,6 @@
 namespace sonar {
 namespace {
 
-const JournalLine* done_line(const ChoicesShown& shown) {
-  if (shown.done_line <= 0 || !shown.lines || shown.lines->empty()) return nullptr;
-  const JournalLine& last = shown.lines->back();
-  return last.n == shown.done_line ? &last : nullptr;
-}
-
 /// Numbers of schools that are gone.
 std::vector<std::int64_t> gone(const JournalState& before, const JournalState& after) {
   std::vector<std::int64_t> numbers;
@@ -96,7 +90,7 @@ std::string Document::nothing_shown() const {
 }
 
 void Document::tell_beyond_reach() {
-  const JournalLine* line = done_line(choices_);
+  const JournalLine* line = line_done(choices_);
   if (line == nullptr || line->command != "propagate") return;
   const auto act = act_of(*line);
   if (!act) return;
@@ -118,11 +112,13 @@ void Document::tell_beyond_reach() {
 }
 
 void Document::tell_unseen(const ChoicesShown& before) {
-  const JournalLine* line = done_line(choices_);
+  const JournalLine* line = line_done(choices_);
   if (line == nullptr) return;
   const bool turned = line->command == "undo" || line->command == "redo";
   const bool takes_over = line->command == "propagate" || line->command == "grow" || line->command == "brush";
   if (!turned && !takes_over) return;
+  // A review goes to the school that it was about.
+  if (const JournalLine* undone = line_undone(choices_); undone != nullptr && is_decision(undone->command)) return;
   for (const auto& [index, now] : choices_.states) {
     const auto old = before.states.find(index);
     if (old == before.states.end() || !old->second || !now || same_choices(*old->second, *now)) continue;

@@ -42,13 +42,22 @@ std::string made_text(const JournalState* after, std::int64_t n) {
   return " school";
 }
 
-std::string decide_verb(const DecideCommand& command) {
-  const Decision& one = command.decisions.front();
+std::string verb_of(const Decision& one) {
   if (one.status == "accepted") return "accept";
   if (one.status == "rejected") return "reject";
   if (one.status) return "mark as " + *one.status;
   if (one.name) return "rename";
   return one.species ? "set species of" : "comment on";
+}
+
+/// What is said of all schools; "review" where it is not the same.
+std::string decide_verb(const DecideCommand& command) {
+  std::string verb;
+  for (const Decision& one : command.decisions) {
+    if (!verb.empty() && verb != verb_of(one)) return "review";
+    verb = verb_of(one);
+  }
+  return verb.empty() ? "review" : verb;
 }
 
 }  // namespace
@@ -108,8 +117,9 @@ std::string act_name(const JournalAct& act, const CommandContext& context, const
   if (const auto* c = std::get_if<CalibrateCommand>(&act.command)) return "calibration " + c->file;
   if (std::holds_alternative<DetectCommand>(act.command)) return "detect schools";
   const auto& decide = std::get<DecideCommand>(act.command);
-  if (decide.decisions.size() != 1) return "review " + count_of(decide.decisions.size(), "school");
-  return decide_verb(decide) + named(decide.decisions.front().school);
+  const std::string verb = decide_verb(decide);
+  if (decide.decisions.size() != 1) return verb + " " + count_of(decide.decisions.size(), "school");
+  return verb + named(decide.decisions.front().school);
 }
 
 }  // namespace sonar

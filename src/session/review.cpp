@@ -26,6 +26,7 @@ Review::Review(Workspace& workspace, const Preferences& preferences)
     : SchoolTable(workspace), preferences_(preferences) {
   measured_listening_ = workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey) goes_on_ = false;
+    if (change == DocumentChange::state) follow_act();
     if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
     goes_on_ = false;
     next();
@@ -95,31 +96,32 @@ void Review::next() {
   document.tell(here ? "this is the last school that is not reviewed" : "every school is reviewed");
 }
 
-void Review::say(Decision decision, const SurveySchool& school) {
-  decision.school = school.key();
-  workspace().document.act(school.name.observation, school.middle_ping(), DecideCommand{{std::move(decision)}, {}});
-}
-
 void Review::decide(std::string status) {
-  const auto school = selected_school(workspace());
-  if (!school) return workspace().document.tell("no school is selected");
+  const std::vector<SurveySchool> schools = selected_schools(workspace());
+  if (schools.empty()) return workspace().document.tell("no school is selected");
   Decision decision;
   decision.status = std::move(status);
-  say(std::move(decision), *school);
-  decided_.insert({school->name.observation, school->name.number});
+  decide_on(workspace(), schools, decision);
+  for (const SurveySchool& school : schools) {
+    const std::pair name{school.name.observation, school.name.number};
+    decision.status == "unreviewed" ? void(decided_.erase(name)) : void(decided_.insert(name));
+  }
   if (!preferences_.advance || unreviewed() == 0) return;
-  left_ = school->name;
+  left_ = schools.front().name;
   next();
+}
+
+void Review::go_to(const SchoolName& school) {
+  const auto row =
+      std::find_if(schools().begin(), schools().end(), [&](const SurveySchool& one) { return one.name == school; });
+  if (row != schools().end()) select(static_cast<std::size_t>(row - schools().begin()));
 }
 
 /// What could not be written down was not decided: it is shown again, instead of looking done.
 void Review::go_back() {
   if (!left_) return;
   workspace().queue.post([this, left = *std::exchange(left_, std::nullopt), alive = std::weak_ptr<bool>(alive_)] {
-    if (alive.expired()) return;
-    const auto row = std::find_if(schools().begin(), schools().end(),
-                                  [&](const SurveySchool& school) { return school.name == left; });
-    if (row != schools().end()) select(static_cast<std::size_t>(row - schools().begin()));
+    if (!alive.expired()) go_to(left);
   });
 }
 
@@ -129,15 +131,15 @@ std::string Review::species(int digit) const {
 }
 
 void Review::set_species(int digit) {
-  const auto school = selected_school(workspace());
-  if (!school) return workspace().document.tell("no school is selected");
+  const std::vector<SurveySchool> schools = selected_schools(workspace());
+  if (schools.empty()) return workspace().document.tell("no school is selected");
   if (digit != 0 && species(digit).empty()) {
     return workspace().document.tell(
         fmt::format("there is no species on {}: see Review > Species of the digits", digit));
   }
   Decision decision;
   decision.species = species(digit);
-  say(std::move(decision), *school);
+  decide_on(workspace(), schools, decision);
 }
 
 Result<void> Review::decide_all(std::string_view text) {

@@ -38,7 +38,7 @@ inline constexpr std::string_view kDefaultBulkRule = "pings >= 5, snr > 10, no e
 [[nodiscard]] bool meets(const BulkRule& rule, const SurveySchool& school);
 
 /// The schools of the whole survey in the order in which they want to be looked at: unreviewed first, and of these those
-/// that scatter most.
+/// that scatter most. Tells after each decision how many are left; one that is undone has its school brought back into sight.
 class Review : public SchoolTable {
  public:
   /// preferences  outlive it
@@ -52,7 +52,7 @@ class Review : public SchoolTable {
   /// behind. Opens what is not open yet. Who scatters most is known when all are measured: until then it waits, says so,
   /// and goes there by itself, unless another school is selected meanwhile.
   void next();
-  /// About the selected school; goes on to the next where preferences say so.
+  /// About the selected schools; goes on to the next where preferences say so.
   void decide(std::string status);
   /// Name of the digit's species, 1 to 9; 0 = none. Empty where there is no such species.
   [[nodiscard]] std::string species(int digit) const;
@@ -61,6 +61,8 @@ class Review : public SchoolTable {
   /// errors  usage: a rule that is not understood, or that no school meets
   Result<void> decide_all(std::string_view rule);
   [[nodiscard]] std::size_t unreviewed() const;
+  /// "7 of 20 left", of the survey's schools.
+  [[nodiscard]] std::string note() const override;
 
  protected:
   void make() override;
@@ -69,8 +71,11 @@ class Review : public SchoolTable {
  private:
   [[nodiscard]] bool waits(const SurveySchool& school) const;
   [[nodiscard]] bool waits_for_figures() const;
-  void say(Decision decision, const SurveySchool& school);
+  void go_to(const SchoolName& school);
   void go_back();
+  void follow_act();
+  void tell_decided(const DecideCommand& command) const;
+  void show_again(const DecideCommand& undone);
 
   const Preferences& preferences_;
   std::string filter_;

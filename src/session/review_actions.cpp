@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "session/app_parts.h"
 #include "session/lists/diagnostics_list.h"
 #include "session/lists/journal_list.h"
@@ -42,6 +43,18 @@ bool any_school(const Document& document) {
                      [](const auto& one) { return one.second && !one.second->schools.empty(); });
 }
 
+/// "Accept (5 schools)"; empty where not several are selected.
+std::string of_several(const AppModel& app, const std::string& text) {
+  const std::size_t count = app.workspace.chosen_schools().size();
+  return count > 1 ? fmt::format("{} ({})", text, count_of(count, "school")) : std::string{};
+}
+
+std::string species_text(const AppModel& app, const Review& review, int digit) {
+  const std::string species = digit == 0 ? "No species" : review.species(digit);
+  const std::string of_all = species.empty() ? species : of_several(app, species);
+  return of_all.empty() ? species : of_all;
+}
+
 void add_decisions(AppModel& app, Review& review) {
   const auto with_school = [&app] { return app.workspace.school().has_value(); };
   app.actions.add({.id = "review.next",
@@ -60,6 +73,7 @@ void add_decisions(AppModel& app, Review& review) {
                      .tip = tip,
                      .run = [&review, status] { review.decide(status); },
                      .enabled = with_school,
+                     .text_now = [&app, text] { return of_several(app, text); },
                      .of_school = true});
   };
   add("review.accept", "Accept", {"A", "Return", "Enter"}, "Confirm that this is a school", "accepted");
@@ -76,7 +90,7 @@ void add_species(AppModel& app, Review& review) {
                      .tip = "Species of the selected school; the list stands in the preferences",
                      .run = [&review, digit] { review.set_species(digit); },
                      .enabled = [&app] { return app.workspace.school().has_value(); },
-                     .text_now = [&review, digit] { return digit == 0 ? std::string{} : review.species(digit); },
+                     .text_now = [&app, &review, digit] { return species_text(app, review, digit); },
                      .of_school = true});
   }
 }

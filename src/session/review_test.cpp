@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/review.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "session/test_app.h"
 
@@ -223,6 +226,171 @@ TEST_F(ReviewAtWork, ARuleReachesAllObservationsAtOnce) {
   document().settle();
   EXPECT_EQ(with_status("rejected"), 0);
   EXPECT_FALSE(review().decide_all("pings > 100 -> reject"));
+}
+
+TEST_F(ReviewAtWork, SeveralSelectedSchoolsAreDecidedInOneStep) {
+  paint_schools(6);
+  app_->preferences.advance = false;
+  const std::size_t lines = document().choices().lines->size();
+  review().select(4);
+  review().choose({0, 2, 4});
+  EXPECT_EQ(app_->actions.find("review.accept")->text_now(), "Accept (3 schools)");
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(document().choices().lines->size(), lines + 1);
+  EXPECT_EQ(last_line().command, "bulk_decide");
+  EXPECT_EQ(document().choices().undo_text, "Undo accept 3 schools");
+  EXPECT_EQ(with_status("accepted"), 3);
+  EXPECT_EQ(document().notices().back(), "3 schools accepted; 3 of 6 left to review");
+  // They have gone to the end, and are what is selected still.
+  EXPECT_EQ(review().chosen(), (std::vector<std::size_t>{3, 4, 5}));
+  press("review.species.2");
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo set species of 3 schools");
+  press("edit.undo");
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(with_status("accepted"), 0);
+  begin();  // the journal says the same
+  press("edit.redo");
+  document().settle();
+  EXPECT_EQ(with_status("accepted"), 3);
+}
+
+TEST_F(ReviewAtWork, AfterSeveralTheNextThatIsNotReviewedIsShown) {
+  paint_schools(4);
+  review().select(0);
+  const auto first = workspace().school();
+  review().choose({0, 1, 2});
+  press("review.reject");
+  EXPECT_NE(workspace().school(), first);
+  EXPECT_TRUE(workspace().chosen_schools().empty()) << "the next one alone";
+  document().settle();
+  EXPECT_EQ(with_status("rejected"), 3);
+  EXPECT_EQ(review().unreviewed(), 1U);
+  EXPECT_EQ(survey_schools(document())[static_cast<std::size_t>(workspace().school()->number - 1)].decided().status,
+            "unreviewed");
+}
+
+TEST_F(ReviewAtWork, AnotherSchoolEndsTheChoiceOfSeveral) {
+  paint_schools(4);
+  app_->preferences.advance = false;
+  review().select(0);
+  review().choose({0, 1});
+  const std::set<SchoolName> chosen = workspace().chosen_schools();
+  ASSERT_EQ(chosen.size(), 2U);
+  workspace().school.set(*chosen.rbegin());
+  EXPECT_EQ(workspace().chosen_schools(), chosen) << "one of them may be looked at";
+  review().select(3);
+  EXPECT_TRUE(workspace().chosen_schools().empty());
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(last_line().command, "decide");
+  // One that is deleted is none of them any more, and one alone is not several.
+  review().select(0);
+  review().choose({0, 1});
+  press("school.delete");
+  document().settle();
+  EXPECT_TRUE(workspace().chosen_schools().empty());
+  EXPECT_EQ(with_status("accepted"), 1);
+}
+
+TEST_F(ReviewAtWork, ACommentIsOfAllThatAreSelectedInWhicheverObservation) {
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  review().select(0);
+  review().choose({0, 1});
+  app_->dialogs.text = [](const std::string& title, const auto&, const std::string& now) {
+    EXPECT_EQ(title, "2 schools");
+    EXPECT_EQ(now, "");
+    return std::string("near the wreck");
+  };
+  press("school.comment");
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo comment on 2 schools");
+  for (const SurveySchool& school : survey_schools(document())) EXPECT_EQ(school.decided().comment, "near the wreck");
+}
+
+TEST_F(ReviewAtWork, EachDecisionTellsHowManyAreLeft) {
+  EXPECT_EQ(review().note(), "");
+  paint_schools(3);
+  EXPECT_EQ(review().note(), "3 of 3 left");
+  press("review.next");
+  const SchoolName first = *workspace().school();
+  press("review.accept");
+  document().settle();
+  EXPECT_EQ(document().notices().back(), fmt::format("school {} accepted; 2 of 3 left to review", first.number));
+  EXPECT_EQ(review().note(), "2 of 3 left");
+  const std::size_t told = document().notices().size();
+  press("review.species.1");
+  document().settle();
+  EXPECT_EQ(document().notices().size(), told) << "a species decides nothing";
+  app_->preferences.advance = false;
+  workspace().school.set(first);
+  press("review.unreview");
+  document().settle();
+  EXPECT_EQ(document().notices().back(), fmt::format("school {} not reviewed; 3 of 3 left to review", first.number));
+  press("review.next");
+  press("review.next");
+  press("review.next");
+  EXPECT_EQ(workspace().school(), first) << "it waits for a review again";
+}
+
+TEST_F(ReviewAtWork, UndoOfADecisionBringsItsSchoolBackIntoSight) {
+  paint(2, 3, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().show(1));
+  document().settle();
+  paint(8, 9, 5, 5, 200);
+  document().settle();
+  press("review.next");
+  const SchoolName first = *workspace().school();
+  press("review.reject");
+  document().settle();
+  ASSERT_NE(document().shown()->index(), first.observation) << "it goes on to the other observation";
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(workspace().school(), first);
+  EXPECT_EQ(document().shown()->index(), first.observation);
+  EXPECT_NE(in_ping(selected_school(workspace())->state->masks, document().ping()), nullptr);
+  EXPECT_EQ(document().notices().back(),
+            fmt::format("taken back: reject school {}; 2 of 2 left to review", first.number));
+  // Redo, and an undo of anything else, leave the view where it is.
+  ASSERT_TRUE(document().show(1 - first.observation));
+  press("edit.redo");
+  document().settle();
+  EXPECT_NE(document().shown()->index(), first.observation);
+}
+
+TEST_F(ReviewAtWork, UndoLeavesWhoeverLooksAtItsSchoolWhereTheyAre) {
+  paint(2, 6, 5, 5, 200);
+  document().settle();
+  app_->preferences.advance = false;
+  select(1);
+  document().look_at(5);
+  press("review.accept");
+  document().settle();
+  press("edit.undo");
+  document().settle();
+  EXPECT_EQ(with_status("unreviewed"), 1);
+  EXPECT_EQ(document().ping(), 5);
+}
+
+TEST_F(ReviewAtWork, UndoOfARuleShowsTheFirstOfItsSchools) {
+  paint_schools(3);
+  ASSERT_TRUE(review().decide_all("pings > 0 -> accept"));
+  document().settle();
+  EXPECT_EQ(document().choices().undo_text, "Undo accept 3 schools");
+  EXPECT_EQ(document().notices().back(), "3 schools accepted; 0 of 3 left to review");
+  workspace().school.set(std::nullopt);
+  press("edit.undo");
+  document().settle();
+  EXPECT_TRUE(workspace().school());
+  EXPECT_EQ(document().notices().back(), "taken back: accept 3 schools; 3 of 3 left to review");
 }
 
 }  // namespace

@@ -41,6 +41,12 @@ class Rows {
   virtual void select(std::size_t /*row*/) {}
   /// The row to be shown as selected.
   [[nodiscard]] virtual std::optional<std::size_t> selected() const { return std::nullopt; }
+  /// Rows that a human has selected together; fewer than two: no more than selected().
+  virtual void choose(const std::vector<std::size_t>& /*rows*/) {}
+  /// All rows to be shown as selected; nullopt = several are the widget's own affair.
+  [[nodiscard]] virtual std::optional<std::vector<std::size_t>> chosen() const { return std::nullopt; }
+  /// What stands behind the list's title: "7 of 20 left"; empty = nothing.
+  [[nodiscard]] virtual std::string note() const { return {}; }
   /// Depth in a tree, 0 = top; rows of a plain table are all 0.
   [[nodiscard]] virtual int level(std::size_t /*row*/) const { return 0; }
   /// Whether the rows stand here only until those come that are meant.

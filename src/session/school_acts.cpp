@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "base/number_text.h"
 #include "session/app_parts.h"
 #include "session/beyond_reach.h"
 #include "session/refused_layer.h"
@@ -84,43 +86,44 @@ void carry_on(Workspace& workspace, bool backwards, bool forwards) {
   workspace.document.act(std::move(command));
 }
 
-/// A line of text about the selected school; empty where the human declined or left it as it is. An empty answer is one:
-/// it wipes out what was there.
-std::optional<std::string> asked_line(AppModel& app, const SurveySchool& school, const char* label,
-                                      const std::string& now) {
+/// A line of text about schools; empty where the human declined or left it as it is. An empty answer is one: it wipes out
+/// what was there. now: what each has; several that differ begin with nothing.
+std::optional<std::string> asked_line(AppModel& app, const std::vector<SurveySchool>& schools, const char* label,
+                                      std::string SchoolRow::*now) {
   if (!app.dialogs.text) return std::nullopt;
-  auto text = app.dialogs.text(fmt::format("School {}", school.name.number), label, now);
-  if (!text || *text == now) return std::nullopt;
+  const SurveySchool& first = schools.front();
+  const bool same = std::all_of(schools.begin(), schools.end(),
+                                [&](const SurveySchool& one) { return one.decided().*now == first.decided().*now; });
+  const std::string before = same ? first.decided().*now : std::string{};
+  auto text = app.dialogs.text(
+      schools.size() == 1 ? fmt::format("School {}", first.name.number) : count_of(schools.size(), "school"), label,
+      before);
+  if (!text || *text == before) return std::nullopt;
   std::replace_if(
       text->begin(), text->end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
   return text;
 }
 
-void comment(AppModel& app) {
-  const auto school = school_on_show(app.workspace);
-  if (!school) return;
+void write_of(AppModel& app, const std::vector<SurveySchool>& schools, const char* label, std::string SchoolRow::*now,
+              std::optional<std::string> Decision::*said) {
   Decision decision;
-  decision.school = school->key();
-  decision.comment = asked_line(app, *school, "Comment", school->decided().comment);
-  if (decision.comment) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  decision.*said = asked_line(app, schools, label, now);
+  if (decision.*said) decide_on(app.workspace, schools, decision);
+}
+
+void comment(AppModel& app) {
+  if (!school_on_show(app.workspace)) return;
+  write_of(app, selected_schools(app.workspace), "Comment", &SchoolRow::comment, &Decision::comment);
 }
 
 void rename(AppModel& app) {
   const auto school = school_on_show(app.workspace);
-  if (!school) return;
-  Decision decision;
-  decision.school = school->key();
-  decision.name = asked_line(app, *school, "Name", school->decided().name);
-  if (decision.name) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  if (school) write_of(app, {*school}, "Name", &SchoolRow::name, &Decision::name);
 }
 
 void name_species(AppModel& app) {
-  const auto school = school_on_show(app.workspace);
-  if (!school) return;
-  Decision decision;
-  decision.school = school->key();
-  decision.species = asked_line(app, *school, "Species", school->decided().species);
-  if (decision.species) app.workspace.document.act(DecideCommand{{std::move(decision)}, {}});
+  if (!school_on_show(app.workspace)) return;
+  write_of(app, selected_schools(app.workspace), "Species", &SchoolRow::species, &Decision::species);
 }
 
 void detect(Document& document, bool all) {

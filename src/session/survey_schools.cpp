@@ -143,6 +143,35 @@ std::optional<SurveySchool> selected_school(const Workspace& workspace) {
   return std::nullopt;
 }
 
+std::vector<SurveySchool> selected_schools(const Workspace& workspace) {
+  const Document& document = workspace.document;
+  std::vector<SurveySchool> schools;
+  if (workspace.chosen_schools().empty()) {
+    if (auto one = selected_school(workspace)) schools.push_back(std::move(*one));
+    return schools;
+  }
+  for (const auto& [index, state] : document.choices().states) {
+    if (!state || !document.open_observation(index)) continue;
+    for (const auto& school : state->schools) {
+      if (workspace.chosen_schools().contains({index, school->number}))
+        schools.push_back(made(document, index, school));
+    }
+  }
+  const auto selected = std::find_if(schools.begin(), schools.end(),
+                                     [&](const SurveySchool& one) { return one.name == workspace.school(); });
+  if (selected != schools.end()) std::rotate(schools.begin(), selected, selected + 1);
+  return schools;
+}
+
+void decide_on(Workspace& workspace, const std::vector<SurveySchool>& schools, const Decision& decision) {
+  DecideCommand command;
+  for (const SurveySchool& school : schools) {
+    command.decisions.push_back(decision);
+    command.decisions.back().school = school.key();
+  }
+  workspace.document.act(schools.front().name.observation, schools.front().middle_ping(), std::move(command));
+}
+
 void go_to_ping(Workspace& workspace, std::size_t observation, std::int64_t ping_index) {
   const auto& shown = workspace.document.shown();
   if ((!shown || shown->index() != observation) && !workspace.document.show(observation)) return;

@@ -37,6 +37,12 @@ struct SurveySchool {
 [[nodiscard]] std::int64_t school_count(const JournalState& state, const ProductPtr& product);
 /// Empty where there is none, or none is selected.
 [[nodiscard]] std::optional<SurveySchool> selected_school(const Workspace& workspace);
+/// All that a table has selected, selected_school() first; that alone where the tables have not several.
+[[nodiscard]] std::vector<SurveySchool> selected_schools(const Workspace& workspace);
+/// Says the same of all of them, in one act and one step to undo.
+/// schools   one or more
+/// decision  its school is not looked at
+void decide_on(Workspace& workspace, const std::vector<SurveySchool>& schools, const Decision& decision);
 
 /// "school 3 (north wall)"; without its name where it is not known.
 [[nodiscard]] std::string title_of(const Document& document, const SchoolName& school);

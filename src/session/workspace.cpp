@@ -42,6 +42,19 @@ bool still_there(const std::optional<EchoName>& echo, const Document& document) 
   return std::any_of(rows.begin(), rows.end(), [&](const RefusedEcho& row) { return row.echo_id == echo->id; });
 }
 
+/// Of several schools those that are there; one alone is no choice of several.
+std::set<SchoolName> still_there(const std::set<SchoolName>& chosen, const Document& document) {
+  std::set<SchoolName> there;
+  for (const auto& [index, state] : document.choices().states) {
+    if (!state || chosen.empty()) continue;
+    for (const auto& school : state->schools) {
+      const SchoolName name{index, school->number};
+      if (chosen.contains(name)) there.insert(name);
+    }
+  }
+  return there.size() > 1 ? there : std::set<SchoolName>{};
+}
+
 /// "school 3, f 0.82"; empty where nobody has the voxel.
 std::string school_text(const JournalState& state, std::int64_t ping_index, int row, int sample) {
   for (const auto& school : state.schools) {
@@ -92,7 +105,10 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
                      : curve_of(params.scale, corners_of(view_curve()), view_curve().opacity_length_m());
     if (curve) view_curve.set(std::move(*curve));
   });
-  school.changed().add([this] { mark.set(std::nullopt); });
+  school.changed().add([this] {
+    mark.set(std::nullopt);
+    if (!school() || !chosen_schools().contains(*school())) chosen_schools.set({});
+  });
   document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(mark(), document))) {
       mark.set(std::nullopt);
@@ -100,6 +116,8 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(echo(), document))) {
       echo.set(std::nullopt);
     }
+    if (change == DocumentChange::survey) chosen_schools.set({});
+    if (change == DocumentChange::state) chosen_schools.set(still_there(chosen_schools(), document));
   });
   view_curve.changed().add([this] { link(true); });
   growth_curve.changed().add([this] { link(false); });

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -44,7 +46,7 @@ class Shared {
 struct SchoolName {
   std::size_t observation = 0;  ///< index in the survey
   std::int64_t number = 0;      ///< StateSchool::number
-  friend bool operator==(const SchoolName&, const SchoolName&) = default;
+  friend auto operator<=>(const SchoolName&, const SchoolName&) = default;
 };
 
 /// An echo that detection refused, as windows name it.
@@ -116,7 +118,9 @@ struct Workspace {
   Shared<SlicePlaces> slices;                ///< where the slices lie
   Shared<bool> slices_locked{false};         ///< they stay where they are, whatever is selected
   Shared<std::optional<SchoolName>> school;  ///< the selected school
-  Shared<std::optional<EchoName>> echo;      ///< the refused echo last pointed at or chosen: its mark is highlighted
+  /// All that are selected, where a table has several; else empty. A school that is none of them ends it.
+  Shared<std::set<SchoolName>> chosen_schools;
+  Shared<std::optional<EchoName>> echo;  ///< the refused echo last pointed at or chosen: its mark is highlighted
   Shared<Preview> preview;
   Shared<ToolName> tool;
   Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists by mouse and keys: order, filter, jump, copy.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +47,11 @@ class Lists : public WindowAtWork {
       texts.push_back(model.index(row, static_cast<int>(at)).data().toString().toStdString());
     }
     return texts;
+  }
+  std::size_t with_status(const std::string& status) {
+    std::size_t count = 0;
+    for (const SurveySchool& school : survey_schools(document())) count += school.decided().status == status ? 1U : 0U;
+    return count;
   }
   /// Two schools of an observation each, made by hands.
   void make_schools() {
@@ -192,6 +198,61 @@ TEST_F(Lists, AReviewIsThreeKeysASchool) {
   }
   EXPECT_EQ(accepted, (all + 1) / 2);
   EXPECT_EQ(rejected, all / 2);
+}
+
+TEST_F(Lists, KeysDecideAboutAllRowsThatAreSelected) {
+  make_schools();
+  app_->preferences.advance = false;
+  click_row("schools", 0);
+  const auto first = workspace().school();
+  click_row("schools", 2, Qt::ControlModifier);
+  ASSERT_EQ(workspace().chosen_schools().size(), 2U);
+  key(Qt::Key_R);
+  EXPECT_EQ(with_status("rejected"), 2U);
+  EXPECT_EQ(document().choices().undo_text, "Undo reject 2 schools");
+  EXPECT_EQ(list("schools").selectionModel()->selectedRows().size(), 2) << "seen to be selected still";
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(with_status("rejected"), 0U);
+  EXPECT_EQ(workspace().chosen_schools().size(), 2U);
+  // A second click with Ctrl lets go of a row, and the window goes to the one that is left.
+  click_row("schools", 2, Qt::ControlModifier);
+  EXPECT_EQ(workspace().school(), first);
+  key(Qt::Key_A);
+  EXPECT_EQ(with_status("accepted"), 1U);
+}
+
+TEST_F(Lists, KeysDecideAboutNoRowThatIsNotSeen) {
+  make_schools();
+  app_->preferences.advance = false;
+  click_row("schools", 0);
+  click_row("schools", 2, Qt::ControlModifier);
+  ASSERT_EQ(workspace().chosen_schools().size(), 2U);
+  raise("review");
+  EXPECT_TRUE(workspace().chosen_schools().empty()) << "the table is behind a tab";
+  raise("schools");
+  EXPECT_EQ(list("schools").selectionModel()->selectedRows().size(), 1);
+  click_row("schools", 0);
+  click_row("schools", 2, Qt::ControlModifier);
+  ASSERT_EQ(document().shown()->name(), "obs-0002");
+  QLineEdit& line = filter("schools");
+  click_on(&line, {20.0, 0.5 * line.height()});
+  type("obs-0002");
+  EXPECT_TRUE(workspace().chosen_schools().empty()) << "the filter hides one of the two";
+  list("schools").setFocus();
+  key(Qt::Key_R);
+  EXPECT_EQ(with_status("rejected"), 1U);
+  EXPECT_EQ(document().state(1).schools.front()->masks.decided.status, "rejected");
+}
+
+TEST_F(Lists, TheTabOfTheReviewCountsWhatIsLeft) {
+  EXPECT_EQ(dock("review")->windowTitle(), "Review");
+  make_schools();
+  const std::size_t all = rows("schools").rows();
+  EXPECT_EQ(dock("review")->windowTitle().toStdString(), fmt::format("Review: {} of {} left", all, all));
+  key(Qt::Key_N);
+  key(Qt::Key_A);
+  EXPECT_EQ(dock("review")->windowTitle().toStdString(), fmt::format("Review: {} of {} left", all - 1, all))
+      << "also behind another tab";
 }
 
 }  // namespace

@@ -94,10 +94,11 @@ struct Decision {
   std::optional<std::string> name = {};
 };
 
-/// `decide`, `species`, `comment`, `rename`: one decision; `bulk_decide`: what a rule chose, school by school.
+/// `decide`, `species`, `comment`, `rename`: one decision; `bulk_decide`: of several schools, which a human selected or a
+/// rule chose.
 struct DecideCommand {
   std::vector<Decision> decisions;
-  std::string rule;  ///< of bulk_decide, for people
+  std::string rule;  ///< of bulk_decide, for people; empty = a human selected them
 };
 
 inline constexpr std::array<std::string_view, 4> kEventKindNames{"trawl", "station", "noise", "other"};
@@ -157,6 +158,8 @@ struct JournalAct {
 
 /// Its name in the journal, "propagate" ...
 [[nodiscard]] std::string command_name(const Command& command);
+/// Whether a command of this name is a DecideCommand.
+[[nodiscard]] bool is_decision(std::string_view name);
 /// Members of a journal line's args.
 [[nodiscard]] nlohmann::json to_json(const Command& command);
 /// errors  format, bad_parameter: naming the member; unsupported: a command of another version

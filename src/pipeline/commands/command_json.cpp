@@ -224,6 +224,10 @@ std::string command_name(const Command& command) {
   return std::visit(names, command);
 }
 
+bool is_decision(std::string_view name) {
+  return name == "decide" || name == "species" || name == "comment" || name == "rename" || name == "bulk_decide";
+}
+
 nlohmann::json to_json(const Command& command) {
   const Overload args{[](const PropagateCommand& c) { return to_json(c); },
                       [](const GrowCommand& c) {
@@ -300,9 +304,7 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
     if (!school) return pass_on(school);
     return DeleteCommand{*school};
   }
-  if (name == "decide" || name == "species" || name == "comment" || name == "rename" || name == "bulk_decide") {
-    return read_decide(name, args, ping_time);
-  }
+  if (is_decision(name)) return read_decide(name, args, ping_time);
   if (name == "event" || name == "remove_event") {
     auto event = read_event(args);
     if (!event) return pass_on(event);

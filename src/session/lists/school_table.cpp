@@ -2,6 +2,8 @@
 #include "session/lists/school_table.h"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "base/units.h"
 #include "session/lists/cells.h"
@@ -72,7 +74,10 @@ const std::vector<ColumnOf<SurveySchool>>& school_columns() {
 SchoolTable::SchoolTable(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
                                DocumentChange::measures}),
-      titles_(titles_of(school_columns())) {}
+      titles_(titles_of(school_columns())),
+      listening_(workspace.chosen_schools.changed().add([this] { moved().tell(); })) {}
+
+SchoolTable::~SchoolTable() { workspace().chosen_schools.changed().remove(listening_); }
 
 void SchoolTable::make() { schools_ = survey_schools(workspace().document); }
 
@@ -92,6 +97,25 @@ std::optional<std::size_t> SchoolTable::selected() const {
   const auto found =
       std::find_if(schools_.begin(), schools_.end(), [&](const SurveySchool& one) { return one.name == *name; });
   return found == schools_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - schools_.begin()));
+}
+
+void SchoolTable::choose(const std::vector<std::size_t>& rows) {
+  std::set<SchoolName> names;
+  for (const std::size_t row : rows) {
+    if (row < schools_.size()) names.insert(schools_[row].name);
+  }
+  if (names.size() < 2) names.clear();
+  workspace().chosen_schools.set(std::move(names));
+}
+
+std::optional<std::vector<std::size_t>> SchoolTable::chosen() const {
+  const std::set<SchoolName>& names = workspace().chosen_schools();
+  std::vector<std::size_t> rows;
+  if (const auto row = selected(); row && names.empty()) rows.push_back(*row);
+  for (std::size_t row = 0; !names.empty() && row < schools_.size(); ++row) {
+    if (names.contains(schools_[row].name)) rows.push_back(row);
+  }
+  return rows;
 }
 
 }  // namespace sonar
