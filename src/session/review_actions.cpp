@@ -16,6 +16,7 @@
 #include "session/lists/school_ping_table.h"
 #include "session/lists/school_table.h"
 #include "session/lists/survey_tree.h"
+#include "session/playback.h"
 #include "session/review.h"
 
 namespace sonar {
@@ -62,7 +63,11 @@ void add_decisions(AppModel& app, Review& review) {
                    .text = "Next unreviewed school",
                    .keys = {"N"},
                    .tip = "Show the next school of the whole survey that nobody has decided about",
-                   .run = [&review] { review.next(); },
+                   .run =
+                       [&app, &review] {
+                         if (app.playback) app.playback->pause();
+                         review.next();
+                       },
                    .enabled = [&app] { return any_school(app.workspace.document); }});
   const auto add = [&](const char* id, const char* text, std::vector<std::string> keys, const char* tip,
                        const char* status) {

@@ -268,24 +268,6 @@ TEST(CpuRenderer, ConstantWaterGivesTheExponential) {
   }
 }
 
-// A multiple of the step tens of thousands of steps out, rounded, may be the place where the ray is already.
-TEST(CpuRenderer, RaysOfTensOfThousandsOfStepsComeToAnEnd) {
-  OpticalTable faint;
-  faint.rgb_extinction = {{0.25F, 0.5F, 0.75F, 1e-4F}, {0.25F, 0.5F, 0.75F, 1e-4F}};
-  for (const double spacing_m : {0.0173, 0.05, 1.0 / 30.0, 0.1}) {
-    const Sector s{even(-25.0, -20.0, 2), even(0.0, 6.0, 2), RangeAxis{0.0, spacing_m, 40000}};
-    auto data = volume(s, 0.0);
-    for (auto& sv : data->sv.all()) sv = static_cast<std::int16_t>(std::lround(counts_from_db(-50.0)));
-    VolumeView view;
-    view.size = {1, 1};
-    const auto out = Sector::direction(rad_from_deg(-22.0), rad_from_deg(3.0));
-    view.camera = looking(out * -5.0, out * 30.0);
-    const double length_m = 39999 * spacing_m;
-    const auto p = draw(*renderer(data, faint), view, {1, 1.0, 0.0, 0}).rgba[0];
-    EXPECT_NEAR(p[3], 1.0 - std::exp(-1e-4 * length_m), 1e-3) << spacing_m;
-  }
-}
-
 TEST(CpuRenderer, AnEmptyTableIsTransparent) {
   OpticalTable empty = table(false);
   for (auto& entry : empty.rgb_extinction) entry[3] = 0.0F;
