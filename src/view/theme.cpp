@@ -10,14 +10,12 @@
 namespace sonar {
 namespace {
 
-constexpr double kLeastText_px = 12.0;  ///< 9 pt at 96 dots per inch: below that few read it
-
-/// Text grows slower than the picture: 12 px at 640 x 480, 17 at 1920 x 1080, 26 at 3840 x 2160.
+/// Text grows slower than the picture: 10.5 px at 640 x 480, 17 at 1920 x 1080, 26 at 3840 x 2160.
 void size_for(Theme& theme, PixelSize size) {
   const double growth = std::min(size.width / 640.0, size.height / 480.0);
   const double factor = std::pow(std::max(growth, 0.6), 0.6);
-  theme.text_px = std::max(kLeastText_px, std::round(2.0 * 10.5 * factor) / 2.0);
-  theme.title_px = std::round(2.0 * 1.19 * theme.text_px) / 2.0;
+  theme.text_px = std::round(2.0 * 10.5 * factor) / 2.0;
+  theme.title_px = std::round(2.0 * 12.5 * factor) / 2.0;
   theme.line_px = std::max(1.0, std::round(factor));
 }
 
