@@ -58,7 +58,7 @@ TEST_F(LinkedCurves, ADrawnCurveKeepsItsShapeAndTakesTheColoursOfTheScale) {
   w.view_curve.set(*curve_of(w.display.values().scale, {{-66.0, 0.1}, {-40.0, 0.8}}));
   const auto before = w.view_curve();
   DisplayParams changed = w.display.values();
-  changed.scale.map = ColourMapName::viridis;
+  changed.scale.map = ColourMapName::thermal;
   w.display.assign(changed);
   queue_.drain();
   EXPECT_NEAR(opacity_at(w.view_curve(), -53.0), opacity_at(before, -53.0), 1e-9);

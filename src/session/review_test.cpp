@@ -140,6 +140,7 @@ TEST_F(ReviewAtWork, WhileSchoolsAreMeasuredTheNextOneWaitsForTheStrongest) {
 
 TEST_F(ReviewAtWork, TheStrongestThatIsNotReviewedComesFirst) {
   paint_schools(6);
+  workspace().school.set(std::nullopt);
   double last_m2 = INFINITY;
   for (std::size_t row = 0; row < review().rows(); ++row) {
     const double m2 = std::get<double>(review().cell(row, backscatter_column()).key);

@@ -98,6 +98,7 @@ TEST_F(Lists, SchoolsAreThereAtOnceAndMeasuredSoonAfter) {
   EXPECT_EQ(text("schools", 0, "Depth"), fmt::format("{:.1f}", product->schools.front().depth_m));
   EXPECT_THAT(text("schools", 0, "Latitude"), HasSubstr("\u2032 N"));
 
+  workspace().school.set(std::nullopt);
   EXPECT_EQ(rows("school_pings").rows(), 0U);
   rows("schools").select(0);
   document().settle();
@@ -115,6 +116,7 @@ TEST_F(Lists, PingsOfAllSchoolsAreListedOnDemand) {
   paint(2, 3, 5, 5, 200);
   paint(2, 2, 10, 10, 300);
   document().settle();
+  workspace().school.set(std::nullopt);
   press("list.pings_of_all");
   EXPECT_EQ(rows("school_pings").rows(), 3U);
   press("list.pings_of_all");

@@ -72,7 +72,7 @@ TEST_F(SlicesAtWork, BothSlicesShowThePingOnTheirOwnFanAndBeam) {
 
 // Near the transducer every beam rings.
 TEST_F(SlicesAtWork, AReasonThatIsSwitchedOffShowsItsSamplesAsRecorded) {
-  const Voxel ringing{bright().fan, bright().beam, 30};
+  const Voxel ringing{bright().fan, bright().beam, 36};
   const StagedPing& ping = *app_.document().staged();
   ASSERT_EQ(ping.filtered->flags(ringing.fan, ringing.beam, ringing.sample), SampleFlags::near_field);
   const auto recorded = ping.sv.counts(ringing.fan, ringing.beam, ringing.sample);
@@ -168,7 +168,9 @@ TEST_F(SlicesAtWork, TheCursorOfOneViewIsSeenInTheOtherWithTheLineOfTheOtherSlic
   const auto over = app_.side().overlays();
   ASSERT_EQ(over.size(), 2U);
   ASSERT_EQ(over[0].line.size(), 2U);
-  EXPECT_EQ(app_.side().picture()->voxel_at(over[0].line[1])->fan, bright().fan);
+  const PixelPoint middle{0.5 * (over[0].line[0].x + over[0].line[1].x), 0.5 * (over[0].line[0].y + over[0].line[1].y)};
+  ASSERT_TRUE(app_.side().picture()->voxel_at(middle));
+  EXPECT_EQ(app_.side().picture()->voxel_at(middle)->fan, bright().fan);
   ASSERT_TRUE(over[1].cross);
   const auto voxel = app_.side().picture()->voxel_at(*over[1].cross);
   ASSERT_TRUE(voxel);

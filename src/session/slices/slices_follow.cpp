@@ -32,8 +32,14 @@ SlicesFollow::SlicesFollow(Workspace& workspace) : workspace_(workspace) {
   });
   listening_.to(workspace.slices_locked.changed(), [this] { follow(); });
   listening_.to(workspace.document.changes(), [this](DocumentChange change) {
-    if (change == DocumentChange::ping) follow();
+    if (change == DocumentChange::ping && another_ping()) follow();
   });
+}
+
+bool SlicesFollow::another_ping() {
+  const auto& shown = workspace_.document.shown();
+  const std::pair now(shown ? shown->identity() : nullptr, workspace_.document.ping());
+  return std::exchange(last_, now) != now;
 }
 
 void SlicesFollow::go_to_selected() {

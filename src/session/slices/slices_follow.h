@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <utility>
+
 #include "session/listening.h"
 #include "session/workspace.h"
 
@@ -18,8 +22,11 @@ class SlicesFollow {
  private:
   void follow();
   void go_to_selected();
+  /// Whether another ping is there than when this was asked last; the same one may come anew.
+  [[nodiscard]] bool another_ping();
 
   Workspace& workspace_;
+  std::pair<std::shared_ptr<const int>, std::int64_t> last_{nullptr, -1};  ///< observation and ping
   Listening listening_;
 };
 
