@@ -73,8 +73,10 @@ class Drawing {
   }
 
  private:
+  /// Half as wide again: twice would hide a small school.
+  [[nodiscard]] int selected_px() const { return line_px_ + (line_px_ + 1) / 2; }
   [[nodiscard]] int width_of(std::uint16_t number) const {
-    return number > 0 && number <= masks_.size() && masks_[number - 1U].selected ? 2 * line_px_ : line_px_;
+    return number > 0 && number <= masks_.size() && masks_[number - 1U].selected ? selected_px() : line_px_;
   }
   [[nodiscard]] std::array<float, 4>& pixel(int x, int y) {
     return rays_
@@ -89,7 +91,7 @@ class Drawing {
     const auto place = [w = width](int x, int y) {
       return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
     };
-    const int reach = std::ranges::any_of(masks_, &MaskLayer::selected) ? 2 * line_px_ : line_px_;
+    const int reach = std::ranges::any_of(masks_, &MaskLayer::selected) ? selected_px() : line_px_;
     std::vector<int> nearest2(of.size(), reach * reach + 1);
     // The nearest pixel of another number has a neighbour that is nearer still, and so lies on an edge itself.
     const auto on_edge = [&](int x, int y) {

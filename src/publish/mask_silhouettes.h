@@ -27,7 +27,7 @@ struct MaskSilhouettes {
                                                        const VolumeView& view, Work& work, int divisor = 1);
 
 /// Draws silhouettes as lines in their schools' colours: a whole one with a rim round the fuzzy area, a broken one
-/// round the core; the selected school's are twice as wide. Inside, the rays keep their colours, so that Sv can be read
+/// round the core; the selected school's are wider by half. Inside, the rays keep their colours, so that Sv can be read
 /// off the colour bar.
 void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, const MaskSilhouettes& silhouettes, int line_px,
                   Rgba8 rim);

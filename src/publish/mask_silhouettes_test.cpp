@@ -59,7 +59,7 @@ PingMask block(const Shape3& shape, int fan0, int beam0, int sample0, int size) 
   return mask;
 }
 
-// The selected school's line is twice as wide, and a line runs between schools of which one stands before the other.
+// The selected school's line is wider by half, and a line runs between schools of which one stands before the other.
 TEST(MaskOutlines, OfTheSelectedSchoolAreWide) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const std::array<MaskLayer, 2> layers{{{nullptr, {1.0F, 0.0F, 0.0F}}, {nullptr, {0.0F, 1.0F, 0.0F}}}};
@@ -73,7 +73,7 @@ TEST(MaskOutlines, OfTheSelectedSchoolAreWide) {
   const auto at = [&](int x) { return rays.rgba[static_cast<std::size_t>(9 * kSize.width + x)]; };
   const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F};
   const std::array<float, 4> green{0.0F, 1.0F, 0.0F, 1.0F};
-  for (int x = 2; x <= 9; ++x) EXPECT_EQ(at(x), std::min(x - 2, 9 - x) < 4 ? red : kData) << x;
+  for (int x = 2; x <= 9; ++x) EXPECT_EQ(at(x), std::min(x - 2, 9 - x) < 3 ? red : kData) << x;
   for (int x = 10; x <= 17; ++x) EXPECT_EQ(at(x), std::min(x - 10, 17 - x) < 2 ? green : kData) << x;
 }
 

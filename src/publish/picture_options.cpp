@@ -93,7 +93,7 @@ Result<std::optional<Camera>> named_camera(const CameraParams& params) {
 }
 
 Theme theme_of(const PictureOptions& options) {
-  return options.dark ? dark_theme(options.size) : light_theme(options.size);
+  return with_text(options.dark ? dark_theme(options.size) : light_theme(options.size), options.least_text_px);
 }
 
 Result<TransferFunction> view_curve(const PictureOptions& options) {

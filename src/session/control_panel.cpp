@@ -41,7 +41,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
         {"tolerance_opacity", [mode] { return mode() == GrowMode::paper; }}}},
       {"Schools",
        display,
-       {"masks", "core_at", "fuzzy_above", "rejected", "refused_echoes"},
+       {"masks", "tint", "core_at", "fuzzy_above", "rejected", "refused_echoes"},
        {{"core_at", core, select}, {"fuzzy_above", fuzzy, select}}},
       {"Colours",
        display,

@@ -5,12 +5,8 @@
 #include <cmath>
 
 namespace sonar {
-namespace {
 
-constexpr double kLeastText_px = 12.0;  ///< 9 pt at 96 dots per inch: below that few read it
-constexpr double kTitle = 1.15;         ///< of the text
-
-}  // namespace
+double least_text_px(PixelSize units) { return std::clamp(units.height / 20.0, 10.5, 12.0); }
 
 Theme scaled(Theme theme, double factor) {
   theme.text_px *= factor;
@@ -22,14 +18,12 @@ Theme scaled(Theme theme, double factor) {
 Theme screen_theme(PixelSize pixels, double scale, bool dark) {
   const PixelSize units{static_cast<int>(std::lround(pixels.width / scale)),
                         static_cast<int>(std::lround(pixels.height / scale))};
-  Theme theme = dark ? dark_theme(units) : light_theme(units);
-  theme.text_px = std::max(theme.text_px, kLeastText_px);
-  theme.title_px = std::max(theme.title_px, kTitle * theme.text_px);
-  return scaled(theme, scale);
+  return scaled(with_text(dark ? dark_theme(units) : light_theme(units), least_text_px(units)), scale);
 }
 
 Theme dock_theme(PixelSize pixels, double scale, bool dark) {
   constexpr double kMost_px = 13.5;
+  constexpr double kTitle = 1.15;
   Theme theme = screen_theme(pixels, scale, dark);
   theme.text_px = std::min(theme.text_px, kMost_px * scale);
   theme.title_px = kTitle * theme.text_px;

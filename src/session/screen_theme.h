@@ -5,6 +5,10 @@
 
 namespace sonar {
 
+/// Of what is shown on a screen: 9 pt at 96 dots per inch, below which few read it; flat views have room for a little less.
+/// units  extent in the window's units
+[[nodiscard]] double least_text_px(PixelSize units);
+
 /// Colours and sizes of a picture on the screen: text and lines as large as its extent in the window's units asks for, in
 /// its own pixels.
 /// scale  pixels a unit of the window

@@ -74,6 +74,13 @@ Theme dark_theme(PixelSize size) {
   return t;
 }
 
+Theme with_text(Theme theme, double least_px) {
+  constexpr double kTitle = 1.15;
+  theme.text_px = std::max(theme.text_px, least_px);
+  theme.title_px = std::max(theme.title_px, kTitle * least_px);
+  return theme;
+}
+
 Rgba8 school_colour(int number) {
   // Each as far as may be from the others as all kinds of eyes see them, from the backgrounds, from the grey of rejected
   // schools and from the colours of viridis and EK500; in the order that sets numbers one and two apart, and twelve

@@ -34,6 +34,8 @@ struct Theme {
 
 /// Text and lines sized for a picture: readable at 640 x 480, not tiny at 3840 x 2160.
 [[nodiscard]] Theme light_theme(PixelSize size);
+/// Text as large as this at least.
+[[nodiscard]] Theme with_text(Theme theme, double least_px);
 [[nodiscard]] Theme dark_theme(PixelSize size);
 
 /// Colours of schools, one after another, told apart on both themes and by colour-blind eyes (from Okabe and Ito 2008).

@@ -66,6 +66,18 @@ class Files : public WindowAtWork {
     ASSERT_GT(masks().size(), 2U);
   }
 
+  /// Lets a folder go over the window.
+  void drop(const fs::path& folder) {
+    QMimeData dropped;
+    dropped.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
+    QDragEnterEvent enter(QPoint(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+    QApplication::sendEvent(window_.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+    QApplication::sendEvent(window_.get(), &drop);
+    settle();
+  }
+
   fs::path saved_;  ///< under the name that was offered
   fs::path out_ = TestSurvey::easy().fresh();
   decltype(Dialogs::parameters) real_parameters_;
@@ -228,28 +240,17 @@ TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
   document().changes().add([&](DocumentChange change) { opened += change == DocumentChange::survey ? 1 : 0; });
   key(Qt::Key_O, Qt::ControlModifier);
   EXPECT_EQ(opened, 1);
-  QMimeData dropped;
-  dropped.setUrls({QUrl::fromLocalFile(QString::fromStdString(survey_.string()))});
-  QDragEnterEvent enter(QPoint(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
-  QApplication::sendEvent(window_.get(), &enter);
-  EXPECT_TRUE(enter.isAccepted());
-  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
-  QApplication::sendEvent(window_.get(), &drop);
-  settle();
+  drop(survey_);
   EXPECT_EQ(opened, 2);
   EXPECT_EQ(document().shown()->name(), "obs-0001");
 }
 
 TEST_F(Files, ADroppedFolderOfResultsOpensItsSurveyWithTheirSchools) {
   ASSERT_TRUE(run_easy(out_));
-  QMimeData dropped;
-  dropped.setUrls({QUrl::fromLocalFile(QString::fromStdString(out_.string()))});
-  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &dropped, Qt::LeftButton, {});
-  QApplication::sendEvent(window_.get(), &drop);
-  settle();
+  drop(out_);
   EXPECT_EQ(document().paths(), std::vector<fs::path>{survey_});
-  EXPECT_EQ(document().named(), std::vector<fs::path>{out_});
-  EXPECT_TRUE(document().detected(0) && document().detected(1)) << told();
+  ASSERT_EQ(document().named(), std::vector<fs::path>{out_});
+  EXPECT_TRUE(document().detected(0) && document().detected(1));
   EXPECT_GE(app_->rows("schools")->rows(), 2U);
 }
 

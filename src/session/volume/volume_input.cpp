@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "session/refused_layer.h"
+#include "session/screen_theme.h"
 #include "session/slices/school_layers.h"
 #include "view/theme.h"
 
@@ -49,6 +50,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.display = workspace.display.values();
   input.options.volume = workspace.volume.values();
   input.options.size = size;
+  input.options.least_text_px = least_text_px(size);
   input.options.dark = workspace.dark();
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;

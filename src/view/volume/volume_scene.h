@@ -71,7 +71,7 @@ struct MaskLayer {
   std::shared_ptr<const PingMask> mask;
   std::array<float, 3> rgb{1.0F, 1.0F, 1.0F};
   OutlineLine line = OutlineLine::solid;  ///< of its outline in slices
-  bool selected = false;                  ///< its outline in volumes is twice as wide
+  bool selected = false;                  ///< its outline in volumes is wider
 };
 
 /// What of the masks is shown: the fuzzy area (0 < f < core) as a surface by first hit, translucent; the core
