@@ -17,6 +17,8 @@ namespace sonar {
 // counts for the interval's length. Nearer than where half the narrowest beam spacing is below h, h is shortened to that,
 // to h / 8 at least. Where a ray runs along the beams (|dr/dt| above kAlongBeams) h is halved: it meets every range sample
 // just once, and speckle, white along range, would show as wood grain.
+// Thin cells. A cell of little optical depth is one segment with the means of its samples, but not along the beams: there a ray
+// goes through hundreds of them in one row, and is short of what they vary by across it hundreds of times.
 // Masks. A voxel of several schools is that one's whose confidence there is largest, as in slices and on maps: a fish is
 // of one school. Confidence of a layer = interpolated over its own voxels; of layers met in one sample the lowest number
 // lies in front. Where a layer first reaches fuzzy_above (half a

@@ -116,6 +116,7 @@ std::vector<std::string> texts(const FrameDescription& frame) {
 
 TEST(ColourBar, NamesBothLimitsTheUnitAndTheThreshold) {
   SvScale scale;
+  scale.map = ColourMapName::ek500;
   scale.threshold_db = -51.5;
   FrameDescription frame;
   frame.size = {200, 600};

@@ -82,6 +82,7 @@ TEST(ColourMap, InterpolationKeepsToThePublishedTables) {
 
 TEST(SvScale, Ek500StepsBeginAtTheirLimits) {
   SvScale scale;
+  scale.map = ColourMapName::ek500;
   scale.low_db = -70.0;
   const SvColours colours = sv_colours(scale);
   const auto& knots = colour_map(ColourMapName::ek500).knots;
@@ -107,8 +108,8 @@ TEST(SvScale, ThresholdAndLimitsAreTwoThings) {
   EXPECT_EQ(open.bar, cut.bar);
   for (int count = -32767; count <= 32767; ++count) {
     const auto c = static_cast<std::int16_t>(count);
-    // Even maps go on below the limit in their first colour; the threshold alone takes samples away.
-    ASSERT_EQ(open[c].a, 255);
+    // Nothing is drawn below the lower limit; above the upper one the last colour goes on.
+    ASSERT_EQ(open[c].a, db_from_counts(count) < scale.low_db ? 0 : 255);
     ASSERT_EQ(cut[c], db_from_counts(count) < -50.0 ? (Rgba8{0, 0, 0, 0}) : open[c]);
   }
   scale.no_data = {1, 2, 3, 255};

@@ -196,6 +196,13 @@ class Files(sonarx.Case):
         self.assertEqual((code, error), (0, ""), out)
         return [html.unescape(text) for text in re.findall(r"<text [^>]*>([^<]*)</text>", file.read_text(encoding="utf-8"))]
 
+    def test_what_is_so_anyway_may_be_said(self):
+        pictures = [sonarx.WORK / f"said-{n}.png" for n in (1, 2)]
+        for picture, said in zip(pictures, ([], ["--lighting", "--context", "--masks"])):
+            code, out, error = render("volume", *BOTH, *SIZE, "--frames", "0", *said, "--out", picture)
+            self.assertEqual((code, error), (0, ""), out + error)
+        self.assertEqual(pictures[0].read_bytes(), pictures[1].read_bytes())
+
     def test_raw_files_alone_do_not_look_like_a_survey_without_schools(self):
         for kind in ("propagation", "survey-map", "observation-map", "timeline"):
             said = " ".join(self.words(kind, sonarx.SURVEY))

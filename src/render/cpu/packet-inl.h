@@ -93,7 +93,8 @@ class Packet {
       if (view_.mode == RayMode::maximum) word = lower_than_met(word);
     }
     const M empty = hn::And(alive, is_set<kEmptyBit>(word));
-    const M thin = hn::AndNot(empty, hn::And(alive, is_set<kThinBit>(word)));
+    const M across = hn::Le(hn::Abs(u), hn::Mul(set(kAlongBeams), p.r));
+    const M thin = hn::AndNot(empty, hn::And(hn::And(alive, across), is_set<kThinBit>(word)));
     const M moving = hn::Or(empty, thin);
     M ready = alive;
     // Rays at their end stay there, since theirs is the piece's, and opaque ones may go on unseen: so where none moves the

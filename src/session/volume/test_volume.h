@@ -9,6 +9,7 @@
 #include "publish/picture_output.h"
 #include "publish/picture_source.h"
 #include "publish/volume_picture.h"
+#include "session/screen_theme.h"
 #include "session/test_survey.h"
 #include "session/volume/volume_model.h"
 
@@ -78,6 +79,7 @@ class VolumeApp {
   Image rendered(const Camera& camera) {
     PictureOptions options;
     options.size = kVolumeTestSize;
+    options.least_text_px = least_text_px(options.size);
     options.ping = static_cast<int>(workspace_.document.ping());
     options.transfer = workspace_.view_curve();
     options.camera = camera;

@@ -82,6 +82,10 @@ TEST(SlicePicture, AKeyNamesTheSchoolsThatTheSliceCuts) {
   EXPECT_TRUE(said(words(5), "school 8"));
   EXPECT_FALSE(said(words(5), "school 7"));
   EXPECT_TRUE(said(words(5), "core, confidence 0.64 and more"));
+  EXPECT_FALSE(said(words(5), "fuzzy area, below that")) << "the outline is round it";
+  EXPECT_FALSE(said(words(0), "core, confidence 0.64 and more"));
+  style.masks.tint = true;
+  EXPECT_TRUE(said(words(5), "core, confidence 0.64 and more"));
   EXPECT_TRUE(said(words(5), "fuzzy area, below that"));
   EXPECT_FALSE(said(words(0), "fuzzy area, below that"));
 }

@@ -12,6 +12,8 @@
 namespace sonar {
 namespace {
 
+constexpr SvScale kScale{.map = ColourMapName::ek500};
+
 using slice_example::hand_sector;
 using slice_example::LitVolume;
 using slice_example::texts_of;
@@ -37,7 +39,7 @@ TEST(SliceImage, EveryCellHasItsOwnColourAndNothingIsMixed) {
   const SliceMap map = hand_map();
   const LitVolume volume(map.sector(), kLit, -58.5, -80.0);
   const Theme theme = light_theme(kSize);
-  const auto image = slice_image(map, volume.data(), sv_colours(SvScale{}), {}, {}, theme);
+  const auto image = slice_image(map, volume.data(), sv_colours(kScale), {}, {}, theme);
   ASSERT_TRUE(image.has_value());
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
@@ -56,7 +58,7 @@ TEST(SliceImage, NoDataAndHiddenSamplesAreNotWater) {
   volume.flags(4, 3, 35) = SampleFlags::low_snr;
   const Theme theme = light_theme(kSize);
   const FlagStyle flags{SampleFlags::interference, SampleFlags::none, SampleFlags::low_snr};
-  const auto image = *slice_image(map, volume.data(), sv_colours(SvScale{}), flags, {}, theme);
+  const auto image = *slice_image(map, volume.data(), sv_colours(kScale), flags, {}, theme);
   const auto pixel = [&](int sample) {
     const PixelPoint p = *map.place_of({4, 3, sample});
     return image.at(static_cast<int>(p.x), static_cast<int>(p.y));
@@ -73,7 +75,7 @@ TEST(SliceImage, HatchKeepsMostOfTheColour) {
   for (auto& f : volume.flags.all()) f = SampleFlags::corrupted;
   const Theme theme = light_theme(kSize);
   const FlagStyle flags{SampleFlags::none, SampleFlags::corrupted, SampleFlags::none};
-  const auto image = *slice_image(map, volume.data(), sv_colours(SvScale{}), flags, {}, theme);
+  const auto image = *slice_image(map, volume.data(), sv_colours(kScale), flags, {}, theme);
   const auto inside = std::count_if(map.voxels().begin(), map.voxels().end(), [](int v) { return v >= 0; });
   const auto kept = std::count(image.pixels.begin(), image.pixels.end(), Rgba8{255, 255, 0, 255});
   EXPECT_NEAR(static_cast<double>(kept) / static_cast<double>(inside), 5.0 / 6.0, 0.01);
@@ -93,7 +95,7 @@ TEST(SliceImage, MasksAreBlendedOverTheData) {
     style.core_strength = 0.5;
     style.fuzzy_strength = 0.25;
     style.outline = outline;
-    return slice_image(map, data, sv_colours(SvScale{}), {}, style, theme)
+    return slice_image(map, data, sv_colours(kScale), {}, style, theme)
         ->at(static_cast<int>(p.x), static_cast<int>(p.y));
   };
   near(colour(255, false), 255, 127.5, 127.5);
@@ -108,7 +110,7 @@ TEST(SliceImage, AnOutlineRunsAlongTheMasksEdge) {
   SliceData data = volume.data();
   data.masks.push_back({std::make_shared<PingMask>(PingMask{{{31, 18, 6}}, {9, 9, 9, 9, 9, 9}}), {1.0F, 0.0F, 0.0F}});
   const Theme theme = light_theme({640, 480});
-  const auto image = *slice_image(map, data, sv_colours(SvScale{}), {}, {}, theme);
+  const auto image = *slice_image(map, data, sv_colours(kScale), {}, {}, theme);
   for (int y = 1; y < 399; ++y) {
     for (int x = 1; x < 399; ++x) {
       const auto member = [&](int px, int py) {
@@ -138,7 +140,7 @@ TEST(SliceImage, AnUnreviewedSchoolsOutlineIsDashedAndARejectedOnesDotted) {
   const auto image = [&](const std::string& status) {
     SliceData data = volume.data();
     data.masks.push_back({std::make_shared<PingMask>(arc), {1.0F, 0.0F, 0.0F}, status_line(status)});
-    return *slice_image(map, data, sv_colours(SvScale{}), {}, {}, theme);
+    return *slice_image(map, data, sv_colours(kScale), {}, {}, theme);
   };
   const Rgba8 red{255, 0, 0, 255};
   const Image solid = image("accepted");
@@ -169,7 +171,7 @@ TEST(SliceImage, WhatIsAsThinAsItsOutlineIsDashedToo) {
   const auto red = [&](OutlineLine line) {
     SliceData data = volume.data();
     data.masks.push_back({std::make_shared<PingMask>(arc), {1.0F, 0.0F, 0.0F}, line});
-    const Image image = *slice_image(map, data, sv_colours(SvScale{}), {}, {}, theme);
+    const Image image = *slice_image(map, data, sv_colours(kScale), {}, {}, theme);
     return std::count(image.pixels.begin(), image.pixels.end(), Rgba8{255, 0, 0, 255});
   };
   EXPECT_LT(red(OutlineLine::dashed), red(OutlineLine::solid));
@@ -179,13 +181,13 @@ TEST(SliceImage, WhatIsAsThinAsItsOutlineIsDashedToo) {
 TEST(SliceImage, WhatDoesNotBelongIsRefused) {
   const SliceMap map = hand_map();
   const LitVolume other(slice_example::sectors()[0].sector, {0, 0, 0}, -40.0, -90.0);
-  EXPECT_EQ(slice_image(map, other.data(), sv_colours(SvScale{}), {}, {}, {}).error().code, ErrorCode::mismatch);
+  EXPECT_EQ(slice_image(map, other.data(), sv_colours(kScale), {}, {}, {}).error().code, ErrorCode::mismatch);
   const LitVolume volume(map.sector(), kLit, -40.0, -90.0);
   for (const PingMask& bad : {PingMask{{{56, 0, 1}}, {1}}, PingMask{{{0, 40, 2}}, {1, 1}}, PingMask{{{-1, 0, 1}}, {1}},
                               PingMask{{{0, 0, 3}}, {1}}, PingMask{{{0, 5, 2147483647}}, {1}}}) {
     SliceData data = volume.data();
     data.masks.push_back({std::make_shared<PingMask>(bad), {}});
-    EXPECT_EQ(slice_image(map, data, sv_colours(SvScale{}), {}, {}, {}).error().code, ErrorCode::mismatch);
+    EXPECT_EQ(slice_image(map, data, sv_colours(kScale), {}, {}, {}).error().code, ErrorCode::mismatch);
   }
 }
 
@@ -241,7 +243,7 @@ TEST(SlicePicture, APingWithoutDataIsDrawnAsNoData) {
     ASSERT_TRUE(picture.has_value());
     EXPECT_EQ(std::ranges::count(texts_of(*picture), "no data in this ping"), 1);
     const SliceMap& map = *picture->map;
-    const auto image = slice_image(map, volume.data(), sv_colours(SvScale{}), {}, {}, theme);
+    const auto image = slice_image(map, volume.data(), sv_colours(kScale), {}, {}, theme);
     ASSERT_TRUE(image.has_value());
     std::ptrdiff_t drawn = 0;
     for (const Rgba8& pixel : image->pixels) {

@@ -134,7 +134,7 @@ void walk(vec2 span, float phase) {
       continue;
     }
 #if MODE == 0
-    if ((state.g & THIN) != 0u) {
+    if ((state.g & THIN) != 0u && abs(at) <= ALONG_BEAMS * r) {
       float stop = min(max(next, floor(leave / h + 0.5) * h), end);
       lay(texelFetch(means_texture, cell_texel(cell), 0), stop - t);
       t = stop;
