@@ -77,7 +77,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, std::s
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const std::vector<std::string> over = app.remaining(true);
   if (extra || missing) {
-    if (const std::string text = unknown_option_text(app, over); !text.empty()) return text;
+    if (std::string text = unknown_option_text(app, over); !text.empty()) return text;
   }
   if (extra && !over.empty()) return fmt::format("'{}' is one word too many", over.front());
   if (missing && app.get_subcommands().empty()) return "a verb is needed";
