@@ -206,7 +206,7 @@ std::string asked_folder(AppModel& app, const std::string& title, const std::str
   std::error_code cannot;
   const bool made = !proposed.empty() && fs::create_directory(proposed, cannot);
   const bool there = made || (!proposed.empty() && fs::is_directory(proposed, cannot));
-  const std::string folder = app.dialogs.folder_to_save(title, there ? proposed.string() : std::string{});
+  std::string folder = app.dialogs.folder_to_save(title, there ? proposed.string() : std::string{});
   if (made && fs::path(folder) != proposed) fs::remove(proposed, cannot);  // it is empty, or stays
   return folder;
 }
