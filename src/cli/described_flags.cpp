@@ -32,8 +32,11 @@ void DescribedFlags::field(std::string_view name, bool& value, const FieldInfo& 
   if (info.flag == kNoFlag) return;
   if (!value) return add(verb_.add_flag(flag_of(name, info), value, sentence(info.text)), info.suits);
   const std::string off = info.flag.empty() ? "--no-" + with_dashes(name) : flag_of(name, info);
-  // Scripts may say what is so anyway.
-  if (info.flag.empty()) verb_.add_flag("--" + with_dashes(name), value)->group("");
+  if (info.flag.empty()) {
+    // Scripts may say what is so anyway.
+    add(verb_.add_flag("--" + with_dashes(name), value), info.suits);
+    verb_.get_option("--" + with_dashes(name))->group("");
+  }
   add(verb_.add_flag(off + "{false}", value, "Do not " + std::string(info.text)), info.suits);
 }
 

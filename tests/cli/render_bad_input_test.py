@@ -176,6 +176,7 @@ class BadInput(unittest.TestCase):
             (["--refused"], "survey-map", "slice-top"),
             (["--tint"], "timeline", "volume"),
             (["--no-context"], "slice-top", "volume"),
+            (["--lighting"], "slice-top", "volume"),
             (["--ship-length-m", "40"], "observation-map", "volume"),
             (["--depth-raster", str(DEPTHS)], "observation-map", "survey-map"),
             (["--neighbours", "1"], "volume", "propagation"),
