@@ -91,21 +91,7 @@ std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks,
   const auto largest = std::max_element(masks.begin(), masks.end(), [](const MaskLayer& a, const MaskLayer& b) {
     return a.mask->voxels() < b.mask->voxels();
   });
-  if (largest == masks.end() || largest->mask->empty()) return std::nullopt;
-  double fan = 0.0;
-  double beam = 0.0;
-  double sample = 0.0;
-  double count = 0.0;
-  for (const Run& run : largest->mask->runs) {
-    const int fan_of_row = run.row / beams;
-    const int beam_of_row = run.row % beams;
-    fan += 1.0 * fan_of_row * run.count;
-    beam += 1.0 * beam_of_row * run.count;
-    sample += (run.first_sample + 0.5 * (run.count - 1)) * run.count;
-    count += run.count;
-  }
-  const auto nearest = [count](double sum) { return static_cast<int>(std::lround(sum / count)); };
-  return MaskMiddle{nearest(fan), nearest(beam), nearest(sample)};
+  return largest == masks.end() ? std::nullopt : mask_middle(*largest->mask, beams);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/mask_middle.h"
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "view/refused_marks.h"
@@ -39,11 +40,6 @@ struct SchoolKey {
                                                      std::int64_t ping_index, const PictureOptions& options);
 
 /// Middle of the largest mask; empty without one.
-struct MaskMiddle {
-  int fan = 0;
-  int beam = 0;
-  int sample = 0;
-};
 [[nodiscard]] std::optional<MaskMiddle> middle_of_largest(const std::vector<MaskLayer>& masks, int beams);
 
 /// The products with the schools that the options ask for; rows and masks of the others are left out. What is drawn of one

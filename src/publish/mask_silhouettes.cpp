@@ -12,18 +12,16 @@ namespace {
 
 /// A mask's place in the list as a colour that comes back from the rays as it went in.
 std::array<float, 3> colour_of(std::size_t number) {
-  return {static_cast<float>(number % 256) / 255.0F, static_cast<float>(number / 256 % 256) / 255.0F, 0.0F};
+  return {static_cast<float>(number) / 255.0F, 0.0F, 0.0F};  // back-ends take no more than 255 masks
 }
 
-std::uint16_t number_of(const std::array<float, 4>& pixel) {
-  if (pixel[3] < 0.5F) return 0;
-  const auto channel = [&](std::size_t k) { return static_cast<int>(std::lround(255.0F * pixel[k] / pixel[3])); };
-  return static_cast<std::uint16_t>(channel(0) + 256 * channel(1));
+std::uint8_t number_of(const std::array<float, 4>& pixel) {
+  return pixel[3] < 0.5F ? std::uint8_t{0} : static_cast<std::uint8_t>(std::lround(255.0F * pixel[0] / pixel[3]));
 }
 
 /// Whose mask is seen from a confidence on. Rays of a smaller picture stand for those beside them.
-Result<std::vector<std::uint16_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
-                                             int divisor) {
+Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
+                                            int divisor) {
   view.mode = RayMode::accumulate;
   view.lighting.on = false;
   view.masks = {.fuzzy_above = confidence,
@@ -35,7 +33,7 @@ Result<std::vector<std::uint16_t>> seen_from(VolumeRenderer& renderer, VolumeVie
   quality.divisor = divisor;
   const auto rays = renderer.draw(view, quality, work);
   if (!rays) return pass_on(rays);
-  std::vector<std::uint16_t> out(view.size.count());
+  std::vector<std::uint8_t> out(view.size.count());
   auto pixel = out.begin();
   for (int y = 0; y < view.size.height; ++y) {
     for (int x = 0; x < view.size.width; ++x) {
@@ -54,9 +52,9 @@ class Drawing {
       : rays_(rays), masks_(masks), line_px_(line_px) {}
 
   /// Pixels of a silhouette with another's or none's nearer than the line's width.
-  void lines(const std::vector<std::uint16_t>& of, bool broken) {
+  void lines(const std::vector<std::uint8_t>& of, bool broken) {
     const int dash = 4 * line_px_;
-    for_each_near_edge(of, [&](int x, int y, std::uint16_t own, int distance2) {
+    for_each_near_edge(of, [&](int x, int y, std::uint8_t own, int distance2) {
       const int width = width_of(own);
       if (own == 0 || own > masks_.size() || distance2 > width * width) return;
       if (broken && ((x + y) / dash) % 2 != 0) return;
@@ -65,9 +63,9 @@ class Drawing {
     });
   }
   /// Pixels of none that touch a silhouette.
-  void rim(const std::vector<std::uint16_t>& of, std::array<float, 4> colour) {
+  void rim(const std::vector<std::uint8_t>& of, std::array<float, 4> colour) {
     const int width = std::max(1, line_px_ / 2);
-    for_each_near_edge(of, [&](int x, int y, std::uint16_t own, int distance2) {
+    for_each_near_edge(of, [&](int x, int y, std::uint8_t own, int distance2) {
       if (own == 0 && distance2 <= width * width) pixel(x, y) = colour;
     });
   }
@@ -75,7 +73,7 @@ class Drawing {
  private:
   /// Half as wide again: twice would hide a small school.
   [[nodiscard]] int selected_px() const { return line_px_ + (line_px_ + 1) / 2; }
-  [[nodiscard]] int width_of(std::uint16_t number) const {
+  [[nodiscard]] int width_of(std::uint8_t number) const {
     return number > 0 && number <= masks_.size() && masks_[number - 1U].selected ? selected_px() : line_px_;
   }
   [[nodiscard]] std::array<float, 4>& pixel(int x, int y) {
@@ -86,7 +84,7 @@ class Drawing {
   /// act  (x, y, number there, square of the distance to the nearest pixel of another number) of pixels that have one
   ///      within the widest line
   template <class Act>
-  void for_each_near_edge(const std::vector<std::uint16_t>& of, const Act& act) {
+  void for_each_near_edge(const std::vector<std::uint8_t>& of, const Act& act) {
     const auto [width, height] = rays_.size;
     const auto place = [w = width](int x, int y) {
       return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
@@ -95,7 +93,7 @@ class Drawing {
     std::vector<int> nearest2(of.size(), reach * reach + 1);
     // The nearest pixel of another number has a neighbour that is nearer still, and so lies on an edge itself.
     const auto on_edge = [&](int x, int y) {
-      const std::uint16_t own = of[place(x, y)];
+      const std::uint8_t own = of[place(x, y)];
       return (x > 0 && of[place(x - 1, y)] != own) || (x + 1 < width && of[place(x + 1, y)] != own) ||
              (y > 0 && of[place(x, y - 1)] != own) || (y + 1 < height && of[place(x, y + 1)] != own);
     };

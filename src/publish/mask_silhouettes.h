@@ -15,8 +15,8 @@ namespace sonar {
 /// Whose mask each pixel shows, the nearest one's where they lie behind one another: [height][width], 0 = none, else the
 /// mask's place in the list, from 1.
 struct MaskSilhouettes {
-  std::vector<std::uint16_t> fuzzy;  ///< all of the masks that the style shows
-  std::vector<std::uint16_t> core;
+  std::vector<std::uint8_t> fuzzy;  ///< all of the masks that the style shows
+  std::vector<std::uint8_t> core;
 };
 
 /// The renderer has its volume and transfer function; its masks are changed. Two pictures, however many masks.

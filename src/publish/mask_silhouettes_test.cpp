@@ -14,8 +14,8 @@ namespace {
 constexpr PixelSize kSize{20, 20};
 constexpr std::array<float, 4> kData{0.1F, 0.2F, 0.3F, 0.5F};
 
-std::vector<std::uint16_t> square(int first, int last) {
-  std::vector<std::uint16_t> out(kSize.count(), 0);
+std::vector<std::uint8_t> square(int first, int last) {
+  std::vector<std::uint8_t> out(kSize.count(), 0);
   for (int y = first; y <= last; ++y) {
     for (int x = first; x <= last; ++x) out[static_cast<std::size_t>(y * kSize.width + x)] = 1;
   }
@@ -40,7 +40,7 @@ TEST(MaskOutlines, AreLinesAndLeaveWhatLiesInside) {
 TEST(MaskOutlines, AreBrokenRoundTheCore) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const MaskLayer layer{nullptr, {1.0F, 0.0F, 0.0F}};
-  lay_outlines(rays, std::span(&layer, 1), {std::vector<std::uint16_t>(kSize.count(), 1), square(2, 17)}, 1,
+  lay_outlines(rays, std::span(&layer, 1), {std::vector<std::uint8_t>(kSize.count(), 1), square(2, 17)}, 1,
                {0, 0, 0, 255});
   int drawn = 0;
   for (int x = 2; x <= 17; ++x) drawn += rays.rgba[static_cast<std::size_t>(2 * kSize.width + x)] == kData ? 0 : 1;
@@ -65,7 +65,7 @@ TEST(MaskOutlines, OfTheSelectedSchoolAreWide) {
   const std::array<MaskLayer, 2> layers{{{nullptr, {1.0F, 0.0F, 0.0F}}, {nullptr, {0.0F, 1.0F, 0.0F}}}};
   auto selected = layers;
   selected[0].selected = true;
-  MaskSilhouettes both{square(2, 17), std::vector<std::uint16_t>(kSize.count(), 0)};
+  MaskSilhouettes both{square(2, 17), std::vector<std::uint8_t>(kSize.count(), 0)};
   for (int y = 2; y <= 17; ++y) {
     for (int x = 10; x <= 17; ++x) both.fuzzy[static_cast<std::size_t>(y * kSize.width + x)] = 2;
   }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "model/mask_middle.h"
 #include "session/app_parts.h"
-#include "session/survey_schools.h"
 #include "session/tools/seed_tool.h"
 #include "session/volume/volume_model.h"
 
@@ -35,15 +35,8 @@ std::optional<Point<Sonar>> middle_of_selected(const Workspace& workspace) {
   const auto* there = in_ping(document.state().schools[*selected]->masks, document.ping());
   if (there == nullptr) return std::nullopt;
   const Sector& sector = document.shown()->sector();
-  const SlicePlaces middle = middle_of(there->mask, sector.beams());
-  double range_m = 0.0;
-  double voxels = 0.0;
-  for (const Run& run : there->mask.runs) {
-    range_m += run.count * sector.range().range_m(run.first_sample + run.count / 2);
-    voxels += run.count;
-  }
-  if (!(voxels > 0.0)) return std::nullopt;
-  return Sector::direction(sector.elevation_rad(middle.fan), sector.azimuth_rad(middle.beam)) * (range_m / voxels);
+  const auto middle = mask_middle(there->mask, sector.beams());
+  return middle ? std::optional(sector.centre(middle->fan, middle->beam, middle->sample)) : std::nullopt;
 }
 
 }  // namespace
