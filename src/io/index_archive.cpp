@@ -1,159 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <cstdint>
 #include <cstring>
-#include <map>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/hash.h"
+#include "io/byte_archive.h"
 #include "io/index_cache.h"
 
 namespace sonar {
-namespace {
 
-constexpr std::string_view kMagic = "SONARIDX";
-
-template <class T>
-concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-
-class Writer {
- public:
-  template <Plain T>
-  void operator()(const T& value) {
-    put(&value, sizeof(T));
-  }
-  void operator()(const std::string& text) {
-    (*this)(static_cast<std::uint64_t>(text.size()));
-    put(text.data(), text.size());
-  }
-  template <class T, std::size_t N>
-  void operator()(const std::array<T, N>& values) {
-    for (const T& value : values) (*this)(value);
-  }
-  template <class T>
-  void operator()(const std::vector<T>& values) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const T& value : values) (*this)(value);
-  }
-  template <class T>
-  void operator()(const SharedValue<T>& value) {
-    (*this)(*value);
-  }
-  void operator()(const std::map<std::string, std::int64_t>& values) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const auto& [key, value] : values) {
-      (*this)(key);
-      (*this)(value);
-    }
-  }
-  template <class T>
-    requires std::is_class_v<T>
-  void operator()(const T& value) {
-    fields(*this, value);
-  }
-  [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  void put(const void* data, std::size_t size) {
-    const std::size_t at = bytes_.size();
-    if (bytes_.capacity() < at + size) bytes_.reserve(2 * (at + size));
-    bytes_.resize(at + size);
-    std::memcpy(bytes_.data() + at, data, size);
-  }
-  std::vector<std::byte> bytes_;
-};
-
-/// Every read is checked against what is left; after a short one nothing is read any more. Vectors grow as their
-/// elements come, so that a wild count allocates nothing.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <Plain T>
-  void operator()(T& value) {
-    get(&value, sizeof(T));
-  }
-  void operator()(std::string& text) {
-    text.resize(count());
-    get(text.data(), text.size());
-  }
-  template <class T, std::size_t N>
-  void operator()(std::array<T, N>& values) {
-    for (T& value : values) (*this)(value);
-  }
-  template <class T>
-  void operator()(std::vector<T>& values) {
-    const std::size_t n = count();
-    for (std::size_t i = 0; i < n && sound_; ++i) {
-      values.emplace_back();
-      (*this)(values.back());
-    }
-  }
-  template <class T>
-  void operator()(SharedValue<T>& value) {
-    (*this)(value.edit());
-  }
-  void operator()(std::map<std::string, std::int64_t>& values) {
-    const std::size_t n = count();
-    for (std::size_t i = 0; i < n && sound_; ++i) {
-      std::string key;
-      (*this)(key);
-      (*this)(values[key]);
-    }
-  }
-  template <class T>
-    requires std::is_class_v<T>
-  void operator()(T& value) {
-    fields(*this, value);
-  }
-  [[nodiscard]] bool sound_to_the_end() const { return sound_ && bytes_.empty(); }
-
- private:
-  std::size_t count() {
-    std::uint64_t n = 0;
-    get(&n, sizeof(n));
-    if (n > bytes_.size()) sound_ = false;
-    return sound_ ? static_cast<std::size_t>(n) : 0;
-  }
-  void get(void* data, std::size_t size) {
-    if (!sound_ || size > bytes_.size()) {
-      sound_ = false;
-      return;
-    }
-    if (size > 0) std::memcpy(data, bytes_.data(), size);
-    bytes_ = bytes_.subspan(size);
-  }
-  std::span<const std::byte> bytes_;
-  bool sound_ = true;
-};
-
-template <class T, class U>
-concept Is = std::is_same_v<std::remove_const_t<T>, U>;
-
-void fields(auto& io, Is<NavSample> auto& s) {
+void fields(auto& io, Archived<NavSample> auto& s) {
   io(s.time);
   io(s.first);
   io(s.second);
   io(s.clock_run);
 }
 
-void fields(auto& io, Is<NavSeries> auto& s) {
+void fields(auto& io, Archived<NavSeries> auto& s) {
   io(s.quantity);
   io(s.talker);
   io(s.sentence);
   io(s.samples);
 }
 
-void fields(auto& io, Is<Diagnostic> auto& d) {
+void fields(auto& io, Archived<Diagnostic> auto& d) {
   io(d.code);
   io(d.offset);
   io(d.ping_index);
   io(d.text);
 }
 
-void fields(auto& io, Is<ChannelTransmit> auto& t) {
+void fields(auto& io, Archived<ChannelTransmit> auto& t) {
   io(t.frequency_hz);
   io(t.transmit_power_w);
   io(t.pulse_length_s);
@@ -163,7 +41,7 @@ void fields(auto& io, Is<ChannelTransmit> auto& t) {
   io(t.max_samples);
 }
 
-void fields(auto& io, Is<PingEntry> auto& p) {
+void fields(auto& io, Archived<PingEntry> auto& p) {
   io(p.time);
   io(p.offset);
   io(p.end);
@@ -184,7 +62,7 @@ void fields(auto& io, Is<PingEntry> auto& p) {
   io(p.transmit);
 }
 
-void fields(auto& io, Is<BeamConfig> auto& b) {
+void fields(auto& io, Archived<BeamConfig> auto& b) {
   io(b.channel_id);
   io(b.beam_type);
   io(b.frequency_hz);
@@ -203,7 +81,7 @@ void fields(auto& io, Is<BeamConfig> auto& b) {
   io(b.sa_correction_table_db);
 }
 
-void fields(auto& io, Is<SounderConfig> auto& c) {
+void fields(auto& io, Archived<SounderConfig> auto& c) {
   io(c.survey_name);
   io(c.transect_name);
   io(c.sounder_name);
@@ -218,7 +96,7 @@ void fields(auto& io, Is<SounderConfig> auto& c) {
   io(c.con1_xml);
 }
 
-void fields(auto& io, Is<RawIndex> auto& r) {
+void fields(auto& io, Archived<RawIndex> auto& r) {
   io(r.size);
   io(r.hash);
   io(r.format);
@@ -231,6 +109,10 @@ void fields(auto& io, Is<RawIndex> auto& r) {
   io(r.navigation);
   io(r.diagnostics);
 }
+
+namespace {
+
+constexpr std::string_view kMagic = "SONARIDX";
 
 /// A checksum guards the bytes, so this is about programs that changed without raising the version.
 bool makes_sense(const RawIndex& index) {
@@ -251,7 +133,7 @@ template <class T>
 std::vector<Hash128> hashes_of(const std::vector<SharedValue<T>>& values) {
   std::vector<Hash128> hashes;
   for (const SharedValue<T>& value : values) {
-    Writer bytes;
+    ArchiveWriter bytes;
     bytes(*value);
     hashes.push_back(hash_bytes(bytes.take()));
   }
@@ -274,10 +156,10 @@ void SharedSettings::share(RawIndex& index) {
 }
 
 std::vector<std::byte> encode_index(const RawIndex& index) {
-  Writer content;
+  ArchiveWriter content;
   content(index);
   const std::vector<std::byte> body = content.take();
-  Writer out;
+  ArchiveWriter out;
   for (const char c : kMagic) out(c);
   out(kIndexVersion);
   const Hash128 hash = hash_bytes(body);
@@ -291,7 +173,7 @@ std::vector<std::byte> encode_index(const RawIndex& index) {
 std::optional<RawIndex> decode_index(std::span<const std::byte> bytes) {
   constexpr std::size_t kHeader = kMagic.size() + sizeof(kIndexVersion) + 16;
   if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) return std::nullopt;
-  Reader header(bytes.subspan(kMagic.size()));
+  ArchiveReader header(bytes.subspan(kMagic.size()));
   int version = 0;
   Hash128 hash;
   header(version);
@@ -299,7 +181,7 @@ std::optional<RawIndex> decode_index(std::span<const std::byte> bytes) {
   header(hash.low);
   const auto body = bytes.subspan(kHeader);
   if (version != kIndexVersion || hash_bytes(body) != hash) return std::nullopt;
-  Reader reader(body);
+  ArchiveReader reader(body);
   RawIndex index;
   reader(index);
   if (!reader.sound_to_the_end() || !makes_sense(index)) return std::nullopt;

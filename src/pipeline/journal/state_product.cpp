@@ -10,6 +10,21 @@
 #include "pipeline/tasks/join_tracks.h"
 
 namespace sonar {
+namespace {
+
+/// The state's schools, each under the state's number.
+std::vector<SchoolMasks> numbered_as_shown(const Engine& engine, JournalState state) {
+  for (auto& school : state.schools) {
+    auto copy = std::make_shared<StateSchool>(*school);
+    copy->masks.decided.school_id = copy->number;
+    school = std::move(copy);
+  }
+  std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(engine.survey(), engine.observation()));
+  name_parts(schools, engine.observation().name);
+  return schools;
+}
+
+}  // namespace
 
 Result<ObservationProduct> state_product(Engine& engine, const JournalState& state, const StateProductOptions& options,
                                          Work& work) {
@@ -22,22 +37,19 @@ Result<ObservationProduct> state_product(Engine& engine, const JournalState& sta
     if (auto done = engine.estimate_background(0, pings - 1, work); !done) return pass_on(done);
     for (std::int64_t i = 0; i < pings; ++i) product.background_db.push_back(engine.background_db(i));
   }
-  JournalState counted = state;
-  for (auto& school : counted.schools) {
-    auto copy = std::make_shared<StateSchool>(*school);
-    copy->masks.decided.school_id = copy->number;
-    school = std::move(copy);
-  }
-  const std::vector<TimeNs> times = datagram_times(engine.survey(), engine.observation());
   product.next_school_id = state.next_number;
   product.rejected = still_refused({options.refused.begin(), options.refused.end()}, state, engine.grid());
-  std::vector<SchoolMasks> schools = measured_masks_of(counted, times);
-  name_parts(schools, product.observation);
+  std::vector<SchoolMasks> schools = numbered_as_shown(engine, state);
   if (auto done = measure_schools(engine, std::move(schools), product, work, options.before); !done) {
     return pass_on(done);
   }
   join_at_reach(product, engine.recipe().merge);
   return product;
+}
+
+std::vector<std::int64_t> pings_to_measure(const Engine& engine, const JournalState& state,
+                                           const MeasuredPings& before) {
+  return pings_to_measure(engine, numbered_as_shown(engine, state), before);
 }
 
 std::vector<SchoolMasks> detected_schools(const ObservationProduct& product) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "base/work.h"
@@ -27,6 +29,10 @@ struct StateProductOptions {
 /// errors   cancelled
 [[nodiscard]] Result<ObservationProduct> state_product(Engine& engine, const JournalState& state,
                                                        const StateProductOptions& options, Work& work);
+
+/// Pings that state_product() would have to measure, rising: their backgrounds must be estimated before.
+[[nodiscard]] std::vector<std::int64_t> pings_to_measure(const Engine& engine, const JournalState& state,
+                                                         const MeasuredPings& before);
 
 /// The schools that a product found: where the journal of its observation begins.
 [[nodiscard]] std::vector<SchoolMasks> detected_schools(const ObservationProduct& product);

@@ -47,12 +47,6 @@ PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
   return others;
 }
 
-/// A row, and which members of its mask are faulty.
-struct Measured {
-  MeasuredSchool school;
-  std::vector<bool> fault;
-};
-
 /// What measuring needs to know of a ping, whatever the school.
 MeasureInput input_of(const Engine& engine, const StagedPing& ping, double area) {
   const ObservationFiles& observation = engine.observation();
@@ -72,8 +66,8 @@ MeasureInput input_of(const Engine& engine, const StagedPing& ping, double area)
   return input;
 }
 
-Measured measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all, std::size_t index,
-                     MeasureInput input) {
+MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std::vector<InPingRef>& all,
+                         std::size_t index, MeasureInput input) {
   const ObservationFiles& observation = engine.observation();
   const PingMask others = others_than(all, index);
   input.others = &others;
@@ -104,8 +98,8 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
   return hasher.value();
 }
 
-std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine, const std::vector<InPingRef>& schools,
-                                   double area) {
+std::vector<MeasuredMask> measure_ping(const StagedPing& ping, const Engine& engine,
+                                       const std::vector<InPingRef>& schools, double area) {
   MeasureInput input = input_of(engine, ping, area);
   std::optional<EchoClaims> claims;
   if (schools.size() > 1) {
@@ -114,7 +108,7 @@ std::vector<Measured> measure_ping(const StagedPing& ping, const Engine& engine,
     claims = echo_claims(input, masks);
     input.claims = &*claims;
   }
-  std::vector<Measured> rows;
+  std::vector<MeasuredMask> rows;
   for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, input));
   return rows;
 }
@@ -194,38 +188,34 @@ std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGr
   return schools;
 }
 
-struct MeasuredPings::Kept {
-  std::map<std::int64_t, std::pair<Hash128, std::vector<Measured>>> pings;
-};
-
-MeasuredPings::MeasuredPings() : kept_(std::make_unique<Kept>()) {}
-MeasuredPings::~MeasuredPings() = default;
-
 namespace {
 
-const std::vector<Measured>* kept_rows(MeasuredPings* before, const Engine& engine, std::int64_t ping_index,
-                                       const std::vector<InPingRef>& schools) {
+const std::vector<MeasuredMask>* kept_rows(const MeasuredPings* before, const Engine& engine, std::int64_t ping_index,
+                                           const std::vector<InPingRef>& schools) {
   if (before == nullptr) return nullptr;
-  const auto found = before->kept().pings.find(ping_index);
-  if (found == before->kept().pings.end() || found->second.first != key_of(engine, ping_index, schools)) return nullptr;
+  const auto found = before->pings.find(ping_index);
+  if (found == before->pings.end() || found->second.first != key_of(engine, ping_index, schools)) return nullptr;
   return &found->second.second;
 }
 
 void keep_rows(MeasuredPings& before, const Engine& engine, const std::vector<MeasuredPing>& pings,
-               const std::vector<std::vector<Measured>>& rows, const std::vector<std::string>& problems) {
-  before.kept().pings.clear();
+               const std::vector<std::vector<MeasuredMask>>& rows, const std::vector<std::string>& problems) {
+  MeasuredPings now;
   for (std::size_t i = 0; i < pings.size(); ++i) {
-    if (problems[i].empty())
-      before.kept().pings[pings[i].first] = {key_of(engine, pings[i].first, pings[i].second), rows[i]};
+    const auto& [ping_index, refs] = pings[i];
+    now.changed = now.changed || kept_rows(&before, engine, ping_index, refs) == nullptr;
+    if (problems[i].empty()) now.pings[ping_index] = {key_of(engine, ping_index, refs), rows[i]};
   }
+  now.changed = now.changed || before.changed || now.pings.size() != before.pings.size();
+  before = std::move(now);
 }
 
 /// All rows, by school and ping, their corrected columns filled.
-std::vector<SchoolPingRow> corrected_rows(const std::vector<std::vector<Measured>>& pings,
+std::vector<SchoolPingRow> corrected_rows(const std::vector<std::vector<MeasuredMask>>& pings,
                                           const MeasureParams& params) {
   std::map<std::int64_t, SchoolThroughPings> by_number;
-  for (const std::vector<Measured>& ping : pings) {
-    for (const Measured& one : ping) by_number[one.school.row.school_id].push_back(&one.school);
+  for (const std::vector<MeasuredMask>& ping : pings) {
+    for (const MeasuredMask& one : ping) by_number[one.school.row.school_id].push_back(&one.school);
   }
   std::vector<SchoolThroughPings> schools;
   for (auto& [number, school] : by_number) schools.push_back(std::move(school));
@@ -239,7 +229,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   std::sort(schools.begin(), schools.end(),
             [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
   const std::vector<MeasuredPing> pings = by_ping(schools);
-  std::vector<std::vector<Measured>> rows(pings.size());
+  std::vector<std::vector<MeasuredMask>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
   const double area = two_way_area(engine.grid(), engine.beam_figures().psi_used_db, engine.recipe().measure);
@@ -259,7 +249,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   Faults faults;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!problems[i].empty()) note_unreadable(pings[i].first, problems[i], product);
-    for (Measured& one : rows[i]) {
+    for (MeasuredMask& one : rows[i]) {
       faults[{one.school.row.school_id, one.school.row.ping_index}] = std::move(one.fault);
     }
   }
@@ -268,6 +258,15 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   summarise_schools(schools, engine.recipe(), product);
   take_masks(schools, faults, product);
   return {};
+}
+
+std::vector<std::int64_t> pings_to_measure(const Engine& engine, const std::vector<SchoolMasks>& schools,
+                                           const MeasuredPings& before) {
+  std::vector<std::int64_t> wanted;
+  for (const auto& [ping_index, refs] : by_ping(schools)) {
+    if (kept_rows(&before, engine, ping_index, refs) == nullptr) wanted.push_back(ping_index);
+  }
+  return wanted;
 }
 
 }  // namespace sonar

@@ -11,6 +11,7 @@
 #include "base/work.h"
 #include "model/product.h"
 #include "pipeline/stages/engine.h"
+#include "pipeline/stages/measured_pings.h"
 
 namespace sonar {
 
@@ -42,26 +43,14 @@ struct SchoolMasks {
 /// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.
 [[nodiscard]] std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid);
 
-/// Rows of pings, kept from one measuring to the next: a ping whose masks and numbers are the same is not measured again.
-/// threads  one measuring at a time
-class MeasuredPings {
- public:
-  MeasuredPings();
-  ~MeasuredPings();
-  MeasuredPings(const MeasuredPings&) = delete;
-  MeasuredPings& operator=(const MeasuredPings&) = delete;
-
-  struct Kept;
-  [[nodiscard]] Kept& kept() { return *kept_; }
-
- private:
-  std::unique_ptr<Kept> kept_;
-};
-
 /// Measures every ping of numbered schools and summarises. Rows and masks are put into the product, sorted.
 /// before  of the same engine, or of one that keeps keys of its pings; null = everything is measured
 /// errors  cancelled. A ping that cannot be read any more loses its masks; it is noted and marked bad.
 [[nodiscard]] Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools,
                                            ObservationProduct& product, Work& work, MeasuredPings* before = nullptr);
+
+/// Pings that measure_schools() would have to measure, rising: their backgrounds must be estimated before.
+[[nodiscard]] std::vector<std::int64_t> pings_to_measure(const Engine& engine, const std::vector<SchoolMasks>& schools,
+                                                         const MeasuredPings& before);
 
 }  // namespace sonar

@@ -24,7 +24,7 @@ void LevelMoments::add(double azimuth_rad, std::span<const double, 5> of_range) 
   double x = 1.0;
   for (std::size_t i = 0; i < 5; ++i, x *= std::cos(azimuth_rad)) {
     double xy = x;
-    for (std::size_t j = 0; i + j < 5; ++j, xy *= std::sin(azimuth_rad)) sums_[i][j] += xy * of_range[i + j];
+    for (std::size_t j = 0; i + j < 5; ++j, xy *= std::sin(azimuth_rad)) sums[i][j] += xy * of_range[i + j];
   }
 }
 
@@ -36,7 +36,7 @@ LevelMoments::Cumulants LevelMoments::along(double axis_rad, const Point<Sonar>&
   for (std::size_t k = 0; k < 5; ++k) {
     for (std::size_t j = 0; j <= k; ++j) {
       raw[k] += kBinomial[k][j] * std::pow(x, static_cast<double>(k - j)) * std::pow(y, static_cast<double>(j)) *
-                sums_[k - j][j];
+                sums[k - j][j];
     }
   }
   if (!(raw[0] > 0.0)) return {};

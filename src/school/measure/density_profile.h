@@ -11,8 +11,7 @@ namespace sonar {
 
 /// Moments of an echo over slant range and azimuth, to the fourth: they tell along any level axis how its density changes
 /// from core to margin. All fans lie in one plane, so that what the beam blurs upright has no part in them.
-class LevelMoments {
- public:
+struct LevelMoments {
   struct Cumulants {
     double variance = 0.0;  ///< m^2
     double fourth = 0.0;    ///< fourth cumulant, m^4
@@ -25,8 +24,7 @@ class LevelMoments {
   /// centre    of the echo
   [[nodiscard]] Cumulants along(double axis_rad, const Point<Sonar>& centre) const;
 
- private:
-  std::array<std::array<double, 5>, 5> sums_{};  ///< weight x x^i y^j, i + j <= 4
+  std::array<std::array<double, 5>, 5> sums{};  ///< weight x x^i y^j, i + j <= 4
 };
 
 /// What one sighting tells of a body along one axis.

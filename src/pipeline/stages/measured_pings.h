@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/hash.h"
+#include "pipeline/survey/survey.h"
+#include "school/measure/measure.h"
+
+namespace sonar {
+
+/// A school in one ping, and which members of its mask are faulty.
+struct MeasuredMask {
+  MeasuredSchool school;
+  std::vector<bool> fault;
+};
+
+/// What was measured of an observation's pings, kept from one measuring to the next: a ping whose masks and numbers are the
+/// same is not measured again.
+/// threads  one measuring at a time
+struct MeasuredPings {
+  /// By ping_index: everything that its rows depend on, and one entry for each of its schools.
+  std::map<std::int64_t, std::pair<Hash128, std::vector<MeasuredMask>>> pings;
+  bool changed = false;  ///< since they were read from a file, or kept in one
+};
+
+// A survey that is opened again is not measured again: what was measured last is kept in the user's cache.
+
+/// Where an observation's is kept: one file each, written over when it is stale. Empty without a cache.
+[[nodiscard]] std::filesystem::path measured_file(const IndexCache& cache, const SurveyFiles& survey,
+                                                  const ObservationFiles& observation);
+/// Nothing where there is no such file, it was made of other pings or in another way, or it is damaged.
+/// key  observation_key() of pings and recipe, without a journal
+[[nodiscard]] MeasuredPings kept_measured(const std::filesystem::path& file, const std::string& key);
+/// What cannot be kept is measured again.
+void keep_measured(const std::filesystem::path& file, const std::string& key, MeasuredPings& measured);
+
+}  // namespace sonar
