@@ -25,7 +25,7 @@ Document::Document(ChangeQueue& queue, DocumentOptions options)
 
 Document::~Document() {
   cancel();
-  for (const auto& [index, job] : measuring_) job.cancel();
+  keep_measures();
 }
 
 void Document::tell(std::string notice) {
@@ -78,7 +78,7 @@ OpenObservationPtr Document::opened(std::size_t index) {
   chosen_on =
       std::make_shared<OpenObservation>(survey_, index, options_.recipe, options_.prefetch, options_.memory_bytes);
   observation = calibrated(chosen_on);
-  measured_[index] = std::make_shared<MeasuredPings>();
+  measured_[index] = std::make_shared<KeptMeasures>();
   unreplayed_.insert(index);
   if (staged_) replay_journal();
   return observation;

@@ -37,7 +37,10 @@ struct DocumentOptions {
   /// Where the journal of a survey in this folder goes: the first that can be written to holds it.
   std::function<std::vector<std::filesystem::path>(const std::filesystem::path& survey)> journal_folders;
   std::function<TimeNs()> clock;  ///< UTC now
-  std::int64_t prefetch = 5;      ///< pings to each side that are made ahead
+  /// Observation and ping that a survey, as it was named, was left at: it begins there. Empty = at its first observation.
+  std::function<std::optional<std::pair<std::string, std::int64_t>>(const std::vector<std::filesystem::path>& named)>
+      left_at;
+  std::int64_t prefetch = 5;  ///< pings to each side that are made ahead
   int threads = 0;
   std::uint64_t memory_bytes = 0;  ///< for the pings of the observation on show; 0 = half of the machine's
 };
@@ -199,15 +202,22 @@ class Document {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
   };
+  /// What was measured of an observation, in this session and, once read from the cache, before it.
+  struct KeptMeasures {
+    MeasuredPings measured;
+    bool read = false;
+  };
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
   void end_opening(const Error& error, const CancelToken& token);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
   [[nodiscard]] std::string key_of(const SurveyFiles& survey, const ObservationFiles& observation, Recipe recipe) const;
+  [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   [[nodiscard]] std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_folders,
                                                const SurveyFiles& survey, const Recipe& recipe) const;
   void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place,
                    const std::set<std::size_t>& found);
+  void begin_where_it_was_left(std::size_t first);
   void await_schools(const std::vector<JournalLine>& lines, const std::set<std::size_t>& found);
   void take_choices(ChoicesShown shown);
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
@@ -224,8 +234,9 @@ class Document {
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
   void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
+                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
                       const CancelToken& token, Work& work);
+  void keep_measures();
   void take_measured();
   void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
@@ -266,7 +277,7 @@ class Document {
   std::map<std::size_t, RefusedPtr> refused_;                      ///< those of them that are no school now
   std::map<std::size_t, ProductPtr> products_;
   std::vector<SurveyNumber> survey_numbers_;
-  std::map<std::size_t, std::shared_ptr<MeasuredPings>> measured_;
+  std::map<std::size_t, std::shared_ptr<KeptMeasures>> measured_;
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   struct Measuring {

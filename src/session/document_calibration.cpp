@@ -37,7 +37,7 @@ void Document::follow_calibration() {
   calibration_ = std::move(calibration);
   for (auto& [index, observation] : open_) {
     observation = calibrated(chosen_on_.at(index));
-    measured_[index] = std::make_shared<MeasuredPings>();
+    measured_[index] = std::make_shared<KeptMeasures>();
   }
   tell(calibration_ ? "Sv and measures follow the chosen calibration; masks and decisions stay (undo takes it back)"
                     : "Sv and measures follow the calibration that the journal began with");

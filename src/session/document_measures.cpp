@@ -53,20 +53,23 @@ void Document::measure(std::size_t index) {
 }
 
 void Document::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                              const std::vector<JournalLine>& lines, const RefusedPtr& refused, MeasuredPings& kept,
+                              const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
                               const CancelToken& token, Work& work) {
   GivesWay give_way(way_);
-  for (const auto& school : state.schools) {
-    for (const auto& there : school->masks.pings) {
-      give_way();
-      if (token.cancelled()) return;
-      observation->estimate_background(there.ping_index);
-    }
+  if (!kept.read) {
+    kept.measured =
+        kept_measured(measured_file(options_.cache, observation->survey(), observation->files()), key_of(*observation));
+    kept.read = true;
+  }
+  for (const std::int64_t ping_index : pings_to_measure(observation->engine(), state, kept.measured)) {
+    give_way();
+    if (token.cancelled()) return;
+    observation->estimate_background(ping_index);
   }
   const std::vector<JournalLine> effective = effective_lines(lines);
   auto product = within_memory([&] {
-    return state_product(observation->engine(), state, {effective, options_.program_version, false, &kept, *refused},
-                         work);
+    return state_product(observation->engine(), state,
+                         {effective, options_.program_version, false, &kept.measured, *refused}, work);
   });
   if (!product) {
     if (product.error().code != ErrorCode::no_space) return;
@@ -74,6 +77,22 @@ void Document::measure_behind(const OpenObservationPtr& observation, const Journ
   }
   auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
   post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+}
+
+std::string Document::key_of(OpenObservation& observation) const {
+  return key_of(observation.survey(), observation.files(), observation.engine().recipe());
+}
+
+/// For the next time the survey is opened.
+void Document::keep_measures() {
+  for (const auto& [index, job] : measuring_) job.cancel();
+  measures_.wait();
+  for (const auto& [index, kept] : measured_) {
+    if (!kept->measured.changed) continue;
+    OpenObservation& observation = *open_.at(index);
+    const auto file = measured_file(options_.cache, observation.survey(), observation.files());
+    keep_measured(file, key_of(observation), kept->measured);
+  }
 }
 
 void Document::take_measured() {

@@ -142,6 +142,7 @@ std::set<std::size_t> Document::found_in(const std::vector<std::filesystem::path
 
 void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place,
                            const std::set<std::size_t>& found) {
+  keep_measures();
   choices_thread_.reset();
   chosen_on_.clear();
   unreadable_.clear();
@@ -186,7 +187,17 @@ void Document::take_survey(std::shared_ptr<const SurveyFiles> survey, Result<Jou
     return tell(nothing_shown());
   }
   await_schools(lines, found);
-  (void)show(static_cast<std::size_t>(first - all.begin()));
+  begin_where_it_was_left(static_cast<std::size_t>(first - all.begin()));
+}
+
+/// first  observation with a grid
+void Document::begin_where_it_was_left(std::size_t first) {
+  const auto left = options_.left_at ? options_.left_at(named_) : std::nullopt;
+  const auto& all = survey_->observations;
+  const auto there =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return left && one.name == left->first; });
+  if (there != all.end() && show(static_cast<std::size_t>(there - all.begin()), left->second)) return;
+  (void)show(first);
 }
 
 /// After the first picture come the schools that the journal asks for, and those that a run found.
