@@ -57,5 +57,13 @@ TEST(Manual, TheGuideOfATreeIsItsPageAndElsewhereThereIsNone) {
   EXPECT_EQ(guide_place(""), "");
 }
 
+TEST(Manual, WhatIsNewLiesBesideTheGuideAndAboveItInATree) {
+  const fs::path whole = tree_with({"usr/share/doc/sonarx/html/CHANGELOG.html", "usr/share/doc/sonarx/CHANGELOG.md"});
+  EXPECT_EQ(changes_place(whole / "usr/bin/sonar-explorer"), whole / "usr/share/doc/sonarx/html/CHANGELOG.html");
+  const fs::path root = tree_with({"CHANGELOG.md", "src/base/manual.h"});
+  EXPECT_EQ(changes_place(root / "build/dev/src/gui/sonar-explorer"), root / "CHANGELOG.md");
+  EXPECT_EQ(changes_place(tree_with({"CHANGELOG.md"}) / "bin/sonar-explorer"), "") << "another program's";
+}
+
 }  // namespace
 }  // namespace sonar

@@ -7,11 +7,22 @@
 #include <utility>
 
 #include "session/app_parts.h"
+#include "session/recent_surveys.h"
 
 namespace sonar {
+namespace {
+
+/// A survey begins where its user left it.
+DocumentOptions with_left_at(DocumentOptions options, const Preferences& preferences) {
+  options.left_at = [&preferences](const auto& named) { return preferences.left_at_of(named); };
+  return options;
+}
+
+}  // namespace
 
 AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
-    : workspace(queue, std::move(options)),
+    : workspace(queue, with_left_at(std::move(options), preferences)),
+      thumbnails(std::make_shared<KeptThumbnails>(*this)),
       transfer(std::make_unique<TransferEditor>(workspace)),
       panel(control_panel(workspace)) {
   add_slices(*this);

@@ -18,6 +18,7 @@ namespace sonar {
 
 class BrushTool;
 class FirstSight;
+class KeptThumbnails;
 class LiveWatch;
 class Playback;
 class SeedTool;
@@ -66,6 +67,7 @@ class AppModel {
   std::shared_ptr<LiveWatch> live;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
+  std::shared_ptr<KeptThumbnails> thumbnails;
   std::unique_ptr<TransferEditor> transfer;  ///< on top of the control panel
   std::vector<PanelSection> panel;
 

@@ -38,9 +38,10 @@ template <class P>
 /// ending  of its name: "-out"
 [[nodiscard]] std::string asked_folder(AppModel& app, const std::string& title, const std::string& ending);
 
-/// Shows the guide to the desktop, or tells why it cannot.
-/// page  as guide_place() has it
-void show_guide(AppModel& app, const std::filesystem::path& page);
+/// Shows a page of the manual, or tells why it cannot.
+/// page     where it lies; empty = nowhere
+/// in_tree  its place in a source tree
+void show_page(AppModel& app, const std::filesystem::path& page, const char* in_tree);
 
 /// Writes the preferences with what the window shows now; what hinders it is told once.
 void keep_preferences(AppModel& app);

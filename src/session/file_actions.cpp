@@ -225,8 +225,12 @@ void add_exports(AppModel& app) {
                      if (app.dialogs.quit) app.dialogs.quit();
                    }});
   app.workspace.document.changes().add([&app](DocumentChange change) {
-    if (change != DocumentChange::survey || app.workspace.document.survey() == nullptr) return;
-    app.preferences.remember(app.workspace.document.named());
+    const Document& document = app.workspace.document;
+    if (change == DocumentChange::looking && document.shown()) {
+      app.preferences.set_left_at(document.named(), document.shown()->name(), document.ping());
+    }
+    if (change != DocumentChange::survey || document.survey() == nullptr) return;
+    app.preferences.remember(document.named());
     keep_preferences(app);
   });
 }

@@ -61,5 +61,28 @@ TEST_F(FirstSightOfASurvey, WhoHasGoneElsewhereStaysThere) {
   EXPECT_EQ(document().ping(), 7);
 }
 
+TEST_F(FirstSightOfASurvey, IsWhereItsUserLeftItBefore) {
+  begin();
+  ASSERT_TRUE(document().show(1, 7));
+  document().settle();
+  const Preferences kept = app_->preferences;
+  begin();
+  ASSERT_EQ(document().shown()->index(), 0U) << "another user's window";
+  app_->preferences = kept;
+  document().open({TestSurvey::easy().folder()});
+  document().settle();
+  EXPECT_EQ(document().shown()->index(), 1U);
+  EXPECT_EQ(document().ping(), 7);
+}
+
+TEST_F(FirstSightOfASurvey, IsTheFirstPingWhereTheObservationIsGone) {
+  begin();
+  app_->preferences.set_left_at({TestSurvey::easy().folder()}, "obs-0099", 7);
+  document().open({TestSurvey::easy().folder()});
+  document().settle();
+  EXPECT_EQ(document().shown()->index(), 0U);
+  EXPECT_EQ(document().ping(), 0);
+}
+
 }  // namespace
 }  // namespace sonar

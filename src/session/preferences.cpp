@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t kMostCharts = 100;
+constexpr std::size_t kMostCharts = 100;  ///< and places that surveys were left at
 constexpr std::size_t kMostFiles = 10000;
 
 /// Visitor: takes from JSON what fits and passes over the rest; what was called otherwise before is noted.
@@ -129,6 +129,16 @@ void read_charts(const json& from, Preferences& to) {
   }
 }
 
+void read_left_at(const json& from, Preferences& to) {
+  const auto found = from.find("left_at");
+  if (found == from.end() || !found->is_object()) return;
+  for (const auto& [survey, place] : found->items()) {
+    const bool sound = place.is_array() && place.size() == 2 && place[0].is_string() && place[1].is_number_integer();
+    if (sound && to.left_at.size() < kMostCharts)
+      to.left_at[survey] = {place[0].get<std::string>(), place[1].get<std::int64_t>()};
+  }
+}
+
 void read_curves(const json& from, Preferences& to) {
   const auto curve = [&from](const char* name) -> std::optional<TransferFunction> {
     const auto found = from.find(name);
@@ -190,6 +200,7 @@ LoadedPreferences Preferences::load(const fs::path& path) {
   read_lists(*from, loaded.preferences);
   read_curves(*from, loaded.preferences);
   read_charts(*from, loaded.preferences);
+  read_left_at(*from, loaded.preferences);
   return loaded;
 }
 
@@ -203,6 +214,7 @@ Result<void> Preferences::save() const {
   if (growth_curve) to["growth_curve"] = to_json(*growth_curve);
   to["species"] = species;
   to["charts"] = charts;
+  to["left_at"] = left_at;
   to["recent"] = json::array();
   for (const auto& paths : recent) {
     json texts = json::array();
@@ -254,6 +266,18 @@ void Preferences::set_chart(const fs::path& survey, const fs::path& raster) {
   } else if (charts.size() < kMostCharts || charts.contains(name)) {
     charts[name] = whole_path(raster).string();
   }
+}
+
+std::optional<std::pair<std::string, std::int64_t>> Preferences::left_at_of(const std::vector<fs::path>& survey) const {
+  const auto found = survey.empty() ? left_at.end() : left_at.find(whole_path(survey.front()).string());
+  return found == left_at.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Preferences::set_left_at(const std::vector<fs::path>& survey, const std::string& observation, std::int64_t ping) {
+  if (survey.empty()) return;
+  const std::string name = whole_path(survey.front()).string();
+  if (left_at.size() >= kMostCharts && !left_at.contains(name)) left_at.erase(left_at.begin());
+  left_at[name] = {observation, ping};
 }
 
 void Preferences::remember(std::vector<fs::path> opened) {

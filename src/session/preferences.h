@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -33,6 +35,8 @@ struct Preferences {
   std::optional<TransferFunction> growth_curve;  ///< empty = the default
   bool curves_linked = false;
   std::map<std::string, std::string> charts;  ///< survey -> its raster of depths
+  /// Survey -> observation and ping that it was left at.
+  std::map<std::string, std::pair<std::string, std::int64_t>> left_at;
   std::string operator_name;
   double memory_gb = 0.0;  ///< for the pings of the observation on show, 10^9 bytes; 0 = half of the machine's
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
@@ -52,6 +56,9 @@ struct Preferences {
   /// The raster of depths that was last chosen for a survey; empty = none.
   [[nodiscard]] std::filesystem::path chart_of(const std::filesystem::path& survey) const;
   void set_chart(const std::filesystem::path& survey, const std::filesystem::path& raster);
+  [[nodiscard]] std::optional<std::pair<std::string, std::int64_t>> left_at_of(
+      const std::vector<std::filesystem::path>& survey) const;
+  void set_left_at(const std::vector<std::filesystem::path>& survey, const std::string& observation, std::int64_t ping);
   /// What was opened comes first among the recent.
   void remember(std::vector<std::filesystem::path> opened);
 };

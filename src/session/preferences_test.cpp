@@ -42,6 +42,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
   out.set_chart("/data/one", "/charts/gebco.nc");
   out.set_chart("/data/two", "/charts/emodnet.tif");
+  out.set_left_at({"/data/one"}, "obs-0003", 17);
   out.set_chart("/data/two", {});
   out.remember({"/data/one"});
   out.remember({"/data/a.raw", "/data/b.raw"});
@@ -62,6 +63,8 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   in.preferences.apply(workspace);
   EXPECT_TRUE(workspace.dark());
   EXPECT_EQ(in.preferences.chart_of("/data/one/."), "/charts/gebco.nc");
+  EXPECT_EQ(in.preferences.left_at_of({"/data/one/."}), (std::pair<std::string, std::int64_t>{"obs-0003", 17}));
+  EXPECT_EQ(in.preferences.left_at_of({"/data/two"}), std::nullopt);
   EXPECT_EQ(in.preferences.chart_of("/data/two"), "");
   EXPECT_FALSE(workspace.curve_follows_scale());
   EXPECT_EQ(workspace.view_curve(), *out.view_curve);

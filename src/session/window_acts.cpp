@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <utility>
@@ -58,9 +60,9 @@ void add_view_switches(AppModel& app) {
 
 }  // namespace
 
-void show_guide(AppModel& app, const std::filesystem::path& page) {
+void show_page(AppModel& app, const std::filesystem::path& page, const char* in_tree) {
   Document& document = app.workspace.document;
-  if (page.empty()) return document.tell("the guide was not installed with this program; its page is docs/guide.md");
+  if (page.empty()) return document.tell(fmt::format("this page was not installed with the program: {}", in_tree));
   if (!app.dialogs.show_page || app.dialogs.show_page(page)) return;
   document.tell("no program here shows " + page.string());
 }
@@ -84,8 +86,11 @@ void add_window_acts(AppModel& app) {
       toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", app.workspace.latencies));
   app.actions.add(
       {"help.guide", kHelp, "Guide", {}, "The guide to the desktop, from opening a survey to its map", [&app] {
-         show_guide(app, guide_place());
+         show_page(app, guide_place(), "docs/guide.md");
        }});
+  app.actions.add({"help.new", kHelp, "What's new", {}, "What each version brought", [&app] {
+                     show_page(app, changes_place(), "CHANGELOG.md");
+                   }});
   app.actions.add({"help.keys", kHelp, "Keys", {"F1"}, "Every key and what it does", asked(app, &Dialogs::show_keys)});
   app.actions.add({"help.about", kHelp, "About", {}, "Version and licences", asked(app, &Dialogs::show_about)});
 }

@@ -23,14 +23,14 @@ TEST(Guide, IsShownOutsideTheProgramElseALineSaysWhy) {
     return can;
   };
   const auto& told = app.workspace.document.notices();
-  show_guide(app, "/doc/guide.html");
+  show_page(app, "/doc/guide.html", "docs/guide.md");
   EXPECT_EQ(shown, std::vector<fs::path>{"/doc/guide.html"});
   EXPECT_TRUE(told.empty());
   can = false;
-  show_guide(app, "/doc/guide.html");
+  show_page(app, "/doc/guide.html", "docs/guide.md");
   ASSERT_EQ(told.size(), 1U);
   EXPECT_THAT(told.back(), HasSubstr("/doc/guide.html"));
-  show_guide(app, {});
+  show_page(app, {}, "docs/guide.md");
   ASSERT_EQ(told.size(), 2U);
   EXPECT_THAT(told.back(), HasSubstr("not installed"));
   EXPECT_EQ(shown.size(), 2U) << "nothing is shown where there is nothing";

@@ -83,6 +83,9 @@ TEST_F(Surroundings, TheGuideIsShownOutsideTheProgram) {
   };
   trigger("help.guide");
   EXPECT_EQ(shown, guide_place());
+  trigger("help.new");
+  EXPECT_EQ(shown, changes_place());
+  EXPECT_EQ(shown.filename(), "CHANGELOG.md");
 }
 
 TEST_F(Surroundings, ADemoThatWasMadeOpensWithItsDepthChart) {

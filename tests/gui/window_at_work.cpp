@@ -18,6 +18,7 @@ void WindowAtWork::open() {
   DocumentOptions options = TestSurvey::options(journal_);
   options.recipe = recipe_;
   app_ = std::make_unique<AppModel>(pump_->queue(), std::move(options));
+  app_->preferences = preferences_;
   // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
   VolumeParams quick;
   quick.frames = 1;
@@ -27,7 +28,7 @@ void WindowAtWork::open() {
   window_->show();
   window_->activateWindow();  // keys go to the window that is active
   ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
-  document().open({survey_});
+  if (!survey_.empty()) document().open({survey_});
   settle();
 }
 

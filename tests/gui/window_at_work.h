@@ -113,9 +113,10 @@ class WindowAtWork : public testing::Test {
     return document().state().schools.at(0)->masks.pings;
   }
 
-  std::filesystem::path survey_ = TestSurvey::easy().folder();
+  std::filesystem::path survey_ = TestSurvey::easy().folder();  ///< empty = none is opened
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
   Recipe recipe_;  ///< that the window works under
+  Preferences preferences_;
   Gate gate_;
   std::unique_ptr<QueuePump> pump_;
   std::unique_ptr<AppModel> app_;

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/start_page.h"
+
+#include <QAction>
+#include <QEvent>
+#include <QGridLayout>
+#include <QIcon>
+#include <QLabel>
+#include <QPixmap>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <array>
+#include <functional>
+#include <utility>
+
+#include "gui/action_menus.h"
+#include "session/recent_surveys.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::array<std::pair<const char*, const char*>, 5> kBeginnings{
+    {{"file.open_folder", "Open a folder of raw files, or of results…"},
+     {"file.open_files", "Open some raw files…"},
+     {"file.demo", "Open the demo survey"},
+     {"help.guide", "Read the guide"},
+     {"help.keys", "See all keys"}}};
+
+constexpr const char* kSteps =
+    "<ol style=\"margin-left:-24px\">"
+    "<li><b>Open</b> a survey: drop its folder here, or a folder of results with its schools.</li>"
+    "<li><b>Find schools</b>: Ctrl+D detects them in all pings; or click on one in a slice, and Ctrl+P follows it.</li>"
+    "<li><b>Review and export</b>: A accepts, R rejects; Ctrl+E writes tables, masks and the map.</li></ol>";
+
+constexpr const char* kInstruments =
+    "Simrad MS70: schools are detected, followed and measured. ME70 and similar sonars: the same where the beams form "
+    "fans. EK60: read, but schools are not detected in single beams yet. EK80: named, but not read yet.";
+
+class StartPage : public QWidget {
+ public:
+  StartPage(QMainWindow& window, AppModel& app) : QWidget(&window), window_(window), app_(app) {
+    setObjectName("start_page");
+    setAutoFillBackground(true);
+    auto* page = new QGridLayout(this);
+    page->setContentsMargins(40, 24, 40, 24);
+    page->setHorizontalSpacing(48);
+    page->setColumnStretch(0, 1);
+    page->setColumnStretch(1, 1);
+    page->setRowStretch(2, 1);
+    page->addWidget(heading("Sonar Explorer", 2.0), 0, 0);
+    page->addLayout(beginnings(), 1, 0, Qt::AlignTop);
+    page->addLayout(recent_, 1, 1, 2, 1, Qt::AlignTop);
+    page->addWidget(heading("Opened before", 1.3), 0, 1, Qt::AlignBottom);
+    window.installEventFilter(this);
+    app.workspace.document.changes().add([this](DocumentChange change) {
+      if (change == DocumentChange::survey || change == DocumentChange::progress || change == DocumentChange::glance)
+        follow();
+    });
+    follow();
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show)
+      place();
+    return QWidget::eventFilter(watched, event);
+  }
+
+ private:
+  QLabel* heading(const QString& text, double size) {
+    auto* label = new QLabel(text, this);
+    QFont font = label->font();
+    font.setPointSizeF(size * font.pointSizeF());
+    label->setFont(font);
+    return label;
+  }
+  QLabel* words(const QString& html, const char* name) {
+    auto* label = new QLabel(html, this);
+    label->setObjectName(name);
+    label->setWordWrap(true);
+    return label;
+  }
+
+  QVBoxLayout* beginnings() {
+    auto* column = new QVBoxLayout;
+    for (const auto& [id, text] : kBeginnings) {
+      QAction* action = find_action(window_, id);
+      auto* button = new QPushButton(text, this);
+      button->setObjectName(QString("start.") + id);
+      button->setToolTip(action->toolTip());
+      QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
+      column->addWidget(button, 0, Qt::AlignLeft);
+    }
+    column->addSpacing(16);
+    column->addWidget(heading("Three steps", 1.3));
+    column->addWidget(words(kSteps, "start.steps"));
+    column->addWidget(words(kInstruments, "start.instruments"));
+    return column;
+  }
+
+  /// As they are now: a survey that was just closed has a new thumbnail.
+  void show_recent() {
+    while (QLayoutItem* item = recent_->takeAt(0)) {
+      delete item->widget();
+      delete item;
+    }
+    const std::vector<RecentSurvey> surveys = recent_surveys(app_);
+    for (std::size_t i = 0; i < surveys.size(); ++i) recent_->addWidget(recent_button(surveys[i], i));
+    if (surveys.empty()) recent_->addWidget(words("Nothing yet.", "start.nothing"));
+  }
+
+  QToolButton* recent_button(const RecentSurvey& survey, std::size_t index) {
+    auto* button = new QToolButton(this);
+    button->setObjectName(QString("start.recent.%1").arg(index + 1));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setIconSize(QSize(kThumbnail.width, kThumbnail.height) / 3);
+    QPixmap picture(kThumbnail.width, kThumbnail.height);
+    picture.fill(Qt::transparent);
+    if (!survey.thumbnail.empty()) picture.load(QString::fromStdString(survey.thumbnail.string()));
+    button->setIcon(picture);
+    QString place = QString::fromStdString(survey.place);
+    if (!survey.there) place += " (not there now)";
+    button->setText(QString::fromStdString(survey.name) + "\n" + place);
+    button->setEnabled(survey.there);
+    button->setAccessibleName("Open " + QString::fromStdString(survey.name) + " in " + place);
+    QObject::connect(button, &QToolButton::clicked, button,
+                     [this, index] { app_.workspace.document.open(app_.preferences.recent.at(index)); });
+    return button;
+  }
+
+  void follow() {
+    const Document& document = app_.workspace.document;
+    const bool wanted = document.survey() == nullptr && !document.glance() && document.progress().stage.empty();
+    if (wanted && !seen_) show_recent();
+    seen_ = wanted;
+    setVisible(wanted);
+    if (wanted) place();
+  }
+
+  /// Between the tool bars and the status line.
+  void place() {
+    if (!seen_) return;
+    int top = 0;
+    for (const auto* bar : window_.findChildren<QToolBar*>()) {
+      if (bar->isVisible() && window_.toolBarArea(bar) == Qt::TopToolBarArea)
+        top = std::max(top, bar->geometry().bottom() + 1);
+    }
+    const int bottom = window_.statusBar()->geometry().top();
+    setGeometry(0, top, window_.width(), std::max(0, bottom - top));
+    raise();
+  }
+
+  QMainWindow& window_;
+  AppModel& app_;
+  QVBoxLayout* recent_ = new QVBoxLayout;
+  bool seen_ = false;
+};
+
+}  // namespace
+
+void add_start_page(QMainWindow& window, AppModel& app) { new StartPage(window, app); }
+
+}  // namespace sonar

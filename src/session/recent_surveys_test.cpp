@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/recent_surveys.h"
+
+#include <gtest/gtest.h>
+
+#include "render/draw_frame.h"
+#include "session/test_survey.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(RecentSurveys, AThumbnailIsTheMeanOfTheMiddle) {
+  // Twice as wide as the thumbnail's shape: of each side a quarter is left out.
+  Image image({4 * kThumbnail.width, 2 * kThumbnail.height}, {255, 0, 0, 255});
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = kThumbnail.width; x < 3 * kThumbnail.width; ++x) {
+      image.at(x, y) = {static_cast<std::uint8_t>(100 + 2 * (x % 2) + 4 * (y % 2)), 20, 30, 255};
+    }
+  }
+  const Image small = reduced(image, kThumbnail);
+  ASSERT_EQ(small.size, kThumbnail);
+  for (const Rgba8& one : small.pixels) EXPECT_EQ(one, (Rgba8{103, 20, 30, 255}));
+}
+
+TEST(RecentSurveys, APictureSmallerThanAThumbnailIsEnlarged) {
+  const Image small = reduced(Image({5, 3}, {1, 2, 3, 255}), kThumbnail);
+  for (const Rgba8& one : small.pixels) EXPECT_EQ(one, (Rgba8{1, 2, 3, 255}));
+}
+
+TEST(RecentSurveys, WhatIsClearHasNoColourInTheMean) {
+  Image image({2 * kThumbnail.width, kThumbnail.height * 2}, {9, 9, 9, 0});
+  for (std::size_t i = 0; i < image.pixels.size(); i += 2) image.pixels[i] = {200, 100, 50, 255};
+  for (const Rgba8& one : reduced(image, kThumbnail).pixels) EXPECT_EQ(one, (Rgba8{200, 100, 50, 128}));
+}
+
+class OpenedBefore : public testing::Test {
+ protected:
+  std::unique_ptr<AppModel> begin() {
+    DocumentOptions options = TestSurvey::options(folder_);
+    options.cache.folder = folder_ / "cache";
+    return std::make_unique<AppModel>(queue_, options);
+  }
+  fs::path folder_ = TestSurvey::easy().fresh();
+  ChangeQueue queue_;
+};
+
+TEST_F(OpenedBefore, IsListedWithItsPictureAndToldWhereItIsGone) {
+  Preferences kept;
+  {
+    const auto app = begin();
+    LivePicture* slice = app->picture("top_slice");
+    slice->resize({640, 400}, 1.0);
+    slice->set_seen(true);
+    app->workspace.document.open({TestSurvey::easy().folder()});
+    app->workspace.document.settle();
+    slice->wait();
+    queue_.drain();
+    ASSERT_FALSE(slice->image().pixels.empty());
+    EXPECT_TRUE(recent_surveys(*app).front().thumbnail.empty()) << "it is open: nothing was kept yet";
+    kept = app->preferences;
+  }
+  const auto app = begin();
+  app->preferences = kept;
+  app->preferences.remember({folder_ / "gone" / "a.raw", folder_ / "gone" / "b.raw"});
+  const auto surveys = recent_surveys(*app);
+  ASSERT_EQ(surveys.size(), 2U);
+  EXPECT_EQ(surveys[0].name, "a.raw");
+  EXPECT_FALSE(surveys[0].there);
+  EXPECT_EQ(surveys[0].place, (folder_ / "gone").string() + ", with 1 more");
+  EXPECT_EQ(surveys[1].name, TestSurvey::easy().folder().filename().string());
+  EXPECT_TRUE(surveys[1].there);
+  const auto picture = read_png(surveys[1].thumbnail);
+  ASSERT_TRUE(picture) << surveys[1].thumbnail;
+  EXPECT_EQ(picture->size, kThumbnail);
+}
+
+}  // namespace
+}  // namespace sonar

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+/// A window in which nothing is open yet.
+class StartPage : public WindowAtWork {
+ protected:
+  void SetUp() override {
+    survey_.clear();
+    open();
+  }
+  [[nodiscard]] QWidget* page() { return window_->findChild<QWidget*>("start_page"); }
+};
+
+TEST_F(StartPage, LiesOverTheDocksUntilASurveyIsOpen) {
+  ASSERT_TRUE(page()->isVisible());
+  EXPECT_GE(page()->height(), window_->height() / 2);
+  EXPECT_EQ(page()->width(), window_->width());
+  auto* steps = window_->findChild<QLabel*>("start.steps");
+  EXPECT_TRUE(steps->isVisible());
+  EXPECT_GE(steps->height(), steps->heightForWidth(steps->width())) << "no line is cut";
+  document().open({TestSurvey::easy().folder()});
+  settle();
+  EXPECT_FALSE(page()->isVisible());
+  EXPECT_TRUE(view("top_slice")->isVisible());
+}
+
+TEST_F(StartPage, GrowsWithTheWindow) {
+  window_->resize(1500, 950);
+  settle();
+  EXPECT_EQ(page()->width(), window_->width());
+}
+
+TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
+  document().open({TestSurvey::easy().folder()});
+  settle();
+  preferences_ = app_->preferences;
+  close();
+  open();
+  auto* before = window_->findChild<QToolButton*>("start.recent.1");
+  ASSERT_NE(before, nullptr);
+  EXPECT_TRUE(before->text().startsWith(QString::fromStdString(TestSurvey::easy().folder().filename().string())));
+  QTest::mouseClick(before, Qt::LeftButton);
+  settle();
+  ASSERT_NE(document().survey(), nullptr);
+  EXPECT_FALSE(page()->isVisible());
+}
+
+TEST_F(StartPage, IsUsedByKeysAlone) {
+  auto* demo = window_->findChild<QPushButton*>("start.file.demo");
+  auto* folder = window_->findChild<QPushButton*>("start.file.open_folder");
+  folder->setFocus();
+  QTest::keyClick(folder, Qt::Key_Tab);
+  QTest::keyClick(window_->focusWidget(), Qt::Key_Tab);
+  EXPECT_EQ(window_->focusWidget(), demo);
+}
+
+}  // namespace
+}  // namespace sonar
