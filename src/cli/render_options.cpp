@@ -15,8 +15,8 @@
 namespace sonar {
 namespace {
 
-constexpr const char* kOfPing = "slice- volume propagation observation-map";
-constexpr const char* kOfSv = "slice- volume timeline";
+constexpr const char* kOfPing = "slice- volume propagation observation-map echogram";
+constexpr const char* kOfSv = "slice- volume timeline echogram";
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
@@ -48,7 +48,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   };
   suits(verb.add_option("--observation", a.observation, "Observation to draw, e.g. obs-0001; default: the first")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline");
+        "slice- volume propagation observation-map timeline echogram");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
@@ -64,10 +64,10 @@ void add_common(CLI::App& verb, RenderArguments& a) {
       ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   suits(verb.add_option("--fan", a.picture.fan, "Fan from 0, the deepest; default: through the largest school"),
-        "slice-top");
+        "slice-top echogram");
   suits(verb.add_option("--beam", a.picture.beam,
                         "Beam from 0, clockwise (looking to port: from aft); default: through the largest school"),
-        "slice-side");
+        "slice-side echogram");
   suits(verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of --map")
             ->check(named_file()),
         kOfSv);
@@ -140,6 +140,7 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
 void settle_options(const CLI::App& verb, RenderArguments& a) {
   const auto given = [&](const char* option) { return verb.get_option(option)->count() > 0; };
   PictureOptions& picture = a.picture;
+  picture.kind.echogram.along_log = picture.kind.timeline.along_log;
   picture.limits_given = given("--low-db") || given("--span-db");
   if (a.filtered) picture.display.filtered = true;
   if (a.unfiltered) picture.volume.filtered = false;

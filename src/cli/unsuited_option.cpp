@@ -23,6 +23,9 @@ std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const Render
   if (arguments.kind == "timeline" && given("--whole-survey") && given("--observation")) {
     return UnsuitedOption{"--observation", "not together with --whole-survey, which draws all of them"};
   }
+  if (arguments.kind == "echogram" && given("--of-fan") && given("--beam")) {
+    return UnsuitedOption{"--beam", "not together with --of-fan, which takes all beams of the fan"};
+  }
   if (given("--masks-alone") && given("--no-masks")) {
     return UnsuitedOption{"--masks-alone", "not together with --no-masks, which leaves nothing to draw"};
   }

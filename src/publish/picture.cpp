@@ -8,6 +8,7 @@
 
 #include "base/time.h"
 #include "pipeline/recipe/recipe.h"
+#include "publish/echogram_picture.h"
 #include "publish/map_pictures.h"
 #include "publish/slice_pictures.h"
 #include "publish/volume_picture.h"
@@ -59,6 +60,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
                                   const PictureOptions& options, Work& work) {
   if (kind == PictureKind::survey_map) return survey_map_frame(source.observations(), options, work);
   if (kind == PictureKind::timeline) return timeline_frame(drawn, options, work);
+  if (kind == PictureKind::echogram) return echogram_frame(source, *drawn.front(), options, work);
   return observation_frame(kind, *drawn.front(), options, work);
 }
 

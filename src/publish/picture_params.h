@@ -30,7 +30,7 @@ struct TakenOut {
 
 template <class Visitor>
 void describe(Visitor& v, TakenOut& p) {
-  constexpr std::string_view kOfSamples = "slice- volume";
+  constexpr std::string_view kOfSamples = "slice- volume echogram";
   v.field(
       "near_field", p.near_field,
       {.text = "take ringing near the transducer out of the pictures", .flag = "keep-near-field", .suits = kOfSamples});
@@ -72,14 +72,15 @@ struct DisplayParams {
 template <class Visitor>
 void describe(Visitor& v, DisplayParams& p) {
   constexpr std::string_view kOfSamples = "slice- volume";
+  constexpr std::string_view kShown = "slice- volume echogram";
   v.group("scale", p.scale, "how Sv becomes colour");
   v.field("filtered", p.filtered,
           {.text = "slices show Sv after the median filter, on which schools are grown; off = as recorded",
            .flag = kNoFlag});
   v.group("take_out", p.take_out, "what noise removal takes out");
   v.choice("removed", p.removed, kNoiseLookNames,
-           {"how samples that noise removal took out look; volumes leave them out unless they are shown", Tier::expert,
-            kOfSamples});
+           {"how samples that noise removal took out look; volumes and echograms leave them out unless they are shown",
+            Tier::expert, kShown});
   v.choice("weak", p.weak, kNoiseLookNames,
            {"how samples that hardly rise above the noise look; volumes leave them out unless they are shown",
             Tier::expert, kOfSamples});
@@ -113,7 +114,7 @@ void describe(Visitor& v, DisplayParams& p) {
   v.field("refused_echoes", p.refused_echoes,
           {.text = "mark the echoes above the background that were judged no schools",
            .flag = "refused",
-           .suits = "slice- volume observation-map timeline"});
+           .suits = "slice- volume observation-map timeline echogram"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices", .flag = "grid", .suits = "slice-"});
   v.field("north_up", p.north_up,
           {.text = "north points up in slices from above; off = the bow does", .suits = "slice-top slice-plane"});
@@ -257,8 +258,34 @@ struct TimelineParams {
 template <class Visitor>
 void describe(Visitor& v, TimelineParams& p) {
   v.field("whole_survey", p.whole_survey, {.text = "all observations, not one alone"});
-  v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time"});
+  v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time", .suits = "timeline echogram"});
   v.field("maximum", p.maximum, {.text = "the maximum over beams instead of the mean"});
+}
+
+struct EchogramParams {
+  bool of_fan = false;
+  std::string channel;
+  bool depth = false;
+  bool along_log = false;
+  int from_ping = 0;
+  int to_ping = -1;
+  std::string below;
+};
+
+template <class Visitor>
+void describe(Visitor& v, EchogramParams& p) {
+  v.field("of_fan", p.of_fan, {.text = "all beams of the fan as one, their linear mean weighted by volume"});
+  v.field("channel", p.channel,
+          {.text = "of a sounder without fans: the channel, by its number from 1 or its frequency in kHz; empty = the "
+                   "first"});
+  v.field("depth", p.depth, {.text = "against depth below the sea surface instead of range"});
+  v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time", .flag = kNoFlag});
+  v.field("from_ping", p.from_ping, {.unit = "1", .min = 0, .max = 1e9, .text = "first ping that is shown"});
+  v.field("to_ping", p.to_ping,
+          {.unit = "1", .min = -1, .max = 1e9, .text = "last ping that is shown; -1 = the observation's last"});
+  v.field("below", p.below,
+          {.text = "a second echogram under the same time axis, of this other observation of the survey; auto = of an "
+                   "EK60 that ran at the same time"});
 }
 
 struct PictureParams {
@@ -267,6 +294,7 @@ struct PictureParams {
   CameraParams volume;
   PropagationParams propagation;
   TimelineParams timeline;
+  EchogramParams echogram;
 };
 
 template <class Visitor>
@@ -276,6 +304,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("volume", p.volume, "where a volume is looked at from");
   v.group("propagation", p.propagation, "a ping and its neighbours");
   v.group("timeline", p.timeline, "an echogram over time");
+  v.group("echogram", p.echogram, "one beam, fan or channel over time");
 }
 
 /// How large a picture in a file is.

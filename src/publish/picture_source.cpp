@@ -82,7 +82,7 @@ bool same_pings(const ObservationFiles& files, const ObservationProduct& product
 
 DrawnObservation::DrawnObservation(const SurveyFiles* survey, const ObservationFiles* files,
                                    const ObservationProduct* product, const Recipe& recipe)
-    : survey_(survey), files_(files), product_(product) {
+    : survey_(survey), files_(files), recipe_(recipe), product_(product) {
   if (product_ == nullptr) {
     made_ = std::make_unique<const ObservationProduct>(empty_product(*survey_, *files_, recipe, {}));
     product_ = made_.get();

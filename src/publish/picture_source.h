@@ -62,10 +62,15 @@ class DrawnObservation {
   [[nodiscard]] DrawnPing ping_without_samples(std::int64_t ping_index) const;
   /// Null without raw files or without a grid.
   [[nodiscard]] Engine* engine() { return engine_.get(); }
+  /// Null without raw files, as the next.
+  [[nodiscard]] const SurveyFiles* survey() const { return survey_; }
+  [[nodiscard]] const ObservationFiles* files() const { return files_; }
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
 
  private:
   const SurveyFiles* survey_;
   const ObservationFiles* files_;
+  Recipe recipe_;
   std::unique_ptr<const ObservationProduct> made_;
   const ObservationProduct* product_;
   std::unique_ptr<Engine> engine_;

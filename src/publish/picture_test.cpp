@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 constexpr PixelSize kSize{400, 300};
 constexpr std::array kKinds{PictureKind::slice_top,   PictureKind::slice_side,      PictureKind::slice_range,
                             PictureKind::slice_plane, PictureKind::volume,          PictureKind::propagation,
-                            PictureKind::survey_map,  PictureKind::observation_map, PictureKind::timeline};
+                            PictureKind::survey_map,  PictureKind::observation_map, PictureKind::timeline,
+                            PictureKind::echogram};
 
 /// One observation of five pings off Norway with two schools; no raw files.
 class Pictures : public testing::Test {
@@ -98,6 +99,15 @@ TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
       slice_top, "obs-0009", [](PictureOptions&) {}, "obs-0009");
   refused(slice_top, "no fan 3", [](PictureOptions& o) { o.fan = 3; });
   refused(slice_side, "no beam 4", [](PictureOptions& o) { o.beam = 4; });
+  refused(echogram, "no fan 3 in obs-0001", [](PictureOptions& o) { o.fan = 3; });
+  refused(echogram, "no beam 4", [](PictureOptions& o) { o.beam = 4; });
+  refused(echogram, "no pings 3 to 9 in obs-0001: it has pings 0 to 4", [](PictureOptions& o) {
+    o.kind.echogram.from_ping = 3;
+    o.kind.echogram.to_ping = 9;
+  });
+  refused(echogram, "choose them with fan and beam", [](PictureOptions& o) { o.kind.echogram.channel = "38"; });
+  refused(echogram, "no sounder without fans", [](PictureOptions& o) { o.kind.echogram.below = "auto"; });
+  refused(echogram, "no observation obs-0009", [](PictureOptions& o) { o.kind.echogram.below = "obs-0009"; });
   refused(slice_range, "900", [](PictureOptions& o) { o.kind.slice_range.range_m = 900.0; });
   refused(slice_plane, "does not meet", [](PictureOptions& o) {
     o.kind.slice_plane.plane = PlaneLies::horizontal;

@@ -30,6 +30,8 @@ constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise
 constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
 constexpr std::array<Id, 1> kMark{"mark.remove"};
 constexpr std::array<Id, 2> kNextEvent{"event.previous", "event.next"};
+constexpr std::array<Id, 5> kEchogramLook{"echogram.fan", "echogram.depth", "echogram.hold", "echogram.other",
+                                          "echogram.channel"};
 constexpr std::array<Id, 2> kPicture{"file.copy_view", "file.save_view"};
 constexpr std::array<Id, 2> kSearch{"schools.detect", "schools.detect_all"};
 constexpr std::array<Id, 4> kResults{"export.results", "export.csv", "export.gpkg", "file.open_folder"};
@@ -43,6 +45,7 @@ constexpr std::array<ActionGroup, 5> kObservationMap{kDecide, kFollow, kEcho, kM
 constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
@@ -51,19 +54,19 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 21> kBegin{
+constexpr std::array<Id, 22> kBegin{
     "edit.undo",         "file.calibration", "file.save_view", "file.quit",
     "export.movie",      "volume.above",     "map.all",        "view.top_slice",
     "view.dark",         "ping.play",        "slice.fan_up",   "event.trawl",
     "event.previous",    "bad.ping",         "schools.detect", "school.propagate_forwards",
     "school.fill_holes", "school.split",     "school.species", "school.delete",
-    "display.filtered"};
+    "display.filtered",  "echogram.fan"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 15> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 16> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"volume", kVolume},
                                        {"observation_map", kObservationMap},
@@ -71,6 +74,7 @@ constexpr std::array<Menu, 15> kMenus{{{"top_slice", kSlice},
                                        {"propagation", kPropagation},
                                        {"observation_timeline", kTimeline},
                                        {"survey_timeline", kTimeline},
+                                       {"echogram", kEchogram},
                                        {"survey_tree", kTree},
                                        {"schools", kSchoolRows},
                                        {"review", kSchoolRows},

@@ -27,6 +27,7 @@ std::function<bool()> with_survey(const AppModel& app) {
 std::string file_name(const AppModel& app, const std::string& what) {
   const Document& document = app.workspace.document;
   if (!document.shown() || what.starts_with("survey") || what == "timeline") return what;
+  if (what.ends_with("echogram")) return document.shown()->name() + "-" + what;
   if (what.ends_with("map") || what.ends_with("timeline")) return document.shown()->name() + "-" + what;
   return fmt::format("{}-ping-{:04}-{}", document.shown()->name(), document.ping(), what);
 }

@@ -54,6 +54,13 @@ class BadInput(unittest.TestCase):
         for kind in ("slice-top", "volume", "propagation", "timeline"):
             self.refused(kind, file, "--out", sonarx.WORK / "bad.png", code=1,
                          says=["make no grid", "does not look sideways in fans"])
+        picture = ["--size", "640x480", "--out", sonarx.WORK / "ek60.png"]
+        for options in ([], ["--channel", "2"], ["--channel", "120"], ["--channel", "38kHz", "--depth"]):
+            code, out, error = render("echogram", file, *options, *picture)
+            self.assertEqual((code, error), (0, ""), out)
+        self.refused("echogram", file, "--channel", "70", *picture, code=2,
+                     says=["no channel 70", "1 (18 kHz), 2 (38 kHz), 3 (120 kHz), 4 (200 kHz)"])
+        self.refused("echogram", file, "--fan", "2", *picture, code=2, says="has no fans and beams")
 
     def test_one_fan_is_sliced_and_is_no_volume(self):
         folder = sonarx.Case.fresh("one_fan")
@@ -134,6 +141,11 @@ class BadInput(unittest.TestCase):
         self.refused("slice-top", *BOTH, "--zoom", "3", *picture, code=2, says=["--zoom", "slice-top"])
         self.refused("timeline", *BOTH, "--depth-raster", DEPTHS, *picture, code=2, says="--depth-raster")
         self.refused("timeline", *BOTH, "--schools", "999", *picture, code=2, says="no school 999")
+        self.refused("echogram", *BOTH, "--fan", "99", *picture, code=2, says="no fan 99 in obs-0001: it has fans 0 to 19")
+        self.refused("echogram", *BOTH, "--beam", "25", *picture, code=2, says="no beam 25 in obs-0001: it has beams 0 to 24")
+        self.refused("echogram", *BOTH, "--from-ping", "99", *picture, code=2, says=["no pings 99 to", "it has pings 0 to"])
+        self.refused("echogram", *BOTH, "--channel", "38", *picture, code=2, says="choose them with fan and beam")
+        self.refused("echogram", *BOTH, "--below", "auto", *picture, code=2, says="no sounder without fans ran")
         self.refused("slice-top", *BOTH, "--out", sonarx.WORK / "nofolder" / "x.png", code=1, says="nofolder")
         self.refused("slice-top", *BOTH, "--weak-db", "4", *picture, code=2, says="--weak")
         self.refused("slice-top", *BOTH, "--removed", "green", *picture, code=2, says=["--removed", "hatched"])
@@ -181,6 +193,10 @@ class BadInput(unittest.TestCase):
             (["--depth-raster", str(DEPTHS)], "observation-map", "survey-map"),
             (["--neighbours", "1"], "volume", "propagation"),
             (["--along-log"], "slice-top", "timeline"),
+            (["--along-log"], "volume", "echogram"),
+            (["--of-fan"], "timeline", "echogram"),
+            (["--channel", "38"], "slice-top", "echogram"),
+            (["--fan", "3"], "slice-side", "echogram"),
             (["--maximum"], "volume", "timeline"),
             (["--whole-survey"], "survey-map", "timeline"),
         ]
@@ -190,6 +206,8 @@ class BadInput(unittest.TestCase):
                              says=[option[0], f"no option of {kind}", suits])
         for options in (["--masks-alone", "--no-masks"], ["--tint", "--no-masks"]):
             self.refused("volume", *BOTH, *options, "--out", sonarx.WORK / "bad.png", code=2, says=[*options, "together"])
+        self.refused("echogram", *BOTH, "--of-fan", "--beam", "3", "--out", sonarx.WORK / "bad.png", code=2,
+                     says=["--beam", "--of-fan", "together"])
         self.refused("timeline", *BOTH, "--whole-survey", "--observation", "obs-0001", "--out", sonarx.WORK / "bad.png",
                      code=2, says=["--observation", "--whole-survey"])
 
@@ -200,6 +218,9 @@ class BadInput(unittest.TestCase):
                               ("propagation", ["--ping", "3", "--core", "0.5", "--neighbours", "1", "--side"]),
                               ("timeline", ["--filtered", "--map", "grey", "--low-db", "-80", "--span-db", "40",
                                             "--threshold-db", "-78", "--along-log", "--maximum"]),
+                              ("echogram", ["--observation", "obs-0001", "--fan", "9", "--beam", "12", "--removed",
+                                            "transparent", "--keep-seabed", "--refused", "--depth", "--map", "grey",
+                                            "--low-db", "-80", "--threshold-db", "-78", "--along-log", "--to-ping", "5"]),
                               ("slice-top", ["--unfiltered", "--map", "grey", "--core", "0.5", "--north-up", "--grid"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):

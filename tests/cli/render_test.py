@@ -90,13 +90,17 @@ PICTURES = {
     "timeline-refused": (["timeline", *WITH_REFUSED], DRAWN),
     "volume-refused": (["volume", *WITH_REFUSED, "--ping", "10", "--frames", "0"], TRACED),
     "timeline-without-schools": (["timeline", *BOTH, "--no-masks", "--along-log", "--dark"], DRAWN),
+    "echogram": (["echogram", *BOTH], DRAWN),
+    "echogram-depth-filtered": (["echogram", *BOTH, "--depth", "--filtered", "--dark", "--from-ping", "2", "--to-ping", "9"], DRAWN),
+    "echogram-fan": (["echogram", *BOTH, "--of-fan", "--fan", "14", "--map", "ek500", "--along-log"], DRAWN),
+    "echogram-product-alone": (["echogram", sonarx.OUT], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
 }
 # The smallest size there is, and print: twice the pixels.
 PICTURES |= {f"small-{kind}": ([kind, *paths, *options, "--size", "320x240"], DRAWN) for kind, paths, options in (
     ("slice-top", BOTH, ["--ping", "10"]), ("volume", BOTH, ["--ping", "10", "--frames", "0", "--depth-raster", DEPTHS]),
     ("propagation", [sonarx.OUT], ["--ping", "10", "--side"]), ("observation-map", [sonarx.OUT], ["--ping", "10"]),
-    ("survey-map", [sonarx.OUT], ["--depth-raster", DEPTHS]), ("timeline", BOTH, []))}
+    ("survey-map", [sonarx.OUT], ["--depth-raster", DEPTHS]), ("timeline", BOTH, []), ("echogram", BOTH, []))}
 PICTURES |= {f"print-{kind}": ([kind, *BOTH, "--ping", "10", "--size", "480x360", "--scale", "2"], DRAWN)
              for kind in ("slice-side", "observation-map")}
 
@@ -128,7 +132,7 @@ class Goldens(unittest.TestCase):
         self.assertEqual(code, 0)
         drawn = {arguments[0] for arguments, _ in PICTURES.values()}
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "volume", "propagation",
-                     "observation-map", "survey-map", "timeline"):
+                     "observation-map", "survey-map", "timeline", "echogram"):
             self.assertIn(kind, out)
             self.assertIn(kind, drawn)
 

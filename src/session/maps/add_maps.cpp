@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "session/app_parts.h"
+#include "session/echograms/echogram_actions.h"
+#include "session/echograms/echogram_model.h"
 #include "session/maps/observation_map_model.h"
 #include "session/maps/strip_model.h"
 #include "session/maps/survey_map_model.h"
@@ -71,16 +73,18 @@ void add_maps(AppModel& app) {
   auto of_one = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::observation);
   auto of_all = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::survey);
   const std::array timelines{of_one.get(), of_all.get()};
+  auto echogram = std::make_unique<EchogramModel>(workspace, echograms);
   app.actions.add({.id = "map.all",
                    .menu = kMenu,
-                   .text = "Show whole maps and timelines",
+                   .text = "Show whole maps, timelines and echograms",
                    .keys = {"Shift+Home"},
-                   .tip = "Undo zooming and panning of maps and timelines",
+                   .tip = "Undo zooming and panning of maps, timelines and echograms",
                    .run =
-                       [map = map.get(), survey = survey.get(), timelines] {
+                       [map = map.get(), survey = survey.get(), echogram = echogram.get(), timelines] {
                          map->show_all();
                          survey->show_all();
                          for (TimelineModel* one : timelines) one->show_all();
+                         echogram->show_all();
                        },
                    .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
   app.actions.add({.id = "strip.side",
@@ -96,6 +100,7 @@ void add_maps(AppModel& app) {
                    .checked = [strip = strip.get()] { return strip->aspect() == MaskAspect::side; }});
   add_chart_actions(app);
   add_timeline_actions(app);
+  add_echogram_actions(app, *echogram);
   const auto dock = [&](std::string id, std::string title, DockPlace place, std::string view_switch,
                         std::unique_ptr<LivePicture> picture) {
     app.pictures.push_back({std::move(id), std::move(title), place, std::move(view_switch), std::move(picture)});
@@ -105,6 +110,7 @@ void add_maps(AppModel& app) {
   dock("survey_map", "Survey map", DockPlace::centre, "survey_map", std::move(survey));
   dock("observation_timeline", "Observation timeline", DockPlace::bottom, "timeline", std::move(of_one));
   dock("survey_timeline", "Survey timeline", DockPlace::bottom, "timeline", std::move(of_all));
+  dock("echogram", "Echogram", DockPlace::bottom, "echogram", std::move(echogram));
 }
 
 }  // namespace sonar

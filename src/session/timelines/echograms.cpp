@@ -9,15 +9,16 @@
 namespace sonar {
 namespace {
 
-constexpr std::int64_t kAtOnce = 4;          ///< pings between two looks at the token
-constexpr std::int64_t kPictures = 24;       ///< of an echogram while it is filled
-constexpr std::int64_t kLeastNew = 8;        ///< pings between two of them
-constexpr int kWidth_px = 2048;              ///< what an echogram is kept fine enough for
-constexpr std::int64_t kMostColumns = 8192;  ///< of an echogram that is filled here: 100 MB
+constexpr std::int64_t kAtOnce = 4;              ///< pings between two looks at the token
+constexpr std::int64_t kPictures = 24;           ///< of an echogram while it is filled
+constexpr std::int64_t kLeastNew = 8;            ///< pings between two of them
+constexpr int kWidth_px = 2048;                  ///< what an echogram is kept fine enough for
+constexpr std::int64_t kMostCells = 8192 * 512;  ///< of an echogram that is filled here: 100 MB
+constexpr std::size_t kMostParts = 6;            ///< echograms of one beam, fan or channel that are kept
 
-int pings_per_column(std::int64_t pings) {
+int pings_per_column(std::int64_t pings, int bins) {
   int per_column = 1;
-  while (pings / per_column > kMostColumns) per_column *= 2;
+  while (pings / per_column * bins > kMostCells) per_column *= 2;
   return per_column;
 }
 
@@ -25,9 +26,9 @@ int pings_per_column(std::int64_t pings) {
 
 /// An echogram that is being filled. Touched by the background alone, but for its first members.
 struct Echograms::Filling {
-  OpenObservationPtr keeps;  ///< what is open anyhow, or opened for this
+  EchogramName name;
+  OpenObservationPtr keeps;  ///< what is open anyhow, or opened for this; null for a channel
   std::shared_ptr<const SurveyFiles> survey;
-  std::size_t index = 0;
   Recipe recipe;
   IndexCache cache;
   std::uint64_t memory_bytes = 0;
@@ -35,36 +36,55 @@ struct Echograms::Filling {
   bool begun = false;
   bool whole = true;  ///< no ping failed for the disk's sake
   EchogramEntry entry;
+  std::unique_ptr<ChannelEchogram> channel;
   std::unique_ptr<EchogramPyramid> echogram;
   EchogramPtr done;
 
-  [[nodiscard]] std::int64_t pings() const { return keeps->pings(); }
+  [[nodiscard]] const ObservationFiles& files() const { return survey->observations[name.observation]; }
+  [[nodiscard]] std::int64_t pings() const { return std::ssize(files().pings); }
   void begin();
   /// The same observation with more pings.
   void go_on_with(OpenObservationPtr grown);
   void add_next();
   void finish();
+  [[nodiscard]] EchogramRange range();
+  [[nodiscard]] Result<std::vector<EchogramCell>> column(std::int64_t ping) const;
+  /// As fine as a picture needs it; of one beam each ping can be looked at.
   [[nodiscard]] EchogramPtr fine_enough(const EchogramPyramid& all) const {
-    return std::make_shared<const EchogramPyramid>(
-        all.coarser(echogram_level(static_cast<std::size_t>(pings()), kWidth_px)));
+    const int level = name.all_beams() ? echogram_level(static_cast<std::size_t>(pings()), kWidth_px) : 0;
+    return std::make_shared<const EchogramPyramid>(all.coarser(level));
   }
 };
 
+EchogramRange Echograms::Filling::range() {
+  if (name.channel >= 0) {
+    channel = std::make_unique<ChannelEchogram>(*survey, files(), recipe, name.channel, name.of.height);
+    return channel->range();
+  }
+  if (name.all_beams()) return echogram_range(keeps->sector().range());
+  std::vector<Placement> placements;
+  for (std::int64_t i = 0; i < pings(); ++i) placements.push_back(keeps->placement(i));
+  return echogram_range(keeps->sector(), placements, name.of);
+}
+
 void Echograms::Filling::begin() {
   begun = true;
-  if (!keeps) keeps = std::make_shared<OpenObservation>(survey, index, recipe, 0, memory_bytes);
-  const EchogramRange range = echogram_range(keeps->sector().range());
-  const int per_column = pings_per_column(pings());
-  // What is filled more coarsely than a ping a column is not kept: readers expect every level.
-  if (per_column == 1) {
-    entry = echogram_entry(cache, *survey, keeps->files(), recipe_hash(recipe), false, kNotFiltered, range);
+  if (!keeps && name.channel < 0) {
+    keeps = std::make_shared<OpenObservation>(survey, name.observation, recipe, 0, memory_bytes);
+  }
+  const EchogramRange bins = range();
+  const int per_column = pings_per_column(pings(), bins.bins);
+  // What is filled more coarsely than a ping a column is not kept: readers expect every level. Nor is what is of one beam:
+  // a survey has hundreds.
+  if (per_column == 1 && name.all_beams()) {
+    entry = echogram_entry(cache, *survey, keeps->files(), recipe_hash(recipe), false, kNotFiltered, bins);
     const int level = echogram_level(static_cast<std::size_t>(pings()), kWidth_px);
     if (auto kept = kept_echogram(entry, level)) {
       done = std::make_shared<const EchogramPyramid>(std::move(*kept));
       return;
     }
   }
-  echogram = std::make_unique<EchogramPyramid>(range, per_column);
+  echogram = std::make_unique<EchogramPyramid>(bins, per_column);
 }
 
 void Echograms::Filling::go_on_with(OpenObservationPtr grown) {
@@ -75,20 +95,26 @@ void Echograms::Filling::go_on_with(OpenObservationPtr grown) {
   entry = {};                    // not kept while it grows
 }
 
+Result<std::vector<EchogramCell>> Echograms::Filling::column(std::int64_t ping) const {
+  if (channel) return channel->column(ping);
+  const auto staged = keeps->ping(ping);
+  if (!staged) return pass_on(staged);
+  if (!name.all_beams()) {
+    return echogram_column(**staged, keeps->sector(), keeps->placement(ping), name.of, name.shown, echogram->range());
+  }
+  const Volume shown{(*staged)->sv.counts, (*staged)->filtered->flags};
+  return echogram_column(keeps->sector(), shown, kNotFiltered, echogram->range());
+}
+
 void Echograms::Filling::add_next() {
   const auto i = static_cast<std::int64_t>(echogram->pings());
-  const auto ping = keeps->ping(i);
-  std::vector<EchogramCell> column;
-  if (ping) {
-    const Volume shown{(*ping)->sv.counts, (*ping)->filtered->flags};
-    column = echogram_column(keeps->sector(), shown, kNotFiltered, echogram->range());
-  } else if (ping.error().code != ErrorCode::format) {
-    whole = false;
-  }
-  const PingNavigation& navigation = keeps->files().navigation[static_cast<std::size_t>(i)];
+  auto cells = column(i);
+  if (!cells && cells.error().code != ErrorCode::format) whole = false;
+  const PingNavigation& navigation = files().navigation[static_cast<std::size_t>(i)];
   // Clocks may step back; an echogram's times do not.
   const TimeNs least = echogram->times().empty() ? navigation.time : echogram->times().back();
-  echogram->add_ping(std::max(least, navigation.time), column, navigation.distance_nmi);
+  echogram->add_ping(std::max(least, navigation.time), cells ? *cells : std::vector<EchogramCell>{},
+                     navigation.distance_nmi);
 }
 
 void Echograms::Filling::finish() {
@@ -115,6 +141,7 @@ void Echograms::forget() {
   fillings_.clear();
   asked_.clear();
   grows_.clear();
+  parts_.clear();
   changed_.tell();
 }
 
@@ -129,44 +156,106 @@ void Echograms::follow_calibration() {
   changed_.tell();
 }
 
+std::int64_t Echograms::pings_of(const EchogramName& name) const {
+  if (name.channel < 0) {
+    const OpenObservationPtr open = document_.open_observation(name.observation);
+    return open ? open->pings() : 0;
+  }
+  const SurveyFiles* survey = document_.survey();
+  const bool there = survey != nullptr && name.observation < survey->observations.size();
+  return there ? std::ssize(survey->observations[name.observation].pings) : 0;
+}
+
 void Echograms::follow_growth() {
-  for (auto& [index, pings] : asked_) {
-    const OpenObservationPtr now = document_.open_observation(index);
-    if (!now || now->pings() <= pings) continue;
-    pings = now->pings();
-    grows_.insert(index);
-    if (const auto filling = fillings_.find(index); filling != fillings_.end() && filling->second) {
-      background_.post([of = filling->second, now](const CancelToken&) { of->go_on_with(now); });
+  for (auto& [name, pings] : asked_) {
+    const std::int64_t now = pings_of(name);
+    if (now <= pings) continue;
+    pings = now;
+    if (!name.all_beams()) {
+      // Its bins may lie elsewhere now: it is filled anew, and what there was is seen until then.
+      fillings_.erase(name);
+    } else {
+      grows_.insert(name);
+      if (const auto filling = fillings_.find(name); filling != fillings_.end() && filling->second) {
+        background_.post([of = filling->second, open = document_.open_observation(name.observation)](
+                             const CancelToken&) { of->go_on_with(open); });
+      }
     }
-    if (const auto kept = kept_.find(index); kept != kept_.end()) kept->second.complete = false;
+    if (const auto kept = kept_.find(name); kept != kept_.end()) kept->second.complete = false;
   }
   go_on();
 }
 
-EchogramPtr Echograms::of(std::size_t observation) const {
-  const auto found = kept_.find(observation);
+EchogramPtr Echograms::of(const EchogramName& name) const {
+  const auto found = kept_.find(name);
   return found == kept_.end() ? nullptr : found->second.echogram;
 }
 
-bool Echograms::complete(std::size_t observation) const {
-  const auto found = kept_.find(observation);
+bool Echograms::complete(const EchogramName& name) const {
+  const auto found = kept_.find(name);
   return found != kept_.end() && found->second.complete;
 }
 
-void Echograms::want(const void* asker, std::vector<std::size_t> observations) {
-  wanted_[asker] = std::move(observations);
+void Echograms::want_all_beams(const void* asker, const std::vector<std::size_t>& observations) {
+  std::vector<EchogramName> names;
+  for (const std::size_t observation : observations) names.push_back({observation, {}, {}});
+  want(asker, std::move(names));
+}
+
+void Echograms::want(const void* asker, std::vector<EchogramName> names) {
+  for (const EchogramName& name : names) {
+    if (name.all_beams()) continue;
+    std::erase(parts_, name);
+    parts_.push_back(name);
+  }
+  wanted_[asker] = std::move(names);
+  forget_unwanted();
   go_on();
+}
+
+void Echograms::forget_unwanted() {
+  const auto is_wanted = [this](const EchogramName& name) {
+    return std::any_of(wanted_.begin(), wanted_.end(), [&](const auto& of_one) {
+      return std::find(of_one.second.begin(), of_one.second.end(), name) != of_one.second.end();
+    });
+  };
+  for (std::size_t i = 0; i < parts_.size() && parts_.size() > kMostParts;) {
+    if (is_wanted(parts_[i])) {
+      ++i;
+      continue;
+    }
+    kept_.erase(parts_[i]);
+    fillings_.erase(parts_[i]);
+    asked_.erase(parts_[i]);
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+std::shared_ptr<Echograms::Filling> Echograms::begun(const EchogramName& name) const {
+  auto filling = std::make_shared<Filling>();
+  filling->name = name;
+  if (name.channel < 0) {
+    filling->keeps = document_.open_observation(name.observation);
+    filling->survey = {document_.shown(), &document_.shown()->survey()};
+  } else {
+    filling->survey = document_.survey_files();
+  }
+  filling->recipe = document_.measuring_recipe();
+  filling->cache = document_.options().cache;
+  filling->memory_bytes = document_.options().memory_bytes;
+  return filling;
 }
 
 void Echograms::go_on() {
   // An act comes first: its end tells a new state.
-  if (reading_ || document_.busy() || !document_.shown()) return;
-  std::optional<std::size_t> next;
+  if (reading_ || document_.busy() || document_.survey() == nullptr) return;
+  std::optional<EchogramName> next;
   std::size_t best = 0;
-  for (const auto& [asker, observations] : wanted_) {
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      if (complete(observations[i]) || (next && i >= best)) continue;
-      next = observations[i];
+  for (const auto& [asker, names] : wanted_) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].channel < 0 && !document_.shown()) continue;
+      if (complete(names[i]) || (next && i >= best)) continue;
+      next = names[i];
       best = i;
       break;
     }
@@ -174,14 +263,8 @@ void Echograms::go_on() {
   if (!next) return;
   auto& filling = fillings_[*next];
   if (!filling) {
-    filling = std::make_shared<Filling>();
-    filling->keeps = document_.open_observation(*next);
-    filling->survey = {document_.shown(), &document_.shown()->survey()};
-    filling->index = *next;
-    filling->recipe = document_.measuring_recipe();
-    filling->cache = document_.options().cache;
-    filling->memory_bytes = document_.options().memory_bytes;
-    asked_[*next] = std::ssize(document_.survey()->observations[*next].pings);
+    filling = begun(*next);
+    asked_[*next] = std::ssize(document_.survey()->observations[next->observation].pings);
   }
   read(filling);
 }
@@ -210,17 +293,17 @@ void Echograms::read(const std::shared_ptr<Filling>& filling) {
       if (alive.expired()) return;
       reading_ = false;
       // Of a survey that was closed meanwhile nothing is kept.
-      const auto found = fillings_.find(filling->index);
-      if (found != fillings_.end() && found->second == filling) take(filling->index, picture, complete);
+      const auto found = fillings_.find(filling->name);
+      if (found != fillings_.end() && found->second == filling) take(filling->name, picture, complete);
       go_on();
     });
   });
 }
 
-void Echograms::take(std::size_t observation, EchogramPtr echogram, bool complete) {
-  if (complete && !grows_.contains(observation)) fillings_.erase(observation);  // else it goes on from here
+void Echograms::take(const EchogramName& name, EchogramPtr echogram, bool complete) {
+  if (complete && !grows_.contains(name)) fillings_.erase(name);  // else it goes on from here
   if (!echogram) return;
-  kept_[observation] = {std::move(echogram), complete};
+  kept_[name] = {std::move(echogram), complete};
   changed_.tell();
 }
 

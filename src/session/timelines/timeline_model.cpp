@@ -127,7 +127,7 @@ LivePicture::Build TimelineModel::build() {
     one.chosen_echo = chosen_echo(workspace_, index);
     if (index != shown->index()) fill.push_back(index);
   }
-  echograms_->want(this, std::move(fill));
+  echograms_->want_all_beams(this, fill);
   wish.sv = workspace_.display.values().scale;
   wish.dark = workspace_.dark();
   wish.shown = shown_;

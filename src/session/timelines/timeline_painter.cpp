@@ -20,17 +20,20 @@ TimelineObservation drawn(const TimelineWish::Observation& wish, const Observati
   out.selected = wish.selected;
   out.refused = *wish.refused;
   out.chosen_echo = wish.chosen_echo;
-  if (!wish.state || !wish.open) return out;
-  for (const EventCommand& event : wish.state->events) {
-    out.marks.push_back({shown_time(*wish.open, event.time), event.kind, event.text});
-  }
-  for (const BadPingsCommand& bad : wish.state->bad_pings) {
-    out.bad.push_back({shown_time(*wish.open, bad.first), shown_time(*wish.open, bad.last)});
-  }
+  if (wish.state && wish.open) add_marked(out, *wish.state, *wish.open);
   return out;
 }
 
 }  // namespace
+
+void add_marked(TimelineObservation& drawn, const JournalState& state, const OpenObservation& observation) {
+  for (const EventCommand& event : state.events) {
+    drawn.marks.push_back({shown_time(observation, event.time), event.kind, event.text});
+  }
+  for (const BadPingsCommand& bad : state.bad_pings) {
+    drawn.bad.push_back({shown_time(observation, bad.first), shown_time(observation, bad.last)});
+  }
+}
 
 TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time) {
   const auto& times = observation.context().times;

@@ -48,6 +48,9 @@ class TimelinePainter {
   std::map<std::size_t, ObservationProduct> heads_;
 };
 
+/// Adds what a human marked: events, and pings that take no part in measures.
+void add_marked(TimelineObservation& drawn, const JournalState& state, const OpenObservation& observation);
+
 /// A time of the datagrams' clock on the clock of the pings that pictures show.
 [[nodiscard]] TimeNs shown_time(const OpenObservation& observation, TimeNs datagram_time);
 

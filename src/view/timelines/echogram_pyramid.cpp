@@ -34,42 +34,62 @@ EchogramRange echogram_range(const RangeAxis& axis, int most) {
   return r;
 }
 
+EchogramColumn::EchogramColumn(const EchogramRange& range, int samples)
+    : range_(range),
+      bin_of_(static_cast<std::size_t>(std::max(0, samples)), -1),
+      sums_(static_cast<std::size_t>(range.bins), 0.0),
+      volumes_(static_cast<std::size_t>(range.bins), 0.0),
+      cells_(static_cast<std::size_t>(range.bins)) {}
+
+void EchogramColumn::lay(double first_m, double step_m) {
+  if (first_m == first_m_ && step_m == step_m_) return;
+  first_m_ = first_m;
+  step_m_ = step_m;
+  for (std::size_t i = 0; i < bin_of_.size(); ++i) {
+    const double height_m = first_m + static_cast<double>(i) * step_m;
+    const double bin = std::floor((height_m - range_.first_m) / range_.bin_m);
+    bin_of_[i] = bin >= 0.0 && bin < range_.bins ? static_cast<int>(bin) : -1;
+  }
+}
+
+void EchogramColumn::add(const Beam& beam, SampleFlags hidden) {
+  const std::size_t samples = std::min({bin_of_.size(), beam.counts.size(), beam.flags.size(), beam.volumes_m3.size()});
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (bin_of_[i] < 0 || beam.counts[i] == kNoData || any(beam.flags[i] & hidden)) continue;
+    const double v = beam.volumes_m3[i];
+    if (!(v > 0.0)) continue;
+    const auto b = static_cast<std::size_t>(bin_of_[i]);
+    sums_[b] += linear_from_count(beam.counts[i]) * v;
+    volumes_[b] += v;
+    cells_[b].low = std::min(cells_[b].low, beam.counts[i]);
+    cells_[b].high = std::max(cells_[b].high, beam.counts[i]);
+  }
+}
+
+std::vector<EchogramCell> EchogramColumn::cells() const {
+  std::vector<EchogramCell> out = cells_;
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    out[b].sv_volume = static_cast<float>(sums_[b]);
+    out[b].volume_m3 = static_cast<float>(volumes_[b]);
+  }
+  return out;
+}
+
 std::vector<EchogramCell> echogram_column(const Sector& sector, const Volume& volume, SampleFlags hidden,
                                           const EchogramRange& range) {
   const Shape3& shape = volume.counts.shape();
   SONAR_CHECK(shape == volume.flags.shape() && shape.fans == sector.fans() && shape.beams == sector.beams());
   const int samples = std::min(shape.samples, sector.range().count);
-  // Doubles, in a fixed order of beams: the same sum on every machine.
-  std::vector<double> sums(static_cast<std::size_t>(range.bins), 0.0);
-  std::vector<double> volumes(static_cast<std::size_t>(range.bins), 0.0);
-  std::vector<EchogramCell> column(static_cast<std::size_t>(range.bins));
-  std::vector<int> bin_of(static_cast<std::size_t>(std::max(0, samples)));
-  for (int s = 0; s < samples; ++s) {
-    const double bin = std::floor((sector.range().range_m(s) - range.first_m) / range.bin_m);
-    bin_of[static_cast<std::size_t>(s)] = bin >= 0.0 && bin < range.bins ? static_cast<int>(bin) : -1;
-  }
+  EchogramColumn column(range, samples);
+  column.lay(sector.range().first_m, sector.range().spacing_m);
+  std::vector<double> volumes(static_cast<std::size_t>(std::max(0, samples)));
   for (int fan = 0; fan < shape.fans; ++fan) {
     for (int beam = 0; beam < shape.beams; ++beam) {
-      const auto counts = volume.counts.row(fan, beam);
-      const auto flags = volume.flags.row(fan, beam);
-      for (int s = 0; s < samples; ++s) {
-        const auto i = static_cast<std::size_t>(s);
-        if (bin_of[i] < 0 || counts[i] == kNoData || any(flags[i] & hidden)) continue;
-        const double v = sector.volume_m3(fan, beam, s);
-        if (!(v > 0.0)) continue;
-        const auto b = static_cast<std::size_t>(bin_of[i]);
-        sums[b] += linear_from_count(counts[i]) * v;
-        volumes[b] += v;
-        column[b].low = std::min(column[b].low, counts[i]);
-        column[b].high = std::max(column[b].high, counts[i]);
-      }
+      for (int s = 0; s < samples; ++s) volumes[static_cast<std::size_t>(s)] = sector.volume_m3(fan, beam, s);
+      column.add({volume.counts.row(fan, beam), volume.flags.row(fan, beam), volumes}, hidden);
     }
   }
-  for (std::size_t b = 0; b < column.size(); ++b) {
-    column[b].sv_volume = static_cast<float>(sums[b]);
-    column[b].volume_m3 = static_cast<float>(volumes[b]);
-  }
-  return column;
+  return column.cells();
 }
 
 namespace {

@@ -42,6 +42,34 @@ struct EchogramRange {
 /// Bins for a sonar's ranges: from 0 to the last sample, no finer than the samples, at most `most`.
 [[nodiscard]] EchogramRange echogram_range(const RangeAxis& axis, int most = 512);
 
+/// One ping's column while beams are added to it. Sums are doubles, in the order of the beams: the same on every machine.
+class EchogramColumn {
+ public:
+  /// samples  of each beam, at most
+  EchogramColumn(const EchogramRange& range, int samples);
+
+  /// A beam's samples, as many as there are in the shortest.
+  struct Beam {
+    std::span<const std::int16_t> counts;  ///< Sv counts
+    std::span<const SampleFlags> flags;
+    std::span<const double> volumes_m3;  ///< 0 = left out
+  };
+  /// Where the samples of the beams that follow lie: sample i at first_m + i * step_m.
+  void lay(double first_m, double step_m);
+  /// Flagged samples, and those outside the range, are left out.
+  void add(const Beam& beam, SampleFlags hidden);
+  [[nodiscard]] std::vector<EchogramCell> cells() const;
+
+ private:
+  EchogramRange range_;
+  std::vector<int> bin_of_;  ///< [sample]; -1 = outside
+  double first_m_ = std::numeric_limits<double>::quiet_NaN();
+  double step_m_ = 0.0;
+  std::vector<double> sums_;
+  std::vector<double> volumes_;
+  std::vector<EchogramCell> cells_;
+};
+
 /// One ping's column: every sample of every beam, flagged ones left out.
 /// volume  Sv counts and flags
 /// hidden  samples with one of these flags are left out

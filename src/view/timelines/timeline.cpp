@@ -143,8 +143,10 @@ Result<std::vector<Strip>> strips_of(std::span<const TimelineObservation> observ
   return strips;
 }
 
-/// brief  in few words: there is no room for what decibels refer to
-const char* value_label(EchogramValue value, bool brief) {
+/// brief   in few words: there is no room for what decibels refer to
+/// of_one  of one beam or channel, which needs no mean
+const char* value_label(EchogramValue value, bool brief, bool of_one) {
+  if (of_one) return brief ? "Sv (dB)" : kSvLabel;
   if (brief) return value == EchogramValue::mean ? "mean Sv (dB)" : "Sv (dB)";
   if (value == EchogramValue::maximum) return "largest Sv (dB re 1 m\u207B\u00B9)";
   return value == EchogramValue::minimum ? "smallest Sv (dB re 1 m\u207B\u00B9)" : "mean Sv (dB re 1 m\u207B\u00B9)";
@@ -258,7 +260,9 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
   out.colour_bar = out.any_echogram && (!style.brief || size.width >= kBarFrom_em * em);
-  LayoutNeeds needs{.title_lines = style.brief ? 0 : 3, .colour_bar = out.colour_bar, .y_label_characters = 4};
+  const int title_lines = style.of.empty() ? 3 : 4;
+  LayoutNeeds needs{
+      .title_lines = style.brief ? 0 : title_lines, .colour_bar = out.colour_bar, .y_label_characters = 4};
   if (!style.brief) out.key = timeline_key(out.strips, style, theme);
   if (!out.key.empty()) {
     needs.foot_lines = 1;
@@ -285,7 +289,11 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
     day = style.shown->first;
   }
   plot.x.label = style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(day, true).substr(0, 10);
-  plot.y = {0.0, reach_m(out.strips), "range (m)", false};
+  plot.y = {0.0, reach_m(out.strips), style.height == EchogramHeight::depth ? "depth (m)" : "range (m)", false};
+  if (const auto& part = style.shown_heights; part && part->last_m > part->first_m) {
+    plot.y.first = part->first_m;
+    plot.y.last = part->last_m;
+  }
   return out;
 }
 
@@ -333,7 +341,8 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   for (const Strip& s : laid->strips) add_bad(frame, s, plot, theme);
   std::vector<TrackNumber> numbers;
   for (const Strip& s : laid->strips) {
-    if (style.schools) add_tracks(frame, s, plot, style, theme, numbers);
+    if (style.schools && !style.outlined) add_tracks(frame, s, plot, style, theme, numbers);
+    if (style.schools && style.outlined) add_outlines(frame, s, plot, style, theme, numbers);
   }
   for (const Strip& s : laid->strips) add_refused(frame, s, plot, theme);
   add_track_numbers(frame, numbers, plot, theme);
@@ -344,7 +353,8 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_y_axis(frame, plot, theme);
   add_x_axis(frame, plot, style.axis, laid->zero, theme);
   if (laid->colour_bar)
-    add_colour_bar(frame, laid->layout.colour_bar, colours, theme, value_label(style.value, style.brief));
+    add_colour_bar(frame, laid->layout.colour_bar, colours, theme,
+                   value_label(style.value, style.brief, !style.of.empty()));
   if (style.brief) return frame;
   add_key(frame, laid->layout.foot, laid->key, theme);
   std::string line = time_span_text(laid->zero, laid->last);
@@ -358,7 +368,9 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   if (laid->raw_gone && !style.raw_there) {
     line += laid->any_echogram ? " · schools only where there are no raw data" : " · no raw data: schools only";
   }
-  add_title(frame, laid->layout, theme, {frame.title, line});
+  std::vector<std::string> lines{frame.title, line};
+  if (!style.of.empty()) lines.insert(lines.begin() + 1, style.of);
+  add_title(frame, laid->layout, theme, lines);
   return frame;
 }
 

@@ -13,6 +13,7 @@
 #include "base/result.h"
 #include "model/product.h"
 #include "view/axes.h"
+#include "view/echograms/echogram_schools.h"
 #include "view/frame_description.h"
 #include "view/sv_scale.h"
 #include "view/theme.h"
@@ -31,6 +32,13 @@ struct TimelineInterval {
   friend bool operator==(const TimelineInterval&, const TimelineInterval&) = default;
 };
 
+/// Part of an upright axis, m; first = top.
+struct TimelineHeights {
+  double first_m = 0.0;
+  double last_m = 0.0;
+  friend bool operator==(const TimelineHeights&, const TimelineHeights&) = default;
+};
+
 struct TimelineStyle {
   EchogramValue value = EchogramValue::mean;  ///< over beams (and pings and ranges, where a pixel has several)
   TimelineAxis axis = TimelineAxis::time;
@@ -42,6 +50,11 @@ struct TimelineStyle {
   bool filtered = false;   ///< echograms are of data without noise, and the title says so
   bool searched = true;    ///< schools were looked for; else the title says that they were not
   std::optional<TimelineInterval> shown = {};  ///< part of the time axis; empty = all of it
+  // Of an echogram of one beam, fan or channel.
+  std::string of = {};    ///< what it is of, below the title; empty = all beams
+  bool outlined = false;  ///< schools are the edges of what is in them here, not tracks
+  EchogramHeight height = EchogramHeight::range;
+  std::optional<TimelineHeights> shown_heights = {};  ///< part of the upright axis; empty = all of it
   friend bool operator==(const TimelineStyle&, const TimelineStyle&) = default;
 };
 
@@ -56,6 +69,8 @@ void describe(Visitor& v, TimelineStyle& p) {
   v.field("filtered", p.filtered, {.text = "the echograms are of data whose noise was removed"});
   v.field("searched", p.searched, {.text = "schools were looked for"});
   v.field("brief", p.brief, {.text = "no title; a colour bar only where it is wide"});
+  v.field("outlined", p.outlined, {.text = "outline schools where they are in what is shown; off = draw their tracks"});
+  v.choice("height", p.height, kEchogramHeightNames, "along range, or depth below the sea surface");
 }
 
 /// What a human marked, on the clock of the product's pings.
@@ -69,10 +84,12 @@ struct TimelineObservation {
   const ObservationProduct* product = nullptr;
   const EchogramPyramid* echogram = nullptr;  ///< nullptr: no raw data, schools only
   std::vector<TimelineMark> marks = {};
-  std::vector<TimelineInterval> bad = {};     ///< pings that take no part in measures
-  std::optional<std::int64_t> selected = {};  ///< school_id that is highlighted
-  std::span<const RefusedEcho> refused = {};  ///< marked, each echo where it was loudest
-  std::int64_t chosen_echo = 0;               ///< echo_id that is highlighted; 0 = none
+  std::vector<TimelineInterval> bad = {};        ///< pings that take no part in measures
+  std::optional<std::int64_t> selected = {};     ///< school_id that is highlighted
+  std::span<const RefusedEcho> refused = {};     ///< marked, each echo where it was loudest
+  std::int64_t chosen_echo = 0;                  ///< echo_id that is highlighted; 0 = none
+  std::span<const EchogramSchool> schools = {};  ///< where the style outlines them
+  std::string label = {};                        ///< named above it so; empty = the observation's name
 };
 
 /// A raster of an echogram, and what it cost.
@@ -88,7 +105,8 @@ struct EchogramImage {
 
 /// Range against time (or log) for an observation or a whole survey: Sv of all beams, school tracks with their numbers
 /// in the line style of their status, observations named above, gaps left empty, pings without data grey and hatched; a
-/// key below says what is not plain.
+/// key below says what is not plain. Also the echogram of one beam, fan or channel, against range or depth, with its
+/// schools outlined.
 /// observations  in time order
 /// errors        bad_parameter: a parameter out of range, or too small a picture; not_found: no pings; usage: no log
 [[nodiscard]] Result<FrameDescription> timeline(std::span<const TimelineObservation> observations,

@@ -168,7 +168,9 @@ void add_names(FrameDescription& frame, std::span<const Strip> strips, const Plo
     if (to <= from) continue;  // outside the part that is shown
     const double y = plot.place.y - 0.45 * em;
     frame.items.emplace_back(rectangle_item({from, y, to - from, 0.25 * em}, theme.track));
-    const std::string& name = strip.observation->product->observation;
+    const std::string& label = strip.observation->label;
+    const std::string name =
+        elided(label.empty() ? strip.observation->product->observation : label, 0.9 * em, plot.place.width);
     const double half = text_width_px(name.c_str(), 0.9 * em) / 2.0;
     const double middle = std::clamp((from + to) / 2.0, plot.place.x + half, plot.place.x + plot.place.width - half);
     if (middle - half < free_x) continue;

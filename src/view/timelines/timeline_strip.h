@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "view/key_rows.h"
@@ -62,10 +64,17 @@ struct TrackNumber {
 /// numbers  of those that are seen, added to: they stand over all tracks, or the next one would hide them
 void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
                 const Theme& theme, std::vector<TrackNumber>& numbers);
+/// Schools as the edges of the cells that they have in an echogram.
+/// numbers  as add_tracks()
+void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
+                  const Theme& theme, std::vector<TrackNumber>& numbers);
 /// Numbers at their tracks' first pings, else at other places along them, none on another; those that find no room are
 /// left out.
 void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,
                        const Theme& theme);
+/// A school's colour on a timeline: its own, or that of its status.
+[[nodiscard]] Rgba8 timeline_colour(std::int64_t school_id, const std::string& status, const TimelineStyle& style,
+                                    const Theme& theme);
 void add_refused(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// What the lines and the shades of a timeline are.
 [[nodiscard]] std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style,

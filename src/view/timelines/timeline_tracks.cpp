@@ -15,14 +15,12 @@
 #include "view/timelines/timeline_strip.h"
 
 namespace sonar {
-namespace {
 
-Rgba8 look_of(const SchoolRow& school, const TimelineStyle& style, const Theme& theme) {
-  if (!style.by_school || school.status == "rejected") return status_colour(school.status, theme);
-  return school_colour(static_cast<int>(school.school_id));
+Rgba8 timeline_colour(std::int64_t school_id, const std::string& status, const TimelineStyle& style,
+                      const Theme& theme) {
+  if (!style.by_school || status == "rejected") return status_colour(status, theme);
+  return school_colour(static_cast<int>(school_id));
 }
-
-}  // namespace
 
 void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
                 const Theme& theme, std::vector<TrackNumber>& numbers) {
@@ -40,7 +38,7 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
     }
     if (parts.empty()) continue;
     const bool selected = strip.observation->selected == school.school_id;
-    const Rgba8 colour = look_of(school, style, theme);
+    const Rgba8 colour = timeline_colour(school.school_id, school.status, style, theme);
     std::vector<PixelPoint> points;
     for (PathItem::Part& part : parts) {
       points.insert(points.end(), part.points.begin(), part.points.end());
@@ -104,19 +102,21 @@ KeyEntry hatched(std::string text, Rgba8 fill, double slope, const Theme& theme)
 std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style, const Theme& theme) {
   std::vector<KeyEntry> out;
   for (const char* status : kStatuses) {
-    const bool there =
-        style.schools && std::any_of(strips.begin(), strips.end(), [&](const Strip& s) {
-          return std::any_of(s.observation->product->schools.begin(), s.observation->product->schools.end(),
-                             [&](const SchoolRow& row) { return row.status == status; });
-        });
+    const auto of_status = [status](const auto& row) { return row.status == status; };
+    const bool there = style.schools && std::any_of(strips.begin(), strips.end(), [&](const Strip& s) {
+                         const TimelineObservation& o = *s.observation;
+                         if (style.outlined) return std::any_of(o.schools.begin(), o.schools.end(), of_status);
+                         return std::any_of(o.product->schools.begin(), o.product->schools.end(), of_status);
+                       });
     if (!there) continue;
     SchoolRow row;
     row.status = status;
     // With a colour for each school any of them may be meant.
     const bool own = style.by_school && row.status != "rejected";
     const Rgba8 colour = own ? theme.text : status_colour(status, theme);
-    out.push_back({fmt::format("track of a school, {}", status), [colour, dashes = status_dashes(status, theme), theme](
-                                                                     FrameDescription& frame, const PixelRect& at) {
+    const char* what = style.outlined ? "school" : "track of a school";
+    out.push_back({fmt::format("{}, {}", what, status), [colour, dashes = status_dashes(status, theme), theme](
+                                                            FrameDescription& frame, const PixelRect& at) {
                      const double y = at.y + 0.5 * at.height;
                      PathItem line = line_item({at.x, y}, {at.x + at.width, y}, colour, 1.8 * theme.line_px);
                      line.stroke.dashes_px = dashes;

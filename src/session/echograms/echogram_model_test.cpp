@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/echograms/echogram_model.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "io/simrad/test_bytes.h"
+#include "session/test_survey.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+/// The window's echogram over a survey.
+class Echogram : public testing::Test {
+ protected:
+  explicit Echogram(const std::filesystem::path& survey = TestSurvey::easy().folder())
+      : workspace_(queue_, TestSurvey::options(TestSurvey::easy().fresh())) {
+    document().open({survey});
+    echogram_.resize({900, 500}, 1.0);
+    echogram_.set_seen(true);
+    settle();
+  }
+  void settle() {
+    do {
+      document().settle();
+      echogram_.wait();
+    } while (queue_.drain() > 0);
+  }
+  Document& document() { return workspace_.document; }
+  [[nodiscard]] const OpenObservation& shown() { return *document().shown(); }
+  [[nodiscard]] TimeNs time_of(std::int64_t ping) {
+    return shown().files().navigation[static_cast<std::size_t>(ping)].time;
+  }
+  /// Where a ping shows a sample of the beam that the echogram is of.
+  [[nodiscard]] PixelPoint place_of(std::int64_t ping, double sample) {
+    const EchogramPlot& plot = echogram_.places()->above;
+    const double x = plot.places.x_of(time_of(ping)) + 2.0;
+    const EchogramRow row = echogram_rows(shown().sector(), shown().placement(ping), plot.of.name.of).front();
+    return {x, plot.places.plot.at(0.0, row.height_m(sample)).y};
+  }
+  void point(PixelPoint at, PointerAction action = PointerAction::move, PointerButton button = PointerButton::none) {
+    echogram_.pointer({.action = action, .button = button, .at = at});
+  }
+  void click(PixelPoint at) {
+    point(at);
+    point(at, PointerAction::press, PointerButton::left);
+    point(at, PointerAction::release, PointerButton::left);
+    settle();
+  }
+  void wheel(PixelPoint at, double steps, bool control = false) {
+    echogram_.pointer({.action = PointerAction::wheel, .at = at, .control = control, .wheel_steps = steps});
+    settle();
+  }
+
+  ChangeQueue queue_;
+  Workspace workspace_;
+  std::shared_ptr<Echograms> echograms_ = std::make_shared<Echograms>(queue_, workspace_.document);
+  EchogramModel echogram_{workspace_, echograms_};
+};
+
+TEST_F(Echogram, ACellIsTheSampleOfItsPingAndBeam) {
+  ASSERT_TRUE(!!workspace_.display.set("removed", Choice{0}));  // as recorded
+  workspace_.slices.set({7, 12});
+  settle();
+  const auto name = echogram_.name();
+  ASSERT_TRUE(name);
+  EXPECT_EQ(name->of, (EchogramOf{7, 12, EchogramHeight::range}));
+  const EchogramPtr echogram = echograms_->of(*name);
+  ASSERT_TRUE(echogram && echograms_->complete(*name));
+  ASSERT_EQ(echogram->pings(), static_cast<std::size_t>(TestSurvey::kPings));
+  Engine engine(shown().survey(), shown().files(), document().recipe());
+  for (const std::int64_t ping : {0, 5, 11}) {
+    const auto staged = engine.staged(ping);
+    ASSERT_TRUE(staged);
+    int seen = 0;
+    for (int s = 0; s < shown().sector().range().count; ++s) {
+      if (shown().sector().volume_m3(7, 12, s) == 0.0) continue;
+      const int bin = bin_of(echogram->range(), shown().sector().range().range_m(s));
+      ASSERT_GE(bin, 0);
+      EXPECT_EQ(echogram->cell(0, static_cast<std::size_t>(ping), bin).mean_count(), staged->sv.counts(7, 12, s));
+      ++seen;
+    }
+    EXPECT_GT(seen, 1000);
+  }
+}
+
+TEST_F(Echogram, FollowsTheSlicesUnlessItIsHeld) {
+  workspace_.slices.set({3, 4});
+  settle();
+  EXPECT_EQ(echogram_.places()->above.of.name.of, (EchogramOf{3, 4, EchogramHeight::range}));
+  echogram_.set_held(true);
+  workspace_.slices.set({9, 9});
+  settle();
+  EXPECT_EQ(echogram_.places()->above.of.name.of, (EchogramOf{3, 4, EchogramHeight::range}));
+  echogram_.set_held(false);
+  settle();
+  EXPECT_EQ(echogram_.places()->above.of.name.of, (EchogramOf{9, 9, EchogramHeight::range}));
+  echogram_.set_of_fan(true);
+  echogram_.set_along_depth(true);
+  settle();
+  EXPECT_EQ(echogram_.places()->above.of.name.of, (EchogramOf{9, std::nullopt, EchogramHeight::depth}));
+  EXPECT_EQ(echogram_.places()->above.places.plot.y.label, "depth (m)");
+}
+
+TEST_F(Echogram, AClickGoesToItsPingAndTheLineIsNoNewPicture) {
+  const auto pictures = echogram_.pictures();
+  click(place_of(7, 300));
+  EXPECT_EQ(document().ping(), 7);
+  EXPECT_EQ(echogram_.pictures(), pictures);
+  ASSERT_FALSE(echogram_.overlays().empty());
+  EXPECT_NEAR(echogram_.overlays()[0].line.front().x, echogram_.places()->above.places.x_of(time_of(7)), 1e-6);
+  // A ping fills up to the next one: just before ping 8 still is ping 7.
+  point(place_of(3, 300), PointerAction::press, PointerButton::left);
+  point({echogram_.places()->above.places.x_of(time_of(8)) - 1.0, place_of(7, 300).y}, PointerAction::move,
+        PointerButton::left);
+  EXPECT_EQ(document().ping(), 7);
+}
+
+TEST_F(Echogram, TheCursorIsThatOfTheOtherViews) {
+  workspace_.slices.set({7, 12});
+  document().look_at(5);
+  settle();
+  for (const bool depth : {false, true}) {
+    echogram_.set_along_depth(depth);
+    settle();
+    point(place_of(5, 400));
+    EXPECT_EQ(workspace_.cursor(), (Voxel{7, 12, 400})) << depth;
+    EXPECT_EQ(echogram_.overlays().size(), 1U) << "what points has no cross of its own";
+    point(place_of(6, 400));
+    EXPECT_FALSE(workspace_.cursor()) << "another ping than the one on show";
+    point({0.0, 0.0}, PointerAction::leave);
+    workspace_.cursor.set(Voxel{2, 3, 250});
+    ASSERT_EQ(echogram_.overlays().size(), 2U);
+    const PixelPoint cross = echogram_.overlays()[1].cross.value();
+    EXPECT_NEAR(cross.y, place_of(5, 250).y, 1e-6) << "at its range, in the beam that is shown";
+    EXPECT_NEAR(cross.x, echogram_.places()->above.places.x_of(time_of(5)), 1e-6);
+  }
+}
+
+TEST_F(Echogram, AHintTellsPingTimeRangeDepthAndSv) {
+  workspace_.slices.set({7, 12});
+  settle();
+  const std::string hint = echogram_.hint(place_of(5, 400));
+  const RangeAxis& axis = shown().sector().range();
+  const double range_m = axis.range_m(400);
+  const double depth_m =
+      shown().placement(5).transducer_depth_m - range_m * std::sin(shown().sector().elevation_rad(7));
+  for (const std::string& words :
+       {std::string("obs-0001, ping 5"), std::string("UTC"), std::string("beam 12 of fan 7"),
+        fmt::format("range {:.1f} m", range_m), fmt::format("depth {:.1f} m", depth_m), std::string("Sv ")}) {
+    EXPECT_THAT(hint, HasSubstr(words));
+  }
+  EXPECT_EQ(echogram_.hint({1.0, 1.0}), "");
+}
+
+TEST_F(Echogram, WheelMiddleButtonAndDoublePressZoomPanAndShowAll) {
+  const PixelPoint at = place_of(6, 500);
+  wheel(at, 1.0);
+  EXPECT_TRUE(echogram_.zoomed());
+  EXPECT_NEAR(place_of(6, 500).x, at.x, 0.05) << "the time under the pointer stays";
+  wheel(at, 3.0, true);
+  EXPECT_NEAR(place_of(6, 500).y, at.y, 0.05) << "so does the range";
+  const PlotAxis zoomed = echogram_.places()->above.places.plot.y;
+  EXPECT_LT(zoomed.last - zoomed.first, 0.6 * (echogram_.places()->heights.last_m));
+  point(at, PointerAction::press, PointerButton::middle);
+  point({at.x, at.y + 12.0}, PointerAction::move, PointerButton::middle);
+  point({at.x, at.y + 12.0}, PointerAction::release, PointerButton::middle);
+  settle();
+  EXPECT_NEAR(place_of(6, 500).y, at.y + 12.0, 0.05);
+  point(at, PointerAction::double_press, PointerButton::left);
+  settle();
+  EXPECT_FALSE(echogram_.zoomed());
+  EXPECT_NEAR(place_of(6, 500).x, at.x, 0.05);
+  EXPECT_NEAR(place_of(6, 500).y, at.y, 0.05);
+}
+
+TEST_F(Echogram, BeamsThatNobodyLooksAtAreLetGoInTime) {
+  std::vector<EchogramName> names;
+  for (int beam = 0; beam < 9; ++beam) {
+    workspace_.slices.set({5, beam});
+    settle();
+    names.push_back(*echogram_.name());
+    EXPECT_TRUE(echograms_->complete(names.back()));
+  }
+  const auto kept = [&](const EchogramName& name) { return echograms_->of(name) != nullptr; };
+  EXPECT_TRUE(kept(names.back()) && kept(names[6]));
+  EXPECT_FALSE(kept(names[0]));
+  EXPECT_LE(std::count_if(names.begin(), names.end(), kept), 6);
+}
+
+/// Two pings a second apart of a sounder with 38 and 120 kHz, over the time of the simulated survey's first observation.
+std::filesystem::path with_ek60(bool fans) {
+  const std::filesystem::path folder = TestSurvey::easy().fresh() / "both";
+  std::filesystem::create_directories(folder);
+  Work work;
+  const std::vector<std::filesystem::path> easy{TestSurvey::easy().folder()};
+  const auto survey = open_survey(easy, {}, {}, IndexCache{}, work);
+  const ObservationFiles& first = survey->observations.front();
+  if (fans) {
+    for (const auto& file : survey->files) {
+      std::filesystem::copy_file(file.path, folder / file.path.filename());
+    }
+  }
+  test::Con0Spec con0;
+  con0.sounder = "ER60";
+  con0.beams = {{38'000.0F, 0.0F, 0.0F, 25.0F, -20.5F}, {120'000.0F, 0.0F, 0.0F, 27.0F, -21.0F}};
+  const TimeNs start = survey->ping_time(first, 0);
+  test::Bytes bytes = test::con0(con0, start);
+  for (int ping = 0; ping < 30; ++ping) {
+    for (int channel = 1; channel <= 2; ++channel) {
+      test::Raw0Spec spec;
+      spec.channel = channel;
+      spec.frequency_hz = channel == 1 ? 38'000.0F : 120'000.0F;
+      spec.transducer_depth_m = 6.0F;
+      bytes.add(test::raw0(start + ping * kSecondNs, spec, std::vector<std::int16_t>(300, -9000)));
+    }
+  }
+  std::ofstream out(folder / "ek60.raw", std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data.data()), static_cast<std::streamsize>(bytes.size()));
+  return folder;
+}
+
+class EchogramWithEk60 : public Echogram {
+ protected:
+  EchogramWithEk60() : Echogram(with_ek60(true)) {}
+};
+
+TEST_F(EchogramWithEk60, ItsChannelsLieBelowUnderTheSameTime) {
+  const auto& places = echogram_.places();
+  ASSERT_TRUE(places && places->below);
+  EXPECT_EQ(places->below->of.name.channel, 0);
+  EXPECT_TRUE(echograms_->complete(places->below->of.name));
+  EXPECT_NEAR(places->above.places.x_of(time_of(4)), places->below->places.x_of(time_of(4)), 1e-6);
+  const PixelRect& plot = places->below->places.plot.place;
+  const PixelPoint there{places->below->places.x_of(time_of(4)) + 2.0, plot.y + 0.5 * plot.height};
+  EXPECT_THAT(echogram_.hint(there), HasSubstr("channel 1 of 2: 38 kHz"));
+  click(there);
+  EXPECT_EQ(document().ping(), 4) << "the ping of that time";
+  echogram_.next_channel();
+  settle();
+  EXPECT_THAT(echogram_.hint(there), HasSubstr("channel 2 of 2: 120 kHz"));
+  echogram_.set_other_below(false);
+  settle();
+  EXPECT_FALSE(echogram_.places()->below);
+}
+
+class EchogramOfEk60 : public Echogram {
+ protected:
+  EchogramOfEk60() : Echogram(with_ek60(false)) {}
+};
+
+TEST_F(EchogramOfEk60, IsShownWhereNothingHasFans) {
+  EXPECT_FALSE(document().shown());
+  EXPECT_EQ(echogram_.problem(), "");
+  ASSERT_TRUE(echogram_.places());
+  EXPECT_GT(echogram_.image().size.width, 0);
+  EXPECT_EQ(echogram_.places()->above.of.name.channel, 0);
+  ASSERT_TRUE(echogram_.places()->above.of.echogram);
+  EXPECT_EQ(echogram_.places()->above.of.echogram->pings(), 30U);
+  const PixelRect& plot = echogram_.places()->above.places.plot.place;
+  const PixelPoint middle{plot.x + 0.5 * plot.width, plot.y + 0.5 * plot.height};
+  EXPECT_THAT(echogram_.hint(middle), HasSubstr("Sv "));
+  click(middle);  // nothing to go to: no harm
+}
+
+}  // namespace
+}  // namespace sonar

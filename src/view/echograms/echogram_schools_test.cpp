@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/echograms/echogram_schools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <span>
+#include <variant>
+
+#include "view/echograms/stacked_timelines.h"
+#include "view/maps/map_example.h"
+#include "view/school_look.h"
+#include "view/timelines/timeline.h"
+
+namespace sonar {
+namespace {
+
+using map_example::says;
+
+/// Whether rings hold a place: even-odd, by a ray to the right.
+bool holds(const std::vector<PathItem::Part>& rings, double x, double y) {
+  bool in = false;
+  for (const PathItem::Part& ring : rings) {
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const PixelPoint& a = ring.points[i];
+      const PixelPoint& b = ring.points[(i + 1) % ring.points.size()];
+      if ((a.y > y) == (b.y > y)) continue;
+      if (x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) in = !in;
+    }
+  }
+  return in;
+}
+
+TEST(OutlineOfColumns, HoldsExactlyTheCells) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    constexpr int kColumns = 9;
+    constexpr int kCells = 8;
+    std::vector<std::vector<bool>> in(kColumns, std::vector<bool>(kCells));
+    std::vector<OutlinedColumn> columns;
+    double x = 3.0;
+    std::vector<double> from;
+    for (auto& column : in) {
+      from.push_back(x);
+      for (int c = 0; c < kCells; ++c) column[static_cast<std::size_t>(c)] = random() % 100 < 45;
+      OutlinedColumn one{x, x + 2.5, {}};
+      for (int c = 0; c < kCells; ++c) {
+        if (!column[static_cast<std::size_t>(c)]) continue;
+        const int first = c;
+        while (c < kCells && column[static_cast<std::size_t>(c)]) ++c;
+        one.stretches.emplace_back(1.5 * first, 1.5 * c);
+      }
+      if (!one.stretches.empty()) columns.push_back(one);
+      x += random() % 5 == 0 ? 4.0 : 2.5;  // a gap now and then
+    }
+    const auto rings = outline_of_columns(columns);
+    for (int i = 0; i < kColumns; ++i) {
+      for (int c = 0; c < kCells; ++c) {
+        const double at_x = from[static_cast<std::size_t>(i)] + 1.2;
+        EXPECT_EQ(holds(rings, at_x, 1.5 * c + 0.7), in[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)]);
+      }
+      EXPECT_FALSE(holds(rings, from[static_cast<std::size_t>(i)] + 1.2, 1.5 * kCells + 0.5));
+    }
+    EXPECT_FALSE(holds(rings, x + 1.0, 0.7));
+  }
+}
+
+TEST(OutlineOfColumns, ABlockIsOneRingOfFourCorners) {
+  const std::vector<OutlinedColumn> columns{
+      {0.0, 1.0, {{2.0, 5.0}}}, {1.0, 2.0, {{2.0, 5.0}}}, {2.0, 3.0, {{2.0, 5.0}}}};
+  const auto rings = outline_of_columns(columns);
+  ASSERT_EQ(rings.size(), 1U);
+  EXPECT_TRUE(rings[0].closed);
+  EXPECT_EQ(rings[0].points.size(), 4U);
+}
+
+/// A product of 20 pings whose school 3 lies in beams 1 and 2 of fan 1, samples 24 .. 26, pings 5 .. 15.
+struct Example {
+  ObservationProduct product = map_example::product("obs-0001", 20);
+  Sector sector = map_example::grid().grid.sector(map_example::grid().range);
+  Example() {
+    map_example::add_school(product, 3, product.pings[0].transducer, 5, 15, map_example::block(1, 1, 2, 24, 3));
+  }
+  [[nodiscard]] RowsOfPing rows(const EchogramOf& of) const {
+    return [this, of](std::int64_t ping) {
+      return echogram_rows(sector, product.pings[static_cast<std::size_t>(ping)].placement(), of);
+    };
+  }
+};
+
+TEST(EchogramSchools, HaveTheCellsOfTheirSamplesInTheBeamAlone) {
+  const Example example;
+  const EchogramOf beam{1, 2, EchogramHeight::range};
+  const EchogramRange range = echogram_range(example.sector, {}, beam);
+  const auto schools = echogram_schools(example.product, example.rows(beam), range, 2, 10);
+  ASSERT_EQ(schools.size(), 1U);
+  EXPECT_EQ(schools[0].school_id, 3);
+  ASSERT_EQ(schools[0].stretches.size(), 7U) << "pings 5 .. 11 of 2 .. 11";
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(schools[0].stretches[i].ping, i + 3);
+    EXPECT_DOUBLE_EQ(schools[0].stretches[i].from_m, -1.0 + 2.0 * 24 - 1.0);
+    EXPECT_DOUBLE_EQ(schools[0].stretches[i].to_m, -1.0 + 2.0 * 26 + 1.0);
+  }
+  for (const EchogramOf& other : {EchogramOf{1, 0, EchogramHeight::range}, EchogramOf{2, 2, EchogramHeight::range}}) {
+    EXPECT_TRUE(echogram_schools(example.product, example.rows(other), range, 0, 20).empty());
+  }
+  const EchogramOf fan{1, std::nullopt, EchogramHeight::range};
+  EXPECT_EQ(echogram_schools(example.product, example.rows(fan), range, 0, 20).at(0).stretches.size(), 11U);
+}
+
+TEST(EchogramSchools, RefusedEchoesAreMarkedInTheirBeam) {
+  Example example;
+  RefusedEcho echo;
+  echo.ping_index = 6;
+  echo.echo_id = 1;
+  echo.channel = 6;  // fan 1, beam 2
+  echo.sample = 10;
+  example.product.rejected = {echo};
+  const EchogramOf beam{1, 2, EchogramHeight::depth};
+  const auto here = echogram_refused(example.product.rejected, example.product.grid->grid, example.rows(beam), 4, 10);
+  ASSERT_EQ(here.size(), 1U);
+  EXPECT_EQ(here[0].ping_index, 2);
+  EXPECT_NEAR(here[0].range_m, 7.0 + 19.0 * std::sin(rad_from_deg(15.0)), 1e-9);
+  const EchogramOf other{1, 1, EchogramHeight::depth};
+  EXPECT_TRUE(
+      echogram_refused(example.product.rejected, example.product.grid->grid, example.rows(other), 0, 20).empty());
+}
+
+/// The picture of one beam with its school.
+struct Picture {
+  Example example;
+  std::vector<EchogramSchool> schools;
+  TimelineObservation observation;
+  TimelineStyle style;
+  Picture() {
+    const EchogramOf beam{1, 2, EchogramHeight::range};
+    const EchogramRange range = echogram_range(example.sector, {}, beam);
+    schools = echogram_schools(example.product, example.rows(beam), range, 0, 20);
+    observation.product = &example.product;
+    observation.schools = schools;
+    style.of = "beam 2 of fan 1";
+    style.outlined = style.by_school = true;
+    style.shown_heights = TimelineHeights{0.0, 118.0};
+  }
+};
+
+TEST(Echogram, OutlinesItsSchoolsWithTheirNumbers) {
+  const Picture picture;
+  constexpr PixelSize kWide{900, 500};
+  const Theme theme = light_theme(kWide);
+  const auto frame = timeline(std::span(&picture.observation, 1), picture.style, kWide, theme);
+  const auto plot = timeline_plot(std::span(&picture.observation, 1), picture.style, kWide, theme);
+  ASSERT_TRUE(frame && plot);
+  for (const char* words : {"beam 2 of fan 1", "school, unreviewed", "range (m)"}) EXPECT_TRUE(says(*frame, words));
+  EXPECT_FALSE(says(*frame, "track"));
+  const auto number = std::find_if(frame->items.begin(), frame->items.end(), [](const auto& item) {
+    const auto* text = std::get_if<TextItem>(&item);
+    return text != nullptr && text->text == "3" && text->bold;
+  });
+  EXPECT_NE(number, frame->items.end());
+  const auto outline = std::find_if(frame->items.begin(), frame->items.end(), [](const auto& item) {
+    const auto* path = std::get_if<PathItem>(&item);
+    return path != nullptr && path->stroke.colour == school_colour(3) && path->parts[0].closed;
+  });
+  ASSERT_NE(outline, frame->items.end());
+  const auto& rings = std::get<PathItem>(*outline).parts;
+  const auto in = [&](double seconds, double metres) {
+    const PixelPoint at = plot->plot.at(seconds, metres);
+    return holds(rings, at.x, at.y);
+  };
+  // Ping 5 begins at 25 s, ping 16 at 80 s; samples 24 .. 26 lie at 47 .. 51 m.
+  EXPECT_TRUE(in(25.2, 46.2) && in(79.8, 51.8));
+  EXPECT_FALSE(in(24.8, 49.0) || in(80.2, 49.0) || in(50.0, 45.8) || in(50.0, 52.2));
+}
+
+TEST(Echogram, APartOfBothAxesCanBeShown) {
+  Picture picture;
+  constexpr PixelSize kWide{900, 500};
+  picture.style.shown_heights = TimelineHeights{40.0, 60.0};
+  picture.style.height = EchogramHeight::depth;
+  picture.style.shown = TimelineInterval{picture.example.product.pings[4].time, picture.example.product.pings[8].time};
+  const auto plot = timeline_plot(std::span(&picture.observation, 1), picture.style, kWide, light_theme(kWide));
+  ASSERT_TRUE(plot);
+  EXPECT_DOUBLE_EQ(plot->plot.y.first, 40.0);
+  EXPECT_DOUBLE_EQ(plot->plot.y.last, 60.0);
+  EXPECT_EQ(plot->plot.y.label, "depth (m)");
+  EXPECT_DOUBLE_EQ(plot->plot.x.first, 20.0);
+}
+
+TEST(StackedTimelines, HaveOneTimeAxis) {
+  const Picture picture;
+  ObservationProduct other =
+      map_example::product("obs-0009", 60, {60.0, 5.0}, 0.0, map_example::kStart + 30 * kSecondNs);
+  other.grid.reset();
+  TimelinePanel below;
+  below.observation.product = &other;
+  below.observation.label = "obs-0009, channel 1 of 2: 38 kHz";
+  constexpr PixelSize kWide{900, 700};
+  const Theme theme = light_theme(kWide);
+  const TimelinePanel above{picture.observation, picture.style};
+  const auto frame = stacked_timelines(above, below, kWide, theme);
+  const auto plots = stacked_plots(above, below, kWide, theme);
+  ASSERT_TRUE(frame && plots);
+  EXPECT_EQ(frame->size, kWide);
+  EXPECT_TRUE(says(*frame, "obs-0009, channel 1 of 2: 38 kHz"));
+  const auto x = [](const TimelinePlot& plot, TimeNs time) {
+    return plot.plot.at(static_cast<double>(time - plot.zero) / 1e9, 0.0).x;
+  };
+  for (const int ping : {6, 12, 19}) {
+    const TimeNs time = picture.example.product.pings[static_cast<std::size_t>(ping)].time;
+    EXPECT_NEAR(x(plots->above, time), x(plots->below, time), 1e-6);
+  }
+  EXPECT_GT(plots->below.plot.place.y, plots->above.plot.place.y + plots->above.plot.place.height);
+  TimelinePanel along_log = above;
+  along_log.style.axis = TimelineAxis::log;
+  EXPECT_FALSE(stacked_timelines(along_log, below, kWide, theme));
+}
+
+}  // namespace
+}  // namespace sonar

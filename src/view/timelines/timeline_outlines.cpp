@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "view/school_look.h"
+#include "view/timelines/timeline_strip.h"
+
+namespace sonar {
+namespace {
+
+/// Pings that share a pixel make one column: what is drawn grows with the picture, not with the number of pings.
+constexpr double kLeastColumn_px = 1.0;
+
+/// Two lists of intervals as one, those that meet joined.
+std::vector<std::pair<double, double>> united(std::vector<std::pair<double, double>> all) {
+  std::sort(all.begin(), all.end());
+  std::vector<std::pair<double, double>> out;
+  for (const auto& one : all) {
+    if (!out.empty() && one.first <= out.back().second) {
+      out.back().second = std::max(out.back().second, one.second);
+    } else {
+      out.push_back(one);
+    }
+  }
+  return out;
+}
+
+std::vector<OutlinedColumn> columns_of(const EchogramSchool& school, const Strip& strip, const PlotFrame& plot) {
+  const std::vector<double>& x = strip.along.x;
+  const double right = plot.place.x + plot.place.width;
+  std::vector<OutlinedColumn> out;
+  for (std::size_t i = 0; i < school.stretches.size();) {
+    const std::size_t ping = school.stretches[i].ping;
+    if (ping >= x.size()) break;
+    OutlinedColumn column{plot.at(x[ping], 0.0).x, plot.at(filled_until(x, strip.along.gap, ping), 0.0).x, {}};
+    for (; i < school.stretches.size() && school.stretches[i].ping == ping; ++i) {
+      const EchogramStretch& s = school.stretches[i];
+      column.stretches.emplace_back(plot.at(0.0, s.from_m).y, plot.at(0.0, s.to_m).y);
+    }
+    if (column.to < plot.place.x || column.from > right || !(column.to > column.from)) continue;
+    OutlinedColumn* before = out.empty() || out.back().to != column.from ? nullptr : &out.back();
+    if (before != nullptr && column.to - before->from < kLeastColumn_px) {
+      before->to = column.to;
+      before->stretches.insert(before->stretches.end(), column.stretches.begin(), column.stretches.end());
+      before->stretches = united(std::move(before->stretches));
+    } else {
+      out.push_back(std::move(column));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
+                  const Theme& theme, std::vector<TrackNumber>& numbers) {
+  for (const EchogramSchool& school : strip.observation->schools) {
+    const std::vector<OutlinedColumn> columns = columns_of(school, strip, plot);
+    if (columns.empty()) continue;
+    const bool selected = strip.observation->selected == school.school_id;
+    const Rgba8 colour = timeline_colour(school.school_id, school.status, style, theme);
+    const std::vector<PathItem::Part> rings = outline_of_columns(columns);
+    const double wide = 1.6 + (selected ? 1.2 : 0.0);
+    for (const auto& [line, width] : {std::pair(theme.halo, wide + 1.6), std::pair(colour, wide)}) {
+      PathItem item;
+      item.parts = rings;
+      item.stroke = {line, width * theme.line_px,
+                     width > wide ? std::vector<double>{} : status_dashes(school.status, theme)};
+      frame.items.emplace_back(std::move(item));
+    }
+    TrackNumber number{fmt::format("{}", school.school_id), selected, {}};
+    for (const OutlinedColumn& column : columns) {
+      const PixelPoint top{(column.from + column.to) / 2.0, column.stretches.front().first};
+      if (inside(plot.place, top)) number.seen.push_back(top);
+    }
+    if (!number.seen.empty()) numbers.push_back(std::move(number));
+  }
+}
+
+}  // namespace sonar
