@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/describe.h"
+#include "publish/movie_params.h"
 #include "view/sv_scale.h"
 #include "view/volume/volume_scene.h"
 
@@ -267,6 +268,7 @@ struct PictureParams {
   CameraParams volume;
   PropagationParams propagation;
   TimelineParams timeline;
+  MovieParams movie;
 };
 
 template <class Visitor>
@@ -276,6 +278,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("volume", p.volume, "where a volume is looked at from");
   v.group("propagation", p.propagation, "a ping and its neighbours");
   v.group("timeline", p.timeline, "an echogram over time");
+  v.group("movie", p.movie, "what moves in a movie, and how fast");
 }
 
 /// How large a picture in a file is.
