@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "publish/between_pings.h"
@@ -19,28 +20,60 @@ namespace {
 
 constexpr double kCaption_em = 2.4;
 
-/// From outside the sector, as far away as all of it is seen from every side.
-Camera from_all_sides(const Sector& sector, Camera camera, PixelSize size) {
-  constexpr int kSides = 24;
+/// Places that stand for the whole sector and the ship.
+std::vector<Point<Sonar>> rim_of(const Sector& sector) {
   const int last = sector.range().count - 1;
   std::vector<Point<Sonar>> rim{Point<Sonar>{}};
   for (const int fan : {0, sector.fans() - 1}) {
     for (int beam = 0; beam < sector.beams(); ++beam) rim.push_back(sector.centre(fan, beam, last));
   }
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    double most = 0.0;
+  return rim;
+}
+
+/// How many times as far away a camera has to be, about, for all places to be seen with a little room; 1 = they are seen.
+double farther(const Camera& camera, const std::vector<Point<Sonar>>& places, PixelSize size) {
+  constexpr double kFull = 0.95;
+  double most = 0.0;
+  const CameraBasis eye = basis(camera, size);
+  for (const Point<Sonar>& place : places) {
+    const auto seen = eye.project(place);
+    if (!seen) return 2.0;
+    most = std::max(
+        {most, std::abs(2.0 * seen->pixel.x / size.width - 1.0), std::abs(2.0 * seen->pixel.y / size.height - 1.0)});
+  }
+  return std::clamp(most / kFull, 1.0, 2.0);
+}
+
+constexpr int kAttempts = 12;
+
+/// As far away as all of the sector is seen from every side.
+Camera from_all_sides(const Sector& sector, Camera camera, PixelSize size) {
+  constexpr int kSides = 24;
+  const auto rim = rim_of(sector);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    double factor = 1.0;
     for (int side = 0; side < kSides; ++side) {
-      const CameraBasis eye = basis(orbited(camera, rad_from_deg(360.0 * side / kSides), 0.0), size);
-      for (const Point<Sonar>& place : rim) {
-        const auto seen = eye.project(place);
-        if (!seen) return zoomed(camera, 2.0);
-        most = std::max({most, std::abs(2.0 * seen->pixel.x / size.width - 1.0),
-                         std::abs(2.0 * seen->pixel.y / size.height - 1.0)});
-      }
+      factor = std::max(factor, farther(orbited(camera, rad_from_deg(360.0 * side / kSides), 0.0), rim, size));
     }
-    constexpr double kFull = 0.95;
-    if (most <= kFull) break;
-    camera = zoomed(camera, most / kFull);
+    if (factor <= 1.0) break;
+    camera = zoomed(camera, factor);
+  }
+  return camera;
+}
+
+/// As far away as all of the sector is seen at every ping.
+TrackCamera past_all_pings(const Sector& sector, TrackCamera camera, std::span<const PingNavigation> pings,
+                           PixelSize size) {
+  constexpr std::size_t kLooks = 64;
+  const auto rim = rim_of(sector);
+  const std::size_t step = std::max<std::size_t>(1, pings.size() / kLooks);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    double factor = farther(camera.seen_from(pings.back(), static_cast<double>(pings.size() - 1)), rim, size);
+    for (std::size_t i = 0; i < pings.size(); i += step) {
+      factor = std::max(factor, farther(camera.seen_from(pings[i], static_cast<double>(i)), rim, size));
+    }
+    if (factor <= 1.0) break;
+    camera = camera.from_farther(factor);
   }
   return camera;
 }
@@ -88,13 +121,14 @@ Result<void> Movie::prepare_camera() {
   if (!camera) return pass_on(camera);
   if (params.motion == MovieMotion::along_track) {
     const RangeAxis& range = sector->range();
-    const auto first = observation_->product().pings.begin() + pings_.first;
-    const auto count = static_cast<std::size_t>(pings_.last - pings_.first + 1);
-    // A window's camera stood there for a picture; one that is named in figures is meant for the movie.
-    auto track = TrackCamera::along({&*first, count}, zoomed(*camera, by_user ? 1.0 : 1.0 / zoom), !named.eye.empty(),
-                                    range.range_m(range.count - 1));
+    const std::span pings =
+        std::span(observation_->product().pings)
+            .subspan(static_cast<std::size_t>(pings_.first), static_cast<std::size_t>(pings_.last - pings_.first + 1));
+    auto track = TrackCamera::along(pings, *camera, range.range_m(range.count - 1));
     if (!track) return pass_on(track);
-    track_ = std::move(*track);
+    // A window's camera stood there for a picture; one that is named in figures is meant for the movie.
+    if (named.eye.empty()) track = past_all_pings(*sector, std::move(*track), pings, place->rays);
+    track_ = by_user ? *track : track->from_farther(1.0 / zoom);
   } else if (!by_user) {
     camera = zoomed(from_all_sides(*sector, *camera, place->rays), 1.0 / zoom);
   }
@@ -169,7 +203,8 @@ void Movie::add_caption(FrameDescription& page, std::size_t index) const {
   }
   std::string words = params.motion == MovieMotion::turntable
                           ? fmt::format("ping {}, turned by {:.0f}\u00B0", step.ping, step.turn_deg)
-                          : fmt::format("ping {} of {} to {}", step.ping, pings_.first, pings_.last);
+                      : step.between > 0 ? fmt::format("pings {} to {}", pings_.first, pings_.last)
+                                         : fmt::format("ping {} of {} to {}", step.ping, pings_.first, pings_.last);
   if (const std::string fast = pace(); !fast.empty()) words += ", " + fast;
   page.items.emplace_back(text_item({left, y}, elided(words, em, room), em, theme.muted));
 }

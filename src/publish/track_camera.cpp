@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -11,8 +10,7 @@
 
 namespace sonar {
 
-Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, const Camera& camera, bool named,
-                                       double reach_m) {
+Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, const Camera& camera, double reach_m) {
   if (pings.size() < 2) return fail(ErrorCode::usage, "a movie along the track needs two pings or more");
   for (const PingNavigation& ping : pings) {
     if (ping.has_position() && !std::isnan(ping.heading_deg)) continue;
@@ -27,18 +25,19 @@ Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, co
   out.heading_rad_ = rad_from_deg(reference.heading_deg);
   out.transducer_depth_m_ = reference.transducer_depth_m;
   out.steps_ = static_cast<double>(pings.size() - 1);
-  std::vector<Point<Enu>> places;
-  for (const PingNavigation& ping : pings) places.push_back(to_enu(ping.transducer, out.origin_));
-  const Point<Enu> way = places.back() - places.front();
+  const Point<Enu> first = to_enu(pings.front().transducer, out.origin_);
+  const Point<Enu> last = to_enu(pings.back().transducer, out.origin_);
+  const Point<Enu> way = last - first;
   const double length = norm(way);
-  out.halfway_ = (places.front() + places.back()) * 0.5;
+  out.halfway_ = (first + last) * 0.5;
   out.travel_ = way * (length > 2.0 * reach_m ? 1.0 - 2.0 * reach_m / length : 0.0);
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    farthest = std::max(farthest, norm(places[i] - out.middle(static_cast<double>(i))));
-  }
-  // The sector's size was all that the camera saw; now the ship, with the sector, moves as far to either side.
-  out.camera_ = named ? camera : zoomed(camera, 1.0 + farthest / std::max(1.0, reach_m));
+  out.camera_ = camera;
+  return out;
+}
+
+TrackCamera TrackCamera::from_farther(double factor) const {
+  TrackCamera out = *this;
+  out.camera_ = zoomed(camera_, factor);
   return out;
 }
 

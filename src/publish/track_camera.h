@@ -17,13 +17,14 @@ namespace sonar {
 class TrackCamera {
  public:
   /// pings    of the movie, two or more
-  /// camera   of the middle ping, in its sonar frame; away from it by so much as all that the ship does is to be seen
-  /// named    the camera is where a user put it: it is not moved away
+  /// camera   of the middle ping, in its sonar frame
   /// reach_m  of the sonar, from the ship
   /// errors   mismatch: a ping without position or heading; usage: fewer than two pings
   [[nodiscard]] static Result<TrackCamera> along(std::span<const PingNavigation> pings, const Camera& camera,
-                                                 bool named, double reach_m);
+                                                 double reach_m);
 
+  /// The same from `factor` times as far from what it looks at.
+  [[nodiscard]] TrackCamera from_farther(double factor) const;
   /// In the sonar frame of the ship.
   /// at  how far the movie is, pings from its first; with a fraction
   [[nodiscard]] Camera seen_from(const PingNavigation& ship, double at) const;

@@ -35,7 +35,7 @@ Point<Enu> on_earth(const Point<Sonar>& place, const PingNavigation& ship) {
 
 TEST(TrackCamera, OfAShortTrackStaysWhereItIsOnTheEarth) {
   const auto pings = track(11, 40.0, 40.0);
-  const auto camera = TrackCamera::along(pings, kCamera, false, 500.0);
+  const auto camera = TrackCamera::along(pings, kCamera, 500.0);
   ASSERT_TRUE(camera);
   const Point<Enu> eye = on_earth(camera->seen_from(pings[0], 0.0).eye, pings[0]);
   const Point<Enu> target = on_earth(camera->seen_from(pings[0], 0.0).target, pings[0]);
@@ -48,7 +48,7 @@ TEST(TrackCamera, OfAShortTrackStaysWhereItIsOnTheEarth) {
 
 TEST(TrackCamera, OfALongTrackMovesEvenlyAndKeepsTheShipWithinItsReach) {
   const auto pings = track(101, 200.0, 200.0);  // 3000 m
-  const auto camera = TrackCamera::along(pings, kCamera, false, 500.0);
+  const auto camera = TrackCamera::along(pings, kCamera, 500.0);
   ASSERT_TRUE(camera);
   const double step = norm(camera->middle(1.0) - camera->middle(0.0));
   EXPECT_NEAR(step, 20.0, 0.1) << "2000 of 3000 m in 100 steps";
@@ -59,27 +59,25 @@ TEST(TrackCamera, OfALongTrackMovesEvenlyAndKeepsTheShipWithinItsReach) {
   }
 }
 
-TEST(TrackCamera, IsFartherAwayByWhatTheShipMovesUnlessAUserPutItThere) {
+TEST(TrackCamera, FromFartherItLooksAtTheSamePlace) {
   const auto pings = track(11, 90.0, 90.0);
-  const auto distance = [&](bool named) {
-    const auto camera = TrackCamera::along(pings, kCamera, named, 300.0);
-    const Camera seen = camera.value().seen_from(pings[5], 5.0);
-    return norm(seen.eye - seen.target);
-  };
-  const double before = norm(kCamera.eye - kCamera.target);
-  EXPECT_NEAR(distance(true), before, 1e-6);
-  EXPECT_NEAR(distance(false), before * 1.5, 0.01 * before) << "150 m to either side of 300";
+  const auto camera = TrackCamera::along(pings, kCamera, 300.0);
+  ASSERT_TRUE(camera);
+  const Camera near = camera->seen_from(pings[5], 5.0);
+  const Camera far = camera->from_farther(1.5).seen_from(pings[5], 5.0);
+  EXPECT_LT(norm(far.target - near.target), 1e-9);
+  EXPECT_NEAR(norm(far.eye - far.target), 1.5 * norm(kCamera.eye - kCamera.target), 1e-6);
 }
 
 TEST(TrackCamera, WhatIsNotKnownIsOneLine) {
   auto pings = track(3, 0.0, 0.0);
   pings[1].heading_deg = std::nan("");
-  const auto no_heading = TrackCamera::along(pings, kCamera, false, 500.0);
+  const auto no_heading = TrackCamera::along(pings, kCamera, 500.0);
   ASSERT_FALSE(no_heading);
   EXPECT_NE(no_heading.error().text.find("has no heading"), std::string::npos);
   pings[1].transducer.latitude_deg = std::nan("");
-  EXPECT_NE(TrackCamera::along(pings, kCamera, false, 500.0).error().text.find("has no position"), std::string::npos);
-  EXPECT_EQ(TrackCamera::along(std::span(pings).first(1), kCamera, false, 500.0).error().code, ErrorCode::usage);
+  EXPECT_NE(TrackCamera::along(pings, kCamera, 500.0).error().text.find("has no position"), std::string::npos);
+  EXPECT_EQ(TrackCamera::along(std::span(pings).first(1), kCamera, 500.0).error().code, ErrorCode::usage);
 }
 
 }  // namespace

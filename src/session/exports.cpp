@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/number_text.h"
-#include "io/recordings.h"
 #include "model/school_totals.h"
 #include "pipeline/exports/export.h"
 #include "pipeline/stages/observe.h"
@@ -181,7 +180,7 @@ Result<std::string> movie(const Snapshot& snapshot, const PictureJob& job, const
   const auto done = write_movie(*source, job.observation, job.options, default_movie(folder / "movie"), work);
   if (!done) return pass_on(done);
   std::string line = fmt::format("written: {} in {}", count_of(done->pictures, "picture"), done->file.string());
-  if (has_ending(done->file, ".png")) line += "; with the program ffmpeg it would be an MP4";
+  if (done->file.extension() == ".png") line += "; with the program ffmpeg it would be an MP4";
   return line;
 }
 
