@@ -123,7 +123,7 @@ This package holds the command line, its pages and the manual. It needs neither
 Qt nor a display.")
 # Volumes are drawn with OpenGL where it is there, and else without; text is drawn with whatever fonts there are.
 set(CPACK_DEBIAN_CLI_PACKAGE_RECOMMENDS "fonts-dejavu-core")
-set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "libegl1, libopengl0, libgl1-mesa-dri")
+set(CPACK_DEBIAN_CLI_PACKAGE_SUGGESTS "ffmpeg, libegl1, libopengl0, libgl1-mesa-dri")
 if(TARGET sonar-explorer)
   list(APPEND CPACK_COMPONENTS_ALL desktop)
   set(CPACK_DEBIAN_DESKTOP_PACKAGE_NAME sonar-explorer)

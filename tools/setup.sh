@@ -13,7 +13,7 @@ build=(g++ cmake ninja-build ccache pkg-config ca-certificates python3
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
 test=(libgtest-dev libgmock-dev clang-format-16 git locales python3-numpy python3-netcdf4
-      pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth
+      pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth ffmpeg
       bash-completion zsh fish)
 readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
 cluster=(munge slurmctld slurmd slurm-client)

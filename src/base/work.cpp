@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #ifndef SONAR_PLAIN_THREADS
@@ -88,6 +89,11 @@ void Work::for_each(std::int64_t count, const std::function<void(std::int64_t)>&
 void Work::set_progress(ProgressSink sink) {
   const std::scoped_lock lock(pool_->progress_mutex);
   pool_->sink = std::move(sink);
+}
+
+Work::ProgressSink Work::exchange_progress(ProgressSink sink) {
+  const std::scoped_lock lock(pool_->progress_mutex);
+  return std::exchange(pool_->sink, std::move(sink));
 }
 
 void Work::progress(std::string_view stage, std::int64_t done, std::int64_t total) {

@@ -33,6 +33,8 @@ class Work {
 
   /// Where progress goes; called from any thread, one call at a time. Empty = nowhere.
   void set_progress(ProgressSink sink);
+  /// The same, and gives back where it went before: for who tells of a whole instead of its parts.
+  [[nodiscard]] ProgressSink exchange_progress(ProgressSink sink);
   void progress(std::string_view stage, std::int64_t done, std::int64_t total);
 
  private:

@@ -52,7 +52,9 @@ constexpr std::array kExamples = {
     Examples{"recipe", "  sonarx recipe --preset default > R.json\n  sonarx recipe --validate R.json\n"},
     Examples{"render",
              "  sonarx render slice-top SURVEY OUT -o top.png\n"
-             "  sonarx render survey-map OUT --depth-raster depth.tif -o map.pdf\n"},
+             "  sonarx render survey-map OUT --depth-raster depth.tif -o map.pdf\n"
+             "  sonarx render movie SURVEY OUT --of slice-top --schools 1 -o school.mp4\n"
+             "  sonarx render report OUT -o report.pdf\n"},
 };
 
 /// "TEXT:{csv,gpkg}" -> "csv, gpkg"; empty of other types.

@@ -10,10 +10,12 @@
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
 #include "cli/file_to_write.h"
+#include "cli/log.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/verb.h"
 #include "pipeline/recipe/recipe.h"
+#include "publish/movie.h"
 #include "publish/picture.h"
 #include "publish/picture_output.h"
 #include "render/compare_pictures.h"
@@ -30,7 +32,11 @@ Result<void> check_output(const RenderArguments& arguments) {
     if (name.empty() || name == kStandardOutput) continue;
     if (auto place = require_place(name); !place) return place;
   }
-  if (!arguments.out.empty() && arguments.out != kStandardOutput && !is_picture_file(arguments.out)) {
+  const bool movie = arguments.kind == "movie";
+  if (movie && !is_movie_file(arguments.out)) {
+    return fail(ErrorCode::usage, "expected a name that ends in .mp4 or .png (an animated PNG)", {arguments.out});
+  }
+  if (!movie && !arguments.out.empty() && arguments.out != kStandardOutput && !is_picture_file(arguments.out)) {
     return fail(ErrorCode::usage, "expected a name that ends in .png, .svg or .pdf", {arguments.out});
   }
   if (!arguments.reference.empty() && !fs::is_regular_file(arguments.reference, absent)) {
@@ -40,9 +46,8 @@ Result<void> check_output(const RenderArguments& arguments) {
   return {};
 }
 
-Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) {
-  const auto options = picture_options(arguments);
-  if (!options) return pass_on(options);
+/// What is drawn, found and allowed.
+Result<std::unique_ptr<PictureSource>> source_of(const RenderArguments& arguments, Work& work) {
   if (auto possible = check_output(arguments); !possible) return pass_on(possible);
   std::optional<Recipe> recipe;
   if (!arguments.recipe.empty()) {
@@ -58,11 +63,38 @@ Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) 
     if (file.empty() || file == kStandardOutput) continue;
     if (auto outside = (*source)->require_outside_raw(file); !outside) return pass_on(outside);
   }
+  return source;
+}
+
+Result<FrameDescription> frame_of(const RenderArguments& arguments, Work& work) {
+  const auto options = picture_options(arguments);
+  if (!options) return pass_on(options);
+  const auto source = source_of(arguments, work);
+  if (!source) return pass_on(source);
   PictureKind kind = PictureKind::slice_top;
   for (std::size_t i = 0; i < picture_kinds().size(); ++i) {
     if (picture_kinds()[i].name == arguments.kind) kind = static_cast<PictureKind>(i);
   }
   return picture_frame(kind, **source, arguments.observation, *options, work);
+}
+
+Result<WrittenMovie> movie_of(const RenderArguments& arguments, Work& work) {
+  const auto options = picture_options(arguments);
+  if (!options) return pass_on(options);
+  // What does not go together is told before anything is read.
+  if (auto valid = validate_movie(*options); !valid) return pass_on(valid);
+  const auto source = source_of(arguments, work);
+  if (!source) return pass_on(source);
+  return write_movie(**source, arguments.observation, *options, arguments.out, work);
+}
+
+int render_movie(const RenderArguments& arguments, Work& work) {
+  const auto movie = movie_of(arguments, work);
+  clear_progress();
+  if (!movie) return report(movie.error());
+  if (!movie->note.empty()) print_note(movie->note);
+  fmt::print("{}\n", movie->file.string());
+  return kExitDone;
 }
 
 int compare_frame(const RenderArguments& arguments, const FrameDescription& frame) {
@@ -96,6 +128,7 @@ int render_verb(const RenderArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
+  if (arguments.kind == "movie") return render_movie(arguments, work);
   const auto frame = frame_of(arguments, work);
   clear_progress();
   if (!frame) return report(frame.error());
@@ -114,7 +147,7 @@ int render_verb(const RenderArguments& arguments) {
 void add_render(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* verb =
-      app.add_subcommand("render", "Draw slices, volumes, maps, timelines and echograms; needs no display");
+      app.add_subcommand("render", "Draw slices, volumes, maps, echograms, movies and a report; needs no display");
   add_render_options(*verb, *arguments);
   verb->callback([arguments, verb, &run] {
     if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");

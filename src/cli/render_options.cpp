@@ -48,7 +48,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   };
   suits(verb.add_option("--observation", a.observation, "Observation to draw, e.g. obs-0001; default: the first")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline echogram");
+        "slice- volume propagation observation-map timeline echogram movie");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
@@ -74,7 +74,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--depth-raster", a.picture.depth_raster,
                         "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed")
             ->check(named_file()),
-        "volume survey-map");
+        "volume survey-map report");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
 }
@@ -118,7 +118,9 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("KIND", a.kind, kinds)->required()->check(one_of(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
-  verb.add_option("-o,--out", a.out, "Picture: .png, .svg or .pdf; - = PNG on standard output")->check(named_file());
+  verb.add_option("-o,--out", a.out,
+                  "Picture: .png, .svg or .pdf; - = PNG on standard output. Movie: .mp4, or .png (animated)")
+      ->check(named_file());
   add_comparing(verb, a);
   add_common(verb, a);
   // A file is drawn once, where a window goes on while one looks.
@@ -137,6 +139,11 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.get_option("--through")->check(numbers_between_commas("X,Y,X,Y"));
 }
 
+std::string drawn_kind_name(const RenderArguments& arguments) {
+  if (arguments.kind != "movie") return arguments.kind;
+  return std::string(picture_kinds()[static_cast<std::size_t>(drawn_kind(arguments.picture.kind.movie.of))].name);
+}
+
 void settle_options(const CLI::App& verb, RenderArguments& a) {
   const auto given = [&](const char* option) { return verb.get_option(option)->count() > 0; };
   PictureOptions& picture = a.picture;
@@ -145,7 +152,7 @@ void settle_options(const CLI::App& verb, RenderArguments& a) {
   if (a.filtered) picture.display.filtered = true;
   if (a.unfiltered) picture.volume.filtered = false;
   // Noise removed means that it is not drawn; "as recorded" means all of it, surface and seabed too.
-  const bool noise_removed = a.kind == "volume" ? picture.volume.filtered : picture.display.filtered;
+  const bool noise_removed = drawn_kind_name(a) == "volume" ? picture.volume.filtered : picture.display.filtered;
   if (!given("--removed")) picture.display.removed = noise_removed ? NoiseLook::transparent : NoiseLook::shown;
   if (given("--weak-db") && !given("--weak")) throw CLI::ValidationError("--weak-db", "goes with --weak");
   if (given("--eye") && !given("--target")) throw CLI::ValidationError("--eye", "goes with --target");

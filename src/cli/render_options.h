@@ -39,6 +39,9 @@ struct RenderArguments {
 /// Adds every option of the verb, in groups.
 void add_render_options(CLI::App& verb, RenderArguments& arguments);
 
+/// The kind of a single picture: of a movie's, or the kind itself.
+[[nodiscard]] std::string drawn_kind_name(const RenderArguments& arguments);
+
 struct UnsuitedOption {
   std::string option;
   std::string why;  ///< with the kinds of picture that it suits

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "cli/exit_codes.h"
-#include "cli/external_command.h"
 #include "cli/named_path.h"
 #include "cli/verb.h"
+#include "io/external_command.h"
 #include "pipeline/tasks/task_states.h"
 
 namespace sonar {

@@ -17,7 +17,6 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
-#include "cli/external_command.h"
 #include "cli/named_path.h"
 #include "cli/numbers.h"
 #include "cli/open_for_run.h"
@@ -25,6 +24,7 @@
 #include "cli/slurm_template.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
+#include "io/external_command.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/tasks/task_cost.h"
 #include "pipeline/tasks/task_states.h"

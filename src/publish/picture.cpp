@@ -10,6 +10,7 @@
 #include "pipeline/recipe/recipe.h"
 #include "publish/echogram_picture.h"
 #include "publish/map_pictures.h"
+#include "publish/report_page.h"
 #include "publish/slice_pictures.h"
 #include "publish/volume_picture.h"
 
@@ -46,7 +47,8 @@ std::string time_of(const std::vector<DrawnObservation*>& observations) {
 Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
                                                 const PictureOptions& options) {
   std::vector<DrawnObservation*> drawn;
-  if (kind == PictureKind::survey_map || (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
+  if (kind == PictureKind::survey_map || kind == PictureKind::report ||
+      (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
     for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
     return drawn;
   }
@@ -61,6 +63,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
   if (kind == PictureKind::survey_map) return survey_map_frame(source.observations(), options, work);
   if (kind == PictureKind::timeline) return timeline_frame(drawn, options, work);
   if (kind == PictureKind::echogram) return echogram_frame(source, *drawn.front(), options, work);
+  if (kind == PictureKind::report) return report_page(source, options, work);
   return observation_frame(kind, *drawn.front(), options, work);
 }
 
@@ -69,6 +72,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
 Result<FrameDescription> picture_frame(PictureKind kind, PictureSource& source, const std::string& observation,
                                        const PictureOptions& options, Work& work) {
   if (auto valid = validate_options(options); !valid) return pass_on(valid);
+  if (!is_one_picture(kind)) return fail(ErrorCode::usage, "a movie is no single picture; expected another kind");
   const auto drawn = drawn_of(kind, source, observation, options);
   if (!drawn) return pass_on(drawn);
   auto frame = frame_of(kind, source, *drawn, options, work);

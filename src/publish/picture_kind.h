@@ -21,7 +21,12 @@ enum class PictureKind : std::uint8_t {
   survey_map,
   timeline,
   echogram,
+  movie,
+  report,
 };
+
+/// Whether it is one picture, which picture_frame() makes; a movie is many.
+[[nodiscard]] constexpr bool is_one_picture(PictureKind kind) { return kind != PictureKind::movie; }
 
 struct PictureKindInfo {
   std::string_view name;

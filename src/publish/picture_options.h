@@ -34,8 +34,9 @@ struct PictureOptions {
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
   std::optional<int> ping;                   ///< empty = that of the strongest whole school, else the middle one
-  std::vector<std::int64_t> schools;         ///< empty = all
-  std::optional<int> fan;                    ///< of slices; empty = through the largest school, else the middle
+  double towards_next = 0.0;          ///< of a movie's picture between two pings: how far to the next, 0 <= x < 1
+  std::vector<std::int64_t> schools;  ///< empty = all
+  std::optional<int> fan;             ///< of slices; empty = through the largest school, else the middle
   std::optional<int> beam;
   VolumeParams volume;
   std::optional<Camera> camera;        ///< in place of the one that `kind` names

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 
 #include "base/result.h"
 #include "view/frame_description.h"
@@ -18,11 +17,5 @@ namespace sonar {
                                          double scale = 1.0);
 /// Pixels as they are on the screen into a .png. errors: usage (another ending); as AtomicFile
 [[nodiscard]] Result<void> write_pixels(const Image& image, const std::filesystem::path& file);
-
-/// Puts PNG pictures of one size together as one animated PNG, which browsers and picture viewers play.
-/// frame_s  how long each is shown, at least 1 ms
-/// errors   usage: no pictures, or another ending than .png; mismatch: two sizes; format: a damaged picture; io; no_space
-[[nodiscard]] Result<void> write_movie(std::span<const std::filesystem::path> pictures, double frame_s,
-                                       const std::filesystem::path& file);
 
 }  // namespace sonar

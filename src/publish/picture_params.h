@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/describe.h"
+#include "publish/movie_params.h"
 #include "view/sv_scale.h"
 #include "view/volume/volume_scene.h"
 
@@ -295,6 +296,7 @@ struct PictureParams {
   PropagationParams propagation;
   TimelineParams timeline;
   EchogramParams echogram;
+  MovieParams movie;
 };
 
 template <class Visitor>
@@ -305,6 +307,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("propagation", p.propagation, "a ping and its neighbours");
   v.group("timeline", p.timeline, "an echogram over time");
   v.group("echogram", p.echogram, "one beam, fan or channel over time");
+  v.group("movie", p.movie, "what moves in a movie, and how fast");
 }
 
 /// How large a picture in a file is.

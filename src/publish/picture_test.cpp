@@ -26,7 +26,7 @@ constexpr PixelSize kSize{400, 300};
 constexpr std::array kKinds{PictureKind::slice_top,   PictureKind::slice_side,      PictureKind::slice_range,
                             PictureKind::slice_plane, PictureKind::volume,          PictureKind::propagation,
                             PictureKind::survey_map,  PictureKind::observation_map, PictureKind::timeline,
-                            PictureKind::echogram};
+                             PictureKind::echogram,    PictureKind::report};
 
 /// One observation of five pings off Norway with two schools; no raw files.
 class Pictures : public testing::Test {
@@ -69,11 +69,11 @@ class Pictures : public testing::Test {
 };
 
 TEST_F(Pictures, EveryKindIsMadeOfAProductAlone) {
-  EXPECT_EQ(picture_kinds().size(), kKinds.size());
+  EXPECT_EQ(picture_kinds().size(), kKinds.size() + 1) << "a movie is no single picture";
   for (const PictureKind kind : kKinds) {
     const auto frame = picture(kind);
     ASSERT_TRUE(frame) << to_line(frame.error());
-    EXPECT_EQ(frame->size, kSize);
+    EXPECT_EQ(frame->size, kind == PictureKind::report ? PixelSize(794, 1123) : kSize);
     EXPECT_THAT(texts(*frame), testing::Contains(testing::HasSubstr("SYNTHETIC")));
     EXPECT_GT(frame->items.size(), 5U);
   }

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
+#include "publish/between_pings.h"
 #include "publish/drawn_schools.h"
 #include "publish/sample_looks.h"
 #include "view/school_look.h"
@@ -107,7 +108,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   if (!index) return pass_on(index);
   const auto sector = observation.sector();
   if (!sector) return pass_on(sector);
-  const auto ping = observation.ping(*index, work);
+  const auto ping = drawn_ping(observation, *index, options, work);
   if (!ping) return pass_on(ping);
   const std::vector<MaskLayer> masks = mask_layers(*ping, options);
   const Chosen chosen{*sector, ping->navigation, middle_of_largest(chosen_layers(*ping, options), sector->beams()),
@@ -136,10 +137,10 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
     data.sv = nothing.view();
   }
   data.masks = masks;
-  data.refused = drawn_refused(observation, *sector, *index, options);
+  data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   SlicePing titled;
   titled.observation = observation.title() + (ping->staged ? "" : " (masks alone: no raw files)");
-  titled.ping_index = *index;
+  titled.ping_index = ping->ping_index;
   titled.time = ping->navigation.time;
   titled.heading_rad = rad_from_deg(ping->navigation.heading_deg);
   titled.transducer_depth_m = ping->navigation.transducer_depth_m;

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "geo/geodesic.h"
 #include "io/depth_raster.h"
+#include "publish/between_pings.h"
 #include "publish/drawn_schools.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
@@ -27,14 +28,14 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (!index) return pass_on(index);
   const auto sector = observation.sector();
   if (!sector) return pass_on(sector);
-  const auto ping = observation.ping(*index, work);
+  const auto ping = drawn_ping(observation, *index, options, work);
   if (!ping) return pass_on(ping);
   VolumeFigure out;
   out.masks = mask_layers(*ping, options);
   for (SchoolKey& school : school_keys(*ping, options)) {
     out.legend.emplace_back(school.colour, std::move(school.name));
   }
-  out.refused = drawn_refused(observation, *sector, *index, options);
+  out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
   out.samples = ping->staged != nullptr;
   out.searched = observation.has_product();

@@ -16,6 +16,7 @@
 #include "pipeline/exports/export.h"
 #include "pipeline/stages/observe.h"
 #include "pipeline/survey/write_survey.h"
+#include "publish/movie.h"
 #include "publish/picture.h"
 #include "publish/picture_output.h"
 #include "session/survey_schools.h"
@@ -171,25 +172,16 @@ struct PictureJob {
   PictureKind kind = PictureKind::slice_top;
   std::string observation;
   PictureOptions options;
-  double frame_s = 0.2;
 };
 
-Result<std::string> movie(const Snapshot& snapshot, PictureJob job, const std::vector<int>& pings,
-                          const fs::path& folder, Work& work) {
-  if (auto outside = require_outside_raw(*snapshot.survey, folder); !outside) return pass_on(outside);
+/// "written: 25 pictures in movie.mp4", and why it is another file than usual.
+Result<std::string> movie(const Snapshot& snapshot, const PictureJob& job, const fs::path& folder, Work& work) {
   const auto source = pictures_of(snapshot);
-  std::vector<fs::path> pictures;
-  for (const int ping : pings) {
-    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    job.options.ping = ping;
-    const auto frame = picture_frame(job.kind, *source, job.observation, job.options, work);
-    if (!frame) return pass_on(frame);
-    pictures.push_back(folder / fmt::format("ping-{:04d}.png", ping));
-    if (auto written = write_picture(*frame, pictures.back(), job.options.scale); !written) return pass_on(written);
-    work.progress("movie", static_cast<std::int64_t>(pictures.size()), static_cast<std::int64_t>(pings.size()));
-  }
-  if (auto written = write_movie(pictures, job.frame_s, folder / "movie.png"); !written) return pass_on(written);
-  return fmt::format("written: {} pictures and movie.png in {}", pictures.size(), folder.string());
+  const auto done = write_movie(*source, job.observation, job.options, default_movie(folder / "movie"), work);
+  if (!done) return pass_on(done);
+  std::string line = fmt::format("written: {} in {}", count_of(done->pictures, "picture"), done->file.string());
+  if (done->file.extension() == ".png") line += "; with the program ffmpeg it would be an MP4";
+  return line;
 }
 
 }  // namespace
@@ -240,8 +232,7 @@ namespace {
 Result<PictureJob> picture_job(const Workspace& workspace, PictureKind kind) {
   auto options = picture_options(workspace, kind);
   if (!options) return pass_on(options);
-  const PictureFileParams& file = workspace.picture_file.values();
-  return PictureJob{kind, shown_name(workspace), std::move(*options), file.frame_s};
+  return PictureJob{kind, shown_name(workspace), std::move(*options)};
 }
 
 }  // namespace
@@ -263,15 +254,21 @@ void save_movie(Workspace& workspace, PictureKind kind, const fs::path& folder) 
   if (!workspace.document.shown()) return workspace.document.tell("no observation is open: there is nothing to show");
   auto wanted = picture_job(workspace, kind);
   if (!wanted) return workspace.document.tell(to_line(wanted.error()));
-  std::vector<int> pings;
-  const auto school = selected_school(workspace);
-  if (school && school->name.observation == workspace.document.shown()->index()) {
-    for (const auto& there : school->state->masks.pings) pings.push_back(static_cast<int>(there.ping_index));
-  } else {
-    for (std::int64_t i = 0; i < workspace.document.shown()->pings(); ++i) pings.push_back(static_cast<int>(i));
+  MovieParams& params = wanted->options.kind.movie;
+  for (std::size_t of = 0; of < kMovieOfNames.size(); ++of) {
+    if (drawn_kind(static_cast<MovieOf>(of)) == kind) params.of = static_cast<MovieOf>(of);
   }
-  run_job(workspace, [job = std::move(*wanted), pings = std::move(pings), folder](
-                         const Snapshot& snapshot, Work& work) { return movie(snapshot, job, pings, folder, work); });
+  const auto school = selected_school(workspace);
+  if (school && school->name.observation == workspace.document.shown()->index() &&
+      !school->state->masks.pings.empty()) {
+    const auto& pings = school->state->masks.pings;
+    if (params.first_ping < 0) params.first_ping = static_cast<int>(pings.front().ping_index);
+    if (params.last_ping < 0) params.last_ping = static_cast<int>(pings.back().ping_index);
+  }
+  if (auto valid = validate_movie(wanted->options); !valid) return workspace.document.tell(to_line(valid.error()));
+  run_job(workspace, [job = std::move(*wanted), folder](const Snapshot& snapshot, Work& work) {
+    return movie(snapshot, job, folder, work);
+  });
 }
 
 }  // namespace sonar

@@ -25,8 +25,9 @@ void export_as(Workspace& workspace, const std::string& format, const std::files
 [[nodiscard]] Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind kind);
 /// A picture of any kind, of the observation on show, as .png, .svg or .pdf.
 void save_picture(Workspace& workspace, PictureKind kind, const std::filesystem::path& file);
-/// The selected school through its pings (without one: the whole observation) as one picture a ping, ping-0012.png ...,
-/// and movie.png, which plays them.
+/// A movie of pictures of that kind, as Workspace::picture_file asks for it: of the pings that are named there, else of the
+/// selected school's, else of the observation on show. Into a folder, which is made: movie.mp4, or movie.png where there is
+/// no ffmpeg.
 void save_movie(Workspace& workspace, PictureKind kind, const std::filesystem::path& folder);
 
 }  // namespace sonar

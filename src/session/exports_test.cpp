@@ -15,6 +15,7 @@
 #include "pipeline/journal/journal.h"
 #include "pipeline/tasks/run.h"
 #include "pipeline/tasks/survey_numbers.h"
+#include "publish/movie_file.h"
 #include "publish/picture_source.h"
 #include "session/survey_schools.h"
 #include "session/test_app.h"
@@ -280,6 +281,9 @@ TEST_F(Exports, ADiskThatGetsFullHalfWayLeavesNothingTorn) {
   full("tables", [&] { export_as(workspace(), "csv", out_ / "csv"); });
   full("picture", [&] { save_picture(workspace(), PictureKind::slice_top, out_ / "slice.png"); });
   fs::create_directories(out_ / "movie");
+  PictureFileParams params = workspace().picture_file.values();
+  params.kind.movie.each_picture = true;  // ffmpeg has a disk of its own
+  workspace().picture_file.assign(params);
   full("movie", [&] { save_movie(workspace(), PictureKind::slice_top, out_ / "movie"); });
   for (const auto& entry : fs::recursive_directory_iterator(out_)) {
     EXPECT_FALSE(entry.is_regular_file()) << entry.path();
@@ -317,11 +321,30 @@ TEST_F(Exports, AMovieHasOnePictureAPingOfTheSelectedSchool) {
   paint(4, 6, 5, 5, 200);
   document().settle();
   select(1);
+  PictureFileParams params = workspace().picture_file.values();
+  params.kind.movie.each_picture = true;
+  workspace().picture_file.assign(params);
   save_movie(workspace(), PictureKind::slice_top, out_);
   document().settle();
-  EXPECT_THAT(told(), HasSubstr("3 pictures and movie.png"));
-  for (const char* name : {"ping-0004.png", "ping-0005.png", "ping-0006.png"}) EXPECT_TRUE(fs::exists(out_ / name));
-  EXPECT_THAT(text_of(out_ / "movie.png"), HasSubstr("acTL"));
+  EXPECT_THAT(told(), HasSubstr("written: 3 pictures in"));
+  for (const char* name : {"movie-0000.png", "movie-0001.png", "movie-0002.png"}) {
+    EXPECT_TRUE(fs::exists(out_ / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(out_ / "movie-0003.png"));
+  if (mp4_can_be_made()) {
+    EXPECT_THAT(text_of(out_ / "movie.mp4"), HasSubstr("ftyp"));
+  } else {
+    EXPECT_THAT(text_of(out_ / "movie.png"), HasSubstr("acTL"));
+  }
+}
+
+TEST_F(Exports, AReportIsOnePage) {
+  paint(4, 6, 5, 5, 200);
+  document().settle();
+  save_picture(workspace(), PictureKind::report, out_ / "report.pdf");
+  document().settle();
+  EXPECT_EQ(told(), "written: " + (out_ / "report.pdf").string());
+  EXPECT_THAT(text_of(out_ / "report.pdf"), testing::StartsWith("%PDF"));
 }
 
 TEST_F(Exports, WithoutASurveyThereIsNothingToWrite) {

@@ -26,7 +26,7 @@ std::function<bool()> with_survey(const AppModel& app) {
 /// "obs-0001-ping-0025-top_slice": pictures of many pings do not take each other's places.
 std::string file_name(const AppModel& app, const std::string& what) {
   const Document& document = app.workspace.document;
-  if (!document.shown() || what.starts_with("survey") || what == "timeline") return what;
+  if (!document.shown() || what.starts_with("survey") || what == "timeline" || what == "report") return what;
   if (what.ends_with("echogram")) return document.shown()->name() + "-" + what;
   if (what.ends_with("map") || what.ends_with("timeline")) return document.shown()->name() + "-" + what;
   return fmt::format("{}-ping-{:04}-{}", document.shown()->name(), document.ping(), what);
@@ -36,8 +36,9 @@ void ask_for_picture(AppModel& app, PictureKind kind, const std::string& name) {
   if (!app.dialogs.file_to_save || !asked(app, "Picture: " + name, app.workspace.picture_file, asked_for(kind))) {
     return;
   }
+  const char* ending = kind == PictureKind::report ? ".pdf" : ".png";
   const std::string file =
-      app.dialogs.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", file_name(app, name) + ".png");
+      app.dialogs.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", file_name(app, name) + ending);
   if (!file.empty()) save_picture(app.workspace, kind, file);
 }
 
@@ -45,6 +46,7 @@ void add_picture_kinds(AppModel& app) {
   for (std::size_t i = 0; i < picture_kinds().size(); ++i) {
     const PictureKindInfo& info = picture_kinds()[i];
     const auto kind = static_cast<PictureKind>(i);
+    if (!is_one_picture(kind)) continue;
     app.actions.add({.id = "picture." + std::string(info.name),
                      .menu = kPictures,
                      .text = std::string(info.name) + "...",
@@ -67,7 +69,8 @@ void add_movies(AppModel& app) {
                      .menu = kExport,
                      .text = text,
                      .keys = {},
-                     .tip = "One picture a ping of the selected school's track, and one that plays them",
+                     .tip = "Over the pings of the selected school, or of the observation; a volume can also be "
+                            "turned, or sailed past",
                      .run = [&app, kind] { ask_for_movie(app, kind); },
                      .enabled = with_survey(app)});
   };
@@ -75,6 +78,22 @@ void add_movies(AppModel& app) {
   add("export.movie_side", "Movie of the school, from the side...", PictureKind::slice_side);
   add("export.movie_volume", "Movie of the school, in 3D...", PictureKind::volume);
   add("export.movie_map", "Movie of the school, on the map...", PictureKind::observation_map);
+}
+
+/// report.pdf in a folder beside the survey, as other exports.
+void ask_for_report(AppModel& app) {
+  const std::string folder = asked_folder(app, "Folder for the report", "-out");
+  if (!folder.empty()) save_picture(app.workspace, PictureKind::report, fs::path(folder) / "report.pdf");
+}
+
+void add_report(AppModel& app) {
+  app.actions.add({.id = "export.report",
+                   .menu = kExport,
+                   .text = "One-page report (PDF)...",
+                   .keys = {},
+                   .tip = "The survey on one page: map, timeline, strongest schools and what the numbers mean",
+                   .run = [&app] { ask_for_report(app); },
+                   .enabled = with_survey(app)});
 }
 
 /// The picture in use, where it has something to show.
@@ -117,6 +136,7 @@ void copy_view(AppModel& app) {
 
 void add_pictures(AppModel& app) {
   add_movies(app);
+  add_report(app);
   add_picture_kinds(app);
   app.actions.add({.id = "file.save_view",
                    .menu = kFile,

@@ -13,7 +13,6 @@ namespace sonar {
 /// What is asked before a picture or a movie goes into a file; everything else is as the window shows it.
 struct PictureFileParams {
   PaperParams paper{1600, 1200, 1.0};
-  double frame_s = 0.2;
   bool selected_school_alone = false;
   bool camera_of_window = true;
   bool seabed = false;
@@ -23,7 +22,6 @@ struct PictureFileParams {
 template <class Visitor>
 void describe(Visitor& v, PictureFileParams& p) {
   describe(v, p.paper);
-  v.field("frame_s", p.frame_s, {.unit = "s", .min = 0.02, .max = 60, .text = "how long a movie shows each picture"});
   v.field("selected_school_alone", p.selected_school_alone, {.text = "draw the selected school and no other"});
   v.field(
       "camera_of_window", p.camera_of_window,
@@ -32,7 +30,7 @@ void describe(Visitor& v, PictureFileParams& p) {
   describe(v, p.kind);
 }
 
-/// Which of them matter for a kind of picture, in the order in which they are asked for.
+/// Which of them matter for a kind of picture, or for a movie of it, in the order in which they are asked for.
 [[nodiscard]] std::vector<std::string> asked_for(PictureKind kind, bool movie = false);
 
 }  // namespace sonar

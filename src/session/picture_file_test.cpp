@@ -82,6 +82,7 @@ TEST_F(PictureFile, IsNotMadeWhereTheHumanDeclines) {
 
 TEST_F(PictureFile, EveryKindAsksForWhatItNeedsAndIsMade) {
   for (const PictureKindInfo& kind : picture_kinds()) {
+    if (kind.name == "movie") continue;  // it has menu entries of its own
     answer([](ParameterSource& source) {
       (void)source.set("width_px", 480);
       (void)source.set("height_px", 360);
@@ -165,17 +166,37 @@ TEST_F(PictureFile, AMovieIsAskedForItsPace) {
   select(1);
   app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return out_.string(); };
   answer([](ParameterSource& source) {
-    (void)source.set("frame_s", 0.5);
+    (void)source.set("movie.pictures_per_second", 2.0);
+    (void)source.set("movie.each_picture", true);
     (void)source.set("width_px", 400);
     (void)source.set("height_px", 300);
   });
   for (const char* movie : {"export.movie_side", "export.movie_map"}) {
     press(movie);
     document().settle();
-    EXPECT_THAT(told(), HasSubstr("3 pictures and movie.png"));
-    EXPECT_THAT(asked_, Contains("frame_s"));
-    EXPECT_EQ(size_of_png(out_ / "ping-0004.png"), (PixelSize{400, 300}));
+    EXPECT_THAT(told(), HasSubstr("written: 3 pictures in"));
+    EXPECT_THAT(asked_, Contains("movie.pictures_per_second"));
+    EXPECT_THAT(asked_, Not(Contains("movie.motion"))) << "nothing but a volume has a camera";
+    EXPECT_EQ(size_of_png(out_ / "movie-0001.png"), (PixelSize{400, 300}));
   }
+}
+
+TEST_F(PictureFile, AMovieOfAVolumeMayTurnOrSailPast) {
+  EXPECT_THAT(asked_for(PictureKind::volume, true), Contains("movie.motion"));
+  EXPECT_THAT(asked_for(PictureKind::volume, true), Contains("movie.turntable_pictures"));
+  EXPECT_THAT(asked_for(PictureKind::volume, true), Not(Contains("movie.of"))) << "the menu says it";
+  EXPECT_THAT(asked_for(PictureKind::volume), Not(Contains("movie.motion"))) << "a picture is none";
+  EXPECT_THAT(asked_for(PictureKind::slice_top, true), Contains("movie.between"));
+  EXPECT_THAT(asked_for(PictureKind::observation_map, true), Not(Contains("movie.between")));
+  EXPECT_THAT(asked_for(PictureKind::report), Not(Contains("width_px"))) << "its paper is A4";
+}
+
+TEST_F(PictureFile, AReportGoesIntoAFolderBesideTheSurvey) {
+  app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return out_.string(); };
+  press("export.report");
+  document().settle();
+  EXPECT_THAT(told(), HasSubstr("report.pdf"));
+  EXPECT_TRUE(fs::exists(out_ / "report.pdf"));
 }
 
 TEST_F(PictureFile, ReducedRawFilesAreAskedForTheirMargins) {

@@ -191,15 +191,12 @@ TEST_F(Files, TheProgramItselfMakesTheSameMasksOfTheJournal) {
 TEST_F(Files, TheMovieOfASchoolIsOnePictureAPing) {
   follow_a_school();
   trigger("export.movie");
-  std::size_t pictures = 0;
-  for (const auto& entry : fs::directory_iterator(out_)) {
-    const auto image = read_png(entry.path());
-    ASSERT_TRUE(image) << entry.path();
-    EXPECT_GT(image->size.width, 100);
-    if (entry.path().filename().string().starts_with("ping-")) ++pictures;
-  }
-  EXPECT_EQ(pictures, masks().size());
-  EXPECT_TRUE(fs::exists(out_ / "movie.png"));
+  EXPECT_NE(told().find("written: " + std::to_string(masks().size()) + " picture"), std::string::npos) << told();
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(out_)) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files.front().stem(), "movie");
+  EXPECT_TRUE(files.front().extension() == ".mp4" || read_png(files.front())) << files.front();
 }
 
 TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
@@ -226,6 +223,7 @@ TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
 TEST_F(Files, APictureOfAnyKindIsMadeFromTheMenu) {
   follow_a_school();
   for (const PictureKindInfo& kind : picture_kinds()) {
+    if (kind.name == "movie") continue;
     EXPECT_NE(find_action(*window_, "picture." + std::string(kind.name)), nullptr) << kind.name;
   }
   for (const char* kind : {"slice-top", "survey-map"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/external_command.h"
+#include "io/external_command.h"
 
 #include <fmt/format.h>
 #include <poll.h>
