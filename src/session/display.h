@@ -47,6 +47,8 @@ struct ViewSwitches {
   bool propagation = true;
   bool survey_map = true;
   bool timeline = true;
+  bool range_slice = false;
+  bool plane_slice = false;
 };
 
 template <class Visitor>
@@ -58,6 +60,8 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("propagation", p.propagation, {.text = "the strip of neighbouring pings"});
   v.field("survey_map", p.survey_map, {.text = "the map of the survey"});
   v.field("timeline", p.timeline, {.text = "the timeline"});
+  v.field("range_slice", p.range_slice, {.text = "the slice at one range"});
+  v.field("plane_slice", p.plane_slice, {.text = "the slice along any plane"});
 }
 
 }  // namespace sonar

@@ -30,8 +30,10 @@ struct ViewName {
   const char* text;
   const char* key;
 };
-constexpr std::array<ViewName, 7> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+constexpr std::array<ViewName, 9> kViews{{{"top_slice", "Slice from above", "Alt+1"},
                                           {"side_slice", "Slice from the side", "Alt+2"},
+                                          {"range_slice", "Range slice", "Alt+8"},
+                                          {"plane_slice", "Plane slice", "Alt+9"},
                                           {"volume", "Volume", "Alt+3"},
                                           {"observation_map", "Observation map", "Alt+4"},
                                           {"propagation", "Propagation", "Alt+5"},
