@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "session/playback.h"
 #include "session/slices/slice_build.h"
 #include "session/slices/slice_model.h"
+#include "session/slices/slice_places.h"
 #include "session/tools/seed_tool.h"
 #include "synth/beam_table.h"
 #include "synth/simulate.h"
@@ -45,7 +47,7 @@ class Bench {
     must(document().shown() != nullptr, "no survey");
     find_school();
     document().look_at(ping_);
-    app_.workspace.slices.set({voxel_.fan, voxel_.beam});
+    app_.workspace.slices.set({voxel_.fan, voxel_.beam, voxel_.sample});
     settle();
   }
 
@@ -90,6 +92,15 @@ class Bench {
     report("ping step, made ahead: both slices", ms);
   }
 
+  /// A turn of the wheel on the range slice, and on a plane of each kind: until that slice shows the next one.
+  void wheel(int repetitions) {
+    move(SliceKind::range, "wheel: range slice", repetitions);
+    for (std::size_t kind = 0; kind < kPlaneKindNames.size(); ++kind) {
+      choose_plane(app_.workspace, static_cast<PlaneSlice::Kind>(kind));
+      move(SliceKind::plane, fmt::format("wheel: {} plane", kPlaneKindNames.at(kind)), repetitions);
+    }
+  }
+
   /// The same with the volume seen: the event until both slices and a first, coarse volume show the ping.
   void step_with_volume(int repetitions) {
     LivePicture& volume = *app_.picture("volume");
@@ -132,12 +143,13 @@ class Bench {
   Document& document() { return app_.workspace.document; }
   SliceModel& top() { return dynamic_cast<SliceModel&>(*app_.picture("top_slice")); }
   SliceModel& side() { return dynamic_cast<SliceModel&>(*app_.picture("side_slice")); }
+  SliceModel& range() { return dynamic_cast<SliceModel&>(*app_.picture("range_slice")); }
+  SliceModel& plane() { return dynamic_cast<SliceModel&>(*app_.picture("plane_slice")); }
   void settle() {
     do {
       document().settle();
       app_.seed_tool->wait();
-      top().wait();
-      side().wait();
+      for (SliceModel* slice : {&top(), &side(), &range(), &plane()}) slice->wait();
     } while (queue_.drain() > 0);
   }
 
@@ -178,9 +190,31 @@ class Bench {
     verify_slices();
   }
 
-  /// Both pictures against ones that are made without any that were before.
-  void verify_slices() {
-    for (SliceModel* slice : {&top(), &side()}) {
+  void move(SliceKind kind, const std::string& what, int repetitions) {
+    SliceModel& slice = kind == SliceKind::range ? range() : plane();
+    slice.resize(kSize, 1.0);
+    slice.set_seen(true);
+    std::vector<double> ms;
+    for (int i = 0; i < repetitions; ++i) {
+      settle();
+      const std::int64_t before = slice.pictures();
+      const double begin = now_ms();
+      step_slice(app_.workspace, kind, (i / 4) % 2 == 0 ? 1 : -1);
+      while (slice.pictures() == before) {
+        queue_.wait();
+        queue_.drain();
+      }
+      ms.push_back(now_ms() - begin);
+      if (i == 0) verify({&slice});
+    }
+    slice.set_seen(false);
+    report(what, ms);
+  }
+
+  void verify_slices() { verify({&top(), &side()}); }
+  /// Pictures against ones that are made without any that were before.
+  void verify(std::initializer_list<SliceModel*> slices) {
+    for (SliceModel* slice : slices) {
       SliceWish wish;
       wish.observation = document().shown();
       wish.ping = document().staged();
@@ -188,7 +222,7 @@ class Bench {
       wish.display = app_.workspace.display.values();
       wish.colours = std::make_shared<const SvColours>(slice_colours(app_.workspace));
       wish.layers = school_layers(app_.workspace, wish.ping->ping_index, light_theme(kSize));
-      wish.flags = std::make_shared<Array3<SampleFlags>>();
+      wish.room = std::make_shared<FlagRoom>();
       const auto fresh = slice_of(wish, kSize);
       must(fresh.has_value(), "no slice");
       const auto image = painted(fresh->frame, 1.0);
@@ -315,6 +349,7 @@ int run(int repetitions, const std::string& survey) {
     bench.hover(repetitions);
     bench.tolerance(repetitions);
     bench.step(repetitions);
+    bench.wheel(repetitions);
     bench.step_with_volume(repetitions);
     const std::filesystem::path opened = survey.empty() ? folder / "raw" : std::filesystem::path(survey);
     opening(opened, folder, 5);

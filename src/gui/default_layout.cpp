@@ -60,7 +60,7 @@ void lay_out_small(QMainWindow& window) {
   beside(window, top, side, Qt::Horizontal);
   behind(window, right, {"survey_tree", "diagnostics", "journal"});
   behind(window, top, {"observation_map", "survey_map"});
-  behind(window, side, {"volume"});
+  behind(window, side, {"volume", "range_slice", "plane_slice"});
   behind(window, time, {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused"});
   const int width = window.width();
   const int height = window.height();
@@ -90,6 +90,7 @@ void lay_out_docks(QMainWindow& window) {
   beside(window, top, maps, Qt::Vertical);
   beside(window, side, volume, Qt::Vertical);
   beside(window, time, tables, Qt::Horizontal);
+  behind(window, side, {"range_slice", "plane_slice"});
   behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation"});

@@ -34,7 +34,7 @@ namespace {
 
 constexpr QSize kLeastSize{1280, 800};
 constexpr QSize kMostSize{3840, 2160};
-constexpr int kLayoutVersion = 2;  // raised when docks come or go
+constexpr int kLayoutVersion = 3;  // raised when docks come or go
 
 QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
   auto* dock = new QDockWidget(QString::fromStdString(title), &window);
@@ -155,6 +155,8 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
     dock.setVisible(std::get<bool>(*on));
     dock.raise();  // not behind another tab
   });
+  const auto on = app_.workspace.views.value(name);
+  if (on && !std::get<bool>(*on)) dock.hide();
 }
 
 void MainWindow::answer() {

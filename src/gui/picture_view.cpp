@@ -39,6 +39,13 @@ void draw_twice(QPainter& painter, const QPainterPath& path) {
   painter.drawPath(path);
 }
 
+void draw_muted(QPainter& painter, const QPainterPath& path) {
+  painter.setPen(QPen(QColor(0, 0, 0, 90), 2.0));
+  painter.drawPath(path);
+  painter.setPen(QPen(QColor(255, 255, 255, 170), 1.0));
+  painter.drawPath(path);
+}
+
 /// A line in the lower left corner, light on dark whatever lies below it.
 void draw_on_seabed(QPainter& painter, const QRect& view, const QString& text) {
   constexpr int kMargin_px = 4;
@@ -113,7 +120,10 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
                                                  : QString());
   }
   painter.setRenderHint(QPainter::Antialiasing);
-  for (const Overlay& overlay : picture_.overlays()) draw_twice(painter, path_of(overlay, picture_.scale()));
+  for (const Overlay& overlay : picture_.overlays()) {
+    const QPainterPath path = path_of(overlay, picture_.scale());
+    overlay.muted ? draw_muted(painter, path) : draw_twice(painter, path);
+  }
   if (latencies_()) {
     draw_on_seabed(painter, rect(), QString::fromStdString(picture_.timing()));
   }

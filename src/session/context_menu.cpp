@@ -20,6 +20,8 @@ constexpr std::array<Id, 4> kReview{"review.next", "review.rule", "schools.detec
 constexpr std::array<Id, 4> kParts{"school.split", "school.merge", "school.delete", "school.none"};
 constexpr std::array<Id, 2> kEcho{"school.take_in", "display.refused"};
 constexpr std::array<Id, 4> kSliceLook{"display.all", "display.filtered", "display.masks", "cursor.copy"};
+constexpr std::array<Id, 4> kPlane{"slice.plane_horizontal", "slice.plane_vertical", "slice.plane_oblique",
+                                   "slice.section"};
 constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.starboard", "volume.port",
                                    "volume.behind"};
 constexpr std::array<Id, 1> kReadOut{"cursor.copy"};
@@ -40,6 +42,7 @@ constexpr std::array<Id, 2> kUndo{"edit.undo", "edit.redo"};
 constexpr std::array<Id, 1> kRows{"list.copy"};
 
 constexpr std::array<ActionGroup, 7> kSlice{kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kPicture};
+constexpr std::array<ActionGroup, 8> kPlaneSlice{kPlane, kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kPicture};
 constexpr std::array<ActionGroup, 7> kVolume{kDecide, kFollow, kParts, kEcho, kSides, kReadOut, kPicture};
 constexpr std::array<ActionGroup, 5> kObservationMap{kDecide, kFollow, kEcho, kMap, kPicture};
 constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
@@ -54,20 +57,40 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 22> kBegin{
-    "edit.undo",         "file.calibration", "file.save_view", "file.quit",
-    "export.movie",      "volume.above",     "map.all",        "view.top_slice",
-    "view.dark",         "ping.play",        "slice.fan_up",   "event.trawl",
-    "event.previous",    "bad.ping",         "schools.detect", "school.propagate_forwards",
-    "school.fill_holes", "school.split",     "school.species", "school.delete",
-    "display.filtered",  "echogram.fan"};
+constexpr std::array<Id, 25> kBegin{"edit.undo",
+                                    "file.calibration",
+                                    "file.save_view",
+                                    "file.quit",
+                                    "export.movie",
+                                    "volume.above",
+                                    "map.all",
+                                    "view.top_slice",
+                                    "view.dark",
+                                    "ping.play",
+                                    "slice.fan_up",
+                                    "event.trawl",
+                                    "event.previous",
+                                    "bad.ping",
+                                    "schools.detect",
+                                    "school.propagate_forwards",
+                                    "school.fill_holes",
+                                    "school.split",
+                                    "school.species",
+                                    "school.delete",
+                                    "display.filtered",
+                                    "echogram.fan",
+                                    "slice.plane_horizontal",
+                                    "slice.range_out",
+                                    "view.volume"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 16> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 18> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
+                                       {"range_slice", kSlice},
+                                       {"plane_slice", kPlaneSlice},
                                        {"volume", kVolume},
                                        {"observation_map", kObservationMap},
                                        {"survey_map", kSurveyMap},

@@ -28,6 +28,8 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto views = std::make_shared<SourceOf<ViewSwitches>>(workspace.views);
   const auto core = [&workspace] { return in_db(workspace, workspace.display.values().core_at); };
   const auto fuzzy = [&workspace] { return in_db(workspace, workspace.display.values().fuzzy_above); };
+  const auto plane = std::make_shared<SourceOf<PlanePlace>>(workspace.plane);
+  const auto lies = [&workspace] { return workspace.plane.values().lies; };
   const auto mode = [&workspace] { return workspace.select.values().mode; };
   return {
       {"Selection",
@@ -56,6 +58,16 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
        {"filtered", "take_out.near_field", "take_out.surface", "take_out.corrupted_packets", "take_out.interference",
         "take_out.impulse_noise", "take_out.seabed", "removed", "weak", "weak_below_db"}},
       {"Slices", display, {"grid_lines", "north_up"}, {}, false},
+      {"Plane slice",
+       plane,
+       {},
+       {},
+       false,
+       {{"bearing_deg", "", {0.0, 360.0}}, {"tilt_deg", "", {1.0, 90.0}}},
+       {{"depth_m", [lies] { return lies() == PlaneSlice::Kind::horizontal; }},
+        {"bearing_deg", [lies] { return lies() != PlaneSlice::Kind::horizontal; }},
+        {"tilt_deg", [lies] { return lies() == PlaneSlice::Kind::oblique; }},
+        {"offset_m", [lies] { return lies() != PlaneSlice::Kind::horizontal; }}}},
       {"Volume", volume, {}, {}, false},
       {"Views", views, {}, {}, false},
   };

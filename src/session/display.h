@@ -48,6 +48,8 @@ struct ViewSwitches {
   bool survey_map = true;
   bool timeline = true;
   bool echogram = true;
+  bool range_slice = false;
+  bool plane_slice = false;
 };
 
 template <class Visitor>
@@ -60,6 +62,8 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("survey_map", p.survey_map, {.text = "the map of the survey"});
   v.field("timeline", p.timeline, {.text = "the timeline"});
   v.field("echogram", p.echogram, {.text = "the echogram of one beam, fan or channel"});
+  v.field("range_slice", p.range_slice, {.text = "the slice at one range"});
+  v.field("plane_slice", p.plane_slice, {.text = "the slice along any plane"});
 }
 
 }  // namespace sonar

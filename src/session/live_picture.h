@@ -25,6 +25,7 @@ struct Overlay {
   std::optional<PixelPoint> cross;      ///< a cross-hair
   std::optional<PixelPoint> circle_at;  ///< a ring round a place
   double circle_px = 0.0;
+  bool muted = false;  ///< thin and pale: it tells where something lies, and hides nothing
 };
 
 /// A picture of the document that stays right while the document changes: its model half. Pictures are built and drawn

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "session/slices/slice_places.h"
 #include "session/survey_schools.h"
 
 namespace sonar {
@@ -59,7 +60,7 @@ void go_to_echo(Workspace& workspace, const EchoName& echo) {
   const auto sightings = sightings_of(*rows, echo.id);
   if (!sightings) return;
   go_to_ping(workspace, echo.observation, sightings->loudest->ping_index);
-  if (const auto voxel = loudest_on_show(workspace, echo)) workspace.slices.set({voxel->fan, voxel->beam});
+  if (const auto voxel = loudest_on_show(workspace, echo)) lay_slices_through(workspace, *voxel);
   workspace.echo.set(echo);
 }
 

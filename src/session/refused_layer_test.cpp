@@ -72,7 +72,8 @@ TEST_F(Refused, TheListHasEveryEchoAndAClickGoesToIt) {
   EXPECT_EQ(list().selected(), 0U);
   const BeamGrid& grid = document().shown()->grid();
   const int row = grid.row_of_channel()[static_cast<std::size_t>(loudest.channel)];
-  EXPECT_EQ(workspace().slices(), (SlicePlaces{row / grid.beams(), row % grid.beams()}));
+  EXPECT_EQ(workspace().slices(),
+            (SlicePlaces{row / grid.beams(), row % grid.beams(), static_cast<int>(loudest.sample)}));
   std::string all;
   for (std::size_t c = 0; c < list().columns().size(); ++c) all += list().cell(0, c).text + "|";
   EXPECT_THAT(all, HasSubstr(why_no_school(loudest)));

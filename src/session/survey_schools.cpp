@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "pipeline/journal/continued.h"
+#include "session/slices/slice_places.h"
 
 namespace sonar {
 namespace {
@@ -53,22 +54,28 @@ std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> numbers_in_survey(c
 
 }  // namespace
 
-SlicePlaces middle_of(const PingMask& mask, int beams) {
+Voxel middle_of(const PingMask& mask, int beams) {
   double fan = 0.0;
   double beam = 0.0;
+  double sample = 0.0;
   double all = 0.0;
   std::size_t at = 0;
   for (const Run& run : mask.runs) {
     const int at_fan = run.row / beams;
     const int at_beam = run.row % beams;
     double weight = 0.0;
-    for (int i = 0; i < run.count; ++i) weight += mask.confidence[at++];
+    for (int i = 0; i < run.count; ++i) {
+      const double q = mask.confidence[at++];
+      weight += q;
+      sample += q * (run.first_sample + i);
+    }
     fan += weight * at_fan;
     beam += weight * at_beam;
     all += weight;
   }
   if (!(all > 0.0)) return {};
-  return {static_cast<int>(std::lround(fan / all)), static_cast<int>(std::lround(beam / all))};
+  const auto nearest = [all](double sum) { return static_cast<int>(std::lround(sum / all)); };
+  return {nearest(fan), nearest(beam), nearest(sample)};
 }
 
 std::string title_of(const Document& document, const SchoolName& school) {
@@ -181,7 +188,7 @@ void go_to_ping(Workspace& workspace, std::size_t observation, std::int64_t ping
 void go_to_school(Workspace& workspace, const SurveySchool& school) {
   go_to_ping(workspace, school.name.observation, school.middle_ping());
   if (const auto* there = in_ping(school.state->masks, school.middle_ping())) {
-    workspace.slices.set(middle_of(there->mask, school.observation->sector().beams()));
+    lay_slices_through(workspace, middle_of(there->mask, school.observation->sector().beams()));
   }
   workspace.school.set(school.name);
 }

@@ -47,8 +47,8 @@ void decide_on(Workspace& workspace, const std::vector<SurveySchool>& schools, c
 /// "school 3 (north wall)"; without its name where it is not known.
 [[nodiscard]] std::string title_of(const Document& document, const SchoolName& school);
 
-/// Fan and beam through the middle of a mask, each voxel counted by its confidence.
-[[nodiscard]] SlicePlaces middle_of(const PingMask& mask, int beams);
+/// The voxel in the middle of a mask, each voxel counted by its confidence.
+[[nodiscard]] Voxel middle_of(const PingMask& mask, int beams);
 /// Selects a school, looks at its observation and its middle ping, and lays the slices through its middle.
 void go_to_school(Workspace& workspace, const SurveySchool& school);
 /// Looks at a ping of an observation; opens the observation where needed.

@@ -14,6 +14,7 @@
 #include "publish/sample_looks.h"
 #include "session/curves.h"
 #include "session/place_text.h"
+#include "session/slices/slice_places.h"
 #include "view/slices/slice_picture.h"
 
 namespace sonar {
@@ -86,6 +87,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       views(changes),
       picture_file(changes),
       reduce(changes),
+      plane(changes),
       view_curve(first_view_curve()) {
   document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;
@@ -96,7 +98,10 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     *last = identity;
     cursor.set(std::nullopt);
     preview.set({});
-    if (shown) slices.set({shown->sector().fans() / 2, shown->sector().beams() / 2});
+    if (!shown) return;
+    const Sector& sector = shown->sector();
+    slices.set({sector.fans() / 2, sector.beams() / 2, sector.range().count / 2});
+    lay_plane(*this);
   });
   display.on_change([this](const DisplayParams& params) {
     // A curve that a human drew keeps its shape and takes the scale's colours.

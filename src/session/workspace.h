@@ -19,6 +19,7 @@
 #include "session/listeners.h"
 #include "session/parameters.h"
 #include "session/picture_file.h"
+#include "session/slices/plane_place.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -66,8 +67,8 @@ struct Preview {
   friend bool operator==(const Preview&, const Preview&) = default;
 };
 
-/// What a click does.
-enum class ToolName : std::uint8_t { seed, brush, eraser };
+/// What a click does; `section` is for one drag, which lays the plane slice.
+enum class ToolName : std::uint8_t { seed, brush, eraser, section };
 
 /// Pings of an observation that were marked on a timeline, both included.
 struct MarkedInterval {
@@ -84,10 +85,11 @@ struct ChosenMark {
   friend bool operator==(const ChosenMark&, const ChosenMark&) = default;
 };
 
-/// Where slices lie.
+/// Where slices lie; Workspace::plane tells it of the plane slice.
 struct SlicePlaces {
-  int fan = 0;   ///< of the top slice
-  int beam = 0;  ///< of the side slice
+  int fan = 0;     ///< of the top slice
+  int beam = 0;    ///< of the side slice
+  int sample = 0;  ///< of the range slice
   friend bool operator==(const SlicePlaces&, const SlicePlaces&) = default;
 };
 
@@ -105,6 +107,7 @@ struct Workspace {
   Parameters<ViewSwitches> views;
   Parameters<PictureFileParams> picture_file;
   Parameters<ReduceParams> reduce;
+  Parameters<PlanePlace> plane;  ///< where the plane slice lies; of the observation, not a preference
 
   /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
   /// the same opacity.

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "session/slices/slice_places.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -56,7 +57,7 @@ TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
   std::set<std::string> switches;
   for (const PictureDock& one : app_->pictures) switches.insert(one.view_switch);
   switches.erase("");
-  ASSERT_EQ(switches.size(), 8U);
+  ASSERT_EQ(switches.size(), 10U);
   for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, false));
   settle();
   for (const PictureDock& one : app_->pictures) {
@@ -89,11 +90,18 @@ TEST_F(Docks, KeysSwitchViewsOffAndOn) {
                                             {Qt::Key_3, "volume"},          {Qt::Key_4, "observation_map"},
                                             {Qt::Key_5, "propagation"},     {Qt::Key_6, "survey_map"},
                                             {Qt::Key_7, "survey_timeline"}, {Qt::Key_8, "echogram"}};
+  const std::map<Qt::Key, std::string> off_at_first{{Qt::Key_9, "range_slice"}, {Qt::Key_0, "plane_slice"}};
   for (const auto& [digit, id] : keys) {
     key(digit, Qt::AltModifier);
     EXPECT_FALSE(dock(id)->isVisible()) << id;
     key(digit, Qt::AltModifier);
     EXPECT_TRUE(dock(id)->isVisible()) << id;
+  }
+  for (const auto& [digit, id] : off_at_first) {
+    key(digit, Qt::AltModifier);
+    EXPECT_TRUE(dock(id)->isVisible()) << id;
+    key(digit, Qt::AltModifier);
+    EXPECT_FALSE(dock(id)->isVisible()) << id;
   }
 }
 
@@ -108,6 +116,8 @@ TEST_F(Docks, ClosingADockIsSwitchingItsViewOff) {
 }
 
 TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
+  for (const SliceKind kind : kSliceKinds) switch_on(workspace(), kind);
+  settle();
   for (const QSize size : {QSize(1280, 800), QSize(1366, 768)}) {
     window_->resize(size);
     settle();

@@ -89,7 +89,7 @@ WindowAtWork::Target WindowAtWork::look_at_school() {
     left -= run.count;
   }
   document().look_at(target.ping);
-  app_->workspace.slices.set({target.voxel.fan, target.voxel.beam});
+  app_->workspace.slices.set({target.voxel.fan, target.voxel.beam, target.voxel.sample});
   settle();
   return target;
 }

@@ -104,7 +104,7 @@ TEST_F(Lists, SchoolsAreThereAtOnceAndMeasuredSoonAfter) {
   document().settle();
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
   EXPECT_EQ(document().ping(), 3);
-  EXPECT_EQ(workspace().slices(), (SlicePlaces{6, 6}));
+  EXPECT_EQ(workspace().slices(), (SlicePlaces{6, 6, 203}));
   ASSERT_EQ(rows("school_pings").rows(), 3U);
   EXPECT_EQ(rows("school_pings").selected(), 1U);
   rows("school_pings").select(2);

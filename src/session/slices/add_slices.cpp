@@ -19,10 +19,14 @@ void add_slices(AppModel& app) {
   app.slices_follow = std::make_shared<SlicesFollow>(workspace);
   app.first_sight = std::make_shared<FirstSight>(workspace);
   app.live = std::make_shared<LiveWatch>(workspace, app.animations);
-  app.pictures.push_back({"top_slice", "Slice from above", DockPlace::centre, "top_slice",
-                          std::make_unique<SliceModel>(SliceSide::top, workspace, *app.seed_tool, *app.brush_tool)});
-  app.pictures.push_back({"side_slice", "Slice from the side", DockPlace::centre, "side_slice",
-                          std::make_unique<SliceModel>(SliceSide::side, workspace, *app.seed_tool, *app.brush_tool)});
+  const auto add = [&](const char* id, const char* title, SliceKind kind) {
+    app.pictures.push_back({id, title, DockPlace::centre, id,
+                            std::make_unique<SliceModel>(kind, workspace, *app.seed_tool, *app.brush_tool)});
+  };
+  add("top_slice", "Slice from above", SliceKind::top);
+  add("side_slice", "Slice from the side", SliceKind::side);
+  add("range_slice", "Range slice", SliceKind::range);
+  add("plane_slice", "Plane slice", SliceKind::plane);
   add_navigation_actions(app);
   add_tool_actions(app);
   add_display_actions(app);

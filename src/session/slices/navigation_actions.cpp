@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -9,6 +8,8 @@
 #include "session/live_watch.h"
 #include "session/playback.h"
 #include "session/slices/slice_actions.h"
+#include "session/slices/slice_places.h"
+#include "session/tools/brush_tool.h"
 
 namespace sonar {
 namespace {
@@ -51,22 +52,48 @@ void add_end(AppModel& app, const char* id, const char* text, const char* key, b
                    [&app, last] { return has_ping(app, last); }});
 }
 
-/// by_fan, by_beam  one of them is 0
-void add_place(AppModel& app, const char* id, const char* text, const char* key, int by_fan, int by_beam) {
+void add_place(AppModel& app, const char* id, const char* text, const char* key, SliceKind kind, int by) {
   app.actions.add({id,
                    kMenu,
                    text,
                    {key},
                    "",
-                   [&app, by_fan, by_beam] {
-                     const auto& shown = app.workspace.document.shown();
-                     if (!shown) return;
-                     SlicePlaces places = app.workspace.slices();
-                     places.fan = std::clamp(places.fan + by_fan, 0, shown->sector().fans() - 1);
-                     places.beam = std::clamp(places.beam + by_beam, 0, shown->sector().beams() - 1);
-                     app.workspace.slices.set(places);
-                   },
+                   [&app, kind, by] { step_slice(app.workspace, kind, by); },
                    [&app] { return has_pings(app); }});
+}
+
+void add_plane(AppModel& app, const char* id, const char* text, const char* tip, PlaneSlice::Kind kind) {
+  app.actions.add({.id = id,
+                   .menu = kMenu,
+                   .text = text,
+                   .keys = {},
+                   .tip = tip,
+                   .run = [&app, kind] { choose_plane(app.workspace, kind); },
+                   .enabled = [&app] { return has_pings(app); },
+                   .checked = [&app, kind] { return app.workspace.plane.values().lies == kind; }});
+}
+
+void add_planes(AppModel& app) {
+  add_plane(app, "slice.plane_horizontal", "Plane slice: horizontal",
+            "At one depth, through the selected school, else through the middle", PlaneSlice::Kind::horizontal);
+  add_plane(app, "slice.plane_vertical", "Plane slice: vertical",
+            "Through the sonar and the selected school, else through the middle", PlaneSlice::Kind::vertical);
+  add_plane(app, "slice.plane_oblique", "Plane slice: oblique",
+            "Going down away from the sonar through the selected school, else through the middle",
+            PlaneSlice::Kind::oblique);
+  app.actions.add({.id = "slice.section",
+                   .menu = kMenu,
+                   .text = "Plane slice: section along a line",
+                   .keys = {"Ctrl+Shift+S"},
+                   .tip = "Drag a line in the slice from above: the plane slice stands upright along it",
+                   .run =
+                       [&app] {
+                         app.brush_tool->cancel();
+                         app.workspace.tool.set(ToolName::section);
+                         app.workspace.document.tell("drag a line in a slice; Esc cancels");
+                       },
+                   .enabled = [&app] { return has_pings(app); },
+                   .checked = [&app] { return app.workspace.tool() == ToolName::section; }});
 }
 
 void ask_rate(AppModel& app, Playback& playback) {
@@ -170,10 +197,16 @@ void add_navigation_actions(AppModel& app) {
   add_end(app, "ping.last", "Last ping", "End", true);
   add_playing(app);
   add_live(app);
-  add_place(app, "slice.fan_up", "Top slice: next fan up", "Up", 1, 0);
-  add_place(app, "slice.fan_down", "Top slice: next fan down", "Down", -1, 0);
-  add_place(app, "slice.beam_up", "Side slice: next beam", "Shift+Up", 0, 1);
-  add_place(app, "slice.beam_down", "Side slice: previous beam", "Shift+Down", 0, -1);
+  add_place(app, "slice.fan_up", "Top slice: next fan up", "Up", SliceKind::top, 1);
+  add_place(app, "slice.fan_down", "Top slice: next fan down", "Down", SliceKind::top, -1);
+  add_place(app, "slice.beam_up", "Side slice: next beam", "Shift+Up", SliceKind::side, 1);
+  add_place(app, "slice.beam_down", "Side slice: previous beam", "Shift+Down", SliceKind::side, -1);
+  add_place(app, "slice.range_out", "Range slice: farther out", "Ctrl+Up", SliceKind::range, 1);
+  add_place(app, "slice.range_in", "Range slice: nearer in", "Ctrl+Down", SliceKind::range, -1);
+  add_place(app, "slice.plane_away", "Plane slice: up, or away from the viewer", "Ctrl+Shift+Up", SliceKind::plane, 1);
+  add_place(app, "slice.plane_near", "Plane slice: down, or towards the viewer", "Ctrl+Shift+Down", SliceKind::plane,
+            -1);
+  add_planes(app);
 }
 
 }  // namespace sonar

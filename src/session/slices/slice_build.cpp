@@ -8,10 +8,12 @@
 #include "pipeline/stages/weak_samples.h"
 #include "publish/sample_looks.h"
 #include "session/screen_theme.h"
+#include "view/slices/slice_cuts.h"
 
 namespace sonar {
 namespace {
 
+/// The rows of one fan, or one beam; none for slices that meet any row.
 std::vector<int> rows_of(const Slice& slice, const Sector& sector) {
   std::vector<int> rows;
   if (const auto* top = std::get_if<TopSlice>(&slice)) {
@@ -20,6 +22,22 @@ std::vector<int> rows_of(const Slice& slice, const Sector& sector) {
     for (int fan = 0; fan < sector.fans(); ++fan) rows.push_back(fan * sector.beams() + side->beam);
   }
   return rows;
+}
+
+/// Flags of all that the slice shows; a range or a plane that moves through one ping finds them marked already.
+View3<const SampleFlags> marked_flags(const SliceWish& wish, double below_db) {
+  FlagRoom& room = *wish.room;
+  const Shape3 shape = wish.ping->filtered->flags.shape();
+  if (room.flags.shape() != shape) room.flags = Array3<SampleFlags>(shape);
+  const std::vector<int> rows = rows_of(wish.view.slice, wish.observation->sector());
+  if (!rows.empty()) {
+    flag_weak_rows(*wish.ping, rows, below_db, room.flags.view());
+  } else if (room.all_of.lock() != wish.ping || room.below_db != below_db) {
+    flag_weak(*wish.ping, below_db, room.flags.view());
+    room.all_of = wish.ping;
+    room.below_db = below_db;
+  }
+  return View3<const SampleFlags>(room.flags.view());
 }
 
 SlicePing titled(const SliceWish& wish) {
@@ -37,15 +55,13 @@ SlicePing titled(const SliceWish& wish) {
 
 /// The selected school's name beside its first voxel of the slice.
 void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
+  const Sector& sector = wish.observation->sector();
   for (const SchoolLayer& school : wish.layers) {
     if (!school.selected || !school.layer.mask) continue;
-    const int beams = wish.observation->sector().beams();
     for (const Run& run : school.layer.mask->runs) {
-      const Voxel voxel{run.row / beams, run.row % beams, run.end() - 1};
-      const auto* top = std::get_if<TopSlice>(&wish.view.slice);
-      const auto* side = std::get_if<SideSlice>(&wish.view.slice);
-      if ((top != nullptr && voxel.fan != top->fan) || (side != nullptr && voxel.beam != side->beam)) continue;
-      const auto at = picture.place_of(voxel);
+      const auto voxel = farthest_cut(sector, wish.view.slice, run);
+      if (!voxel) continue;
+      const auto at = picture.place_of(*voxel);
       if (!at) return;
       picture.frame.items.emplace_back(ClipItem{picture.plot.place});
       picture.frame.items.emplace_back(TextItem{{at->x + 0.5 * theme.text_px, at->y},
@@ -81,9 +97,7 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   }
   data.flags = wish.ping->filtered->flags.view();
   if (const auto below_db = weak_below(wish.display)) {
-    if (wish.flags->shape() != data.flags.shape()) *wish.flags = Array3<SampleFlags>(data.flags.shape());
-    flag_weak_rows(*wish.ping, rows_of(wish.view.slice, wish.observation->sector()), *below_db, wish.flags->view());
-    data.flags = View3<const SampleFlags>(wish.flags->view());
+    data.flags = marked_flags(wish, *below_db);
   }
   for (const SchoolLayer& school : wish.layers) {
     MaskLayer layer = school.layer;

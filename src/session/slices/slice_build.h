@@ -10,6 +10,13 @@
 
 namespace sonar {
 
+/// Flags with the weak samples marked, kept from one picture to the next.
+struct FlagRoom {
+  Array3<SampleFlags> flags;
+  std::weak_ptr<const StagedPing> all_of{};  ///< the ping of which every row is marked
+  double below_db = 0.0;                     ///< with that margin
+};
+
 /// Everything that a slice's picture depends on, copied so that it can be made behind the window.
 struct SliceWish {
   OpenObservationPtr observation;
@@ -23,7 +30,7 @@ struct SliceWish {
   bool dark = false;
   double scale = 1.0;  ///< pixels a unit of the window: for text and lines
   std::shared_ptr<const SliceMap> earlier;
-  std::shared_ptr<Array3<SampleFlags>> flags;  ///< room for the flags of this slice; one picture at a time uses it
+  std::shared_ptr<FlagRoom> room;  ///< of this slice; one picture at a time uses it
 };
 
 /// Colours of the display scale, or of the view curve where a human has changed that.

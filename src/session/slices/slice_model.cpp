@@ -11,7 +11,7 @@
 #include "pipeline/stages/weak_samples.h"
 #include "session/refused_layer.h"
 #include "session/screen_theme.h"
-#include "session/slices/slice_build.h"
+#include "session/slices/slice_places.h"
 
 namespace sonar {
 namespace {
@@ -24,8 +24,8 @@ std::function<void()> listen(S& to, std::function<void()> what) {
 
 }  // namespace
 
-SliceModel::SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, BrushTool& brush)
-    : LivePicture(workspace.queue), side_(side), workspace_(workspace), seed_(seed), brush_(brush) {
+SliceModel::SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush)
+    : LivePicture(workspace.queue), kind_(kind), workspace_(workspace), seed_(seed), brush_(brush) {
   const int document = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
   listening_.push_back([this, document] { workspace_.document.changes().remove(document); });
   const auto anew = [this] { update(); };
@@ -43,6 +43,13 @@ SliceModel::SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, Bru
   listening_.push_back(listen(workspace.brush_px, over));
   workspace.display.on_change([this, alive = std::weak_ptr<bool>(alive_)](const DisplayParams&) {
     if (!alive.expired()) forget_colours();
+  });
+  workspace.plane.on_change([this, alive = std::weak_ptr<bool>(alive_)](const PlanePlace&) {
+    if (alive.expired()) return;
+    kind_ == SliceKind::plane ? update() : changed().tell();  // the others show where it cuts them
+  });
+  workspace.views.on_change([this, alive = std::weak_ptr<bool>(alive_)](const ViewSwitches&) {
+    if (!alive.expired()) changed().tell();
   });
 }
 
@@ -78,11 +85,6 @@ void SliceModel::forget_colours() {
   update();
 }
 
-Slice SliceModel::slice() const {
-  const SlicePlaces& places = workspace_.slices();
-  return side_ == SliceSide::top ? Slice(TopSlice{places.fan}) : Slice(SideSlice{places.beam});
-}
-
 LivePicture::Build SliceModel::build() {
   const Document& document = workspace_.document;
   if (!document.shown() || !document.staged()) return {};
@@ -93,8 +95,10 @@ LivePicture::Build SliceModel::build() {
   wish.dark = workspace_.dark();
   const auto ping = static_cast<std::size_t>(wish.ping->ping_index);
   const double heading_deg = wish.observation->files().navigation[ping].heading_deg;
-  wish.north_up = side_ == SliceSide::top && wish.display.north_up && !std::isnan(heading_deg);
-  wish.view = {slice(), wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
+  const Slice slice = live_slice(workspace_, kind_, wish.ping->ping_index);
+  if (picture_ && seen_from_above(picture_->map->view().slice) != seen_from_above(slice)) extent_.reset();
+  wish.north_up = seen_from_above(slice) && wish.display.north_up && !std::isnan(heading_deg);
+  wish.view = {slice, wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
   if (!colours_) colours_ = std::make_shared<const SvColours>(slice_colours(workspace_));
   wish.colours = colours_;
   wish.scale = scale();
@@ -102,7 +106,7 @@ LivePicture::Build SliceModel::build() {
   wish.layers = school_layers(workspace_, wish.ping->ping_index, theme);
   wish.refused = refused_layer_in(workspace_, wish.ping->ping_index);
   if (picture_) wish.earlier = picture_->map;
-  wish.flags = flags_;
+  wish.room = room_;
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto picture = slice_of(wish, size);
     if (!picture) return pass_on(picture);
@@ -120,7 +124,7 @@ void SliceModel::take(const std::shared_ptr<const void>& detail) {
 }
 
 std::optional<Voxel> SliceModel::voxel_at(PixelPoint at) const {
-  return picture_ ? picture_->voxel_at(at) : std::nullopt;
+  return picture_ && problem().empty() ? picture_->voxel_at(at) : std::nullopt;
 }
 
 std::optional<EchoName> SliceModel::echo_at(PixelPoint at) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "session/live_picture.h"
+#include "session/slices/slice_build.h"
 #include "session/tools/brush_tool.h"
 #include "session/tools/seed_tool.h"
 #include "session/workspace.h"
@@ -15,18 +16,13 @@
 
 namespace sonar {
 
-/// Which of the two slices of a sector.
-enum class SliceSide : std::uint8_t {
-  top,   ///< one fan, seen from above
-  side,  ///< one beam of all fans, seen from the side
-};
-
 /// A slice of the ping on show with everything that lies over it, and what pointers do to it: move = cursor and preview;
-/// left = the tool; alt-left = select only; middle = pan; wheel = next fan or beam, with control zoom.
+/// left = the tool; alt-left = select only; middle = pan; wheel = next fan, beam, range or plane; with control zoom, with
+/// shift a single sample of range, or a turn of the plane.
 class SliceModel : public LivePicture {
  public:
   /// All outlive the model.
-  SliceModel(SliceSide side, Workspace& workspace, SeedTool& seed, BrushTool& brush);
+  SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush);
   SliceModel(const SliceModel&) = delete;
   SliceModel& operator=(const SliceModel&) = delete;
   ~SliceModel() override;
@@ -54,8 +50,12 @@ class SliceModel : public LivePicture {
   /// The refused echo whose mark lies there.
   [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   [[nodiscard]] PixelPoint on_map(PixelPoint at) const;
-  [[nodiscard]] Slice slice() const;
-  [[nodiscard]] bool on_brush() const { return workspace_.tool() != ToolName::seed; }
+  /// Where the other slices run through this one.
+  [[nodiscard]] const std::vector<Overlay>& cut_lines() const;
+  [[nodiscard]] bool on_brush() const {
+    return workspace_.tool() == ToolName::brush || workspace_.tool() == ToolName::eraser;
+  }
+  void end_section(PixelPoint at);
   void point(const PointerEvent& event);
   void press(const PointerEvent& event, bool double_press);
   void move(const PointerEvent& event);
@@ -64,20 +64,27 @@ class SliceModel : public LivePicture {
   void turn_wheel(const PointerEvent& event);
   void zoom(PixelPoint about, double factor);
   void pan(PixelPoint by);
-  void step(int by);
 
-  SliceSide side_;
+  SliceKind kind_;
   Workspace& workspace_;
   SeedTool& seed_;
   BrushTool& brush_;
   std::weak_ptr<const int> of_;  ///< identity of the observation on show
   std::shared_ptr<const SlicePicture> picture_;
-  std::shared_ptr<const SvColours> colours_;                                              ///< null = to be made
-  std::shared_ptr<Array3<SampleFlags>> flags_ = std::make_shared<Array3<SampleFlags>>();  ///< of builds
-  std::optional<SliceExtent> extent_;                                                     ///< empty = all
-  std::optional<PixelPoint> pointer_;  ///< where the pointer is; empty = elsewhere
-  std::optional<PixelPoint> panned_;   ///< where it was while the picture is dragged
+  std::shared_ptr<const SvColours> colours_;                       ///< null = to be made
+  std::shared_ptr<FlagRoom> room_ = std::make_shared<FlagRoom>();  ///< of builds
+  std::optional<SliceExtent> extent_;                              ///< empty = all
+  std::optional<PixelPoint> pointer_;                              ///< where the pointer is; empty = elsewhere
+  std::optional<PixelPoint> panned_;                               ///< where it was while the picture is dragged
+  std::optional<PixelPoint> section_;  ///< where the line of a section begins while it is drawn
   double wheel_ = 0.0;                 ///< steps that make no whole one yet
+  /// What cut_lines() found, and for which picture and slices.
+  struct Cuts {
+    std::shared_ptr<const SlicePicture> in;
+    std::vector<Slice> others;
+    std::vector<Overlay> lines;
+  };
+  mutable Cuts cuts_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   std::vector<std::function<void()>> listening_;  ///< end it
 };

@@ -7,34 +7,15 @@
 #include <utility>
 
 #include "session/slices/slice_model.h"
+#include "session/slices/slice_places.h"
+#include "view/slices/slice_cuts.h"
 
 namespace sonar {
 namespace {
 
 constexpr double kZoomPerStep = 1.25;
-constexpr double kLeastWidth_m = 2.0;
-
-/// The part of a line that lies in a rectangle, by cutting it at each side; empty where none does.
-std::vector<PixelPoint> within(const PixelRect& rect, PixelPoint a, PixelPoint b) {
-  double first = 0.0;
-  double last = 1.0;
-  const auto cut = [&](double start, double along, double low, double high) {
-    if (along == 0.0) {
-      if (start < low || start > high) last = -1.0;
-      return;
-    }
-    const double t0 = (low - start) / along;
-    const double t1 = (high - start) / along;
-    first = std::max(first, std::min(t0, t1));
-    last = std::min(last, std::max(t0, t1));
-  };
-  const double dx = b.x - a.x;
-  const double dy = b.y - a.y;
-  cut(a.x, dx, rect.x, rect.x + rect.width);
-  cut(a.y, dy, rect.y, rect.y + rect.height);
-  if (first > last) return {};
-  return {{a.x + first * dx, a.y + first * dy}, {a.x + last * dx, a.y + last * dy}};
-}
+constexpr double kLeastWidth_m = 2.0;  ///< degrees of a range slice
+constexpr double kTurnPerStep_deg = 2.0;
 
 }  // namespace
 
@@ -75,7 +56,7 @@ void SliceModel::move(const PointerEvent& event) {
   }
   if (brush_.drawing() && picture_) brush_.move(*picture_->map, on_map(event.at));
   point(event);
-  if (on_brush()) changed().tell();  // its ring
+  if (on_brush() || section_) changed().tell();  // its ring, its line
 }
 
 void SliceModel::press(const PointerEvent& event, bool double_press) {
@@ -86,6 +67,10 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
   const auto voxel = voxel_at(event.at);
   if (event.button != PointerButton::left || !voxel) return;
   if (event.alt) return seed_.select(*voxel);
+  if (workspace_.tool() == ToolName::section) {
+    section_ = event.at;
+    return;
+  }
   if (on_brush()) {
     brush_.press(*picture_->map, on_map(event.at), workspace_.tool() == ToolName::eraser, scale());
   } else {
@@ -104,6 +89,7 @@ bool SliceModel::aim(PixelPoint at) {
 void SliceModel::release(const PointerEvent& event) {
   if (event.button == PointerButton::middle) panned_.reset();
   if (event.button == PointerButton::left) brush_.release();
+  if (event.button == PointerButton::left) end_section(event.at);
 }
 
 void SliceModel::leave() {
@@ -118,17 +104,18 @@ void SliceModel::turn_wheel(const PointerEvent& event) {
   wheel_ += event.wheel_steps;
   const double whole = std::trunc(wheel_);
   wheel_ -= whole;
-  if (whole != 0.0) step(static_cast<int>(std::clamp(whole, -1000.0, 1000.0)));
+  if (whole == 0.0) return;
+  const int by = static_cast<int>(std::clamp(whole, -1000.0, 1000.0));
+  if (event.shift && kind_ == SliceKind::plane) return turn_plane(workspace_, kTurnPerStep_deg * by);
+  step_slice(workspace_, kind_, by, event.shift);
 }
 
-void SliceModel::step(int by) {
-  const auto& shown = workspace_.document.shown();
-  if (!shown) return;
-  SlicePlaces places = workspace_.slices();
-  int& place = side_ == SliceSide::top ? places.fan : places.beam;
-  const int count = side_ == SliceSide::top ? shown->sector().fans() : shown->sector().beams();
-  place = std::clamp(place + by, 0, count - 1);
-  workspace_.slices.set(places);
+void SliceModel::end_section(PixelPoint at) {
+  if (!section_ || !picture_) return;
+  const PixelPoint from = *std::exchange(section_, std::nullopt);
+  if (workspace_.tool() != ToolName::section) return;  // it was cancelled meanwhile
+  workspace_.tool.set(ToolName::seed);
+  lay_section(workspace_, picture_->map->point_at(on_map(from)), picture_->map->point_at(on_map(at)));
 }
 
 void SliceModel::zoom(PixelPoint about, double factor) {
@@ -140,7 +127,8 @@ void SliceModel::zoom(PixelPoint about, double factor) {
   const double ty = std::clamp((about.y - plot.y) / plot.height, 0.0, 1.0);
   const double width = (now.x1 - now.x0) * factor;
   const double height = (now.y1 - now.y0) * factor;
-  const auto whole = whole_extent(workspace_.document.shown()->sector(), {slice(), 0.0, std::nullopt});
+  const auto whole =
+      whole_extent(workspace_.document.shown()->sector(), {picture_->map->view().slice, 0.0, std::nullopt});
   if (whole && width > (whole->x1 - whole->x0) && height > (whole->y1 - whole->y0)) return show_all();
   if (width < kLeastWidth_m) return;
   const double x = now.x0 + tx * (now.x1 - now.x0);
@@ -170,30 +158,34 @@ std::string SliceModel::timing() const {
   return preview.mask ? fmt::format("{}, growth {:.1f} ms", picture, preview.grown_ms) : picture;
 }
 
-std::vector<Overlay> SliceModel::overlays() const {
-  std::vector<Overlay> over;
-  const auto& shown = workspace_.document.shown();
-  if (!picture_ || !shown) return over;
-  const PixelRect& plot = picture_->plot.place;
-  const SlicePlaces& places = workspace_.slices();
-  const bool top = side_ == SliceSide::top;
-  // The other slice, from the first sample to the last.
-  // A picture that is still of the slice before shows that one's.
-  const Slice& drawn = picture_->map->view().slice;
-  const int fan = top ? std::get<TopSlice>(drawn).fan : places.fan;
-  const int beam = top ? places.beam : std::get<SideSlice>(drawn).beam;
-  const int count = shown->sector().range().count;
-  const auto far = picture_->place_of({fan, beam, count - 1});
-  std::optional<PixelPoint> near;  // the first samples may lie behind the sonar
-  for (int sample = 0; sample < count && !near; ++sample) near = picture_->place_of({fan, beam, sample});
-  if (near && far) {
-    if (auto line = within(plot, *near, *far); !line.empty()) over.push_back({std::move(line), {}, {}, 0.0});
+const std::vector<Overlay>& SliceModel::cut_lines() const {
+  std::vector<Slice> others;
+  for (const SliceKind kind : kSliceKinds) {
+    if (kind == kind_ || !switched_on(workspace_, kind)) continue;
+    others.push_back(live_slice(workspace_, kind, workspace_.document.ping()));
   }
-  if (auto cursor = workspace_.cursor(); cursor && !pointer_) {
-    (top ? cursor->fan : cursor->beam) = top ? fan : beam;
-    const auto at = picture_->place_of(*cursor);
+  if (cuts_.in == picture_ && cuts_.others == others) return cuts_.lines;
+  cuts_ = {picture_, std::move(others), {}};
+  const PixelRect& plot = picture_->plot.place;
+  for (const Slice& other : cuts_.others) {
+    for (auto& line : slice_cut(*picture_->map, other)) {
+      for (PixelPoint& p : line) p = {p.x + plot.x, p.y + plot.y};
+      cuts_.lines.push_back({.line = std::move(line), .cross = {}, .circle_at = {}, .muted = true});
+    }
+  }
+  return cuts_.lines;
+}
+
+std::vector<Overlay> SliceModel::overlays() const {
+  if (!picture_ || !problem().empty() || !workspace_.document.shown()) return {};
+  const PixelRect& plot = picture_->plot.place;
+  std::vector<Overlay> over = cut_lines();
+  if (const auto& cursor = workspace_.cursor(); cursor && !pointer_) {
+    const auto at = picture_->carried(*cursor);
     if (at && inside(plot, *at)) over.push_back({{}, at, {}, 0.0});
   }
+  if (pointer_ && section_ && workspace_.tool() == ToolName::section)
+    over.push_back({{*section_, *pointer_}, {}, {}, 0.0});
   if (pointer_ && on_brush() && inside(plot, *pointer_)) {
     over.push_back({{}, {}, pointer_, workspace_.brush_px() * scale()});
   }

@@ -3,29 +3,25 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <vector>
 
+#include "session/slices/slice_places.h"
 #include "session/survey_schools.h"
+#include "view/slices/slice_cuts.h"
 
 namespace sonar {
 namespace {
 
-/// Whether a mask has a voxel in a fan (of the top slice), or in a beam (of the side slice).
-struct Cut {
-  bool top = false;
-  bool side = false;
-};
-Cut cut_by(const PingMask& mask, const SlicePlaces& places, int beams) {
-  Cut cut;
-  for (const Run& run : mask.runs) {
-    cut.top = cut.top || run.row / beams == places.fan;
-    cut.side = cut.side || run.row % beams == places.beam;
-  }
-  return cut;
+/// The same plane, lying otherwise and not moved: what the choice of another kind leaves.
+bool lies_otherwise(PlanePlace before, const PlanePlace& now) {
+  const bool other = before.lies != now.lies;
+  before.lies = now.lies;
+  return other && before == now;
 }
 
 }  // namespace
 
-SlicesFollow::SlicesFollow(Workspace& workspace) : workspace_(workspace) {
+SlicesFollow::SlicesFollow(Workspace& workspace) : workspace_(workspace), plane_(workspace.plane.values()) {
   listening_.to(workspace.school.changed(), [this] {
     go_to_selected();
     follow();
@@ -33,6 +29,9 @@ SlicesFollow::SlicesFollow(Workspace& workspace) : workspace_(workspace) {
   listening_.to(workspace.slices_locked.changed(), [this] { follow(); });
   listening_.to(workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::ping && another_ping()) follow();
+  });
+  workspace.plane.on_change([this, alive = std::weak_ptr<bool>(alive_)](const PlanePlace& now) {
+    if (!alive.expired() && lies_otherwise(std::exchange(plane_, now), now)) lay_plane(workspace_);
   });
 }
 
@@ -59,13 +58,12 @@ void SlicesFollow::follow() {
   const Document& document = workspace_.document;
   const auto* there = in_ping(document.state().schools[*selected]->masks, document.ping());
   if (there == nullptr) return;
-  const int beams = document.shown()->sector().beams();
-  SlicePlaces places = workspace_.slices();
-  const Cut cut = cut_by(there->mask, places, beams);
-  const SlicePlaces middle = middle_of(there->mask, beams);
-  if (!cut.top) places.fan = middle.fan;
-  if (!cut.side) places.beam = middle.beam;
-  workspace_.slices.set(places);
+  const Sector& sector = document.shown()->sector();
+  std::vector<SliceKind> missing;
+  for (const SliceKind kind : kSliceKinds) {
+    if (!cuts(sector, live_slice(workspace_, kind, document.ping()), there->mask)) missing.push_back(kind);
+  }
+  if (!missing.empty()) lay_slices_through(workspace_, middle_of(there->mask, sector.beams()), missing);
 }
 
 }  // namespace sonar

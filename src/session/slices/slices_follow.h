@@ -11,7 +11,8 @@
 namespace sonar {
 
 /// Keeps the slices on the selected school, wherever it was selected, and while pings play: a slice that misses it goes to
-/// its middle, one that cuts it stays, so that a click in a slice does not move that slice. Where the ping looked at has
+/// its middle, one that cuts it stays, so that a click in a slice does not move that slice; a plane is moved along its
+/// normal, and laid anew only where a human chooses another kind of plane. Where the ping looked at has
 /// none of the school, selecting it goes to the nearest one that has. Nothing follows while workspace.slices_locked.
 /// threads  the window's
 class SlicesFollow {
@@ -27,6 +28,8 @@ class SlicesFollow {
 
   Workspace& workspace_;
   std::pair<std::shared_ptr<const int>, std::int64_t> last_{nullptr, -1};  ///< observation and ping
+  PlanePlace plane_;                                                       ///< as it last lay
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   Listening listening_;
 };
 

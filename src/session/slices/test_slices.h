@@ -31,6 +31,19 @@ class SlicesApp {
   [[nodiscard]] Document& document() { return app.workspace.document; }
   [[nodiscard]] SliceModel& top() { return dynamic_cast<SliceModel&>(*app.picture("top_slice")); }
   [[nodiscard]] SliceModel& side() { return dynamic_cast<SliceModel&>(*app.picture("side_slice")); }
+  [[nodiscard]] SliceModel& range() { return dynamic_cast<SliceModel&>(*app.picture("range_slice")); }
+  [[nodiscard]] SliceModel& plane() { return dynamic_cast<SliceModel&>(*app.picture("plane_slice")); }
+  /// Switches on the two views that a window begins without.
+  void show_all_four() {
+    ViewSwitches views = workspace().views.values();
+    views.range_slice = views.plane_slice = true;
+    workspace().views.assign(views);
+    for (SliceModel* slice : {&range(), &plane()}) {
+      slice->resize({480, 360}, 1.0);
+      slice->set_seen(true);
+    }
+    settle();
+  }
 
   /// Returns when nothing runs or waits.
   void settle() {
@@ -39,6 +52,8 @@ class SlicesApp {
       app.seed_tool->wait();
       top().wait();
       side().wait();
+      range().wait();
+      plane().wait();
     } while (queue.drain() > 0);
   }
   /// Asks as keys and menus do.

@@ -29,17 +29,18 @@ void add_tool(AppModel& app, const char* id, const char* text, const char* key, 
 
 void add_brush_size(AppModel& app, const char* id, const char* text, const char* key, double factor) {
   Workspace& workspace = app.workspace;
-  app.actions.add({id,
-                   kMenu,
-                   text,
-                   {key},
-                   "",
-                   [&workspace, factor] {
-                     const int step = factor > 1.0 ? 1 : -1;
-                     const int px = static_cast<int>(workspace.brush_px() * factor) + step;
-                     workspace.brush_px.set(std::clamp(px, kLeastBrush_px, kMostBrush_px));
-                   },
-                   [&workspace] { return workspace.tool() != ToolName::seed; }});
+  app.actions.add(
+      {id,
+       kMenu,
+       text,
+       {key},
+       "",
+       [&workspace, factor] {
+         const int step = factor > 1.0 ? 1 : -1;
+         const int px = static_cast<int>(workspace.brush_px() * factor) + step;
+         workspace.brush_px.set(std::clamp(px, kLeastBrush_px, kMostBrush_px));
+       },
+       [&workspace] { return workspace.tool() == ToolName::brush || workspace.tool() == ToolName::eraser; }});
 }
 
 void copy_read_out(AppModel& app) {
@@ -50,6 +51,7 @@ void copy_read_out(AppModel& app) {
 /// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(AppModel& app) {
   if (app.brush_tool->drawing()) return app.brush_tool->cancel();
+  if (app.workspace.tool() == ToolName::section) return app.workspace.tool.set(ToolName::seed);
   Document& document = app.workspace.document;
   // Nothing else can be let go while the first survey is on its way.
   if (document.survey() == nullptr && !document.progress().stage.empty()) return document.cancel();

@@ -56,6 +56,11 @@ Result<PlaneSlice> oblique_plane(const Point<Sonar>& point, const Point<Sonar>& 
   return PlaneSlice{point, right, cross(right, n), PlaneSlice::Kind::oblique};
 }
 
+bool seen_from_above(const Slice& slice) {
+  const auto* plane = std::get_if<PlaneSlice>(&slice);
+  return std::holds_alternative<TopSlice>(slice) || (plane != nullptr && plane->kind == PlaneSlice::Kind::horizontal);
+}
+
 Result<void> check_slice(const Sector& sector, const SliceView& view) {
   if (!std::isfinite(view.up_rad)) return fail(ErrorCode::bad_parameter, "the direction that points up is not finite");
   if (view.extent) {
@@ -108,6 +113,21 @@ std::optional<PixelPoint> SliceMap::place_of(const Voxel& voxel) const {
   if (found == voxels_.end()) return std::nullopt;
   const auto i = static_cast<int>(found - voxels_.begin());
   return PixelPoint{i % size_.width + 0.5, i / size_.width + 0.5};
+}
+
+std::optional<PixelPoint> SliceMap::carried(const Voxel& voxel) const {
+  Voxel moved = voxel;
+  if (const auto* top = std::get_if<TopSlice>(&view_.slice)) moved.fan = top->fan;
+  if (const auto* side = std::get_if<SideSlice>(&view_.slice)) moved.beam = side->beam;
+  if (const auto* range = std::get_if<RangeSlice>(&view_.slice)) moved.sample = range->sample;
+  if (auto place = place_of(moved)) return place;
+  const bool there = voxel.fan >= 0 && voxel.beam >= 0 && voxel.sample >= 0 && voxel.fan < sector_.fans() &&
+                     voxel.beam < sector_.beams() && voxel.sample < sector_.range().count;
+  if (!there || !std::holds_alternative<PlaneSlice>(view_.slice)) return std::nullopt;
+  const PlaneSlice plane = turned_plane(view_);
+  const Point<Sonar> d = sector_.centre(voxel.fan, voxel.beam, voxel.sample) - plane.origin;
+  return pixel_of(d.x * plane.right.x + d.y * plane.right.y + d.z * plane.right.z,
+                  d.x * plane.down.x + d.y * plane.down.y + d.z * plane.down.z);
 }
 
 Point<Sonar> SliceMap::point_at(PixelPoint pixel) const {

@@ -44,6 +44,12 @@ struct PlaneSlice {
 };
 using Slice = std::variant<TopSlice, SideSlice, RangeSlice, PlaneSlice>;
 
+/// The kinds of slices, in the variant's order.
+enum class SliceKind : std::uint8_t { top, side, range, plane };
+[[nodiscard]] inline SliceKind kind_of(const Slice& slice) { return static_cast<SliceKind>(slice.index()); }
+/// Whether a slice is drawn as a map is, so that the bow or north may point up.
+[[nodiscard]] bool seen_from_above(const Slice& slice);
+
 /// Horizontal, seen from above; origin below the sonar, bow up.
 [[nodiscard]] PlaneSlice horizontal_plane(double depth_m, double transducer_depth_m);
 /// Vertical, through two places (their z does not matter), seen so that `a` lies left of `b`; origin at `a`, z = 0.
@@ -110,6 +116,9 @@ class SliceMap {
   /// Where a voxel appears: its centre, or for planes the middle of what the plane cuts from its cell. Empty where the
   /// slice does not meet the cell; may lie outside the picture.
   [[nodiscard]] std::optional<PixelPoint> place_of(const Voxel& voxel) const;
+  /// Where a voxel of another slice would appear: moved into the top slice's fan, the side slice's beam, the range
+  /// slice's sample, or square onto the plane. Empty where there is no such voxel; may lie outside the picture.
+  [[nodiscard]] std::optional<PixelPoint> carried(const Voxel& voxel) const;
   /// A place of the picture in the sonar frame (on the fan's cone, the range shell, the plane).
   [[nodiscard]] Point<Sonar> point_at(PixelPoint pixel) const;
   /// Slice coordinates of a place of the picture, and back.

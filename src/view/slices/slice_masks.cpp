@@ -44,9 +44,11 @@ class MaskVoxels {
       : samples_(shape.samples), per_sample_(1.0 / shape.samples), rows_(shape.rows()) {
     const auto* top = std::get_if<TopSlice>(&slice);
     const auto* side = std::get_if<SideSlice>(&slice);
+    const auto* range = std::get_if<RangeSlice>(&slice);
     const auto shown = [&](const Run& run) {
       return (top == nullptr || run.row / shape.beams == top->fan) &&
-             (side == nullptr || run.row % shape.beams == side->beam);
+             (side == nullptr || run.row % shape.beams == side->beam) &&
+             (range == nullptr || (run.first_sample <= range->sample && range->sample < run.end()));
     };
     for (const MaskLayer& layer : masks) {
       if (layer.mask == nullptr) continue;

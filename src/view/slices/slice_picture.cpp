@@ -138,6 +138,12 @@ std::optional<PixelPoint> SlicePicture::place_of(const Voxel& voxel) const {
   return PixelPoint{p->x + plot.place.x, p->y + plot.place.y};
 }
 
+std::optional<PixelPoint> SlicePicture::carried(const Voxel& voxel) const {
+  const auto p = map->carried(voxel);
+  if (!p) return std::nullopt;
+  return PixelPoint{p->x + plot.place.x, p->y + plot.place.y};
+}
+
 Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, const SlicePing& ping,
                                    const SliceView& view, const SliceStyle& style, const Theme& theme, PixelSize size,
                                    std::shared_ptr<const SliceMap> earlier) {

@@ -103,6 +103,8 @@ struct SlicePicture {
   [[nodiscard]] std::optional<Voxel> voxel_at(PixelPoint pixel) const;
   /// Where a voxel appears in the whole picture.
   [[nodiscard]] std::optional<PixelPoint> place_of(const Voxel& voxel) const;
+  /// As SliceMap::carried(), in the whole picture.
+  [[nodiscard]] std::optional<PixelPoint> carried(const Voxel& voxel) const;
 };
 
 /// earlier  a map that may fit (of the ping before); it is used again where it does
