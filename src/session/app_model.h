@@ -19,6 +19,7 @@ namespace sonar {
 class BrushTool;
 class FirstSight;
 class LiveWatch;
+class MeasureTool;
 class Playback;
 class SeedTool;
 class SlicesFollow;
@@ -60,6 +61,7 @@ class AppModel {
   // Of all views together:
   std::shared_ptr<SeedTool> seed_tool;
   std::shared_ptr<BrushTool> brush_tool;
+  std::shared_ptr<MeasureTool> measure_tool;
   std::shared_ptr<Playback> playback;
   std::shared_ptr<SlicesFollow> slices_follow;
   std::shared_ptr<FirstSight> first_sight;

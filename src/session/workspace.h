@@ -19,6 +19,7 @@
 #include "session/listeners.h"
 #include "session/parameters.h"
 #include "session/picture_file.h"
+#include "session/tools/measurement.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -67,7 +68,7 @@ struct Preview {
 };
 
 /// What a click does.
-enum class ToolName : std::uint8_t { seed, brush, eraser };
+enum class ToolName : std::uint8_t { seed, brush, eraser, measure };
 
 /// Pings of an observation that were marked on a timeline, both included.
 struct MarkedInterval {
@@ -123,7 +124,9 @@ struct Workspace {
   Shared<std::optional<EchoName>> echo;  ///< the refused echo last pointed at or chosen: its mark is highlighted
   Shared<Preview> preview;
   Shared<ToolName> tool;
-  Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen
+  Shared<int> brush_px{12};                        ///< radius of brush and eraser on the screen
+  Shared<std::optional<Measurement>> measurement;  ///< the last one; a survey or observation that goes ends it
+  Shared<bool> measure_all_fans{false};            ///< areas of slices from above go through all fans
   Shared<bool> dark{false};
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
@@ -147,6 +150,8 @@ struct ReadOut {
   /// "Sv -48.2 dB, fan 7, beam 12, ...": what one key copies.
   [[nodiscard]] std::string line() const;
 };
+/// Sv of a voxel of the ping on show, filtered where slices are, dB; NaN where there is none.
+[[nodiscard]] double shown_sv_db(const Workspace& workspace, const Voxel& voxel);
 [[nodiscard]] ReadOut read_out(const Workspace& workspace, const Voxel& voxel);
 
 }  // namespace sonar

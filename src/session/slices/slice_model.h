@@ -10,6 +10,7 @@
 #include "session/live_picture.h"
 #include "session/tools/brush_tool.h"
 #include "session/tools/seed_tool.h"
+#include "session/tools/slice_measure.h"
 #include "session/workspace.h"
 #include "view/slices/slice_picture.h"
 
@@ -34,6 +35,7 @@ class SliceModel : public LivePicture {
   void pointer(const PointerEvent& event) override;
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] PointerShape pointer_shape() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// With the growth that the picture shows the trial of.
   [[nodiscard]] std::string timing() const override;
@@ -55,7 +57,10 @@ class SliceModel : public LivePicture {
   [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   [[nodiscard]] PixelPoint on_map(PixelPoint at) const;
   [[nodiscard]] Slice slice() const;
-  [[nodiscard]] bool on_brush() const { return workspace_.tool() != ToolName::seed; }
+  [[nodiscard]] bool on_seed() const { return workspace_.tool() == ToolName::seed; }
+  [[nodiscard]] bool on_brush() const {
+    return workspace_.tool() == ToolName::brush || workspace_.tool() == ToolName::eraser;
+  }
   void point(const PointerEvent& event);
   void press(const PointerEvent& event, bool double_press);
   void move(const PointerEvent& event);
@@ -70,6 +75,7 @@ class SliceModel : public LivePicture {
   Workspace& workspace_;
   SeedTool& seed_;
   BrushTool& brush_;
+  SliceMeasure measure_{workspace_};
   std::weak_ptr<const int> of_;  ///< identity of the observation on show
   std::shared_ptr<const SlicePicture> picture_;
   std::shared_ptr<const SvColours> colours_;                                              ///< null = to be made
