@@ -14,4 +14,7 @@ namespace sonar {
 /// "1 ping", "2 pings".
 [[nodiscard]] std::string count_of(std::size_t number, std::string_view thing);
 
+/// "1 204": digits in groups of three.
+[[nodiscard]] std::string grouped(std::size_t number);
+
 }  // namespace sonar

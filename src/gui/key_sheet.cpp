@@ -28,6 +28,7 @@ constexpr const char* kMouse = R"(<h3>Mouse</h3><table cellpadding="3">
 <tr><td><b>Double-click</b></td><td>grows and propagates to earlier and later pings</td></tr>
 <tr><td><b>Shift+click</b></td><td>adds another growth to the selected school</td></tr>
 <tr><td><b>Ctrl+click</b></td><td>takes a growth away from it</td></tr>
+<tr><td><b>G, then drag</b></td><td>measures a line; in slices with Shift a box, with Ctrl a lasso</td></tr>
 <tr><td><b>Right click</b></td><td>what can be done there</td></tr>
 <tr><td><b>Wheel</b></td><td>next fan or beam of a slice, zoom elsewhere</td></tr></table>)";
 

@@ -9,6 +9,8 @@
 #include <QPainterPath>
 #include <QToolTip>
 #include <QWheelEvent>
+#include <algorithm>
+#include <vector>
 
 #include "gui/action_menus.h"
 
@@ -46,6 +48,45 @@ void draw_muted(QPainter& painter, const QPainterPath& path) {
   painter.drawPath(path);
 }
 
+/// The same with the light line broken.
+void draw_dashed(QPainter& painter, const QPainterPath& path) {
+  painter.setPen(QPen(QColor(0, 0, 0, 160), 3.0));
+  painter.drawPath(path);
+  QPen dashes(QColor(255, 255, 255, 230), 1.0);
+  dashes.setDashPattern({5.0, 4.0});
+  painter.setPen(dashes);
+  painter.drawPath(path);
+}
+
+/// To the right of a rectangle, else to its left, below or above it: the first place with room; else as near as can be.
+QRectF beside(const QRectF& what, const QSizeF& size, const QRectF& view) {
+  constexpr double kGap_px = 8.0;
+  const QPointF corners[] = {{what.right() + kGap_px, what.top()},
+                             {what.left() - kGap_px - size.width(), what.top()},
+                             {what.left(), what.bottom() + kGap_px},
+                             {what.left(), what.top() - kGap_px - size.height()}};
+  const auto within = [&](QPointF at) {
+    at.setX(std::clamp(at.x(), view.left(), std::max(view.left(), view.right() - size.width())));
+    at.setY(std::clamp(at.y(), view.top(), std::max(view.top(), view.bottom() - size.height())));
+    return QRectF(at, size);
+  };
+  for (const QPointF& corner : corners) {
+    const QRectF placed = within(corner);
+    if (!placed.intersects(what.adjusted(-1, -1, 1, 1))) return placed;
+  }
+  return within(corners[0]);
+}
+
+/// Figures of what was measured, light on dark whatever lies below them.
+void draw_figures(QPainter& painter, const QRectF& what, const QRectF& view, const QString& text) {
+  constexpr int kMargin_px = 4;
+  const QRect words = painter.fontMetrics().boundingRect(QRect(0, 0, 4096, 4096), Qt::AlignLeft, text);
+  const QRectF box = beside(what, words.size() + QSize(2 * kMargin_px, 2 * kMargin_px), view);
+  painter.fillRect(box, QColor(0, 0, 0, 190));
+  painter.setPen(Qt::white);
+  painter.drawText(box.adjusted(kMargin_px, kMargin_px, 0, 0), Qt::AlignLeft, text);
+}
+
 /// A line in the lower left corner, light on dark whatever lies below it.
 void draw_on_seabed(QPainter& painter, const QRect& view, const QString& text) {
   constexpr int kMargin_px = 4;
@@ -81,11 +122,34 @@ QPainterPath path_of(const Overlay& overlay, double scale) {
 
 }  // namespace
 
+void PictureView::draw_overlays(QPainter& painter) {
+  const double scale = picture_.scale();
+  const auto in_units = [scale](const PixelRect& r) {
+    return QRectF(r.x / scale, r.y / scale, r.width / scale, r.height / scale);
+  };
+  const std::vector<Overlay> overlays = picture_.overlays();
+  for (const Overlay& overlay : overlays) {
+    if (overlay.clip) painter.setClipRect(in_units(*overlay.clip));
+    const QPainterPath path = path_of(overlay, scale);
+    const auto draw = overlay.muted ? draw_muted : overlay.dashed ? draw_dashed : draw_twice;
+    draw(painter, path);
+    painter.setClipping(false);
+  }
+  for (const Overlay& overlay : overlays) {
+    if (overlay.text.empty()) continue;
+    const QRectF view = overlay.clip ? in_units(*overlay.clip) : QRectF(rect());
+    draw_figures(painter, in_units(overlay.beside), view, QString::fromStdString(overlay.text));
+  }
+}
+
 PictureView::PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget* parent)
     : QWidget(parent),
       picture_(picture),
       latencies_(latencies),
-      listening_(picture.changed().add([this] { update(); })),
+      listening_(picture.changed().add([this] {
+        show_shape();
+        update();
+      })),
       listening_latencies_(latencies.changed().add([this] { update(); })) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -120,13 +184,16 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
                                                  : QString());
   }
   painter.setRenderHint(QPainter::Antialiasing);
-  for (const Overlay& overlay : picture_.overlays()) {
-    const QPainterPath path = path_of(overlay, picture_.scale());
-    overlay.muted ? draw_muted(painter, path) : draw_twice(painter, path);
-  }
+  draw_overlays(painter);
   if (latencies_()) {
     draw_on_seabed(painter, rect(), QString::fromStdString(picture_.timing()));
   }
+}
+
+void PictureView::show_shape() {
+  const bool cross = picture_.pointer_shape() == PointerShape::cross;
+  const Qt::CursorShape shape = cross ? Qt::CrossCursor : Qt::ArrowCursor;
+  if (cursor().shape() != shape) setCursor(shape);
 }
 
 void PictureView::show_size() { picture_.resize({width(), height()}, devicePixelRatioF()); }

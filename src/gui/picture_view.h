@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMenu>
+#include <QPainter>
 #include <QWidget>
 #include <functional>
 #include <utility>
@@ -44,6 +45,8 @@ class PictureView : public QWidget {
 
  private:
   void show_size();
+  void show_shape();
+  void draw_overlays(QPainter& painter);
   /// A place of the view in the picture's pixels.
   [[nodiscard]] PixelPoint pixel_at(QPointF at) const;
   void forward(QMouseEvent* event, PointerAction action);

@@ -17,6 +17,7 @@
 #include "gui/own_keys.h"
 #include "session/beyond_reach.h"
 #include "session/live_watch.h"
+#include "session/tools/measure_tool.h"
 
 namespace sonar {
 namespace {
@@ -31,6 +32,11 @@ QString text_at_cursor(const Workspace& workspace) {
   std::string line = cursor ? read_out(workspace, *cursor).line() : std::string{};
   const std::string& preview = workspace.preview().text;
   if (!preview.empty()) line += (line.empty() ? "" : "  |  ") + preview;
+  if (const std::string measured = measured_text(workspace); !measured.empty()) {
+    // Whoever measures wants to see all of it, however narrow the window is.
+    const bool first = workspace.tool() == ToolName::measure;
+    line = line.empty() ? measured : first ? measured + "  |  " + line : line + "  |  " + measured;
+  }
   return QString::fromStdString(line);
 }
 
@@ -125,6 +131,7 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   // After the window has taken the theme.
   workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_seabed(*cursor); }); });
   workspace.preview.changed().add(read);
+  workspace.measurement.changed().add(read);
   workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();
     if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document);

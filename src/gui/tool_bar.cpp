@@ -29,7 +29,7 @@ struct Button {
   QStyle::StandardPixmap icon = QStyle::SP_CustomBase;  ///< SP_CustomBase: the action's text
 };
 
-constexpr std::array<Button, 22> kButtons{{{"file.open_folder", QStyle::SP_DirOpenIcon},
+constexpr std::array<Button, 23> kButtons{{{"file.open_folder", QStyle::SP_DirOpenIcon},
                                            {""},
                                            {"edit.undo", QStyle::SP_ArrowBack},
                                            {"edit.redo", QStyle::SP_ArrowForward},
@@ -43,6 +43,7 @@ constexpr std::array<Button, 22> kButtons{{{"file.open_folder", QStyle::SP_DirOp
                                            {"tool.seed"},
                                            {"tool.brush"},
                                            {"tool.eraser"},
+                                           {"tool.measure"},
                                            {""},
                                            {"schools.detect"},
                                            {"school.propagate"},

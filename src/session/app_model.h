@@ -20,6 +20,7 @@ class BrushTool;
 class FirstSight;
 class KeptThumbnails;
 class LiveWatch;
+class MeasureTool;
 class Playback;
 class SeedTool;
 class SlicesFollow;
@@ -61,6 +62,7 @@ class AppModel {
   // Of all views together:
   std::shared_ptr<SeedTool> seed_tool;
   std::shared_ptr<BrushTool> brush_tool;
+  std::shared_ptr<MeasureTool> measure_tool;
   std::shared_ptr<Playback> playback;
   std::shared_ptr<SlicesFollow> slices_follow;
   std::shared_ptr<FirstSight> first_sight;

@@ -9,7 +9,9 @@ namespace {
 
 using Id = std::string_view;
 
-constexpr std::array<Id, 3> kTools{"tool.seed", "tool.brush", "tool.eraser"};
+constexpr std::array<Id, 4> kTools{"tool.seed", "tool.brush", "tool.eraser", "tool.measure"};
+constexpr std::array<Id, 3> kMeasure{"measure.all_fans", "measure.copy", "cursor.copy"};
+constexpr std::array<Id, 2> kMeasureMap{"tool.measure", "measure.copy"};
 constexpr std::array<Id, 6> kDecide{"review.accept",  "review.reject", "review.unreview",
                                     "school.species", "school.rename", "school.comment"};
 constexpr std::array<Id, 5> kFollow{"school.propagate", "school.propagate_forwards", "school.propagate_backwards",
@@ -19,12 +21,12 @@ constexpr std::array<Id, 7> kShape{"school.fill_holes",  "school.smooth", "schoo
 constexpr std::array<Id, 4> kReview{"review.next", "review.rule", "schools.detect", "schools.detect_all"};
 constexpr std::array<Id, 4> kParts{"school.split", "school.merge", "school.delete", "school.none"};
 constexpr std::array<Id, 2> kEcho{"school.take_in", "display.refused"};
-constexpr std::array<Id, 4> kSliceLook{"display.all", "display.filtered", "display.masks", "cursor.copy"};
+constexpr std::array<Id, 3> kSliceLook{"display.all", "display.filtered", "display.masks"};
 constexpr std::array<Id, 4> kPlane{"slice.plane_horizontal", "slice.plane_vertical", "slice.plane_oblique",
                                    "slice.section"};
 constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.starboard", "volume.port",
                                    "volume.behind"};
-constexpr std::array<Id, 1> kReadOut{"cursor.copy"};
+constexpr std::array<Id, 3> kReadOut{"tool.measure", "measure.copy", "cursor.copy"};
 constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
@@ -41,11 +43,12 @@ constexpr std::array<Id, 1> kAllPings{"list.pings_of_all"};
 constexpr std::array<Id, 2> kUndo{"edit.undo", "edit.redo"};
 constexpr std::array<Id, 1> kRows{"list.copy"};
 
-constexpr std::array<ActionGroup, 7> kSlice{kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kPicture};
-constexpr std::array<ActionGroup, 8> kPlaneSlice{kPlane, kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kPicture};
+constexpr std::array<ActionGroup, 8> kSlice{kTools, kDecide, kFollow, kShape, kEcho, kSliceLook, kMeasure, kPicture};
+constexpr std::array<ActionGroup, 9> kPlaneSlice{kPlane, kTools,     kDecide,  kFollow, kShape,
+                                                 kEcho,  kSliceLook, kMeasure, kPicture};
 constexpr std::array<ActionGroup, 7> kVolume{kDecide, kFollow, kParts, kEcho, kSides, kReadOut, kPicture};
-constexpr std::array<ActionGroup, 5> kObservationMap{kDecide, kFollow, kEcho, kMap, kPicture};
-constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
+constexpr std::array<ActionGroup, 6> kObservationMap{kDecide, kFollow, kEcho, kMap, kMeasureMap, kPicture};
+constexpr std::array<ActionGroup, 4> kSurveyMap{kDecide, kChart, kMeasureMap, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};

@@ -26,7 +26,14 @@ struct Overlay {
   std::optional<PixelPoint> circle_at;  ///< a ring round a place
   double circle_px = 0.0;
   bool muted = false;  ///< thin and pale: it tells where something lies, and hides nothing
+  bool dashed = false;              ///< the line
+  std::optional<PixelRect> clip{};  ///< what it must not leave
+  std::string text{};               ///< lines to stand beside a rectangle, light on dark; or empty
+  PixelRect beside{};
 };
+
+/// What the pointer looks like over a picture.
+enum class PointerShape : std::uint8_t { arrow, cross };
 
 /// A picture of the document that stays right while the document changes: its model half. Pictures are built and drawn
 /// behind the window, the latest wish wins, and the last picture stays until the next one is ready. A picture that is
@@ -68,6 +75,7 @@ class LivePicture {
   /// out  false where acts on the selected school are not meant: it lies elsewhere
   virtual bool aim(PixelPoint /*at*/) { return true; }
   [[nodiscard]] virtual std::vector<Overlay> overlays() const { return {}; }
+  [[nodiscard]] virtual PointerShape pointer_shape() const { return PointerShape::arrow; }
   /// What a tooltip says at a place; empty = nothing.
   [[nodiscard]] virtual std::string hint(PixelPoint /*at*/) const { return {}; }
 

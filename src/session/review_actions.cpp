@@ -170,15 +170,18 @@ void add_lists(AppModel& app) {
                    .tip = "When off, only the selected school",
                    .run = [&ping_table] { ping_table.show_all(!ping_table.all()); },
                    .checked = [&ping_table] { return ping_table.all(); }});
-  app.actions.add({.id = "list.copy",
-                   .menu = "&Edit",
-                   .text = "Copy rows",
-                   .keys = {"Ctrl+C"},
-                   .tip = "The marked rows of the list in use, with their titles, for a spreadsheet",
-                   .run = [&app] {
-                     if (app.dialogs.copy_rows && app.dialogs.copy_rows()) return;
-                     app.workspace.document.tell("click the list whose rows you want to copy");
-                   }});
+  app.actions.add(
+      {.id = "list.copy",
+       .menu = "&Edit",
+       .text = "Copy rows",
+       .keys = {"Ctrl+C"},
+       .tip = "The marked rows of the list in use, with their titles, for a spreadsheet; else what was measured",
+       .run = [&app] {
+         if (app.dialogs.copy_rows && app.dialogs.copy_rows()) return;
+         const Action* figures = app.actions.find("measure.copy");
+         if (figures != nullptr && figures->enabled()) return figures->run();
+         app.workspace.document.tell("click the list whose rows you want to copy");
+       }});
   // What was decided in earlier runs is seen at once, wherever in the survey it lies.
   workspace.document.changes().add(
       [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {

@@ -150,6 +150,12 @@ std::optional<std::size_t> Workspace::selected() const {
   return found == schools.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - schools.begin()));
 }
 
+double shown_sv_db(const Workspace& workspace, const Voxel& voxel) {
+  const auto& staged = workspace.document.staged();
+  const std::int16_t count = staged ? shown_count(*staged, workspace.display.values(), voxel) : kNoData;
+  return count == kNoData ? kUnknown : db_from_counts(count);
+}
+
 ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
   ReadOut text;
   const auto& shown = workspace.document.shown();
@@ -182,8 +188,8 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
     text.longitude = longitude_minutes_text(there.longitude_deg);
   }
   if (const auto& staged = workspace.document.staged(); staged && staged->ping_index == ping) {
-    const std::int16_t count = shown_count(*staged, workspace.display.values(), voxel);
-    text.sv = count == kNoData ? "Sv none" : fmt::format("Sv {:.1f} dB", db_from_counts(count));
+    const double sv_db = shown_sv_db(workspace, voxel);
+    text.sv = std::isnan(sv_db) ? "Sv none" : fmt::format("Sv {:.1f} dB", sv_db);
     if (staged->filtered->flags.shape() == staged->sv.counts.shape()) {
       text.flags = flag_text(staged->filtered->flags.view()(voxel.fan, voxel.beam, voxel.sample));
     }

@@ -20,6 +20,7 @@
 #include "session/parameters.h"
 #include "session/picture_file.h"
 #include "session/slices/plane_place.h"
+#include "session/tools/measurement.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -68,7 +69,7 @@ struct Preview {
 };
 
 /// What a click does; `section` is for one drag, which lays the plane slice.
-enum class ToolName : std::uint8_t { seed, brush, eraser, section };
+enum class ToolName : std::uint8_t { seed, brush, eraser, section, measure };
 
 /// Pings of an observation that were marked on a timeline, both included.
 struct MarkedInterval {
@@ -126,7 +127,9 @@ struct Workspace {
   Shared<std::optional<EchoName>> echo;  ///< the refused echo last pointed at or chosen: its mark is highlighted
   Shared<Preview> preview;
   Shared<ToolName> tool;
-  Shared<int> brush_px{12};  ///< radius of brush and eraser on the screen
+  Shared<int> brush_px{12};                        ///< radius of brush and eraser on the screen
+  Shared<std::optional<Measurement>> measurement;  ///< the last one; a survey or observation that goes ends it
+  Shared<bool> measure_all_fans{false};            ///< areas of slices from above go through all fans
   Shared<bool> dark{false};
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
@@ -150,6 +153,8 @@ struct ReadOut {
   /// "Sv -48.2 dB, fan 7, beam 12, ...": what one key copies.
   [[nodiscard]] std::string line() const;
 };
+/// Sv of a voxel of the ping on show, filtered where slices are, dB; NaN where there is none.
+[[nodiscard]] double shown_sv_db(const Workspace& workspace, const Voxel& voxel);
 [[nodiscard]] ReadOut read_out(const Workspace& workspace, const Voxel& voxel);
 
 }  // namespace sonar

@@ -12,43 +12,13 @@
 #include "geo/geodesic.h"
 #include "school/mask_shape.h"
 #include "school/measure/body_echo.h"
+#include "school/measure/echo_statistics.h"
 #include "school/measure/edges.h"
 #include "school/measure/total_echo.h"
 #include "school/runs.h"
 
 namespace sonar {
 namespace {
-
-double db_or_unknown(double linear) { return linear > 0.0 ? db_from_linear(linear) : kUnknown; }
-
-struct Span {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
-  void add(double v) {
-    least = std::min(least, v);
-    most = std::max(most, v);
-  }
-  [[nodiscard]] double size() const { return most - least; }
-};
-
-/// Calls visit(corner) for the corners of the cells at both ends of each run: all others lie between.
-template <class Visit>
-void for_each_corner(const PingMask& mask, const Sector& sector, Visit visit) {
-  const RangeAxis& axis = sector.range();
-  for (const Run& run : mask.runs) {
-    const AngleBounds e = sector.elevation_bounds(run.row / sector.beams());
-    const AngleBounds a = sector.azimuth_bounds(run.row % sector.beams());
-    const double near_m = std::max(axis.range_m(run.first_sample - 0.5), 0.0);
-    const double far_m = std::max(axis.range_m(run.end() - 0.5), 0.0);
-    for (const double elevation : {e.lower, e.upper}) {
-      for (const double azimuth : {a.lower, a.upper}) {
-        const Point<Sonar> u = Sector::direction(elevation, azimuth);
-        visit(u * near_m);
-        visit(u * far_m);
-      }
-    }
-  }
-}
 
 void measure_place(const MeasureInput& ping, const MaskShape& shape, SchoolPingRow& row) {
   const Point<Sonar> centre = levelled(shape.centre, ping.placement);
@@ -62,27 +32,13 @@ void measure_place(const MeasureInput& ping, const MaskShape& shape, SchoolPingR
 }
 
 void measure_extents(const MeasureInput& ping, const PingMask& mask, const MaskShape& shape, SchoolPingRow& row) {
-  const HorizontalAxes axes = horizontal_axes(shape.covariance, ping.placement.heading_rad);
-  const double s = std::sin(axes.major_bearing_rad);
-  const double c = std::cos(axes.major_bearing_rad);
-  Span along;
-  Span across;
-  Span depth;
-  for_each_corner(mask, *ping.sector, [&](const Point<Sonar>& in_sector) {
-    const Point<Sonar> corner = levelled(in_sector, ping.placement);
-    const Point<Enu> p = to_enu(corner, ping.placement.heading_rad);
-    along.add(p.x * s + p.y * c);
-    across.add(p.x * c - p.y * s);
-    depth.add(ping.placement.transducer_depth_m + corner.z);
-  });
-  const bool swapped = across.size() > along.size();
-  row.length_m = swapped ? across.size() : along.size();
-  row.width_m = swapped ? along.size() : across.size();
-  const double axis_deg = deg_from_rad(axes.major_bearing_rad) + (swapped ? 90.0 : 0.0);
-  row.axis_deg = axis_deg >= 180.0 ? axis_deg - 180.0 : axis_deg;
-  row.depth_min_m = depth.least;
-  row.depth_max_m = depth.most;
-  row.height_m = depth.size();
+  const MaskExtents extents = mask_extents(mask, shape.covariance, *ping.sector, ping.placement);
+  row.length_m = extents.length_m;
+  row.width_m = extents.width_m;
+  row.axis_deg = extents.axis_deg;
+  row.depth_min_m = extents.depth_min_m;
+  row.depth_max_m = extents.depth_max_m;
+  row.height_m = extents.depth_max_m - extents.depth_min_m;
 }
 
 void count_voxels(const PingMask& mask, int beams, SchoolPingRow& row) {
@@ -97,8 +53,6 @@ void count_voxels(const PingMask& mask, int beams, SchoolPingRow& row) {
   row.n_beams = std::count(beam_seen.begin(), beam_seen.end(), true);
   row.n_fans = std::count(fan_seen.begin(), fan_seen.end(), true);
 }
-
-bool is_faulty(SampleFlags flags, std::int16_t count) { return any(flags & kFault) || count == kNoData; }
 
 /// Sums of the echo of valid members: as it is, under another beam angle, and times its standard error.
 class CalibrationDoubt {
@@ -128,49 +82,18 @@ class CalibrationDoubt {
   double error_ = 0.0;
 };
 
-/// Echo of the valid members. The 95th percentile is the nearest rank over voxels.
 void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow& row) {
-  const Sector& sector = *ping.sector;
-  double sum = 0.0;
-  double noise = 0.0;
-  double valid_m3 = 0.0;
-  double whole_m3 = 0.0;  // summed in the same order, so that all valid is exactly 1
   CalibrationDoubt doubt(ping);
-  std::vector<double> values;
-  values.reserve(mask.voxels());
-  for (const Run& run : mask.runs) {
-    const auto counts = ping.sv.row(run.row);
-    const auto flags = ping.flags.row(run.row);
-    const RowBackground background(ping.background, run.row);
-    const double solid_angle = sector.solid_angle_sr(run.row / sector.beams(), run.row % sector.beams());
-    const std::size_t valid_before = values.size();
-    double of_run = 0.0;
-    for (int s = run.first_sample; s < run.end(); ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      const double volume = solid_angle * sector.shell_m3_per_sr(s);
-      whole_m3 += volume;
-      if (is_faulty(flags[i], counts[i])) continue;
-      const double behind = background(s);
-      const double sv = linear_from_count(counts[i]) - behind;
-      sum += sv * volume;
-      of_run += sv * volume;
-      noise += behind * volume;
-      valid_m3 += volume;
-      values.push_back(sv);
-    }
-    if (values.size() > valid_before) doubt.add(run.row, of_run);
-  }
-  row.valid_fraction = whole_m3 > 0.0 ? valid_m3 / whole_m3 : kUnknown;
-  if (values.empty() || !(valid_m3 > 0.0)) return;
-  const double mean = sum / valid_m3;
-  row.sv_mean_db = db_or_unknown(mean);
-  row.backscatter_m2 = mean * row.volume_m3;
+  const EchoStatistics echo =
+      echo_statistics(ping, mask, [&](int of_row, double echo_m2) { doubt.add(of_row, echo_m2); });
+  row.valid_fraction = echo.volume_m3 > 0.0 ? echo.heard_m3 / echo.volume_m3 : kUnknown;
+  if (std::isnan(echo.mean_sv_per_m)) return;
+  row.sv_mean_db = echo.sv_mean_db;
+  row.backscatter_m2 = echo.mean_sv_per_m * row.volume_m3;
   doubt.tell(row);
-  row.snr_db = noise > 0.0 && sum > 0.0 ? db_from_linear(sum / noise) : kUnknown;
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1;
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  row.sv_p95_db = db_or_unknown(values[static_cast<std::size_t>(rank)]);
-  row.sv_max_db = db_or_unknown(*std::max_element(values.begin() + rank, values.end()));
+  row.snr_db = echo.snr_db;
+  row.sv_p95_db = echo.sv_p95_db;
+  row.sv_max_db = echo.sv_max_db;
 }
 
 }  // namespace

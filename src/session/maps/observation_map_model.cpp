@@ -79,6 +79,8 @@ ObservationMapModel::ObservationMapModel(Workspace& workspace)
     : LivePicture(workspace.queue), workspace_(workspace), painter_(std::make_shared<ObservationMapPainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.tool.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.measurement.changed(), [this] { changed().tell(); });
   listening_.to(workspace.school.changed(), [this] { update(); });
   listening_.to(workspace.echo.changed(), [this] { update(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
@@ -154,6 +156,9 @@ void ObservationMapModel::show_all() {
 
 void ObservationMapModel::pointer(const PointerEvent& event) {
   if (!places_ || !places_->map) return;
+  const MapMeasure::Did measured = measure_.take(event, *places_->map, scale());
+  if (measured == MapMeasure::Did::clicked) return click(event.at);
+  if (measured == MapMeasure::Did::taken) return;
   switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px, scale())) {
     case MapGesture::Did::moved:
       return update();
@@ -185,13 +190,19 @@ void ObservationMapModel::click(PixelPoint at) {
 }
 
 std::vector<Overlay> ObservationMapModel::overlays() const {
+  if (!places_ || !places_->map) return {};
+  std::vector<Overlay> over = measure_.overlays(*places_->map);
   const auto there = cursor_place(workspace_);
-  if (!there || !places_ || !places_->map) return {};
-  const auto at = places_->map->at(*there);
-  if (!at || !inside(places_->map->place, *at)) return {};
+  const auto at = there ? places_->map->at(*there) : std::nullopt;
+  if (!at || !inside(places_->map->place, *at)) return over;
   Overlay cross;
   cross.cross = *at;
-  return {cross};
+  over.push_back(std::move(cross));
+  return over;
+}
+
+PointerShape ObservationMapModel::pointer_shape() const {
+  return workspace_.tool() == ToolName::measure ? PointerShape::cross : PointerShape::arrow;
 }
 
 std::string ObservationMapModel::hint(PixelPoint at) const {

@@ -11,6 +11,7 @@
 #include "session/live_picture.h"
 #include "session/maps/map_gesture.h"
 #include "session/maps/masked_pings.h"
+#include "session/tools/map_measure.h"
 #include "session/workspace.h"
 #include "view/refused_marks.h"
 
@@ -49,6 +50,7 @@ class ObservationMapModel : public LivePicture {
   void pointer(const PointerEvent& event) override;
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] PointerShape pointer_shape() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// Of the picture on show; null before the first.
   [[nodiscard]] const std::shared_ptr<const ObservationMapPlaces>& places() const { return places_; }
@@ -65,6 +67,7 @@ class ObservationMapModel : public LivePicture {
 
   Workspace& workspace_;
   MapGesture gesture_;
+  MapMeasure measure_{workspace_};
   RunningMasks running_;
   std::shared_ptr<ObservationMapPainter> painter_;
   std::shared_ptr<const ObservationMapPlaces> places_;

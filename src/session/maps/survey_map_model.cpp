@@ -64,6 +64,8 @@ SurveyMapModel::SurveyMapModel(Workspace& workspace)
     : LivePicture(workspace.queue), workspace_(workspace), painter_(std::make_shared<SurveyMapPainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.tool.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.measurement.changed(), [this] { changed().tell(); });
   listening_.to(workspace.school.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(workspace.depth_raster.changed(), [this] { update(); });
@@ -116,6 +118,9 @@ void SurveyMapModel::show_all() {
 
 void SurveyMapModel::pointer(const PointerEvent& event) {
   if (!places_ || !places_->map) return;
+  const MapMeasure::Did measured = measure_.take(event, *places_->map, scale());
+  if (measured == MapMeasure::Did::clicked) return click(event.at);
+  if (measured == MapMeasure::Did::taken) return;
   switch (gesture_.take(event, places_->map->place, places_->whole_metres_per_px, scale())) {
     case MapGesture::Did::moved:
       return update();
@@ -145,7 +150,9 @@ void SurveyMapModel::click(PixelPoint at) {
 std::vector<Overlay> SurveyMapModel::overlays() const {
   std::vector<Overlay> out;
   const auto& shown = workspace_.document.shown();
-  if (!places_ || !places_->map || !shown) return out;
+  if (!places_ || !places_->map) return out;
+  out = measure_.overlays(*places_->map);
+  if (!shown) return out;
   const PixelRect& place = places_->map->place;
   const auto add = [&](PixelPoint at, bool cross) {
     if (!(at.x >= place.x && at.y >= place.y && at.x <= place.x + place.width && at.y <= place.y + place.height)) {
@@ -165,6 +172,10 @@ std::vector<Overlay> SurveyMapModel::overlays() const {
     if (workspace_.school() == school.name) add(school.at, false);
   }
   return out;
+}
+
+PointerShape SurveyMapModel::pointer_shape() const {
+  return workspace_.tool() == ToolName::measure ? PointerShape::cross : PointerShape::arrow;
 }
 
 std::string SurveyMapModel::hint(PixelPoint at) const {

@@ -10,6 +10,7 @@
 #include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/maps/map_gesture.h"
+#include "session/tools/map_measure.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -48,6 +49,7 @@ class SurveyMapModel : public LivePicture {
   void pointer(const PointerEvent& event) override;
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] PointerShape pointer_shape() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// Of the picture on show; null before the first.
   [[nodiscard]] const std::shared_ptr<const SurveyMapPlaces>& places() const { return places_; }
@@ -63,6 +65,7 @@ class SurveyMapModel : public LivePicture {
 
   Workspace& workspace_;
   MapGesture gesture_;
+  MapMeasure measure_{workspace_};
   std::shared_ptr<SurveyMapPainter> painter_;
   std::shared_ptr<const SurveyMapPlaces> places_;
   Listening listening_;  // the last member: it ends first

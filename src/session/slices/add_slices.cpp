@@ -8,6 +8,7 @@
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_model.h"
 #include "session/slices/slices_follow.h"
+#include "session/tools/measure_tool.h"
 
 namespace sonar {
 
@@ -15,6 +16,7 @@ void add_slices(AppModel& app) {
   Workspace& workspace = app.workspace;
   app.seed_tool = std::make_shared<SeedTool>(workspace, app.animations);
   app.brush_tool = std::make_shared<BrushTool>(workspace);
+  app.measure_tool = std::make_shared<MeasureTool>(workspace);
   app.playback = std::make_shared<Playback>(workspace, app.animations);
   app.slices_follow = std::make_shared<SlicesFollow>(workspace);
   app.first_sight = std::make_shared<FirstSight>(workspace);

@@ -41,6 +41,7 @@ SliceModel::SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, Bru
   listening_.push_back(listen(workspace.cursor, over));
   listening_.push_back(listen(workspace.tool, over));
   listening_.push_back(listen(workspace.brush_px, over));
+  listening_.push_back(listen(workspace.measurement, over));
   workspace.display.on_change([this, alive = std::weak_ptr<bool>(alive_)](const DisplayParams&) {
     if (!alive.expired()) forget_colours();
   });

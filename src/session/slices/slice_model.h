@@ -11,6 +11,7 @@
 #include "session/slices/slice_build.h"
 #include "session/tools/brush_tool.h"
 #include "session/tools/seed_tool.h"
+#include "session/tools/slice_measure.h"
 #include "session/workspace.h"
 #include "view/slices/slice_picture.h"
 
@@ -30,6 +31,7 @@ class SliceModel : public LivePicture {
   void pointer(const PointerEvent& event) override;
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] PointerShape pointer_shape() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
   /// With the growth that the picture shows the trial of.
   [[nodiscard]] std::string timing() const override;
@@ -52,6 +54,7 @@ class SliceModel : public LivePicture {
   [[nodiscard]] PixelPoint on_map(PixelPoint at) const;
   /// Where the other slices run through this one.
   [[nodiscard]] const std::vector<Overlay>& cut_lines() const;
+  [[nodiscard]] bool on_seed() const { return workspace_.tool() == ToolName::seed; }
   [[nodiscard]] bool on_brush() const {
     return workspace_.tool() == ToolName::brush || workspace_.tool() == ToolName::eraser;
   }
@@ -69,6 +72,7 @@ class SliceModel : public LivePicture {
   Workspace& workspace_;
   SeedTool& seed_;
   BrushTool& brush_;
+  SliceMeasure measure_{workspace_};
   std::weak_ptr<const int> of_;  ///< identity of the observation on show
   std::shared_ptr<const SlicePicture> picture_;
   std::shared_ptr<const SvColours> colours_;                       ///< null = to be made

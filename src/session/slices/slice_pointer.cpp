@@ -20,6 +20,7 @@ constexpr double kTurnPerStep_deg = 2.0;
 }  // namespace
 
 void SliceModel::pointer(const PointerEvent& event) {
+  if (measure_.take(event, picture_.get(), scale())) return;
   switch (event.action) {
     case PointerAction::move:
       return move(event);
@@ -41,7 +42,7 @@ void SliceModel::point(const PointerEvent& event) {
   const auto voxel = voxel_at(event.at);
   workspace_.cursor.set(voxel);
   if (const auto echo = echo_at(event.at)) workspace_.echo.set(echo);
-  if (on_brush() || panned_) return;
+  if (!on_seed() || panned_) return;
   if (voxel) {
     seed_.hover(*voxel, event.shift, event.control);
   } else {
@@ -73,7 +74,7 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
   }
   if (on_brush()) {
     brush_.press(*picture_->map, on_map(event.at), workspace_.tool() == ToolName::eraser, scale());
-  } else {
+  } else if (on_seed()) {
     seed_.press(*voxel, event.shift, event.control, double_press);
   }
 }
@@ -95,7 +96,7 @@ void SliceModel::release(const PointerEvent& event) {
 void SliceModel::leave() {
   pointer_.reset();
   workspace_.cursor.set(std::nullopt);
-  if (!on_brush()) seed_.leave();
+  if (on_seed()) seed_.leave();
   changed().tell();
 }
 
@@ -189,7 +190,13 @@ std::vector<Overlay> SliceModel::overlays() const {
   if (pointer_ && on_brush() && inside(plot, *pointer_)) {
     over.push_back({{}, {}, pointer_, workspace_.brush_px() * scale()});
   }
+  for (Overlay& overlay : measure_.overlays(*picture_)) over.push_back(std::move(overlay));
   return over;
+}
+
+PointerShape SliceModel::pointer_shape() const {
+  const ToolName tool = workspace_.tool();
+  return tool == ToolName::measure || tool == ToolName::section ? PointerShape::cross : PointerShape::arrow;
 }
 
 }  // namespace sonar

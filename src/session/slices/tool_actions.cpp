@@ -3,6 +3,7 @@
 
 #include "session/slices/slice_actions.h"
 #include "session/tools/brush_tool.h"
+#include "session/tools/measure_tool.h"
 #include "session/tools/seed_tool.h"
 
 namespace sonar {
@@ -48,15 +49,42 @@ void copy_read_out(AppModel& app) {
   if (cursor && app.dialogs.copy) app.dialogs.copy(read_out(app.workspace, *cursor).line());
 }
 
+void copy_figures(AppModel& app) {
+  const auto& measured = app.workspace.measurement();
+  if (measured && on_show(app.workspace, *measured) && app.dialogs.copy) app.dialogs.copy(table_text(*measured));
+}
+
+void add_measuring(AppModel& app) {
+  Workspace& workspace = app.workspace;
+  app.actions.add({"measure.all_fans",
+                   "&Edit",
+                   "Measure through all fans",
+                   {"Shift+G"},
+                   "A box or a lasso in the slice from above takes in every fan, not the one on show alone",
+                   [&workspace] { workspace.measure_all_fans.set(!workspace.measure_all_fans()); },
+                   {},
+                   [&workspace] { return workspace.measure_all_fans(); }});
+  app.actions.add({"measure.copy",
+                   "&Edit",
+                   "Copy figures",
+                   {"Ctrl+Shift+G"},
+                   "What was measured, with units, for a spreadsheet; Ctrl+C in a view does the same",
+                   [&app] { copy_figures(app); },
+                   [&workspace] { return !measured_text(workspace).empty(); }});
+}
+
 /// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(AppModel& app) {
   if (app.brush_tool->drawing()) return app.brush_tool->cancel();
   if (app.workspace.tool() == ToolName::section) return app.workspace.tool.set(ToolName::seed);
+  const bool measuring = app.workspace.tool() == ToolName::measure && app.workspace.measurement();
+  if (app.measure_tool->drawing() || measuring) return app.measure_tool->cancel();
   Document& document = app.workspace.document;
   // Nothing else can be let go while the first survey is on its way.
   if (document.survey() == nullptr && !document.progress().stage.empty()) return document.cancel();
   const Action* stop = app.actions.find("school.stop");
   if (stop != nullptr && stop->enabled()) return stop->run();
+  if (app.workspace.measurement()) return app.measure_tool->cancel();
   app.workspace.school.set(std::nullopt);
 }
 
@@ -70,14 +98,18 @@ void add_tool_actions(AppModel& app) {
   add_tool(app, "tool.brush", "Brush", "B", "Paints voxels into the selected school, or into a new one",
            ToolName::brush);
   add_tool(app, "tool.eraser", "Eraser", "E", "Takes voxels from the selected school, or from all", ToolName::eraser);
+  add_tool(app, "tool.measure", "Measure", "G",
+           "A drag measures a line; in slices with Shift a box, with Ctrl a lasso; in the volume click both ends",
+           ToolName::measure);
   add_brush_size(app, "tool.larger", "Larger brush", "]", 1.25);
   add_brush_size(app, "tool.smaller", "Smaller brush", "[", 0.8);
-  app.actions.add({"tool.cancel",
-                   kMenu,
-                   "Cancel, stop, or select nothing",
-                   {"Esc"},
-                   "Ends a drag; else stops what is being followed through time; else no school is selected any more",
-                   [&app] { let_go(app); }});
+  app.actions.add(
+      {"tool.cancel",
+       kMenu,
+       "Cancel, stop, or select nothing",
+       {"Esc"},
+       "Ends a drag or what was measured; else stops what is being followed through time; else selects no school",
+       [&app] { let_go(app); }});
   app.actions.add({"cursor.copy",
                    "&Edit",
                    "Copy read-out",
@@ -85,6 +117,7 @@ void add_tool_actions(AppModel& app) {
                    "Everything that is known of the voxel under the pointer, as text",
                    [&app] { copy_read_out(app); },
                    [&app] { return app.workspace.cursor().has_value(); }});
+  add_measuring(app);
 }
 
 }  // namespace sonar

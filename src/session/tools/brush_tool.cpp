@@ -46,24 +46,6 @@ std::vector<Run> joined(const std::vector<std::int32_t>& voxels, int samples, in
   return runs;
 }
 
-/// Voxels that can belong to a school, with full confidence, as the commands take them.
-PingMask that_can_belong(const std::vector<Run>& runs, View3<const SampleFlags> flags) {
-  PingMask mask;
-  for (const Run& run : runs) {
-    bool open = false;
-    for (int s = run.first_sample; s < run.end(); ++s) {
-      const bool inside = !any(flags.row(run.row)[static_cast<std::size_t>(s)] & kNeverMember);
-      if (inside && !open) mask.runs.push_back({run.row, s, 0});
-      if (inside) {
-        ++mask.runs.back().count;
-        mask.confidence.push_back(255);
-      }
-      open = inside;
-    }
-  }
-  return mask;
-}
-
 std::vector<RunKey> keys_of(const PingMask& mask, const BeamGrid& grid) {
   std::vector<RunKey> keys;
   for (const Run& run : mask.runs) {
@@ -90,6 +72,23 @@ std::vector<Run> runs_under(const SliceMap& map, PixelPoint from, PixelPoint to,
   std::sort(voxels.begin(), voxels.end());
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return joined(voxels, map.sector().range().count, samples_between_pixels(map));
+}
+
+PingMask that_can_belong(const std::vector<Run>& runs, View3<const SampleFlags> flags) {
+  PingMask mask;
+  for (const Run& run : runs) {
+    bool open = false;
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      const bool inside = !any(flags.row(run.row)[static_cast<std::size_t>(s)] & kNeverMember);
+      if (inside && !open) mask.runs.push_back({run.row, s, 0});
+      if (inside) {
+        ++mask.runs.back().count;
+        mask.confidence.push_back(255);
+      }
+      open = inside;
+    }
+  }
+  return mask;
 }
 
 BrushTool::BrushTool(Workspace& workspace)

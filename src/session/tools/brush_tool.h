@@ -15,6 +15,9 @@ namespace sonar {
 /// out       sorted, not overlapping
 [[nodiscard]] std::vector<Run> runs_under(const SliceMap& map, PixelPoint from, PixelPoint to, double radius_px);
 
+/// Voxels that can belong to a school, with full confidence, as the commands take them.
+[[nodiscard]] PingMask that_can_belong(const std::vector<Run>& runs, View3<const SampleFlags> flags);
+
 /// Brush and eraser: one drag over a slice is one act. What it will change is the workspace's preview meanwhile.
 ///
 /// The brush adds to the selected school, or makes a new one and selects it; the eraser takes from the selected school

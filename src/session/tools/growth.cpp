@@ -7,7 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/units.h"
+#include "pipeline/stages/voxel_statistics.h"
 
 namespace sonar {
 namespace {
@@ -22,17 +24,6 @@ PingMask taken_by_others(const GrowthTrial& trial, std::optional<std::size_t> bu
     if (const auto* there = in_ping(school.masks, trial.ping->ping_index)) taken = unite(taken, there->mask);
   }
   return taken;
-}
-
-/// "1 204"
-std::string grouped(std::size_t number) {
-  const std::string digits = std::to_string(number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
-    text += digits[i];
-  }
-  return text;
 }
 
 }  // namespace
@@ -141,26 +132,10 @@ Result<PingMask> try_growth(const GrowthTrial& trial) {
 }
 
 std::string growth_text(const PingMask& mask, const StagedPing& ping, const Sector& sector) {
-  double volume_m3 = 0.0;
-  double measured_m3 = 0.0;
-  double sum = 0.0;
-  const auto counts = ping.sv.counts.view();
-  const auto flags = ping.filtered->flags.view();
-  for (const Run& run : mask.runs) {
-    const double solid_angle = sector.solid_angle_sr(run.row / sector.beams(), run.row % sector.beams());
-    const RowBackground background(ping.background(), run.row);
-    for (int s = run.first_sample; s < run.end(); ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      const double volume = solid_angle * sector.shell_m3_per_sr(s);
-      volume_m3 += volume;
-      if (any(flags.row(run.row)[i] & kFault) || counts.row(run.row)[i] == kNoData) continue;
-      measured_m3 += volume;
-      sum += volume * (linear_from_count(counts.row(run.row)[i]) - background(s));
-    }
-  }
+  const EchoStatistics echo = echo_of(mask, ping, sector);
   std::string text =
-      fmt::format("{} voxel{}, {:.3g} m\u00B3", grouped(mask.voxels()), mask.voxels() == 1 ? "" : "s", volume_m3);
-  if (sum > 0.0) text += fmt::format(", mean Sv {:.1f} dB", db_from_linear(sum / measured_m3));
+      fmt::format("{} voxel{}, {:.3g} m\u00B3", grouped(mask.voxels()), mask.voxels() == 1 ? "" : "s", echo.volume_m3);
+  if (!std::isnan(echo.sv_mean_db)) text += fmt::format(", mean Sv {:.1f} dB", echo.sv_mean_db);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "session/refused_layer.h"
 #include "session/tools/growth.h"
+#include "session/tools/measure_tool.h"
 #include "session/volume/volume_input.h"
 
 namespace sonar {
@@ -46,7 +47,10 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
         &workspace.curve_follows_scale.changed(), &workspace.school.changed(), &workspace.echo.changed()}) {
     listen(*changed, [this] { update(); });
   }
-  listen(workspace.cursor.changed(), [this] { changed().tell(); });
+  for (Listeners<>* changed_over :
+       {&workspace.cursor.changed(), &workspace.tool.changed(), &workspace.measurement.changed()}) {
+    listen(*changed_over, [this] { changed().tell(); });
+  }
   const auto again = [this, here = std::weak_ptr<bool>(here_)](const auto&) {
     if (!here.expired()) update();
   };
@@ -238,7 +242,9 @@ std::optional<EchoName> VolumeModel::echo_at(PixelPoint at) const {
 void VolumeModel::press_voxel(const PointerEvent& event, bool double_press) {
   const auto voxel = voxel_at(event.at);
   if (!voxel) return;
-  if (event.alt || workspace_.tool() != ToolName::seed) {
+  if (workspace_.tool() == ToolName::measure && !event.alt) {
+    if (!double_press) measure_voxel(workspace_, *voxel);
+  } else if (event.alt || workspace_.tool() != ToolName::seed) {
     if (hooks.select) hooks.select(*voxel);
   } else if (hooks.press) {
     hooks.press(*voxel, event.shift, event.control, double_press);
@@ -250,6 +256,7 @@ void VolumeModel::hover(const PointerEvent& event) {
   const auto voxel = voxel_at(event.at);
   workspace_.cursor.set(voxel);
   if (const auto echo = echo_at(event.at)) workspace_.echo.set(echo);
+  if (voxel && workspace_.tool() == ToolName::measure) hover_voxel(workspace_, *voxel);
   if (workspace_.tool() != ToolName::seed) return;
   if (voxel && hooks.hover) hooks.hover(*voxel, event.shift, event.control);
   if (!voxel && hooks.leave) hooks.leave();
@@ -274,12 +281,32 @@ void VolumeModel::leave() {
 std::vector<Overlay> VolumeModel::overlays() const {
   const auto& cursor = workspace_.cursor();
   const auto& observation = workspace_.document.shown();
-  if (!shown_ || !cursor || !observation) return {};
-  const auto at = shown_->place_of(observation->sector().centre(cursor->fan, cursor->beam, cursor->sample));
-  if (!at) return {};
-  Overlay cross;
-  cross.cross = PixelPoint{at->x * scale(), at->y * scale()};
-  return {cross};
+  if (!shown_ || !observation) return {};
+  std::vector<Overlay> over;
+  const auto place_of = [&](const Point<Sonar>& place) -> std::optional<PixelPoint> {
+    const auto at = shown_->place_of(place);
+    return at ? std::optional(PixelPoint{at->x * scale(), at->y * scale()}) : std::nullopt;
+  };
+  const auto& measured = workspace_.measurement();
+  const bool here = measured && measured->on == Measurement::On::volume && on_show(workspace_, *measured);
+  if (here && measured->ping == shown_->ping_index) {
+    const auto from = place_of(*measured->ends->front().place);
+    const auto to = place_of(*measured->ends->back().place);
+    const PixelRect& view = shown_->place;
+    const PixelRect plot{view.x * scale(), view.y * scale(), view.width * scale(), view.height * scale()};
+    if (from && to) over = measured_overlays(*measured, {*from, *to}, plot);
+  }
+  if (!cursor) return over;
+  if (const auto at = place_of(observation->sector().centre(cursor->fan, cursor->beam, cursor->sample))) {
+    Overlay cross;
+    cross.cross = *at;
+    over.push_back(std::move(cross));
+  }
+  return over;
+}
+
+PointerShape VolumeModel::pointer_shape() const {
+  return workspace_.tool() == ToolName::measure ? PointerShape::cross : PointerShape::arrow;
 }
 
 std::string VolumeModel::hint(PixelPoint at) const {

@@ -40,6 +40,7 @@ class VolumeModel : public LivePicture {
   void pointer(const PointerEvent& event) override;
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
+  [[nodiscard]] PointerShape pointer_shape() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
 
   /// What a pointer does upon voxels; each may be empty.
