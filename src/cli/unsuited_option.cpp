@@ -23,6 +23,9 @@ std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const Render
   if (arguments.kind == "timeline" && given("--whole-survey") && given("--observation")) {
     return UnsuitedOption{"--observation", "not together with --whole-survey, which draws all of them"};
   }
+  if (arguments.kind == "chart" && given("--no-masks")) {
+    return UnsuitedOption{"--no-masks", "no option of chart, which shows nothing but schools"};
+  }
   if (given("--masks-alone") && given("--no-masks")) {
     return UnsuitedOption{"--masks-alone", "not together with --no-masks, which leaves nothing to draw"};
   }

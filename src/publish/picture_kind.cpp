@@ -7,7 +7,7 @@
 namespace sonar {
 
 std::span<const PictureKindInfo> picture_kinds() {
-  static constexpr std::array<PictureKindInfo, 9> kinds{{
+  static constexpr std::array<PictureKindInfo, 10> kinds{{
       {"slice-top", "one fan from above, every cell with its own value"},
       {"slice-side", "one vertical fan from the side"},
       {"slice-range", "all beams at one range"},
@@ -17,6 +17,7 @@ std::span<const PictureKindInfo> picture_kinds() {
       {"observation-map", "an observation from above: ship, path, footprints, schools"},
       {"survey-map", "all observations and schools on a chart"},
       {"timeline", "an echogram of an observation or of the survey, with school tracks"},
+      {"chart", "figures of schools: one column of a table over another, or the histogram of one"},
   }};
   return kinds;
 }

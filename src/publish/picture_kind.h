@@ -20,6 +20,7 @@ enum class PictureKind : std::uint8_t {
   observation_map,
   survey_map,
   timeline,
+  chart,
 };
 
 struct PictureKindInfo {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/describe.h"
+#include "view/charts/chart_columns.h"
 #include "view/sv_scale.h"
 #include "view/volume/volume_scene.h"
 
@@ -261,12 +262,38 @@ void describe(Visitor& v, TimelineParams& p) {
   v.field("maximum", p.maximum, {.text = "the maximum over beams instead of the mean"});
 }
 
+struct ChartParams {
+  ChartTable table = ChartTable::school_pings;
+  std::string x = "time_utc";
+  std::string y = "sv_mean_db";
+  int bins = 0;
+  friend bool operator==(const ChartParams&, const ChartParams&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, ChartParams& p) {
+  v.choice("table", p.table, kChartTableNames, "whose figures: of schools in each of their pings, or of whole schools");
+  v.field(
+      "x", p.x,
+      {.text = "column of the table along the horizontal axis; time_utc of a whole school is that of its first ping"});
+  v.field("y", p.y,
+          {.text = "column of the table along the vertical axis; empty = a histogram of the horizontal one's"});
+  v.field(
+      "bins", p.bins,
+      {.unit = "1",
+       .min = 0,
+       .max = 200,
+       .text = "about how many bins a histogram has, whose edges are round numbers; 0 = as the spread of the values "
+               "has it (Freedman and Diaconis)"});
+}
+
 struct PictureParams {
   RangeSliceParams slice_range;
   PlaneSliceParams slice_plane;
   CameraParams volume;
   PropagationParams propagation;
   TimelineParams timeline;
+  ChartParams chart;
 };
 
 template <class Visitor>
@@ -276,6 +303,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("volume", p.volume, "where a volume is looked at from");
   v.group("propagation", p.propagation, "a ping and its neighbours");
   v.group("timeline", p.timeline, "an echogram over time");
+  v.group("chart", p.chart, "figures of schools");
 }
 
 /// How large a picture in a file is.

@@ -183,6 +183,7 @@ class BadInput(unittest.TestCase):
             (["--along-log"], "slice-top", "timeline"),
             (["--maximum"], "volume", "timeline"),
             (["--whole-survey"], "survey-map", "timeline"),
+            (["--y", "depth_m"], "survey-map", "chart"),
         ]
         for option, kind, suits in unsuited:
             with self.subTest(option=option[0], kind=kind):
@@ -201,6 +202,8 @@ class BadInput(unittest.TestCase):
                               ("timeline", ["--filtered", "--map", "grey", "--low-db", "-80", "--span-db", "40",
                                             "--threshold-db", "-78", "--along-log", "--maximum"]),
                               ("slice-top", ["--unfiltered", "--map", "grey", "--core", "0.5", "--north-up", "--grid"]),
+                              ("chart", ["--observation", "obs-0001", "--schools", "1", "--table", "school_pings",
+                                         "--x", "range_m", "--y", "", "--bins", "9"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):
                 code, out, error = render(kind, *BOTH, *options, *picture)
