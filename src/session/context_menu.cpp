@@ -25,6 +25,7 @@ constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.st
 constexpr std::array<Id, 1> kReadOut{"cursor.copy"};
 constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
+constexpr std::array<Id, 2> kFigures{"chart.columns", "chart.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
 constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise", "event.other"};
 constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
@@ -43,6 +44,7 @@ constexpr std::array<ActionGroup, 5> kObservationMap{kDecide, kFollow, kEcho, kM
 constexpr std::array<ActionGroup, 3> kSurveyMap{kDecide, kChart, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
@@ -51,19 +53,23 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 21> kBegin{
-    "edit.undo",         "file.calibration", "file.save_view", "file.quit",
-    "export.movie",      "volume.above",     "map.all",        "view.top_slice",
-    "view.dark",         "ping.play",        "slice.fan_up",   "event.trawl",
-    "event.previous",    "bad.ping",         "schools.detect", "school.propagate_forwards",
-    "school.fill_holes", "school.split",     "school.species", "school.delete",
-    "display.filtered"};
+constexpr std::array<Id, 22> kBegin{"edit.undo",         "file.calibration",
+                                    "file.save_view",    "file.quit",
+                                    "export.movie",      "volume.above",
+                                    "map.all",           "view.top_slice",
+                                    "view.dark",         "ping.play",
+                                    "slice.fan_up",      "event.trawl",
+                                    "event.previous",    "bad.ping",
+                                    "schools.detect",    "school.propagate_forwards",
+                                    "school.fill_holes", "school.split",
+                                    "school.species",    "school.delete",
+                                    "display.filtered",  "view.observation_map"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 15> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 16> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"volume", kVolume},
                                        {"observation_map", kObservationMap},
@@ -77,7 +83,8 @@ constexpr std::array<Menu, 15> kMenus{{{"top_slice", kSlice},
                                        {"school_pings", kPingRows},
                                        {"refused", kRefusedRows},
                                        {"journal", kJournal},
-                                       {"diagnostics", kNotes}}};
+                                       {"diagnostics", kNotes},
+                                       {"chart", kCharts}}};
 
 }  // namespace
 

@@ -47,6 +47,7 @@ struct ViewSwitches {
   bool propagation = true;
   bool survey_map = true;
   bool timeline = true;
+  bool chart = true;
 };
 
 template <class Visitor>
@@ -58,6 +59,7 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("propagation", p.propagation, {.text = "the strip of neighbouring pings"});
   v.field("survey_map", p.survey_map, {.text = "the map of the survey"});
   v.field("timeline", p.timeline, {.text = "the timeline"});
+  v.field("chart", p.chart, {.text = "the chart of schools' figures"});
 }
 
 }  // namespace sonar

@@ -26,7 +26,7 @@ std::function<bool()> with_survey(const AppModel& app) {
 /// "obs-0001-ping-0025-top_slice": pictures of many pings do not take each other's places.
 std::string file_name(const AppModel& app, const std::string& what) {
   const Document& document = app.workspace.document;
-  if (!document.shown() || what.starts_with("survey") || what == "timeline") return what;
+  if (!document.shown() || what.starts_with("survey") || what == "timeline" || what == "chart") return what;
   if (what.ends_with("map") || what.ends_with("timeline")) return document.shown()->name() + "-" + what;
   return fmt::format("{}-ping-{:04}-{}", document.shown()->name(), document.ping(), what);
 }

@@ -30,13 +30,14 @@ struct ViewName {
   const char* text;
   const char* key;
 };
-constexpr std::array<ViewName, 7> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+constexpr std::array<ViewName, 8> kViews{{{"top_slice", "Slice from above", "Alt+1"},
                                           {"side_slice", "Slice from the side", "Alt+2"},
                                           {"volume", "Volume", "Alt+3"},
                                           {"observation_map", "Observation map", "Alt+4"},
                                           {"propagation", "Propagation", "Alt+5"},
                                           {"survey_map", "Survey map", "Alt+6"},
-                                          {"timeline", "Timeline", "Alt+7"}}};
+                                          {"timeline", "Timeline", "Alt+7"},
+                                          {"chart", "Charts", "Alt+0"}}};
 
 void add_view_switches(AppModel& app) {
   for (const ViewName& view : kViews) {

@@ -56,7 +56,7 @@ TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
   std::set<std::string> switches;
   for (const PictureDock& one : app_->pictures) switches.insert(one.view_switch);
   switches.erase("");
-  ASSERT_EQ(switches.size(), 7U);
+  ASSERT_EQ(switches.size(), 8U);
   for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, false));
   settle();
   for (const PictureDock& one : app_->pictures) {
@@ -85,10 +85,10 @@ TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
 }
 
 TEST_F(Docks, KeysSwitchViewsOffAndOn) {
-  const std::map<Qt::Key, std::string> keys{{Qt::Key_1, "top_slice"},      {Qt::Key_2, "side_slice"},
-                                            {Qt::Key_3, "volume"},         {Qt::Key_4, "observation_map"},
-                                            {Qt::Key_5, "propagation"},    {Qt::Key_6, "survey_map"},
-                                            {Qt::Key_7, "survey_timeline"}};
+  const std::map<Qt::Key, std::string> keys{{Qt::Key_1, "top_slice"},       {Qt::Key_2, "side_slice"},
+                                            {Qt::Key_3, "volume"},          {Qt::Key_4, "observation_map"},
+                                            {Qt::Key_5, "propagation"},     {Qt::Key_6, "survey_map"},
+                                            {Qt::Key_7, "survey_timeline"}, {Qt::Key_0, "chart"}};
   for (const auto& [digit, id] : keys) {
     key(digit, Qt::AltModifier);
     EXPECT_FALSE(dock(id)->isVisible()) << id;
