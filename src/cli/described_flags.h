@@ -43,6 +43,12 @@ class DescribedFlags {
     };
     const std::string initial = spelled[static_cast<std::size_t>(value)];
     auto* option = verb_.add_option_function<std::string>("--" + with_dashes(name), take, sentence(info.text));
+    // Tables and recipes write underscores.
+    const auto dashed = [](std::string& text) {
+      text = with_dashes(text);
+      return std::string{};
+    };
+    option->transform(CLI::Validator(dashed, ""));
     add(option->check(one_of(spelled))->default_str(initial), info.suits);
   }
   template <class P>

@@ -46,9 +46,10 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   const auto suits = [&a](const CLI::Option* option, const char* kinds) {
     a.suits.push_back({option->get_name(), kinds});
   };
-  suits(verb.add_option("--observation", a.observation, "Observation to draw, e.g. obs-0001; default: the first")
+  suits(verb.add_option("--observation", a.observation,
+                        "Observation to draw, e.g. obs-0001; default: the first, and of a chart all")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline echogram movie");
+        "slice- volume propagation observation-map timeline echogram chart movie");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
@@ -95,6 +96,14 @@ void add_comparing(CLI::App& verb, RenderArguments& a) {
   verb.add_option("--difference", a.difference, "Write what differs as a PNG")->check(named_file())->group(group);
 }
 
+/// Refuses what is no column of any table that a chart knows, and says which was meant; the list is too long for the help.
+CLI::Validator some_column(bool or_none) {
+  const ChoiceNames names = chart_column_names();
+  CLI::Validator known = one_of(std::vector<std::string>(names.begin(), names.end()));
+  return {[known, or_none](std::string& text) { return or_none && text.empty() ? std::string{} : known(text); },
+          "COLUMN"};
+}
+
 /// Flags of what is asked for one kind: the group's name is the kind's.
 class KindFlags {
  public:
@@ -136,6 +145,7 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   for (const char* place : {"--eye", "--target", "--point", "--normal"}) {
     verb.get_option(place)->check(numbers_between_commas("X,Y,Z"));
   }
+  for (const char* column : {"--x", "--y"}) verb.get_option(column)->check(some_column(column[2] == 'y'));
   verb.get_option("--through")->check(numbers_between_commas("X,Y,X,Y"));
 }
 

@@ -60,6 +60,9 @@ std::optional<UnsuitedOption> unsuited_option(const CLI::App& verb, const Render
   if (arguments.kind == "echogram" && given("--of-fan") && given("--beam")) {
     return UnsuitedOption{"--beam", "not together with --of-fan, which takes all beams of the fan"};
   }
+  if (arguments.kind == "chart" && given("--no-masks")) {
+    return UnsuitedOption{"--no-masks", "no option of chart, which shows nothing but schools"};
+  }
   if (given("--masks-alone") && given("--no-masks")) {
     return UnsuitedOption{"--masks-alone", "not together with --no-masks, which leaves nothing to draw"};
   }

@@ -71,6 +71,21 @@ QWidget* bind_text(const Source& source, const Property& property, QWidget* pare
   return line;
 }
 
+/// A text that is one of a list, written as the list has it.
+QWidget* bind_word(const Source& source, const Property& property, QWidget* parent) {
+  auto* box = new QComboBox(parent);
+  for (const std::string& word : property.choices) box->addItem(word.empty() ? "(none)" : text(word), text(word));
+  // Long names do not make the panel wide.
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(8);
+  follow(source, property.name, box,
+         [](QComboBox& b, const PropertyValue& v) { b.setCurrentIndex(b.findData(text(std::get<std::string>(v)))); });
+  QObject::connect(box, &QComboBox::currentIndexChanged, box, [source, name = property.name, box](int index) {
+    if (index >= 0) (void)source->set(name, box->itemData(index).toString().toStdString());
+  });
+  return box;
+}
+
 QWidget* bind_int(const Source& source, const Property& property, QWidget* parent) {
   auto* box = new QSpinBox(parent);
   box->setRange(static_cast<int>(std::max(property.min, -1e9)), static_cast<int>(std::min(property.max, 1e9)));
@@ -167,6 +182,8 @@ QWidget* bound_control(const Source& source, const Property& property, QWidget* 
     control = bind_int(source, property, parent);
   } else if (std::holds_alternative<double>(property.initial)) {
     control = bind_double(source, property, parent);
+  } else if (!property.choices.empty()) {
+    control = bind_word(source, property, parent);
   } else {
     control = bind_text(source, property, parent);
   }

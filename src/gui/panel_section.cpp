@@ -34,6 +34,9 @@ Property as_it_looks(Property property, const PanelSection& section) {
     property.at_min = look.at_min;
     property.slider = look.slider;
   }
+  for (const PanelSection::Words& list : section.words) {
+    if (list.name == property.name) property.choices = list.words;
+  }
   return property;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/time.h"
 #include "pipeline/recipe/recipe.h"
+#include "publish/chart_picture.h"
 #include "publish/echogram_picture.h"
 #include "publish/map_pictures.h"
 #include "publish/report_page.h"
@@ -47,8 +48,9 @@ std::string time_of(const std::vector<DrawnObservation*>& observations) {
 Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
                                                 const PictureOptions& options) {
   std::vector<DrawnObservation*> drawn;
-  if (kind == PictureKind::survey_map || kind == PictureKind::report ||
-      (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
+  const bool all = kind == PictureKind::survey_map || kind == PictureKind::report ||
+                   (kind == PictureKind::chart && observation.empty());
+  if (all || (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
     for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
     return drawn;
   }
@@ -64,6 +66,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
   if (kind == PictureKind::timeline) return timeline_frame(drawn, options, work);
   if (kind == PictureKind::echogram) return echogram_frame(source, *drawn.front(), options, work);
   if (kind == PictureKind::report) return report_page(source, options, work);
+  if (kind == PictureKind::chart) return chart_frame(drawn, options);
   return observation_frame(kind, *drawn.front(), options, work);
 }
 

@@ -10,7 +10,7 @@
 namespace sonar {
 
 /// Any kind of picture from a source.
-/// observation  name; empty = the first; what shows the whole survey passes it over
+/// observation  name; empty = the first, and of a chart all; what shows the whole survey passes it over
 /// errors       one line each: what the source lacks for it, or which option is out of range
 [[nodiscard]] Result<FrameDescription> picture_frame(PictureKind kind, PictureSource& source,
                                                      const std::string& observation, const PictureOptions& options,

@@ -21,6 +21,7 @@ enum class PictureKind : std::uint8_t {
   survey_map,
   timeline,
   echogram,
+  chart,
   movie,
   report,
 };

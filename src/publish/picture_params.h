@@ -8,6 +8,7 @@
 
 #include "base/describe.h"
 #include "publish/movie_params.h"
+#include "view/charts/chart_columns.h"
 #include "view/sv_scale.h"
 #include "view/volume/volume_scene.h"
 
@@ -289,6 +290,31 @@ void describe(Visitor& v, EchogramParams& p) {
                    "EK60 that ran at the same time"});
 }
 
+struct ChartParams {
+  ChartTable table = ChartTable::school_pings;
+  std::string x = "time_utc";
+  std::string y = "sv_mean_db";
+  int bins = 0;
+  friend bool operator==(const ChartParams&, const ChartParams&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, ChartParams& p) {
+  v.choice("table", p.table, kChartTableNames, "whose figures: of schools in each of their pings, or of whole schools");
+  v.field(
+      "x", p.x,
+      {.text = "column of the table along the horizontal axis; time_utc of a whole school is that of its first ping"});
+  v.field("y", p.y,
+          {.text = "column of the table along the vertical axis; empty = a histogram of the horizontal one's"});
+  v.field(
+      "bins", p.bins,
+      {.unit = "1",
+       .min = 0,
+       .max = 200,
+       .text = "about how many bins a histogram has, whose edges are round numbers; 0 = as the spread of the values "
+               "has it (Freedman and Diaconis)"});
+}
+
 struct PictureParams {
   RangeSliceParams slice_range;
   PlaneSliceParams slice_plane;
@@ -296,6 +322,7 @@ struct PictureParams {
   PropagationParams propagation;
   TimelineParams timeline;
   EchogramParams echogram;
+  ChartParams chart;
   MovieParams movie;
 };
 
@@ -307,6 +334,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("propagation", p.propagation, "a ping and its neighbours");
   v.group("timeline", p.timeline, "an echogram over time");
   v.group("echogram", p.echogram, "one beam, fan or channel over time");
+  v.group("chart", p.chart, "figures of schools");
   v.group("movie", p.movie, "what moves in a movie, and how fast");
 }
 

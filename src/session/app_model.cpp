@@ -28,6 +28,7 @@ AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
   add_slices(*this);
   add_volume(*this);
   add_maps(*this);
+  add_charts(*this);
   add_lists(*this);
   add_school_acts(*this);
   add_exports(*this);
@@ -49,6 +50,9 @@ Rows* AppModel::rows(const std::string& id) {
 
 std::string idle_text(const AppModel& app, const std::string& dock) {
   const Document& document = app.workspace.document;
+  if (document.survey() != nullptr && dock == "chart" && document.nothing_shown().empty()) {
+    return "A chart of schools' figures stands here as soon as schools are measured.";
+  }
   if (document.survey() != nullptr) return document.nothing_shown();
   const Progress& now = document.progress();
   if (dock == "top_slice" && !now.stage.empty()) {

@@ -15,6 +15,7 @@ namespace sonar {
 void add_slices(AppModel& app);       ///< slices, the tools in them, stepping and playing through pings
 void add_volume(AppModel& app);       ///< the view in three dimensions
 void add_maps(AppModel& app);         ///< observation map, propagation strip, survey map, timelines
+void add_charts(AppModel& app);       ///< figures of schools, one over another
 void add_lists(AppModel& app);        ///< survey tree, tables of schools, review, journal, diagnostics
 void add_school_acts(AppModel& app);  ///< what is done to the selected school
 void add_window_acts(AppModel& app);  ///< views on and off, light and dark, help
@@ -29,7 +30,9 @@ template <class P>
                          std::vector<std::string> names = {}) {
   if (!app.dialogs.parameters) return true;
   const P before = parameters.values();
-  if (app.dialogs.parameters(title, {title, std::make_shared<SourceOf<P>>(parameters), std::move(names)})) return true;
+  PanelSection section{title, std::make_shared<SourceOf<P>>(parameters), std::move(names)};
+  section.words = picture_words();
+  if (app.dialogs.parameters(title, section)) return true;
   parameters.assign(before);
   return false;
 }

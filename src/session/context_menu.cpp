@@ -29,6 +29,7 @@ constexpr std::array<Id, 5> kSides{"volume.overview", "volume.above", "volume.st
 constexpr std::array<Id, 3> kReadOut{"tool.measure", "measure.copy", "cursor.copy"};
 constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
+constexpr std::array<Id, 2> kFigures{"chart.columns", "chart.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
 constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise", "event.other"};
 constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
@@ -52,6 +53,7 @@ constexpr std::array<ActionGroup, 4> kSurveyMap{kDecide, kChart, kMeasureMap, kP
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
+constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
@@ -60,7 +62,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 25> kBegin{"edit.undo",
+constexpr std::array<Id, 26> kBegin{"edit.undo",
                                     "file.calibration",
                                     "file.save_view",
                                     "file.quit",
@@ -84,13 +86,14 @@ constexpr std::array<Id, 25> kBegin{"edit.undo",
                                     "echogram.fan",
                                     "slice.plane_horizontal",
                                     "slice.range_out",
-                                    "view.volume"};
+                                    "view.volume",
+                                    "view.observation_map"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 18> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 19> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"range_slice", kSlice},
                                        {"plane_slice", kPlaneSlice},
@@ -107,7 +110,8 @@ constexpr std::array<Menu, 18> kMenus{{{"top_slice", kSlice},
                                        {"school_pings", kPingRows},
                                        {"refused", kRefusedRows},
                                        {"journal", kJournal},
-                                       {"diagnostics", kNotes}}};
+                                       {"diagnostics", kNotes},
+                                       {"chart", kCharts}}};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sonar {
 namespace {
@@ -21,10 +22,19 @@ double db_below_reference(double confidence, double tolerance_db) {
   return tolerance_db * std::sqrt(std::clamp(1.0 - confidence, 0.0, 1.0));
 }
 
+std::vector<PanelSection::Words> picture_words() {
+  const ChoiceNames columns = chart_column_names();
+  std::vector<std::string> names(columns.begin(), columns.end());
+  PanelSection::Words x{"chart.x", names};
+  names.insert(names.begin(), std::string{});
+  return {std::move(x), {"chart.y", std::move(names)}};
+}
+
 std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto display = std::make_shared<SourceOf<DisplayParams>>(workspace.display);
   const auto select = std::make_shared<SourceOf<SelectParams>>(workspace.select);
   const auto volume = std::make_shared<SourceOf<VolumeParams>>(workspace.volume);
+  const auto pictures = std::make_shared<SourceOf<PictureFileParams>>(workspace.picture_file);
   const auto views = std::make_shared<SourceOf<ViewSwitches>>(workspace.views);
   const auto core = [&workspace] { return in_db(workspace, workspace.display.values().core_at); };
   const auto fuzzy = [&workspace] { return in_db(workspace, workspace.display.values().fuzzy_above); };
@@ -69,6 +79,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
         {"tilt_deg", [lies] { return lies() == PlaneSlice::Kind::oblique; }},
         {"offset_m", [lies] { return lies() != PlaneSlice::Kind::horizontal; }}}},
       {"Volume", volume, {}, {}, false},
+      {"Charts", pictures, {"chart.table", "chart.x", "chart.y", "chart.bins"}, {}, false, {}, {}, picture_words()},
       {"Views", views, {}, {}, false},
   };
 }

@@ -11,6 +11,9 @@ namespace sonar {
 /// The control panel's sections, below its transfer function.
 [[nodiscard]] std::vector<PanelSection> control_panel(Workspace& workspace);
 
+/// Texts of the parameters of pictures that are one of a list: columns of tables.
+[[nodiscard]] std::vector<PanelSection::Words> picture_words();
+
 /// How far below a growth's reference a confidence lies, dB: f = 1 - (d / tolerance)^2.
 [[nodiscard]] double db_below_reference(double confidence, double tolerance_db);
 

@@ -50,6 +50,7 @@ struct ViewSwitches {
   bool echogram = true;
   bool range_slice = false;
   bool plane_slice = false;
+  bool chart = true;
 };
 
 template <class Visitor>
@@ -64,6 +65,7 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("echogram", p.echogram, {.text = "the echogram of one beam, fan or channel"});
   v.field("range_slice", p.range_slice, {.text = "the slice at one range"});
   v.field("plane_slice", p.plane_slice, {.text = "the slice along any plane"});
+  v.field("chart", p.chart, {.text = "the chart of schools' figures"});
 }
 
 }  // namespace sonar

@@ -232,7 +232,9 @@ namespace {
 Result<PictureJob> picture_job(const Workspace& workspace, PictureKind kind) {
   auto options = picture_options(workspace, kind);
   if (!options) return pass_on(options);
-  return PictureJob{kind, shown_name(workspace), std::move(*options)};
+  // A chart is of the survey, as the window's is.
+  const std::string observation = kind == PictureKind::chart ? std::string{} : shown_name(workspace);
+  return PictureJob{kind, observation, std::move(*options)};
 }
 
 }  // namespace

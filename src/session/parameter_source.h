@@ -64,6 +64,12 @@ struct PanelSection {
     std::function<bool()> counts;
   };
   std::vector<Use> uses = {};
+  /// A text that is one of a list; where the empty one stands in it, it may be none.
+  struct Words {
+    std::string name;
+    std::vector<std::string> words;
+  };
+  std::vector<Words> words = {};
 };
 
 }  // namespace sonar

@@ -26,7 +26,8 @@ std::function<bool()> with_survey(const AppModel& app) {
 /// "obs-0001-ping-0025-top_slice": pictures of many pings do not take each other's places.
 std::string file_name(const AppModel& app, const std::string& what) {
   const Document& document = app.workspace.document;
-  if (!document.shown() || what.starts_with("survey") || what == "timeline" || what == "report") return what;
+  const bool of_survey = what.starts_with("survey") || what == "timeline" || what == "chart" || what == "report";
+  if (!document.shown() || of_survey) return what;
   if (what.ends_with("echogram")) return document.shown()->name() + "-" + what;
   if (what.ends_with("map") || what.ends_with("timeline")) return document.shown()->name() + "-" + what;
   return fmt::format("{}-ping-{:04}-{}", document.shown()->name(), document.ping(), what);

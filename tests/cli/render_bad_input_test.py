@@ -199,6 +199,7 @@ class BadInput(unittest.TestCase):
             (["--fan", "3"], "slice-side", "echogram"),
             (["--maximum"], "volume", "timeline"),
             (["--whole-survey"], "survey-map", "timeline"),
+            (["--y", "depth_m"], "survey-map", "chart"),
         ]
         for option, kind, suits in unsuited:
             with self.subTest(option=option[0], kind=kind):
@@ -222,6 +223,8 @@ class BadInput(unittest.TestCase):
                                             "transparent", "--keep-seabed", "--refused", "--depth", "--map", "grey",
                                             "--low-db", "-80", "--threshold-db", "-78", "--along-log", "--to-ping", "5"]),
                               ("slice-top", ["--unfiltered", "--map", "grey", "--core", "0.5", "--north-up", "--grid"]),
+                              ("chart", ["--observation", "obs-0001", "--schools", "1", "--table", "school_pings",
+                                         "--x", "range_m", "--y", "", "--bins", "9"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):
                 code, out, error = render(kind, *BOTH, *options, *picture)

@@ -95,12 +95,16 @@ PICTURES = {
     "echogram-fan": (["echogram", *BOTH, "--of-fan", "--fan", "14", "--map", "ek500", "--along-log"], DRAWN),
     "echogram-product-alone": (["echogram", sonarx.OUT], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
+    "chart": (["chart", sonarx.OUT, "--observation", "obs-0001"], DRAWN),
+    "chart-histogram-dark": (["chart", sonarx.OUT, "--x", "depth_m", "--y", "", "--bins", "20", "--dark"], DRAWN),
+    "chart-schools": (["chart", sonarx.OUT, "--table", "schools", "--x", "longitude", "--y", "latitude"], DRAWN),
 }
 # The smallest size there is, and print: twice the pixels.
 PICTURES |= {f"small-{kind}": ([kind, *paths, *options, "--size", "320x240"], DRAWN) for kind, paths, options in (
     ("slice-top", BOTH, ["--ping", "10"]), ("volume", BOTH, ["--ping", "10", "--frames", "0", "--depth-raster", DEPTHS]),
     ("propagation", [sonarx.OUT], ["--ping", "10", "--side"]), ("observation-map", [sonarx.OUT], ["--ping", "10"]),
-    ("survey-map", [sonarx.OUT], ["--depth-raster", DEPTHS]), ("timeline", BOTH, []), ("echogram", BOTH, []))}
+    ("survey-map", [sonarx.OUT], ["--depth-raster", DEPTHS]), ("timeline", BOTH, []), ("echogram", BOTH, []),
+    ("chart", [sonarx.OUT], ["--x", "volume_m3", "--y", "depth_m"]))}
 PICTURES |= {f"print-{kind}": ([kind, *BOTH, "--ping", "10", "--size", "480x360", "--scale", "2"], DRAWN)
              for kind in ("slice-side", "observation-map")}
 
@@ -132,7 +136,7 @@ class Goldens(unittest.TestCase):
         self.assertEqual(code, 0)
         drawn = {arguments[0] for arguments, _ in PICTURES.values()}
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "volume", "propagation",
-                     "observation-map", "survey-map", "timeline", "echogram"):
+                     "observation-map", "survey-map", "timeline", "echogram", "chart"):
             self.assertIn(kind, out)
             self.assertIn(kind, drawn)
 
@@ -180,7 +184,7 @@ class Files(sonarx.Case):
 
     def test_synthetic_stands_in_every_title(self):
         for kind in ("slice-top", "slice-side", "slice-range", "slice-plane", "volume", "propagation", "observation-map",
-                     "survey-map", "timeline"):
+                     "survey-map", "timeline", "chart"):
             file = sonarx.WORK / f"title-{kind}.svg"
             self.assertEqual(render(kind, sonarx.OUT, "--out", file)[0], 0)
             self.assertTrue("SYNTHETIC" in file.read_text(encoding="utf-8"), kind)

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <utility>
+
+#include "session/app_parts.h"
+#include "session/charts/chart_model.h"
+
+namespace sonar {
+
+void add_charts(AppModel& app) {
+  constexpr const char* kMenu = "&View";
+  Workspace& workspace = app.workspace;
+  auto chart = std::make_unique<ChartModel>(workspace);
+  app.actions.add(
+      {.id = "chart.columns",
+       .menu = kMenu,
+       .text = "Columns of the chart...",
+       .keys = {},
+       .tip = "Which figures of schools the chart shows, one over another or the histogram of one",
+       .run = [&app] {
+         (void)asked(app, "Chart", app.workspace.picture_file, {"chart.table", "chart.x", "chart.y", "chart.bins"});
+       }});
+  app.actions.add({.id = "chart.all",
+                   .menu = kMenu,
+                   .text = "Show whole chart",
+                   .keys = {},
+                   .tip = "Undo zooming and panning of the chart",
+                   .run = [chart = chart.get()] { chart->show_all(); },
+                   .enabled = [chart = chart.get()] { return chart->zoomed(); }});
+  app.pictures.push_back({"chart", "Charts", DockPlace::bottom, "chart", std::move(chart)});
+}
+
+}  // namespace sonar
