@@ -46,7 +46,7 @@ TEST(Outline, ACornerOnTheLevelOfAPlaceCountsOnce) {
 // x = starboard, y = against the bow; a centre lies at r cos e towards its azimuth.
 TEST(SliceArea, ABoxFromAboveHoldsTheCentresOfItsFan) {
   const Sector sector = hand_sector();
-  const std::vector<PixelPoint> box{{-120.0, -30.0}, {-40.0, -30.0}, {-40.0, 50.0}, {-120.0, 50.0}};
+  const std::vector<PixelPoint> box{{-121.3, -30.7}, {-40.3, -30.7}, {-40.3, 50.9}, {-121.3, 50.9}};
   for (const bool all : {false, true}) {
     std::set<Voxel> expected;
     for (int fan = 0; fan < 8; ++fan) {
@@ -55,7 +55,7 @@ TEST(SliceArea, ABoxFromAboveHoldsTheCentresOfItsFan) {
           const double level = 5.0 * sample * std::cos(rad_from_deg(-70.0 + 10.0 * fan));
           const double x = level * std::sin(rad_from_deg(240.0 + 10.0 * beam));
           const double y = -level * std::cos(rad_from_deg(240.0 + 10.0 * beam));
-          if (x > -120.0 && x < -40.0 && y > -30.0 && y < 50.0) expected.insert({fan, beam, sample});
+          if (x > -121.3 && x < -40.3 && y > -30.7 && y < 50.9) expected.insert({fan, beam, sample});
         }
       }
     }
@@ -66,14 +66,14 @@ TEST(SliceArea, ABoxFromAboveHoldsTheCentresOfItsFan) {
 
 TEST(SliceArea, ABoxFromTheSideHoldsAllFansOfItsBeam) {
   const Sector sector = hand_sector();
-  const std::vector<PixelPoint> box{{40.0, 10.0}, {120.0, 10.0}, {120.0, 90.0}, {40.0, 90.0}};
+  const std::vector<PixelPoint> box{{41.3, 10.7}, {119.1, 10.7}, {119.1, 90.3}, {41.3, 90.3}};
   std::set<Voxel> expected;
   for (int fan = 0; fan < 8; ++fan) {
     for (int sample = 1; sample < 41; ++sample) {
       const double down = rad_from_deg(70.0 - 10.0 * fan);
       const double x = 5.0 * sample * std::cos(down);
       const double y = 5.0 * sample * std::sin(down);
-      if (x > 40.0 && x < 120.0 && y > 10.0 && y < 90.0) expected.insert({fan, 2, sample});
+      if (x > 41.3 && x < 119.1 && y > 10.7 && y < 90.3) expected.insert({fan, 2, sample});
     }
   }
   ASSERT_GT(expected.size(), 20U);
