@@ -26,6 +26,7 @@
 #include "gui/rows_view.h"
 #include "gui/status_line.h"
 #include "gui/tool_bar.h"
+#include "gui/view_keys.h"
 #include "session/app_parts.h"
 
 namespace sonar {
@@ -113,6 +114,7 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
   add_panels_menu(*this);
   add_status_line(*this, app);
   add_live_strip(*this, app);
+  add_view_keys(*this, app);
   answer();
   const auto theme = [this, &app] {
     take_theme(app.workspace.dark());

@@ -8,6 +8,7 @@
 #include "session/actions.h"
 #include "session/animation_driver.h"
 #include "session/control_panel.h"
+#include "session/key_said.h"
 #include "session/live_picture.h"
 #include "session/preferences.h"
 #include "session/rows.h"
@@ -56,6 +57,7 @@ class AppModel {
   Preferences preferences;
   Dialogs dialogs;
   Actions actions;
+  KeySaid key_said{workspace, actions};
   AnimationDriver animations;  ///< what goes on by itself: a window ticks it while it runs
   // Of all views together:
   std::shared_ptr<SeedTool> seed_tool;
