@@ -20,6 +20,7 @@ namespace sonar {
 class BrushTool;
 class FirstSight;
 class LiveWatch;
+class MergeOffer;
 class Playback;
 class SeedTool;
 class SlicesFollow;
@@ -66,6 +67,7 @@ class AppModel {
   std::shared_ptr<SlicesFollow> slices_follow;
   std::shared_ptr<FirstSight> first_sight;
   std::shared_ptr<LiveWatch> live;
+  std::shared_ptr<MergeOffer> merge_offer;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
   std::unique_ptr<TransferEditor> transfer;  ///< on top of the control panel
