@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "session/actions.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -34,7 +35,8 @@ struct Preferences {
   bool curves_linked = false;
   std::map<std::string, std::string> charts;  ///< survey -> its raster of depths
   std::string operator_name;
-  double memory_gb = 0.0;  ///< for the pings of the observation on show, 10^9 bytes; 0 = half of the machine's
+  WindowParams window;
+  Actions::Keys keys;  ///< of actions that have not their usual ones
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
                                    "cod",     "saithe",   "krill",   "other"};  ///< digits 1 to 9
   bool advance = true;  ///< review goes on to the next school after a decision

@@ -19,6 +19,7 @@
 #include "session/listeners.h"
 #include "session/parameters.h"
 #include "session/picture_file.h"
+#include "session/window_params.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -105,6 +106,7 @@ struct Workspace {
   Parameters<ViewSwitches> views;
   Parameters<PictureFileParams> picture_file;
   Parameters<ReduceParams> reduce;
+  Parameters<WindowParams> window;
 
   /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
   /// the same opacity.
