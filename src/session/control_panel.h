@@ -8,7 +8,8 @@
 
 namespace sonar {
 
-/// The control panel's sections, below its transfer function.
+/// The control panel's sections, below its transfer function: the dozen settings that matter first, each with its sentence, then
+/// all others, folded.
 [[nodiscard]] std::vector<PanelSection> control_panel(Workspace& workspace);
 
 /// How far below a growth's reference a confidence lies, dB: f = 1 - (d / tolerance)^2.
