@@ -4,12 +4,14 @@
 #include <QAction>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPointer>
 #include <array>
 #include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "gui/view_keys.h"
 #include "session/context_menu.h"
 
 namespace sonar {
@@ -38,20 +40,28 @@ QMenu* menu_of(QMainWindow& window, std::map<std::string, QMenu*>& menus, const 
   return menu;
 }
 
-QAction* make_action(QMainWindow& window, const Action& action) {
-  auto* shown = new QAction(QString::fromStdString(action.text), &window);
-  shown->setObjectName(QString::fromStdString(action.id));
-  shown->setToolTip(QString::fromStdString(action.tip));
-  shown->setStatusTip(QString::fromStdString(action.tip));
-  shown->setCheckable(static_cast<bool>(action.checked));
+void take_keys(QAction& shown, const Action& action) {
   QList<QKeySequence> keys;
   for (const std::string& key : action.keys) {
     keys.append(QKeySequence::fromString(QString::fromStdString(key), QKeySequence::PortableText));
   }
-  shown->setShortcuts(keys);
-  QObject::connect(shown, &QAction::triggered, &window, [shown, &action] {
+  if (shown.shortcuts() != keys) shown.setShortcuts(keys);
+}
+
+QAction* make_action(QMainWindow& window, Actions& actions, const Action& action) {
+  auto* shown = new KeyedAction(QString::fromStdString(action.text), &window);
+  shown->setObjectName(QString::fromStdString(action.id));
+  shown->setToolTip(QString::fromStdString(action.tip));
+  shown->setStatusTip(QString::fromStdString(action.tip));
+  shown->setCheckable(static_cast<bool>(action.checked));
+  take_keys(*shown, action);
+  QObject::connect(shown, &QAction::triggered, &window, [shown, &actions, &action] {
     // A key works while its menu has not been opened: what is not allowed now is passed over.
-    if (!action.enabled || action.enabled()) action.run();
+    if (shown->by_key()) {
+      actions.press(action);
+    } else if (!action.enabled || action.enabled()) {
+      action.run();
+    }
     refresh(*shown, action);
   });
   refresh(*shown, action);
@@ -69,19 +79,25 @@ void ask_when_opened(QMenu& menu, QAction& shown, const Action& action) {
 
 }  // namespace
 
-void add_menus(QMainWindow& window, const Actions& actions) {
+void add_menus(QMainWindow& window, Actions& actions) {
   std::map<std::string, QMenu*> menus;
   std::vector<std::pair<QAction*, const Action*>> switches;
   for (const char* title : kMenuBar) menu_of(window, menus, title);
   for (const Action& action : actions.list()) {
     QMenu* menu = menu_of(window, menus, action.menu);
-    QAction* shown = make_action(window, action);
+    QAction* shown = make_action(window, actions, action);
     if (begins_group(action.id) && !menu->isEmpty()) menu->addSeparator();
     menu->addAction(shown);
     window.addAction(shown);
     ask_when_opened(*menu, *shown, action);
     if (action.checked) switches.emplace_back(shown, &action);
   }
+  actions.keys_changed().add([guarded = QPointer<QMainWindow>(&window), &actions] {
+    if (guarded.isNull()) return;
+    for (const Action& action : actions.list()) {
+      if (QAction* shown = find_action(*guarded, action.id)) take_keys(*shown, action);
+    }
+  });
   // One switch may turn others off: the brush the seed.
   const auto all = std::make_shared<decltype(switches)>(std::move(switches));
   for (const auto& [shown, action] : *all) {

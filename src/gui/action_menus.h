@@ -9,7 +9,7 @@
 namespace sonar {
 
 /// Menus and keys of a window. Texts, switches and greyed entries are asked for whenever a menu opens.
-void add_menus(QMainWindow& window, const Actions& actions);
+void add_menus(QMainWindow& window, Actions& actions);
 
 /// The menu that a right click into a dock opens, of the window's own actions: add_menus() comes first.
 QMenu* add_context_menu(QMainWindow& window, const std::string& dock, const Actions& actions);

@@ -142,6 +142,8 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
                        const double value = at == 0 ? lowest : low + step * at;
                        (void)source->set(name, grain > 0.0 && at > 0 ? std::round(value / grain) * grain : value);
                      });
+    QObject::connect(slider, &QSlider::sliderPressed, slider, [source] { source->hold(true); });
+    QObject::connect(slider, &QSlider::sliderReleased, slider, [source] { source->hold(false); });
     row->addWidget(slider, 1);
   }
   row->addWidget(box);

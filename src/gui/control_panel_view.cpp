@@ -64,6 +64,7 @@ ControlPanelView::ControlPanelView(TransferEditor& editor, Workspace& workspace,
                                    const std::vector<PanelSection>& sections) {
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
+  setFocusPolicy(Qt::NoFocus);  // a click beside its controls leaves the keyboard to the views
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* inside = new QWidget(this);
   auto* column = new QVBoxLayout(inside);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QPalette>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,12 @@ TimeNs utc_now() {
       .count();
 }
 
+/// Before the window takes a theme of its own.
+bool application_is_dark() {
+  const QPalette palette = QApplication::palette();
+  return palette.color(QPalette::Window).lightness() < palette.color(QPalette::WindowText).lightness();
+}
+
 DocumentOptions document_options(const Preferences& preferences) {
   DocumentOptions options;
   options.program_version = SONAR_VERSION;
@@ -32,7 +39,7 @@ DocumentOptions document_options(const Preferences& preferences) {
   options.cache = IndexCache::of_user();
   options.journal_folders = journal_folders_for;
   options.clock = utc_now;
-  options.memory_bytes = static_cast<std::uint64_t>(preferences.memory_gb * 1e9);
+  options.memory_bytes = static_cast<std::uint64_t>(preferences.window.memory_gb * 1e9);
   return options;
 }
 
@@ -118,7 +125,9 @@ int run_program(int argc, char** argv) {
   QueuePump pump;
   AppModel app(pump.queue(), document_options(loaded.preferences));
   app.preferences = loaded.preferences;
+  app.dialogs.system_is_dark = [dark = application_is_dark()] { return dark; };
   app.preferences.apply(app.workspace);
+  app.actions.take_keys(app.preferences.keys);
   if (parser.isSet(line.dark)) app.workspace.dark.set(true);
   if (parser.isSet(line.recipe)) {
     auto recipe = named_recipe(parser.value(line.recipe).toStdString());

@@ -22,11 +22,13 @@
 #include "gui/key_sheet.h"
 #include "gui/palette.h"
 #include "gui/picture_view.h"
+#include "gui/preferences_dialog.h"
 #include "gui/questions.h"
 #include "gui/rows_view.h"
 #include "gui/start_page.h"
 #include "gui/status_line.h"
 #include "gui/tool_bar.h"
+#include "gui/view_keys.h"
 #include "session/app_parts.h"
 
 namespace sonar {
@@ -115,12 +117,15 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
   add_status_line(*this, app);
   add_live_strip(*this, app);
   add_start_page(*this, app);
+  add_view_keys(*this, app);
   answer();
   const auto theme = [this, &app] {
     take_theme(app.workspace.dark());
     tint_tool_bar(*this);
   };
   app.workspace.dark.changed().add(theme);
+  app.workspace.window.on_change([](const WindowParams& window) { take_text_size(window.text_percent); });
+  take_text_size(app.workspace.window.values().text_percent);
   theme();
   app.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
@@ -160,6 +165,7 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
 }
 
 void MainWindow::answer() {
+  app_.dialogs.preferences = [this] { return ask_preferences(*this, app_); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] {
     QMessageBox::about(

@@ -2,6 +2,7 @@
 #include "gui/panel_section.h"
 
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPointer>
 #include <QToolButton>
@@ -52,16 +53,44 @@ void follow_use(QWidget* widget, const PanelSection& section, const std::string&
   }
 }
 
+/// A button beside a control whose value is not the default; it brings that back.
+QWidget* with_default(QWidget* control, const PanelSection& section, const Property& property, QWidget* parent) {
+  auto* both = new QWidget(parent);
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(control, 1);
+  auto* button = new QToolButton(both);
+  button->setObjectName(text(property.name + ".default"));
+  button->setText("Default");
+  button->setToolTip("Not the default: bring that back");
+  QSizePolicy keeps = button->sizePolicy();
+  keeps.setRetainSizeWhenHidden(true);  // the controls below each other stay as wide
+  button->setSizePolicy(keeps);
+  keep_own_keys(*button);
+  row->addWidget(button);
+  const auto refresh = [button = QPointer<QToolButton>(button), source = section.source, property] {
+    const auto now = source->value(property.name);
+    if (!button.isNull()) button->setVisible(now && *now != property.initial);
+  };
+  refresh();
+  section.source->on_change(refresh);
+  QObject::connect(button, &QToolButton::clicked, button,
+                   [source = section.source, property] { (void)source->set(property.name, property.initial); });
+  return both;
+}
+
 void add_property(QFormLayout& form, const PanelSection& section, const Property& plain, QWidget* parent) {
   const Property property = as_it_looks(plain, section);
   QWidget* control = bound_control(section.source, property, parent);
   follow_use(control, section, property.name);
+  const QString tip = control->toolTip();
+  if (section.marks) control = with_default(control, section, property, parent);
   // A switch carries its own label.
   if (std::holds_alternative<bool>(property.initial)) {
     form.addRow(control);
   } else {
     auto* label = new QLabel(text(property.label), parent);
-    label->setToolTip(control->toolTip());
+    label->setToolTip(tip);
     follow_use(label, section, property.name);
     form.addRow(label, control);
   }

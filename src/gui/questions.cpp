@@ -17,6 +17,7 @@
 
 #include "gui/panel_section.h"
 #include "gui/recipe_dialog.h"
+#include "gui/rows_view.h"
 
 namespace sonar {
 namespace {
@@ -84,6 +85,18 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
     return change_parameters(window, title, section);
   };
   dialogs.recipe = [&window, &dialogs](RecipeEditor& editor) { return change_recipe(window, dialogs, editor); };
+  dialogs.rows = [&window](const std::string& title, Rows& rows) {
+    QDialog dialog(&window);
+    dialog.setObjectName("rows_dialog");
+    dialog.setWindowTitle(text(title));
+    dialog.resize(window.size().boundedTo(QSize(1200, 640)) * 9 / 10);
+    auto* column = new QVBoxLayout(&dialog);
+    column->addWidget(new RowsView(rows, false, &dialog));
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+    column->addWidget(buttons);
+    dialog.exec();
+  };
   dialogs.copy = [](const std::string& copied) { QGuiApplication::clipboard()->setText(text(copied)); };
   dialogs.copy_image = [](const Image& image) {
     // The clipboard's own copy: the image may be gone when it is pasted.

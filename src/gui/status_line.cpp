@@ -17,6 +17,7 @@
 #include "gui/own_keys.h"
 #include "session/beyond_reach.h"
 #include "session/live_watch.h"
+#include "session/merge_offer.h"
 #include "session/tools/measure_tool.h"
 
 namespace sonar {
@@ -67,12 +68,17 @@ void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const cha
   button->setToolTip(QString::fromStdString(action.tip));
   keep_own_keys(*button);
   status.addPermanentWidget(button);
-  const auto show = [button, waits = std::move(waits)] { button->setVisible(waits()); };
+  const auto show = [button, waits = std::move(waits), now = action.text_now] {
+    const std::string text = now ? now() : std::string{};
+    if (!text.empty()) button->setText(QString::fromStdString(text));
+    button->setVisible(waits());
+  };
   show();
   QObject::connect(button, &QPushButton::clicked, &status, [action] {
     if (!action.enabled || action.enabled()) action.run();
   });
   app.workspace.school.changed().add(show);
+  app.merge_offer->changed().add(show);
   app.workspace.document.changes().add([show](DocumentChange change) {
     const bool may_matter =
         change == DocumentChange::state || change == DocumentChange::observation || change == DocumentChange::progress;
@@ -98,8 +104,9 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   cancel->setFlat(true);
   keep_own_keys(*cancel);
   status->addWidget(cursor, 1);
-  // A school that was carried as far as its reach; an observation in which nobody has detected schools or marked any.
+  // A school that was carried as far as its reach; two schools that may be one; an observation in which nobody has detected schools or marked any.
   add_offer(*status, app, kContinueAction, "continue", app.actions.find(kContinueAction)->enabled);
+  add_offer(*status, app, kMergeProposedAction, "merge", app.actions.find(kMergeProposedAction)->enabled);
   add_offer(*status, app, "schools.detect", "detect", [&document = workspace.document, &live = *app.live] {
     const auto& shown = document.shown();
     return shown && !document.detected(shown->index()) && document.state().schools.empty() &&

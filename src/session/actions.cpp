@@ -11,6 +11,55 @@ const Action* Actions::find(std::string_view id) const {
   return found == list_.end() ? nullptr : &*found;
 }
 
+void Actions::press(const Action& action) {
+  const bool allowed = !action.enabled || action.enabled();
+  std::string text = action.text_now ? action.text_now() : std::string{};
+  if (pressed_) pressed_(action, text.empty() ? action.text : text, allowed);
+  if (allowed) action.run();
+}
+
+const Action* Actions::with_key(std::string_view key) const {
+  const auto found = std::find_if(list_.begin(), list_.end(), [&](const Action& action) {
+    return std::find(action.keys.begin(), action.keys.end(), key) != action.keys.end();
+  });
+  return found == list_.end() ? nullptr : &*found;
+}
+
+bool Actions::set_keys(std::string_view id, const std::vector<std::string>& keys) {
+  const auto found = std::find_if(list_.begin(), list_.end(), [&](const Action& action) { return action.id == id; });
+  if (found == list_.end()) return false;
+  usual_.try_emplace(found->id, found->keys);
+  found->keys.clear();
+  for (const std::string& key : keys) {
+    if (with_key(key) == nullptr) found->keys.push_back(key);
+  }
+  if (usual_keys(*found) == found->keys) usual_.erase(found->id);
+  keys_changed_.tell();
+  return found->keys == keys;
+}
+
+const std::vector<std::string>& Actions::usual_keys(const Action& action) const {
+  const auto changed = usual_.find(action.id);
+  return changed == usual_.end() ? action.keys : changed->second;
+}
+
+Actions::Keys Actions::changed_keys() const {
+  Keys keys;
+  for (const auto& [id, usual] : usual_) keys[id] = find(id)->keys;
+  return keys;
+}
+
+void Actions::take_keys(const Keys& keys) {
+  for (Action& action : list_) action.keys = usual_keys(action);
+  usual_.clear();
+  // First all let go: two may have changed theirs with each other.
+  for (const auto& [id, own] : keys) {
+    if (find(id) != nullptr) set_keys(id, {});
+  }
+  for (const auto& [id, own] : keys) set_keys(id, own);
+  keys_changed_.tell();
+}
+
 std::vector<std::string> Actions::clashes() const {
   std::map<std::string, std::string> of_key;
   std::vector<std::string> ids;

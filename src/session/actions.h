@@ -3,16 +3,20 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "session/listeners.h"
 #include "view/image.h"
 
 namespace sonar {
 
 class RecipeEditor;
+class Rows;
 struct PanelSection;
 
 /// Something that a user can ask for: the one list from which menus, keys, buttons and the sheet of keys are made.
@@ -36,11 +40,33 @@ class Actions {
   [[nodiscard]] std::span<const Action> list() const { return list_; }
   /// Null where there is none of that id.
   [[nodiscard]] const Action* find(std::string_view id) const;
+  /// Runs an action that a key asks for, where it may run now, and tells who listens.
+  void press(const Action& action);
+  /// What a key asked for: its text before it ran, and whether it was allowed to.
+  using Pressed = std::function<void(const Action& action, const std::string& text, bool allowed)>;
+  /// Called before the action runs.
+  void on_press(Pressed pressed) { pressed_ = std::move(pressed); }
+  /// Null where no action has the key.
+  [[nodiscard]] const Action* with_key(std::string_view key) const;
+  /// Gives an action other keys; what another one has stays with that. False = one was not given.
+  bool set_keys(std::string_view id, const std::vector<std::string>& keys);
+  /// The keys that an action came with.
+  [[nodiscard]] const std::vector<std::string>& usual_keys(const Action& action) const;
+  /// By id, of those whose keys are not the usual ones.
+  using Keys = std::map<std::string, std::vector<std::string>, std::less<>>;
+  [[nodiscard]] Keys changed_keys() const;
+  /// As changed_keys() was; all others have their usual keys. Actions that are not there are passed over.
+  void take_keys(const Keys& keys);
+  /// Called when keys have changed.
+  [[nodiscard]] Listeners<>& keys_changed() { return keys_changed_; }
   /// Two actions with one key: their ids; empty where there are none. For a test.
   [[nodiscard]] std::vector<std::string> clashes() const;
 
  private:
   std::vector<Action> list_;
+  Pressed pressed_;
+  Keys usual_;  ///< by id, of those that were changed
+  Listeners<> keys_changed_;
 };
 
 /// What only a window can ask a human for. Each answers at once or not at all (empty = the human declined; an answer that is
@@ -59,7 +85,10 @@ struct Dialogs {
   std::function<bool(const std::string& question)> yes;
   /// Lets a human change parameters; false = declined
   std::function<bool(const std::string& title, const PanelSection& section)> parameters;
-  std::function<bool(RecipeEditor& editor)> recipe;  ///< lets a human change a recipe; false = declined
+  std::function<bool()> preferences;     ///< lets a human change them, and they follow at once; false = declined
+  std::function<bool()> system_is_dark;  ///< whether the desktop is in dark colours; empty = not known
+  std::function<bool(RecipeEditor& editor)> recipe;                ///< lets a human change a recipe; false = declined
+  std::function<void(const std::string& title, Rows& rows)> rows;  ///< shows a table to look at
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_keys;                                   ///< the sheet of keys
   std::function<bool(const std::filesystem::path& page)> show_page;  ///< outside the program; false = nothing shows it

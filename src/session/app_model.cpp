@@ -32,6 +32,7 @@ AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
   add_lists(*this);
   add_school_acts(*this);
   add_exports(*this);
+  add_window_preferences(*this);
   add_window_acts(*this);
 }
 

@@ -8,6 +8,7 @@
 #include "session/actions.h"
 #include "session/animation_driver.h"
 #include "session/control_panel.h"
+#include "session/key_said.h"
 #include "session/live_picture.h"
 #include "session/preferences.h"
 #include "session/rows.h"
@@ -21,6 +22,7 @@ class FirstSight;
 class KeptThumbnails;
 class LiveWatch;
 class MeasureTool;
+class MergeOffer;
 class Playback;
 class SeedTool;
 class SlicesFollow;
@@ -58,6 +60,7 @@ class AppModel {
   Preferences preferences;
   Dialogs dialogs;
   Actions actions;
+  KeySaid key_said{workspace, actions};
   AnimationDriver animations;  ///< what goes on by itself: a window ticks it while it runs
   // Of all views together:
   std::shared_ptr<SeedTool> seed_tool;
@@ -67,6 +70,7 @@ class AppModel {
   std::shared_ptr<SlicesFollow> slices_follow;
   std::shared_ptr<FirstSight> first_sight;
   std::shared_ptr<LiveWatch> live;
+  std::shared_ptr<MergeOffer> merge_offer;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
   std::shared_ptr<KeptThumbnails> thumbnails;

@@ -12,14 +12,15 @@
 namespace sonar {
 
 // What an app is put together from; each part adds its docks and its actions.
-void add_slices(AppModel& app);       ///< slices, the tools in them, stepping and playing through pings
-void add_volume(AppModel& app);       ///< the view in three dimensions
-void add_maps(AppModel& app);         ///< observation map, propagation strip, survey map, timelines
-void add_charts(AppModel& app);       ///< figures of schools, one over another
-void add_lists(AppModel& app);        ///< survey tree, tables of schools, review, journal, diagnostics
-void add_school_acts(AppModel& app);  ///< what is done to the selected school
-void add_window_acts(AppModel& app);  ///< views on and off, light and dark, help
-void add_exports(AppModel& app);      ///< opening; files, pictures and movies out of the program
+void add_slices(AppModel& app);              ///< slices, the tools in them, stepping and playing through pings
+void add_volume(AppModel& app);              ///< the view in three dimensions
+void add_maps(AppModel& app);                ///< observation map, propagation strip, survey map, timelines
+void add_charts(AppModel& app);              ///< figures of schools, one over another
+void add_lists(AppModel& app);               ///< survey tree, tables of schools, review, journal, diagnostics
+void add_school_acts(AppModel& app);         ///< what is done to the selected school
+void add_window_acts(AppModel& app);         ///< views on and off, light and dark, help
+void add_window_preferences(AppModel& app);  ///< theme, playback, memory, keys
+void add_exports(AppModel& app);             ///< opening; files, pictures and movies out of the program
 
 void add_pictures(AppModel& app);  ///< the part of them that makes pictures and movies
 

@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <fstream>
 #include <string>
 
+#include "session/lists/calibration_table.h"
 #include "session/test_app.h"
 
 namespace sonar {
@@ -72,6 +76,42 @@ TEST_F(ChosenCalibration, SvAndMeasuresFollowMasksAndDecisionsStay) {
   EXPECT_NEAR(measured().sv_mean_db, before.sv_mean_db + kFactor_db, 0.02);
   ask("file.own_calibration");
   EXPECT_EQ(measured().sv_mean_db, before.sv_mean_db);
+}
+
+TEST_F(ChosenCalibration, TheTableTellsWhatIsInForceAndWhereItComesFrom) {
+  const auto& files = document().shown()->files();
+  const auto own = calibration_in_force(files, document().measuring_recipe().calibration, "recipe");
+  ASSERT_EQ(own.size(), files.grid->channel.size());
+  const BeamConfig& first = files.config.beams[static_cast<std::size_t>(own[0].channel)];
+  EXPECT_EQ(own[0].psi_db, first.equivalent_beam_angle_db);
+  EXPECT_EQ(own[0].absorption_db_per_m, files.transmit[static_cast<std::size_t>(own[0].channel)].absorption_db_per_m);
+  for (const std::string& from : {own[0].gain_from, own[0].psi_from, own[0].absorption_from})
+    EXPECT_EQ(from, "raw file");
+
+  CalibrationParams changed = document().measuring_recipe().calibration;
+  BeamCalibration line;
+  line.channel = own[1].channel;
+  line.gain_db = 17.25;
+  line.psi_db = -31.5;
+  changed.beams = {line};
+  changed.psi = PsiSource::table;
+  changed.absorption = AbsorptionSource::ainslie_mccolm;
+  const auto now = calibration_in_force(files, changed, "recipe");
+  EXPECT_EQ(now[1].gain_db, 17.25);
+  EXPECT_EQ(now[1].gain_from, "recipe");
+  EXPECT_EQ(now[1].sa_correction_from, "raw file") << "the line does not say it";
+  EXPECT_EQ(now[1].psi_db, -31.5);
+  EXPECT_EQ(now[1].psi_from, "recipe");
+  EXPECT_EQ(now[0].psi_from, "raw file");
+  EXPECT_EQ(now[0].gain_db, own[0].gain_db);
+  EXPECT_EQ(now[0].absorption_from, "Ainslie & McColm");
+
+  CalibrationTable table(workspace());
+  ask("file.calibration");
+  EXPECT_EQ(table.rows(), own.size());
+  EXPECT_EQ(document().shown()->recalibrated(), true);
+  const auto factor = std::ranges::find(table.columns(), "Extra factor", &ListColumn::title) - table.columns().begin();
+  EXPECT_EQ(table.cell(0, static_cast<std::size_t>(factor)).text, fmt::format("{:.2f}", kFactor_db)) << "it follows";
 }
 
 // Choices stand on the recipe, whatever was chosen meanwhile: the same click gives the same mask.

@@ -135,7 +135,9 @@ std::string Choices::step_name(std::int64_t n) const {
   std::string name = named == names_.end() ? std::string{} : named->second;
   const auto& lines = place_.lines;
   const auto of = std::find_if(lines.begin(), lines.end(), [n](const JournalLine& line) { return line.n == n; });
-  if (of == lines.end() || of->step == 0 || of->command != "detect") return name;
+  if (of == lines.end() || of->step == 0) return name;
+  if (!history_.replaced_by(of->step).empty() && !name.ends_with(" anew")) name += " anew";
+  if (of->command != "detect") return name;
   const auto all =
       std::count_if(lines.begin(), lines.end(), [&](const JournalLine& line) { return line.step == of->step; });
   return all == 1 ? name : fmt::format("{} in {} observations", name, all);
@@ -202,7 +204,11 @@ void Choices::rebuild(std::size_t index) {
     if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
     names_[done_[i].n] = done_[i].name;
   }
+  // What was undone, and what was replaced, is known no more.
   for (Turn& turn : undone_) turn.before.erase(index);
+  for (Turn& turn : done_) {
+    for (Turn& replaced : turn.replaced) replaced.before.erase(index);
+  }
 }
 
 std::string Choices::name_of(const JournalAct& act, const Turn& turn) const {
@@ -238,16 +244,31 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
                                         JournalStep* step) {
   const auto at = open_.find(observation);
   if (at == open_.end()) return fail(ErrorCode::usage, "the observation is not open");
-  const CommandContext& context = at->second.observation->context();
   if (ping_index < 0 || ping_index >= at->second.observation->pings()) {
     return fail(ErrorCode::usage, "there is no such ping");
   }
   if (auto held = hold(at->second.observation->survey(), observation); !held) return pass_on(held);
-  JournalAct act{history_.next(), now(), options_.operator_name, context.times[static_cast<std::size_t>(ping_index)],
-                 std::move(command)};
+  std::vector<Turn> replaced;
+  if (step != nullptr && step->instead_of_last && step->first == 0) {
+    const std::vector<std::int64_t> last = history_.undoable();
+    if (last.empty() || !stand_last(done_, last)) return fail(ErrorCode::usage, "something else was done meanwhile");
+    replaced = take_last(last.size());
+  }
+  auto line = carry_out_upon(replaced, observation, ping_index, std::move(command), step);
+  if (!line) put_back(std::move(replaced));
+  return line;
+}
+
+/// replaced  turns that are taken back already, and become part of this one; empty afterwards where the journal was written
+Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::size_t observation,
+                                             std::int64_t ping_index, Command command, JournalStep* step) {
+  const OnObservation& on = open_.at(observation);
+  const CommandContext& context = on.observation->context();
+  JournalAct act{history_.next() + std::ssize(replaced), now(), options_.operator_name,
+                 context.times[static_cast<std::size_t>(ping_index)], std::move(command)};
   Turn turn{act.n, 0, {}, {}, {}};
   for (const auto& [index, of] : open_) turn.before[index] = turn.after[index] = of.state;
-  auto applied = apply_watched(act, *at->second.state, watched(observation));
+  auto applied = apply_watched(act, *on.state, watched(observation));
   if (!applied) return pass_on(applied);
   act = std::move(applied->act);
   turn.after[observation] = std::make_shared<const JournalState>(std::move(applied->state));
@@ -260,8 +281,15 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   JournalLine line = line_of(act);
   // What the next start could not read must not be shown as done.
   if (const auto read = act_of(line); !read) return pass_on(read);
+  if (!replaced.empty()) {
+    turn.replaced = replaced;
+    if (auto taken_back = write_replaced(replaced, *step); !taken_back) return pass_on(taken_back);
+  }
   if (step != nullptr) line.step = step->first == 0 ? act.n : step->first;
-  if (auto written = write(line); !written) return pass_on(written);
+  if (auto written = write(line); !written) {
+    if (!turn.replaced.empty()) rebuild();
+    return pass_on(written);
+  }
   if (step != nullptr) step->first = line.step;
   turn.step = line.step;
   if (asks_to_detect(act.n)) {
@@ -274,48 +302,6 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   done_.push_back(std::move(turn));
   undone_.clear();
   return act.n;
-}
-
-/// False where the states are not known, and everything must be carried out anew.
-bool Choices::turn_known(const std::vector<std::int64_t>& targets, bool undo) {
-  std::vector<Turn>& from = undo ? done_ : undone_;
-  if (targets.size() > from.size()) return false;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const Turn& turn = from[from.size() - 1 - i];
-    if (turn.n != targets[i] || turn.before.size() != open_.size() || asks_to_detect(turn.n)) return false;
-  }
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    for (auto& [index, of] : open_) of.state = undo ? from.back().before[index] : from.back().after[index];
-    (undo ? undone_ : done_).push_back(std::move(from.back()));
-    from.pop_back();
-  }
-  return true;
-}
-
-Result<std::int64_t> Choices::turn(bool undo) {
-  const auto turned = [&] { return undo ? history_.undoable() : history_.redoable(); };
-  const auto none = [&] {
-    return fail(ErrorCode::usage, undo ? "there is nothing to undo" : "there is nothing to redo");
-  };
-  if (turned().empty()) return none();
-  if (auto held = hold_journal(); !held) return pass_on(held);
-  const std::vector<std::int64_t> targets = turned();  // the journal may have proved another's
-  if (targets.empty()) return none();
-  if (auto held = hold_turned(targets); !held) return pass_on(held);
-  JournalLine line;
-  line.decided = now();
-  line.operator_name = options_.operator_name;
-  line.command = undo ? "undo" : "redo";
-  for (const std::int64_t target : targets) {
-    line.n = history_.next();
-    line.args = {{"target", target}};
-    const auto written = write(line);
-    if (written) continue;
-    if (target != targets.front()) rebuild();  // some of the step's lines were turned
-    return pass_on(written);
-  }
-  if (!turn_known(targets, undo)) rebuild();  // what was undone before this run began
-  return line.n;
 }
 
 }  // namespace sonar

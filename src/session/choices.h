@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,8 @@ struct ChoicesShown {
 struct JournalStep {
   std::int64_t first = 0;  ///< n of its first line
   bool broken = false;
+  /// Its first act is done instead of what stands last, which is taken back within the step: undo brings that back.
+  bool instead_of_last = false;
 };
 
 /// Every human choice on a survey: carried out one after another behind the window, written into the journal and flushed,
@@ -118,6 +121,7 @@ class Choices {
     std::string name;
     std::map<std::size_t, JournalStatePtr> before;
     std::map<std::size_t, JournalStatePtr> after;
+    std::vector<Turn> replaced = {};  ///< what it was done instead of, in order
   };
 
   // On the thread of the acts:
@@ -132,7 +136,13 @@ class Choices {
   [[nodiscard]] std::string step_name(std::int64_t n) const;
   [[nodiscard]] Result<std::int64_t> carry_out(std::size_t observation, std::int64_t ping_index, Command command,
                                                JournalStep* step);
-  bool turn_known(const std::vector<std::int64_t>& targets, bool undo);
+  [[nodiscard]] Result<std::int64_t> carry_out_upon(std::vector<Turn>& replaced, std::size_t observation,
+                                                    std::int64_t ping_index, Command command, JournalStep* step);
+  [[nodiscard]] Result<void> write_replaced(std::vector<Turn>& replaced, JournalStep& step);
+  [[nodiscard]] bool stand_last(const std::vector<Turn>& list, std::span<const std::int64_t> latest_first) const;
+  [[nodiscard]] std::vector<Turn> take_last(std::size_t count);
+  void put_back(std::vector<Turn> turns);
+  bool turn_known(const std::vector<std::int64_t>& targets, const std::vector<std::int64_t>& replaced, bool undo);
   [[nodiscard]] Result<std::int64_t> turn(bool undo);
   [[nodiscard]] static History own_history(const JournalPlace& place);
   [[nodiscard]] Result<void> hold(const SurveyFiles& survey, std::size_t index);

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace sonar {
@@ -14,6 +16,36 @@ std::string in_db(const Workspace& workspace, double confidence) {
   const SelectParams& select = workspace.select.values();
   if (select.mode == GrowMode::paper) return "in units of opacity: 1 = as opaque as the seed";
   return fmt::format("{:.1f} dB below the reference", db_below_reference(confidence, select.tolerance_db));
+}
+
+/// The settings that matter first, each with a sentence that can be read alone.
+struct First {
+  const char* name;
+  const char* sentence;
+};
+using Firsts = std::span<const First>;
+constexpr std::array<First, 3> kSelection{
+    {{"tolerance_db", "How far below the clicked voxel's Sv members may lie. Larger takes in more."},
+     {"margin_db", "How far above the noise of their beam members must lie."},
+     {"reach_pings", "How many pings a school is followed to each side."}}};
+constexpr std::array<First, 3> kSchools{{{"masks", "The outlines of schools lie over the data."},
+                                         {"rejected", "Schools that a human rejected are shown in grey."},
+                                         {"refused_echoes", "Diamonds mark echoes that were judged no schools."}}};
+constexpr std::array<First, 4> kColours{{{"scale.map", "The colours of Sv in all views."},
+                                         {"scale.low_db", "Sv of the first colour. Nothing is drawn below it."},
+                                         {"scale.span_db", "How many dB there are from the first colour to the last."},
+                                         {"scale.threshold_db", "Samples below this Sv are not drawn."}}};
+constexpr std::array<First, 2> kNoise{
+    {{"filtered", "Slices show Sv after the median filter, on which schools are grown."},
+     {"weak", "How samples look that hardly rise above the background noise."}}};
+
+PanelSection first_section(const char* title, const std::shared_ptr<ParameterSource>& source, Firsts firsts) {
+  PanelSection section{title, source};
+  for (const First& one : firsts) {
+    section.names.emplace_back(one.name);
+    section.notes.push_back({one.name, [sentence = one.sentence] { return std::string(sentence); }});
+  }
+  return section;
 }
 
 }  // namespace
@@ -41,45 +73,48 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto plane = std::make_shared<SourceOf<PlanePlace>>(workspace.plane);
   const auto lies = [&workspace] { return workspace.plane.values().lies; };
   const auto mode = [&workspace] { return workspace.select.values().mode; };
+  const auto mode_is = [mode](bool paper) { return [mode, paper] { return (mode() == GrowMode::paper) == paper; }; };
+  PanelSection selection = first_section("Selection", select, kSelection);
+  selection.uses = {{"tolerance_db", mode_is(false)}, {"margin_db", mode_is(false)}};
+  PanelSection colours = first_section("Colours", display, kColours);
+  colours.looks = {{"scale.low_db", "", {-100.0, 0.0}},
+                   {"scale.span_db", "", {6.0, 80.0}},
+                   {"scale.threshold_db", "none", {-100.0, 0.0}}};
+  PanelSection more{
+      "More of selection", select, {"mode", "tolerance_opacity", "connectivity", "backwards", "forwards"}, {}, false};
+  more.uses.push_back({"tolerance_opacity", mode_is(true)});
   return {
-      {"Selection",
-       select,
-       {},
-       {},
-       true,
-       {},
-       {{"tolerance_db", [mode] { return mode() != GrowMode::paper; }},
-        {"margin_db", [mode] { return mode() != GrowMode::paper; }},
-        {"tolerance_opacity", [mode] { return mode() == GrowMode::paper; }}}},
-      {"Schools",
+      std::move(selection),
+      first_section("Schools", display, kSchools),
+      std::move(colours),
+      first_section("Noise", display, kNoise),
+      std::move(more),
+      {"More of schools",
        display,
-       {"masks", "tint", "core_at", "fuzzy_above", "rejected", "refused_echoes"},
-       {{"core_at", core, select}, {"fuzzy_above", fuzzy, select}}},
-      {"Colours",
+       {"tint", "core_at", "fuzzy_above"},
+       {{"core_at", core, select}, {"fuzzy_above", fuzzy, select}},
+       false},
+      {"More of noise",
        display,
-       {"scale.map", "scale.low_db", "scale.span_db", "scale.threshold_db"},
+       {"take_out.near_field", "take_out.surface", "take_out.corrupted_packets", "take_out.interference",
+        "take_out.impulse_noise", "take_out.seabed", "removed", "weak_below_db"},
        {},
-       true,
-       {{"scale.low_db", "", {-100.0, 0.0}},
-        {"scale.span_db", "", {6.0, 80.0}},
-        {"scale.threshold_db", "none", {-100.0, 0.0}}}},
-      {"Noise",
-       display,
-       {"filtered", "take_out.near_field", "take_out.surface", "take_out.corrupted_packets", "take_out.interference",
-        "take_out.impulse_noise", "take_out.seabed", "removed", "weak", "weak_below_db"}},
+       false},
       {"Slices", display, {"grid_lines", "north_up"}, {}, false},
-      {"Plane slice",
-       plane,
-       {},
-       {},
-       false,
-       {{"bearing_deg", "", {0.0, 360.0}}, {"tilt_deg", "", {1.0, 90.0}}},
-       {{"depth_m", [lies] { return lies() == PlaneSlice::Kind::horizontal; }},
-        {"bearing_deg", [lies] { return lies() != PlaneSlice::Kind::horizontal; }},
-        {"tilt_deg", [lies] { return lies() == PlaneSlice::Kind::oblique; }},
-        {"offset_m", [lies] { return lies() != PlaneSlice::Kind::horizontal; }}}},
+      {.title = "Plane slice",
+       .source = plane,
+       .open = false,
+       .looks = {{"bearing_deg", "", {0.0, 360.0}}, {"tilt_deg", "", {1.0, 90.0}}},
+       .uses = {{"depth_m", [lies] { return lies() == PlaneSlice::Kind::horizontal; }},
+                {"bearing_deg", [lies] { return lies() != PlaneSlice::Kind::horizontal; }},
+                {"tilt_deg", [lies] { return lies() == PlaneSlice::Kind::oblique; }},
+                {"offset_m", [lies] { return lies() != PlaneSlice::Kind::horizontal; }}}},
       {"Volume", volume, {}, {}, false},
-      {"Charts", pictures, {"chart.table", "chart.x", "chart.y", "chart.bins"}, {}, false, {}, {}, picture_words()},
+      {.title = "Charts",
+       .source = pictures,
+       .names = {"chart.table", "chart.x", "chart.y", "chart.bins"},
+       .open = false,
+       .words = picture_words()},
       {"Views", views, {}, {}, false},
   };
 }

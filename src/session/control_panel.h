@@ -8,7 +8,8 @@
 
 namespace sonar {
 
-/// The control panel's sections, below its transfer function.
+/// The control panel's sections, below its transfer function: the dozen settings that matter first, each with its sentence, then
+/// all others, folded.
 [[nodiscard]] std::vector<PanelSection> control_panel(Workspace& workspace);
 
 /// Texts of the parameters of pictures that are one of a list: columns of tables.

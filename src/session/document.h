@@ -115,6 +115,8 @@ class Document {
   /// What Sv and measures follow: the recipe, under the calibration that a human has chosen.
   [[nodiscard]] Recipe measuring_recipe() const;
   [[nodiscard]] const DocumentOptions& options() const { return options_; }
+  /// For the pings of observations that are opened from now on, bytes; 0 = half of the machine's memory.
+  void use_memory(std::uint64_t bytes) { options_.memory_bytes = bytes == 0 ? usual_memory() : bytes; }
   /// What a user must be told, oldest first.
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   void tell(std::string notice);

@@ -11,6 +11,7 @@
 #include "pipeline/survey/calibration_json.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
+#include "session/lists/calibration_table.h"
 #include "session/live_watch.h"
 #include "session/open_demo.h"
 #include "session/recipe_editor.h"
@@ -126,6 +127,18 @@ void add_calibration(AppModel& app) {
        .tip = "Measure with another calibration (a table channel,gain_db,..., or a recipe): masks and decisions "
               "stay",
        .run = [&app] { choose_calibration(app); },
+       .enabled = with_ping});
+  app.actions.add(
+      {.id = "file.calibration_in_force",
+       .menu = kFile,
+       .text = "Calibration in force...",
+       .keys = {},
+       .tip = "Gain, Sa correction, equivalent beam angle and absorption of every beam, and where each comes from",
+       .run =
+           [&app] {
+             CalibrationTable table(app.workspace);
+             if (app.dialogs.rows) app.dialogs.rows("Calibration in force", table);
+           },
        .enabled = with_ping});
   app.actions.add({.id = "file.own_calibration",
                    .menu = kFile,

@@ -66,13 +66,38 @@ void History::add(const JournalLine& line) {
   last_ = std::max(last_, line.n);
   if (line.command == "undo" || line.command == "redo") {
     const auto target = target_of(line);
-    if (!target) return;
-    line.command == "undo" ? move_over(*target, done_, undone_) : move_over(*target, undone_, done_);
+    if (target) turn(*target, line.command == "undo", line.step);
     return;
   }
   done_.push_back(line.n);
   if (line.step != 0) step_[line.n] = line.step;
   undone_.clear();
+}
+
+/// step  of the undo or redo itself; 0 = it is of none
+void History::turn(std::int64_t target, bool undo, std::int64_t step) {
+  undo ? move_over(target, done_, undone_) : move_over(target, undone_, done_);
+  if (step == 0) return;
+  std::vector<std::int64_t>& replaced = replaced_[step];
+  const auto known = std::find(replaced.begin(), replaced.end(), target);
+  if (step_of(target) != step) {
+    // What the step replaces; until its first act is written it can be had back by redo.
+    if (undo && known == replaced.end()) replaced.insert(replaced.begin(), target);
+    if (!undo && std::find(done_.begin(), done_.end(), target) == done_.end()) done_.push_back(target);
+  } else if (!undo) {
+    for (const std::int64_t n : replaced) std::erase(undone_, n);
+  }
+}
+
+const std::vector<std::int64_t>& History::replaced_by(std::int64_t step) const {
+  static const std::vector<std::int64_t> kNone;
+  const auto found = replaced_.find(step);
+  return found == replaced_.end() ? kNone : found->second;
+}
+
+std::int64_t History::step_of(std::int64_t n) const {
+  const auto found = step_.find(n);
+  return found == step_.end() ? 0 : found->second;
 }
 
 std::vector<std::int64_t> History::step_at_end(const std::vector<std::int64_t>& list) const {

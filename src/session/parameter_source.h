@@ -21,6 +21,8 @@ class ParameterSource {
   /// errors  not_found, bad_parameter; the value stands
   virtual Result<void> set(const std::string& name, const PropertyValue& to) = 0;
   virtual void on_change(std::function<void()> listener) = 0;
+  /// A hand has taken hold of a control, or let go of it: what changes meanwhile is one change.
+  virtual void hold(bool /*held*/) {}
 };
 
 template <class P>
@@ -34,6 +36,7 @@ class SourceOf : public ParameterSource {
   void on_change(std::function<void()> listener) override {
     parameters_.on_change([listener = std::move(listener)](const P&) { listener(); });
   }
+  void hold(bool held) override { parameters_.hold(held); }
 
  private:
   Parameters<P>& parameters_;
@@ -51,6 +54,8 @@ struct PanelSection {
   };
   std::vector<Note> notes = {};
   bool open = true;  ///< folded out at first
+  /// Whether values that are not the default are marked, each with a button that brings the default back.
+  bool marks = false;
   /// How a number's control differs from others.
   struct Look {
     std::string name;

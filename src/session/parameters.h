@@ -193,6 +193,9 @@ class Parameters {
       for (const Listener& listener : shared->listeners) listener(shared->values);
     });
   }
+  /// A hand has taken hold of a slider, or let go of it.
+  void hold(bool held) { held_ = held; }
+  [[nodiscard]] bool held() const { return held_; }
   void on_change(Listener listener) { shared_->listeners.push_back(std::move(listener)); }
 
  private:
@@ -206,6 +209,7 @@ class Parameters {
   std::shared_ptr<Shared> shared_;
   P defaults_;
   std::vector<Property> properties_;
+  bool held_ = false;
 };
 
 }  // namespace sonar

@@ -22,6 +22,8 @@ using nlohmann::json;
 
 constexpr std::size_t kMostCharts = 100;  ///< and places that surveys were left at
 constexpr std::size_t kMostFiles = 10000;
+constexpr std::size_t kMostKeys = 1000;
+constexpr std::size_t kMostKeysOfOne = 4;
 
 /// Visitor: takes from JSON what fits and passes over the rest; what was called otherwise before is noted.
 class LenientReader {
@@ -91,7 +93,7 @@ void describe(Visitor& v, Preferences& p) {
   v.field("curves_linked", p.curves_linked, {});
   v.field("operator", p.operator_name, {});
   v.field("advance", p.advance, {});
-  v.field("memory_gb", p.memory_gb, {.unit = "GB", .min = 0.0, .max = 1e6});
+  describe(v, p.window);
 }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }
@@ -136,6 +138,14 @@ void read_left_at(const json& from, Preferences& to) {
     const bool sound = place.is_array() && place.size() == 2 && place[0].is_string() && place[1].is_number_integer();
     if (sound && to.left_at.size() < kMostCharts)
       to.left_at[survey] = {place[0].get<std::string>(), place[1].get<std::int64_t>()};
+  }
+}
+
+void read_keys(const json& from, Preferences& to) {
+  const auto found = from.find("keys");
+  if (found == from.end() || !found->is_object()) return;
+  for (const auto& [action, keys] : found->items()) {
+    if (keys.is_array() && to.keys.size() < kMostKeys) to.keys[action] = texts_of(keys, kMostKeysOfOne);
   }
 }
 
@@ -201,6 +211,7 @@ LoadedPreferences Preferences::load(const fs::path& path) {
   read_curves(*from, loaded.preferences);
   read_charts(*from, loaded.preferences);
   read_left_at(*from, loaded.preferences);
+  read_keys(*from, loaded.preferences);
   return loaded;
 }
 
@@ -215,6 +226,7 @@ Result<void> Preferences::save() const {
   to["species"] = species;
   to["charts"] = charts;
   to["left_at"] = left_at;
+  to["keys"] = keys;
   to["recent"] = json::array();
   for (const auto& paths : recent) {
     json texts = json::array();
@@ -231,7 +243,8 @@ void Preferences::apply(Workspace& workspace) const {
   workspace.views.assign(views);
   workspace.picture_file.assign(picture_file);
   workspace.reduce.assign(reduce);
-  workspace.dark.set(dark);
+  workspace.window.assign(window);
+  if (window.theme != ThemeName::system) workspace.dark.set(dark);
   if (growth_curve) workspace.growth_curve.set(*growth_curve);
   if (view_curve) {
     workspace.curve_follows_scale.set(false);
@@ -248,6 +261,7 @@ void Preferences::take(const Workspace& workspace) {
   picture_file = workspace.picture_file.values();
   reduce = workspace.reduce.values();
   dark = workspace.dark();
+  window = workspace.window.values();
   growth_curve = workspace.growth_curve();
   view_curve.reset();
   if (!workspace.curve_follows_scale()) view_curve = workspace.view_curve();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "session/actions.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -38,7 +39,8 @@ struct Preferences {
   /// Survey -> observation and ping that it was left at.
   std::map<std::string, std::pair<std::string, std::int64_t>> left_at;
   std::string operator_name;
-  double memory_gb = 0.0;  ///< for the pings of the observation on show, 10^9 bytes; 0 = half of the machine's
+  WindowParams window;
+  Actions::Keys keys;  ///< of actions that have not their usual ones
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
                                    "cod",     "saithe",   "krill",   "other"};  ///< digits 1 to 9
   bool advance = true;  ///< review goes on to the next school after a decision

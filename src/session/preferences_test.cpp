@@ -40,6 +40,11 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.reduce.margin_beams = 3;
   out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
   out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
+  out.window.theme = ThemeName::dark;
+  out.window.text_percent = 120.0;
+  out.window.memory_gb = 3.0;
+  out.window.play_rate = 5.0;
+  out.keys = {{"display.masks", {"Ctrl+G"}}, {"review.next", {}}};
   out.set_chart("/data/one", "/charts/gebco.nc");
   out.set_chart("/data/two", "/charts/emodnet.tif");
   out.set_left_at({"/data/one"}, "obs-0003", 17);
@@ -51,6 +56,11 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   const auto in = Preferences::load(path);
   EXPECT_EQ(in.notice, "");
   EXPECT_TRUE(in.preferences.dark);
+  EXPECT_EQ(in.preferences.window.theme, ThemeName::dark);
+  EXPECT_EQ(in.preferences.window.text_percent, 120.0);
+  EXPECT_EQ(in.preferences.window.memory_gb, 3.0);
+  EXPECT_EQ(in.preferences.window.play_rate, 5.0);
+  EXPECT_EQ(in.preferences.keys, out.keys);
   EXPECT_FALSE(in.preferences.advance);
   EXPECT_EQ(in.preferences.operator_name, out.operator_name);
   EXPECT_EQ(in.preferences.window_layout, "AAEC");

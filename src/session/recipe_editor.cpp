@@ -78,6 +78,7 @@ std::vector<PanelSection> RecipeEditor::sections(std::string_view words, bool ch
   const std::string wanted = lower(words);
   const bool all = wanted.empty() && !changed_alone;
   PanelSection basic{"What a user sets", source_};
+  basic.marks = true;
   std::vector<PanelSection> experts;
   for (const Property& one : parameters_.properties()) {
     if (one.name == kAsked || !holds(one, wanted)) continue;
@@ -90,6 +91,7 @@ std::vector<PanelSection> RecipeEditor::sections(std::string_view words, bool ch
     const std::string title = "For experts: " + title_of_group(group_of(one.name));
     if (experts.empty() || experts.back().title != title) {
       experts.push_back({title, source_});
+      experts.back().marks = true;
       experts.back().open = !all;
     }
     experts.back().names.push_back(one.name);

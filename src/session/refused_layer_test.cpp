@@ -168,6 +168,10 @@ TEST_F(Refused, WhatWasTakenInGrowsAnewWithAnotherTolerance) {
   EXPECT_GT(document().state().schools[0]->masks.pings.size(), 1U) << "and is followed again";
   app_.ask("edit.undo");
   app_.settle();
+  EXPECT_EQ(voxels(), before) << "as it was taken in";
+  EXPECT_EQ(workspace().select.values().tolerance_db, 10.0);
+  app_.ask("edit.undo");
+  app_.settle();
   EXPECT_EQ(document().state().schools.size(), 0U) << "undo knows one growth";
 }
 

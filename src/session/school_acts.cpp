@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "session/app_parts.h"
 #include "session/beyond_reach.h"
+#include "session/merge_offer.h"
 #include "session/refused_layer.h"
 #include "session/survey_schools.h"
 #include "session/timelines/timeline_actions.h"
@@ -348,6 +349,7 @@ void add_school_acts(AppModel& app) {
        .enabled = [&workspace, merging] { return workspace.document.busy() || merging->first.has_value(); }});
   add_reshaping(app);
   add_parting(app, merging);
+  add_merge_offer(app);
   add_naming(app);
   app.actions.add({.id = "school.none",
                    .menu = kMenu,

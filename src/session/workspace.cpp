@@ -88,6 +88,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       picture_file(changes),
       reduce(changes),
       plane(changes),
+      window(changes),
       view_curve(first_view_curve()) {
   document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;

@@ -21,6 +21,7 @@
 #include "session/picture_file.h"
 #include "session/slices/plane_place.h"
 #include "session/tools/measurement.h"
+#include "session/window_params.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -109,6 +110,7 @@ struct Workspace {
   Parameters<PictureFileParams> picture_file;
   Parameters<ReduceParams> reduce;
   Parameters<PlanePlace> plane;  ///< where the plane slice lies; of the observation, not a preference
+  Parameters<WindowParams> window;
 
   /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
   /// the same opacity.

@@ -15,6 +15,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTimer>
+#include <QToolButton>
 #include <QUrl>
 #include <cstdlib>
 #include <fstream>
@@ -126,6 +127,20 @@ TEST_F(Files, ARecipeIsChangedInItsDialog) {
     auto* box = dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
     ASSERT_NE(box, nullptr);
     EXPECT_EQ(dialog->findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, "7");
+    QTest::keyClick(box, Qt::Key_Return);
+    // What is not the default says so, and a button brings the default back.
+    auto* usual = dialog->findChild<QToolButton*>("detect.tolerance_db.default");
+    QApplication::processEvents();
+    pump_->queue().drain();
+    EXPECT_TRUE(usual->isVisible());
+    keep_dialog(*dialog);
+    QTest::mouseClick(usual, Qt::LeftButton);
+    pump_->queue().drain();
+    EXPECT_EQ(box->value(), Recipe{}.detect.tolerance_db);
+    EXPECT_FALSE(usual->isVisible());
     box->setFocus();
     box->selectAll();
     QTest::keyClicks(box, "7");

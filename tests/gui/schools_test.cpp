@@ -81,7 +81,14 @@ TEST_F(Schools, TheSliderGrowsTheSelectedSchoolAnewOnceAndArrowsStillStep) {
   release_on(slider, {from.x - 12.0, from.y});
   EXPECT_THAT(commands(), testing::ElementsAre("grow", "undo", "grow")) << "one growth, however long the way";
   EXPECT_LT(masks().at(0).mask.voxels(), before);
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(masks().at(0).mask.voxels(), before) << "one drag, one step back";
+  EXPECT_EQ(tolerance_db(), 10.0) << "and the tolerance with it";
+  EXPECT_EQ(handle(*slider).x, from.x);
+  key(Qt::Key_Y, Qt::ControlModifier);
+  EXPECT_LT(masks().at(0).mask.voxels(), before);
   const double db = tolerance_db();
+  EXPECT_LT(db, 10.0);
   key(Qt::Key_Right);
   EXPECT_EQ(document().ping(), target.ping + 1) << "a mouse leaves the keys to the pictures";
   EXPECT_EQ(tolerance_db(), db);

@@ -21,15 +21,16 @@ bool same_depth(const GrowParams& a, const GrowParams& b) {
 SeedTool::SeedTool(Workspace& workspace, AnimationDriver& animations)
     : workspace_(workspace), animations_(animations), params_(grow_params(workspace.select.values())) {
   document_listening_ = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
-  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(false); });
+  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(false, params_); });
   tool_listening_ = workspace.tool.changed().add([this] { leave(); });
   workspace.select.on_change([this, alive = std::weak_ptr<bool>(alive_)](const SelectParams& params) {
     if (alive.expired()) return;
+    const GrowParams was = params_;
     const GrowParams now = grow_params(params);
     const bool depth = !same_depth(now, params_);
     const bool changed = depth || now.mode != params_.mode || now.connectivity != params_.connectivity;
     params_ = now;
-    if (changed) parameters_changed(depth);
+    if (changed) parameters_changed(depth, was);
   });
 }
 
@@ -173,7 +174,9 @@ void SeedTool::select(const Voxel& voxel) {
 void SeedTool::act(Pending what) {
   made_.reset();
   pending_ = what;
-  const auto step = what.followed.empty() ? nullptr : std::make_shared<JournalStep>();
+  std::shared_ptr<JournalStep> step;
+  if (what.instead_of_last || !what.followed.empty()) step = std::make_shared<JournalStep>();
+  if (what.instead_of_last) step->instead_of_last = true;
   workspace_.document.act(what.observation, what.ping, std::move(what.command), step);
   for (PropagateCommand& command : what.followed) {
     workspace_.document.act(what.observation, what.ping, std::move(command), step);
@@ -229,6 +232,7 @@ void SeedTool::forget() {
   animations_.stop("grow anew");
   anew_.reset();
   made_.reset();
+  dragged_.clear();
   place_.reset();
   stale_ = asked_;
 }
@@ -245,12 +249,13 @@ void SeedTool::take_state() {
     const bool first = pending_->done == 0 && last.command == command_name(pending_->command) &&
                        last.args == to_json(Command(pending_->command));
     if (first) {
-      pending_->before = std::move(before);
+      if (!pending_->instead_of_last) pending_->before = std::move(before);
       pending_->first_line = now.done_line;
     }
     if (first || (pending_->done > 0 && last.command == "propagate")) ++pending_->done;
     if (pending_->done > pending_->followed.size()) take_made(*std::exchange(pending_, std::nullopt));
   }
+  follow_undo();
   if (made_ && !stands_last()) made_.reset();
   if (anew_ && (anew_->instead_of_last ? !made_ : anew_->before != state_)) anew_.reset();
   if (workspace_.tool() != ToolName::seed) return;
@@ -269,6 +274,8 @@ void SeedTool::take_made(const Pending& done) {
                done.number,
                done.ping,
                done.followed};
+  const JournalLine& line = document.choices().lines->back();
+  if (done.was) dragged_.push_back({line.step == 0 ? line.n : line.step, *done.was, done.command.grow});
   if (done.command.to == GrowTo::school) {
     const auto made = std::find_if(state.schools.begin(), state.schools.end(),
                                    [&](const auto& school) { return school->made_by == done.first_line; });
@@ -278,113 +285,7 @@ void SeedTool::take_made(const Pending& done) {
   }
   if (done.carry_on) return carry_on(done.observation, done.staged->ping_index, done.command.seeds.front());
   // The slider went on while the act was done.
-  if (!same_depth(params_, done.command.grow)) parameters_changed(true);
-}
-
-// --- what is selected anew
-
-bool SeedTool::stands_last() const {
-  const auto& lines = *workspace_.document.choices().lines;
-  return made_ && !lines.empty() && lines.back().n == made_->line;
-}
-
-void SeedTool::parameters_changed(bool tolerance) {
-  const auto& staged = workspace_.document.staged();
-  if (workspace_.document.busy()) return show_place();
-  const bool here = staged && made_ && staged->ping_index == made_->staged->ping_index;
-  if (here && stands_last()) {
-    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, true,
-                      made_->ping, made_->followed});
-  }
-  if (!tolerance || !grow_selected_anew()) show_place();
-}
-
-/// False where something else is pointed at, or nothing is selected: the tolerance is that of the next click.
-bool SeedTool::grow_selected_anew() {
-  const Document& document = workspace_.document;
-  const auto selected = workspace_.selected();
-  const auto& staged = document.staged();
-  if (!selected || !staged || staged->ping_index != document.ping()) return false;
-  const auto under = place_ ? school_under(place_->voxel) : std::nullopt;
-  if (over_ && under != selected) return false;
-  const StateSchool& school = *document.state().schools[*selected];
-  const bool rejected = school.masks.decided.status == "rejected";
-  GrowCommand command;
-  command.to = GrowTo::replace;
-  command.school = key_of(school.masks, document.shown()->context());
-  if (school.grown && !rejected && in_ping(school.masks, school.grown->ping_index) != nullptr) {
-    command.seeds = school.grown->grow.seeds;
-    grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false,
-               school.grown->ping_index, school.grown->followed});
-    return true;
-  }
-  const auto* there = in_ping(school.masks, staged->ping_index);
-  const auto seed =
-      there == nullptr ? std::nullopt : best_seed(there->mask, *staged->filtered, document.shown()->grid());
-  if (!seed || school.by_hand || rejected) {
-    if (place_ && !under) return false;
-    const char* why = school.by_hand ? "was shaped by hand" : rejected ? "is rejected" : "has no seed in this ping";
-    say(fmt::format("school {} {}: the tolerance is that of the next click", school.number, why));
-    return true;
-  }
-  command.seeds = {*seed};
-  grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false, staged->ping_index});
-  return true;
-}
-
-/// What carried a school through time, as it would be done now; as far as before.
-std::vector<PropagateCommand> SeedTool::as_set(std::vector<PropagateCommand> followed, const SchoolKey& from) const {
-  for (PropagateCommand& command : followed) {
-    PropagateCommand now = propagation_as_set(workspace_);
-    now.grow = params_;
-    now.reach = command.reach;
-    now.reach_backward = command.reach_backward;
-    now.reach_forward = command.reach_forward;
-    now.school = from;  // the voxel that named it before may be no member any more
-    command = std::move(now);
-  }
-  return followed;
-}
-
-void SeedTool::grow_anew(Anew anew) {
-  anew.command.grow = params_;
-  anew.command.growth_curve = workspace_.growth_curve();
-  const SeedKey& seed = anew.command.seeds.front();
-  const TimeNs seeded = workspace_.document.shown()->context().times[static_cast<std::size_t>(anew.ping)];
-  anew.followed = as_set(std::move(anew.followed), {seeded, seed.channel, seed.sample});
-  rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
-  if (anew.staged->ping_index == anew.ping) {
-    show({workspace_.document.shown(), anew.staged, anew.before, anew.command}, anew.number);
-  } else {
-    say(fmt::format("school {} grows anew from ping {}", anew.number, anew.ping));
-  }
-  anew_ = std::move(anew);
-  animations_.run("grow anew", [this](double now_s) { return rest(now_s); });
-}
-
-bool SeedTool::rest(double now_s) {
-  if (!anew_) return false;
-  if (!(rests_since_s_ <= now_s)) rests_since_s_ = now_s;
-  if (now_s - rests_since_s_ < kRest_s) return true;
-  // Behind whatever waits to be shown: an act that is done but not yet known must not be the one that is undone.
-  workspace_.queue.post([this, alive = std::weak_ptr<bool>(alive_)] {
-    if (!alive.expired()) finish_growing_anew();
-  });
-  return false;
-}
-
-void SeedTool::finish_growing_anew() {
-  if (!anew_) return;
-  animations_.stop("grow anew");
-  const Anew anew = *std::exchange(anew_, std::nullopt);
-  if (workspace_.document.busy() || (anew.instead_of_last && !stands_last())) return;
-  const auto of = workspace_.document.open_observation(anew.observation);
-  if (!of) return;
-  // What grows no more stays as it was.
-  const StagedPingPtr seeds = anew.ping == anew.staged->ping_index ? anew.staged : of->cache().held(anew.ping);
-  if (seeds && !try_growth({of, seeds, anew.before, anew.command})) return;
-  if (anew.instead_of_last) workspace_.document.undo();
-  act({anew.observation, anew.staged, anew.command, false, anew.number, anew.ping, anew.followed});
+  if (!same_depth(params_, done.command.grow)) parameters_changed(true, done.command.grow);
 }
 
 }  // namespace sonar

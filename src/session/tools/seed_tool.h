@@ -22,10 +22,11 @@ namespace sonar {
 /// press before has grown or selected it, so that there is one school, made by two acts, each of which can be undone.
 ///
 /// While the last act of all is a growth by this tool, a change of its parameters grows it anew: shown at once as the
-/// preview; when the parameters have rested for kRest_s (or something else is done) the old growth is undone and the new
-/// one done, so that undo knows one growth. A selected school grows anew with each other tolerance in the same way: one
+/// preview; when the parameters have rested for kRest_s, and no hand holds a slider of theirs any more (or something else is
+/// done), it is done instead of the old growth. A selected school grows anew with each other tolerance in the same way: one
 /// that clicks and propagations have made from its own seeds, and is then carried on as before, all in one step; one that
-/// no human has shaped in this ping, from its loudest member.
+/// no human has shaped in this ping, from its loudest member. So each drag of a slider is one step: undo brings back the
+/// growth before, and the parameters that it was grown under; redo those of the drag.
 /// threads  the window's
 class SeedTool {
  public:
@@ -71,6 +72,12 @@ class SeedTool {
     std::int64_t ping = 0;    ///< that it was done on
     std::vector<PropagateCommand> followed = {};
   };
+  /// A growth anew that was done: what undo and redo set the parameters to.
+  struct Dragged {
+    std::int64_t step = 0;  ///< JournalLine::step, or n of its only line
+    GrowParams before;
+    GrowParams after;
+  };
   struct Pending {
     std::size_t observation = 0;
     StagedPingPtr staged;
@@ -82,6 +89,8 @@ class SeedTool {
     std::size_t done = 0;                         ///< lines of the step so far
     JournalStatePtr before = {};                  ///< known with the first line
     std::int64_t first_line = 0;                  ///< its n
+    std::optional<GrowParams> was = {};           ///< of a growth anew: the parameters before
+    bool instead_of_last = false;
   };
   /// A growth that is looked at while its parameters move.
   struct Anew {
@@ -93,6 +102,7 @@ class SeedTool {
     bool instead_of_last = false;                 ///< of made_; else the next act
     std::int64_t ping = 0;                        ///< of the seeds
     std::vector<PropagateCommand> followed = {};  ///< in the same step
+    GrowParams was = {};                          ///< the parameters before the first change
   };
 
   // What would be selected:
@@ -112,14 +122,15 @@ class SeedTool {
                                                                  const SeedKey& seed) const;
   void carry_on(std::size_t observation, std::int64_t ping, const SeedKey& seed);
   // What is selected anew:
-  void parameters_changed(bool tolerance);
-  bool grow_selected_anew();
+  void parameters_changed(bool tolerance, const GrowParams& was);
+  bool grow_selected_anew(const GrowParams& was);
   [[nodiscard]] std::vector<PropagateCommand> as_set(std::vector<PropagateCommand> followed,
                                                      const SchoolKey& from) const;
   void grow_anew(Anew anew);
   [[nodiscard]] bool stands_last() const;
   bool rest(double now_s);
   void finish_growing_anew();
+  void follow_undo();
 
   Workspace& workspace_;
   AnimationDriver& animations_;
@@ -130,6 +141,7 @@ class SeedTool {
   std::optional<Pending> pending_;
   std::optional<Made> made_;
   std::optional<Anew> anew_;
+  std::vector<Dragged> dragged_;
   double rests_since_s_ = std::numeric_limits<double>::quiet_NaN();
   std::weak_ptr<OpenObservation> of_;  ///< the observation on show
   JournalStatePtr state_;              ///< of the observation on show, as it was last told

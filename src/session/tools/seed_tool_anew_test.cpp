@@ -11,6 +11,15 @@ namespace {
 class SeedToolAnew : public testing::Test, protected SeedToolApp {
  protected:
   void SetUp() override { app_.look_at_bright(); }
+  void undo() {
+    document().undo();
+    app_.settle();
+  }
+  void redo() {
+    document().redo();
+    app_.settle();
+  }
+  double tolerance_db() { return workspace().select.values().tolerance_db; }
 };
 
 TEST_F(SeedToolAnew, AChangeOfToleranceGrowsTheLastSchoolAnew) {
@@ -36,9 +45,98 @@ TEST_F(SeedToolAnew, AChangeOfToleranceGrowsTheLastSchoolAnew) {
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
   EXPECT_FALSE(app_.app.animations.running());
   EXPECT_FALSE(workspace().preview().mask);
-  document().undo();
+  EXPECT_EQ(document().choices().undo_text, "Undo grow school 1 anew");
+  undo();
+  EXPECT_EQ(mask_of(0), at_ten) << "as it was clicked";
+  EXPECT_EQ(tolerance_db(), 10.0);
+  EXPECT_FALSE(app_.app.animations.running()) << "the slider that goes back grows nothing";
+  undo();
+  EXPECT_TRUE(document().state().schools.empty()) << "the click is a step of its own";
+  redo();
+  EXPECT_EQ(mask_of(0), at_ten);
+  redo();
+  EXPECT_EQ(tolerance_db(), 6.0);
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  EXPECT_TRUE(document().choices().redo_text.empty());
+}
+
+TEST_F(SeedToolAnew, WhileAHandHoldsTheSliderNothingIsDone) {
+  press();
   app_.settle();
-  EXPECT_TRUE(document().state().schools.empty()) << "undo knows one growth";
+  tool().leave();
+  workspace().select.hold(true);
+  for (const double db : {8.0, 6.0, 7.0}) {
+    set_tolerance(db);
+    rest();
+    EXPECT_EQ(journal().size(), 1U) << db;
+  }
+  workspace().select.hold(false);
+  rest();
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "undo", "grow"}));
+  EXPECT_EQ(mask_of(0), fresh(bright()));
+  undo();
+  EXPECT_EQ(tolerance_db(), 10.0) << "one step, however the hand went";
+}
+
+TEST_F(SeedToolAnew, EachDragIsAStepAndAllComeBackAlsoFromTheFile) {
+  press();
+  app_.settle();
+  tool().leave();
+  std::vector<PingMask> masks{mask_of(0)};
+  for (const double db : {8.0, 6.0}) {
+    set_tolerance(db);
+    rest();
+    masks.push_back(mask_of(0));
+  }
+  const auto from_file = [&] {
+    const auto read = read_journal(document().journal_path().string());
+    const JournalState state = fold(effective_lines(read->lines), {}, document().shown()->context());
+    const auto* there = state.schools.empty() ? nullptr : in_ping(state.schools[0]->masks, document().ping());
+    return there == nullptr ? PingMask{} : there->mask;
+  };
+  const std::vector<double> tolerances{10.0, 8.0, 6.0};
+  for (const std::size_t at : {1U, 0U}) {
+    undo();
+    EXPECT_EQ(mask_of(0), masks[at]) << at;
+    EXPECT_EQ(from_file(), masks[at]) << at;
+    EXPECT_EQ(tolerance_db(), tolerances[at]);
+  }
+  undo();
+  EXPECT_TRUE(from_file().empty());
+  for (const std::size_t at : {0U, 1U, 2U}) {
+    redo();
+    EXPECT_EQ(mask_of(0), masks[at]) << at;
+    EXPECT_EQ(from_file(), masks[at]) << at;
+    EXPECT_EQ(document().state().schools.size(), 1U);
+  }
+  undo();
+  undo();
+  EXPECT_EQ(mask_of(0), masks[0]);
+}
+
+TEST_F(SeedToolAnew, ADragAfterAnAdditionBringsTheAdditionBack) {
+  press();
+  app_.settle();
+  const PingMask first = mask_of(0);
+  set_tolerance(3.0);
+  rest();
+  const PingMask small = mask_of(0);
+  ASSERT_LT(small.voxels(), first.voxels());
+  set_tolerance(9.0);
+  rest();
+  const PingMask before = mask_of(0);
+  tool().press(bright(), true, false, false);  // joins what it grows to the school
+  app_.settle();
+  const PingMask joined = mask_of(0);
+  tool().leave();
+  set_tolerance(12.0);
+  rest();
+  EXPECT_EQ(mask_of(0), fresh(bright())) << "the wider growth holds the smaller";
+  undo();
+  EXPECT_EQ(mask_of(0), joined);
+  EXPECT_EQ(tolerance_db(), 9.0);
+  undo();
+  EXPECT_EQ(mask_of(0), before);
 }
 
 TEST_F(SeedToolAnew, WhatIsDoneNextComesAfterTheGrowthAnew) {
@@ -135,17 +233,21 @@ TEST_F(SeedToolOnFollowed, ToleranceGrowsItAnewAndCarriesItOnInOneStep) {
   EXPECT_LT(mask_of(0).voxels(), in_ping(earlier, document().ping())->mask.voxels());
   EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "propagate", "grow", "propagate"}));
   EXPECT_EQ(document().choices().undo_text, "Undo grow school 1 anew");
-  // The slider goes on: still one step.
+  // The next drag is a step of its own.
   set_tolerance(8.0);
   rest();
-  expect_same(double_pressed(8.0), "the slider went on");
+  expect_same(double_pressed(8.0), "the next drag");
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
-  document().undo();
-  app_.settle();
-  expect_same(before, "one step back");
-  document().redo();
-  app_.settle();
+  undo();
+  expect_same(double_pressed(6.0), "one drag back");
+  EXPECT_EQ(tolerance_db(), 6.0);
+  undo();
+  expect_same(before, "two drags back");
+  EXPECT_EQ(tolerance_db(), 10.0);
+  redo();
+  redo();
   expect_same(double_pressed(8.0), "and forth");
+  EXPECT_EQ(tolerance_db(), 8.0);
 }
 
 TEST_F(SeedToolOnFollowed, AfterADecisionAndFromAnotherPingItStillGrowsAnew) {
@@ -233,14 +335,17 @@ TEST_F(SeedToolOnDetected, ToleranceGrowsItAnewInThisPingAsOneActThatIsUndone) {
     if (pings[i].ping_index == document().ping()) continue;
     EXPECT_EQ(pings[i].mask, before->schools[school_]->masks.pings[i].mask) << "other pings stay";
   }
-  // The slider goes on: still one act.
+  // The next drag is an act of its own.
   set_tolerance(8.0);
   rest();
   EXPECT_EQ(mask_of(school_), from_loudest(found));
   EXPECT_EQ(workspace().school(), (SchoolName{0, number_}));
-  document().undo();
-  app_.settle();
+  undo();
+  EXPECT_EQ(mask_of(school_), wanted);
+  EXPECT_EQ(tolerance_db(), 4.0);
+  undo();
   EXPECT_EQ(mask_of(school_), found);
+  EXPECT_EQ(tolerance_db(), 10.0);
   EXPECT_EQ(decided().status, "unreviewed");
 }
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/key_page.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+namespace sonar {
+namespace {
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+/// As a keyboard has them written on it.
+QString keys_text(const std::vector<std::string>& keys) {
+  QStringList shown;
+  for (const std::string& key : keys) {
+    shown.append(QKeySequence::fromString(text(key), QKeySequence::PortableText).toString(QKeySequence::NativeText));
+  }
+  return shown.join(", ");
+}
+
+QString menu_text(const Action& action) { return text(action.menu).remove('&').replace("/", " > "); }
+
+}  // namespace
+
+KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(actions) {
+  auto* column = new QVBoxLayout(this);
+  auto* words = new QLineEdit(this);
+  words->setObjectName("key_words");
+  words->setPlaceholderText("Find an action or a key");
+  words->setClearButtonEnabled(true);
+  connect(words, &QLineEdit::textChanged, this, [this](const QString& wanted) { narrow(wanted); });
+  column->addWidget(words);
+  list_->setObjectName("key_list");
+  list_->setHeaderLabels({"Action", "Keys", "Menu"});
+  list_->setRootIsDecorated(false);
+  list_->setUniformRowHeights(true);
+  list_->setAlternatingRowColors(true);
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this] { choose(); });
+  column->addWidget(list_, 1);
+  auto* row = new QHBoxLayout();
+  key_->setObjectName("key");
+  none_->setObjectName("no_key");
+  usual_->setObjectName("usual_key");
+  auto* all = new QPushButton("All usual", this);
+  all->setObjectName("all_usual");
+  all->setToolTip("Every action has the keys again that it came with");
+  row->addWidget(new QLabel("Press a key:", this));
+  row->addWidget(key_, 1);
+  for (QPushButton* button : {none_, usual_, all}) {
+    button->setAutoDefault(false);
+    row->addWidget(button);
+  }
+  column->addLayout(row);
+  told_->setObjectName("told");
+  told_->setWordWrap(true);
+  column->addWidget(told_);
+  connect(key_, &QKeySequenceEdit::keySequenceChanged, this, [this](const QKeySequence& key) { press(key); });
+  connect(none_, &QPushButton::clicked, this, [this] { set({}); });
+  connect(usual_, &QPushButton::clicked, this, [this] {
+    if (const Action* action = chosen()) set(actions_.usual_keys(*action));
+  });
+  connect(all, &QPushButton::clicked, this, [this] { reset_all(); });
+  listening_ = actions.keys_changed().add([this] { fill(); });
+  for (const Action& action : actions.list()) {
+    auto* item = new QTreeWidgetItem(list_);
+    item->setText(0, text(action.text));
+    item->setText(2, menu_text(action));
+    item->setToolTip(0, text(action.tip));
+    item->setData(0, Qt::UserRole, text(action.id));
+  }
+  fill();
+  for (int each = 0; each < list_->columnCount(); ++each) list_->resizeColumnToContents(each);
+  choose();
+}
+
+KeyPage::~KeyPage() { actions_.keys_changed().remove(listening_); }
+
+const Action* KeyPage::chosen() const {
+  const QTreeWidgetItem* item = list_->currentItem();
+  return item == nullptr ? nullptr : actions_.find(item->data(0, Qt::UserRole).toString().toStdString());
+}
+
+void KeyPage::fill() {
+  for (int i = 0; i < list_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* item = list_->topLevelItem(i);
+    const Action* action = actions_.find(item->data(0, Qt::UserRole).toString().toStdString());
+    QFont font = list_->font();
+    font.setBold(actions_.usual_keys(*action) != action->keys);  // seen at once: it is not as the guide has it
+    item->setFont(1, font);
+    item->setText(1, keys_text(action->keys));
+  }
+}
+
+void KeyPage::narrow(const QString& words) {
+  for (int i = 0; i < list_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* item = list_->topLevelItem(i);
+    const QString row = item->text(0) + " " + item->text(1) + " " + item->text(2);
+    item->setHidden(!row.contains(words, Qt::CaseInsensitive));
+  }
+}
+
+void KeyPage::choose() {
+  const QSignalBlocker silent(key_);
+  const Action* action = chosen();
+  for (QWidget* one : {static_cast<QWidget*>(key_), static_cast<QWidget*>(none_), static_cast<QWidget*>(usual_)}) {
+    one->setEnabled(action != nullptr);
+  }
+  key_->clear();
+  told_->setText(action == nullptr ? "Choose an action, then press the key that it is to have."
+                                   : text(action->text + ": " + action->tip));
+}
+
+void KeyPage::press(const QKeySequence& key) {
+  const Action* action = chosen();
+  if (action == nullptr || key.isEmpty()) return;
+  const QKeySequence first(key[0]);  // a key is one stroke
+  const std::string wanted = first.toString(QKeySequence::PortableText).toStdString();
+  const QString shown = first.toString(QKeySequence::NativeText);
+  const Action* owner = actions_.with_key(wanted);
+  if (owner != nullptr && owner != action) {
+    told_->setText(
+        QString("%1 is the key of \"%2\": give that one another key, or none, first.").arg(shown, text(owner->text)));
+  } else {
+    set({wanted});
+  }
+  const QSignalBlocker silent(key_);
+  key_->clear();
+}
+
+void KeyPage::set(std::vector<std::string> keys) {
+  const Action* action = chosen();
+  if (action == nullptr) return;
+  const bool given = actions_.set_keys(action->id, keys);
+  if (!given) {
+    told_->setText(QString("%1 belongs to another action now.").arg(keys_text(keys)));
+  } else if (keys.empty()) {
+    told_->setText(QString("\"%1\" has no key now.").arg(text(action->text)));
+  } else {
+    told_->setText(QString("\"%1\" has the key %2 now.").arg(text(action->text), keys_text(keys)));
+  }
+}
+
+void KeyPage::reset_all() {
+  actions_.take_keys({});
+  told_->setText("Every action has its usual keys.");
+}
+
+}  // namespace sonar

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QKeySequenceEdit>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTreeWidget>
+#include <QWidget>
+
+#include "session/actions.h"
+
+namespace sonar {
+
+/// Every action with its keys: a key is changed by pressing it; one that another action has is refused, and whose it is told.
+class KeyPage : public QWidget {
+ public:
+  /// The actions outlive the page.
+  explicit KeyPage(Actions& actions, QWidget* parent = nullptr);
+  ~KeyPage() override;
+
+ private:
+  void fill();
+  void narrow(const QString& words);
+  void choose();
+  void press(const QKeySequence& key);
+  void set(std::vector<std::string> keys);
+  void reset_all();
+  [[nodiscard]] const Action* chosen() const;
+
+  Actions& actions_;
+  QTreeWidget* list_ = new QTreeWidget(this);
+  QKeySequenceEdit* key_ = new QKeySequenceEdit(this);
+  QPushButton* none_ = new QPushButton("No key", this);
+  QPushButton* usual_ = new QPushButton("Usual key", this);
+  QLabel* told_ = new QLabel(this);
+  int listening_ = 0;
+};
+
+}  // namespace sonar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/preferences_dialog.h"
+
+#include <QApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QKeyEvent>
+#include <QScrollArea>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include "gui/key_page.h"
+#include "gui/panel_section.h"
+#include "session/window_preferences.h"
+
+namespace sonar {
+namespace {
+
+class PreferencesDialog : public QDialog {
+ public:
+  PreferencesDialog(QWidget& window, AppModel& app) : QDialog(&window) {
+    setObjectName("preferences");
+    setWindowTitle("Preferences");
+    resize(640, 520);
+    auto* column = new QVBoxLayout(this);
+    auto* pages = new QTabWidget(this);
+    pages->setObjectName("pages");
+    for (const PanelSection& section : preference_pages(app)) add_page(*pages, section);
+    pages->addTab(new KeyPage(app.actions, pages), "Keys");
+    column->addWidget(pages, 1);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+    QObject::connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    column->addWidget(buttons);
+  }
+
+ protected:
+  /// Enter ends the typing of a number, not the dialog.
+  void keyPressEvent(QKeyEvent* event) override {
+    if (event->key() != Qt::Key_Return && event->key() != Qt::Key_Enter) QDialog::keyPressEvent(event);
+  }
+
+ private:
+  static void add_page(QTabWidget& pages, const PanelSection& section) {
+    auto* scroll = new QScrollArea(&pages);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    auto* inside = new QWidget(scroll);
+    auto* column = new QVBoxLayout(inside);
+    column->addWidget(panel_section(section, inside));
+    column->addStretch(1);
+    scroll->setWidget(inside);
+    pages.addTab(scroll, QString::fromStdString(section.title));
+  }
+};
+
+}  // namespace
+
+bool ask_preferences(QWidget& window, AppModel& app) {
+  return PreferencesDialog(window, app).exec() == QDialog::Accepted;
+}
+
+void take_text_size(double percent) {
+  static const double kUsual_pt = QApplication::font().pointSizeF();
+  QFont font = QApplication::font();
+  font.setPointSizeF(kUsual_pt * percent / 100.0);
+  if (font != QApplication::font()) QApplication::setFont(font);
+}
+
+}  // namespace sonar

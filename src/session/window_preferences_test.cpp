@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/window_preferences.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "session/playback.h"
+#include "session/test_app.h"
+
+namespace sonar {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Pair;
+
+class WindowPreferences : public testing::Test, protected TestApp {
+ protected:
+  void SetUp() override {
+    app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
+    app_->dialogs.system_is_dark = [this] { return system_dark_; };
+    queue_.drain();
+  }
+  void set(const std::string& name, const PropertyValue& to) {
+    ASSERT_TRUE(workspace().window.set(name, to));
+    queue_.drain();
+    queue_.drain();
+  }
+  WindowParams now() {
+    queue_.drain();
+    return workspace().window.values();
+  }
+  Actions& actions() { return app_->actions; }
+
+  bool system_dark_ = false;
+};
+
+TEST_F(WindowPreferences, TheThemeAndItsKeyAreOne) {
+  set("theme", Choice{static_cast<std::size_t>(ThemeName::dark)});
+  EXPECT_TRUE(workspace().dark());
+  press("view.dark");
+  EXPECT_EQ(now().theme, ThemeName::light);
+  system_dark_ = true;
+  set("theme", Choice{static_cast<std::size_t>(ThemeName::system)});
+  EXPECT_TRUE(workspace().dark());
+  EXPECT_EQ(now().theme, ThemeName::system) << "as the desktop is, it stays";
+}
+
+TEST_F(WindowPreferences, PlaybackFollowsAndItsKeysAreKept) {
+  set("play_rate", 5.0);
+  set("play_loop", true);
+  EXPECT_EQ(app_->playback->rate(), 5.0);
+  EXPECT_TRUE(app_->playback->loops());
+  app_->playback->faster();
+  EXPECT_EQ(now().play_rate, 10.0);
+  app_->playback->set_rate(Playback::kFastest);
+  EXPECT_EQ(now().play_rate, 10.0) << "no number";
+  set("text_percent", 120.0);
+  EXPECT_EQ(app_->playback->rate(), Playback::kFastest) << "another setting does not touch it";
+}
+
+TEST_F(WindowPreferences, MemoryHoldsForWhatIsOpenedNext) {
+  set("memory_gb", 2.0);
+  EXPECT_EQ(document().options().memory_bytes, 2'000'000'000U);
+  set("memory_gb", 0.0);
+  EXPECT_EQ(document().options().memory_bytes, usual_memory());
+}
+
+TEST_F(WindowPreferences, CancelBringsBackAllAndOkKeepsIt) {
+  const auto hands = [&](bool ok) {
+    return [this, ok] {
+      set("theme", Choice{static_cast<std::size_t>(ThemeName::dark)});
+      EXPECT_TRUE(workspace().display.set("scale.low_db", -80.0));
+      EXPECT_TRUE(actions().set_keys("display.masks", {"Ctrl+G"}));
+      return ok;
+    };
+  };
+  app_->preferences.path = journal_ / "preferences.json";
+  app_->dialogs.preferences = hands(false);
+  press("edit.preferences");
+  queue_.drain();
+  queue_.drain();
+  EXPECT_FALSE(workspace().dark());
+  EXPECT_EQ(workspace().display.values().scale.low_db, -60.0);
+  EXPECT_THAT(actions().find("display.masks")->keys, ElementsAre("M"));
+  EXPECT_FALSE(std::filesystem::exists(app_->preferences.path));
+  app_->dialogs.preferences = hands(true);
+  press("edit.preferences");
+  const auto kept = Preferences::load(app_->preferences.path).preferences;
+  EXPECT_TRUE(kept.dark);
+  EXPECT_EQ(kept.window.theme, ThemeName::dark);
+  EXPECT_EQ(kept.display.scale.low_db, -80.0);
+  EXPECT_THAT(kept.keys, ElementsAre(Pair("display.masks", ElementsAre("Ctrl+G"))));
+}
+
+TEST_F(WindowPreferences, EverySettingHasItsSentence) {
+  for (const PanelSection& page : preference_pages(*app_)) {
+    EXPECT_EQ(page.notes.size(), page.names.size()) << page.title;
+    for (const auto& note : page.notes) EXPECT_GT(note.text().size(), 10U) << note.name;
+  }
+}
+
+TEST_F(WindowPreferences, AKeyThatIsTakenStaysWhereItIs) {
+  EXPECT_EQ(actions().with_key("N")->id, "review.next");
+  EXPECT_FALSE(actions().set_keys("display.masks", {"N"}));
+  EXPECT_THAT(actions().find("display.masks")->keys, IsEmpty());
+  EXPECT_THAT(actions().find("review.next")->keys, ElementsAre("N"));
+  EXPECT_THAT(actions().clashes(), IsEmpty());
+}
+
+TEST_F(WindowPreferences, TwoActionsMayExchangeTheirKeys) {
+  actions().take_keys({{"display.masks", {"N"}}, {"review.next", {"M"}}, {"no.such", {"Q"}}});
+  EXPECT_THAT(actions().find("display.masks")->keys, ElementsAre("N"));
+  EXPECT_THAT(actions().find("review.next")->keys, ElementsAre("M"));
+  const auto changed = actions().changed_keys();
+  EXPECT_EQ(changed.size(), 2U);
+  actions().take_keys({});
+  EXPECT_THAT(actions().find("display.masks")->keys, ElementsAre("M"));
+  EXPECT_THAT(actions().changed_keys(), IsEmpty());
+  actions().take_keys(changed);
+  EXPECT_EQ(actions().changed_keys(), changed);
+}
+
+}  // namespace
+}  // namespace sonar

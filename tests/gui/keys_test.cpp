@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single letters, what they say, and the window of preferences.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTimer>
+#include <QTreeWidget>
+
+#include "gui/action_menus.h"
+#include "session/playback.h"
+#include "window_at_work.h"
+
+namespace sonar {
+namespace {
+
+using testing::HasSubstr;
+
+class Keys : public WindowAtWork {
+ protected:
+  /// What stands over a view; empty where nothing does.
+  std::string said_over(const std::string& dock) {
+    auto* label = view(dock)->findChild<QLabel*>("key_said");
+    return label != nullptr && label->isVisible() ? label->text().toStdString() : std::string{};
+  }
+  bool masks_on() { return workspace().display.values().masks; }
+  /// Asks for the preferences by their key, and lets hands work in them.
+  void in_preferences(const std::function<void(QDialog&)>& hands) {
+    bool seen = false;
+    QTimer::singleShot(0, window_.get(), [&] {
+      auto* dialog = window_->findChild<QDialog*>("preferences");
+      ASSERT_NE(dialog, nullptr);
+      ASSERT_TRUE(QTest::qWaitForWindowActive(dialog));
+      seen = true;
+      hands(*dialog);
+      if (dialog->isVisible()) dialog->reject();
+    });
+    key(Qt::Key_Comma, Qt::ControlModifier);
+    settle();
+    EXPECT_TRUE(seen);
+  }
+  void press_button(QDialog& dialog, const char* text) {
+    for (auto* button : dialog.findChildren<QPushButton*>()) {
+      if (button->text().remove('&') == text && button->isVisible()) {
+        return QTest::mouseClick(button, Qt::LeftButton);
+      }
+    }
+    ADD_FAILURE() << text;
+  }
+  void show_page(QDialog& dialog, const char* title) {
+    auto* bar = dialog.findChild<QTabWidget*>("pages")->tabBar();
+    for (int i = 0; i < bar->count(); ++i) {
+      if (bar->tabText(i) == title) QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(i).center());
+    }
+  }
+  void keep(QDialog& dialog, const char* name) {
+    const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
+    if (!folder.isEmpty()) dialog.grab().save(folder + "/" + name + ".png");
+  }
+};
+
+TEST_F(Keys, ALetterActsWhereAViewHasTheKeyboardAndSaysThereWhatItDid) {
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  ASSERT_TRUE(view("top_slice")->hasFocus());
+  key(Qt::Key_M);
+  EXPECT_FALSE(masks_on());
+  EXPECT_EQ(said_over("top_slice"), "Schools over the data: off");
+  keep_picture("key-said");
+  key(Qt::Key_M);
+  EXPECT_EQ(said_over("top_slice"), "Schools over the data: on");
+  key(Qt::Key_A);
+  EXPECT_THAT(said_over("top_slice"), HasSubstr("school 1 accepted"));
+  click_on(view("side_slice"), {5.0, 5.0});
+  key(Qt::Key_H);
+  EXPECT_EQ(said_over("top_slice"), "");
+  EXPECT_NE(said_over("side_slice"), "");
+}
+
+TEST_F(Keys, WhatCannotBeDoneSaysSo) {
+  click_on(view("top_slice"), {3.0, 3.0});
+  key(Qt::Key_Escape);
+  ASSERT_FALSE(workspace().school());
+  key(Qt::Key_R);
+  EXPECT_EQ(said_over("top_slice"), "Reject: select a school first");
+}
+
+TEST_F(Keys, ElsewhereALetterActsNotAndIsToldInALine) {
+  auto* slider = window_->findChild<QWidget*>("tolerance_db.slider");
+  slider->setFocus(Qt::TabFocusReason);
+  ASSERT_TRUE(slider->hasFocus());
+  key(Qt::Key_M);
+  EXPECT_TRUE(masks_on());
+  EXPECT_THAT(window_->statusBar()->currentMessage().toStdString(), HasSubstr("M acts while a view or a table"));
+  // In a field it is text.
+  raise("schools");
+  auto* filter = view("schools")->findChild<QLineEdit*>("filter");
+  click_on(filter, {20.0, 5.0});
+  ASSERT_TRUE(filter->hasFocus());
+  type("m");
+  EXPECT_EQ(filter->text(), "m");
+  EXPECT_TRUE(masks_on());
+  // What is no single letter acts from wherever.
+  key(Qt::Key_U, Qt::ControlModifier);
+  EXPECT_TRUE(workspace().display.values().north_up);
+}
+
+TEST_F(Keys, AFieldThatIsDoneWithGivesTheKeyboardToAView) {
+  click_on(view("top_slice"), {3.0, 3.0});
+  auto* box = window_->findChild<QDoubleSpinBox*>("tolerance_db.box");
+  box->setFocus();
+  box->selectAll();
+  type("7");
+  key(Qt::Key_Return);
+  EXPECT_TRUE(view("top_slice")->hasFocus());
+  key(Qt::Key_M);
+  EXPECT_FALSE(masks_on());
+}
+
+TEST_F(Keys, AViewThatIsClosedGivesTheKeyboardToAnother) {
+  click_on(view("top_slice"), {3.0, 3.0});
+  key(Qt::Key_1, Qt::AltModifier);
+  ASSERT_TRUE(dock("top_slice")->isHidden());
+  key(Qt::Key_M);
+  EXPECT_FALSE(masks_on());
+}
+
+TEST_F(Keys, PreferencesFollowAtOnceAndCancelBringsBackWhatWasThere) {
+  in_preferences([&](QDialog& dialog) {
+    keep(dialog, "preferences-appearance");
+    show_page(dialog, "Playback");
+    auto* rate = dialog.findChild<QDoubleSpinBox*>("play_rate.box");
+    rate->selectAll();
+    QTest::keyClicks(rate, "5");
+    QTest::keyClick(rate, Qt::Key_Return);
+    EXPECT_TRUE(dialog.isVisible()) << "Enter ends the number, not the window";
+    QApplication::processEvents();
+    EXPECT_EQ(app_->playback->rate(), 5.0);
+    keep(dialog, "preferences-playback");
+    show_page(dialog, "Memory");
+    keep(dialog, "preferences-memory");
+    show_page(dialog, "Colours of Sv");
+    keep(dialog, "preferences-colours");
+    press_button(dialog, "Cancel");
+  });
+  EXPECT_EQ(app_->playback->rate(), 2.0);
+  in_preferences([&](QDialog& dialog) {
+    auto* size = dialog.findChild<QDoubleSpinBox*>("text_percent.box");
+    size->selectAll();
+    QTest::keyClicks(size, "150");
+    QTest::keyClick(size, Qt::Key_Return);
+    QApplication::processEvents();
+    keep(dialog, "preferences-large-text");
+    press_button(dialog, "OK");
+  });
+  EXPECT_EQ(workspace().window.values().text_percent, 150.0);
+  keep_picture("preferences-large-window");
+  ASSERT_TRUE(workspace().window.set("text_percent", 100.0));
+  settle();
+}
+
+TEST_F(Keys, AKeyIsChangedByPressingItAndOneThatIsTakenIsRefused) {
+  const auto row_of = [](QTreeWidget& list, const char* text) {
+    const auto found = list.findItems(text, Qt::MatchExactly);
+    EXPECT_EQ(found.size(), 1) << text;
+    return found.front();
+  };
+  in_preferences([&](QDialog& dialog) {
+    show_page(dialog, "Keys");
+    auto* list = dialog.findChild<QTreeWidget*>("key_list");
+    auto* told = dialog.findChild<QLabel*>("told");
+    QTest::keyClicks(dialog.findChild<QLineEdit*>("key_words"), "over the data");
+    QTreeWidgetItem* row = row_of(*list, "Schools over the data");
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, list->visualItemRect(row).center());
+    ASSERT_EQ(list->currentItem(), row);
+    auto* field = dialog.findChild<QWidget*>("key");
+    field->setFocus();
+    QTest::keyClick(field, Qt::Key_N);
+    EXPECT_THAT(told->text().toStdString(), HasSubstr("N is the key of \"Next unreviewed school\""));
+    EXPECT_EQ(row->text(1), "M");
+    keep(dialog, "preferences-keys-taken");
+    QTest::keyClick(field, Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
+    EXPECT_EQ(row->text(1), "Ctrl+Shift+G");
+    dialog.findChild<QLineEdit*>("key_words")->clear();
+    keep(dialog, "preferences-keys");
+    press_button(dialog, "OK");
+  });
+  EXPECT_EQ(find_action(*window_, "display.masks")->shortcut(), QKeySequence("Ctrl+Shift+G"));
+  EXPECT_EQ(app_->preferences.keys.count("display.masks"), 1U);
+  click_on(view("top_slice"), {3.0, 3.0});
+  key(Qt::Key_M);
+  EXPECT_TRUE(masks_on());
+  key(Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(masks_on());
+  in_preferences([&](QDialog& dialog) {
+    show_page(dialog, "Keys");
+    press_button(dialog, "All usual");
+    press_button(dialog, "OK");
+  });
+  key(Qt::Key_M);
+  EXPECT_TRUE(masks_on());
+}
+
+}  // namespace
+}  // namespace sonar
