@@ -358,10 +358,12 @@ TEST_F(Exports, RecentSurveysAreKeptAndOpened) {
   EXPECT_EQ(app_->actions.find("file.recent.1")->text_now(), TestSurvey::easy().folder().string());
   EXPECT_TRUE(app_->actions.find("file.recent.1")->enabled());
   EXPECT_FALSE(app_->actions.find("file.recent.2")->enabled());
+  const auto before = document().survey_files();
   ASSERT_TRUE(document().show(1));
   press("file.recent.1");
   document().settle();
-  EXPECT_EQ(document().shown()->index(), 0U);
+  EXPECT_NE(document().survey_files(), before);
+  EXPECT_EQ(document().shown()->index(), 1U) << "where it was left";
 }
 
 // The window numbers schools in the survey as results would have them now; once they are written, as they have them.

@@ -198,16 +198,15 @@ const std::vector<MeasuredMask>* kept_rows(const MeasuredPings* before, const En
   return &found->second.second;
 }
 
+/// What is known of other pings stays: a school that is not there now may come back, by undo or when a find is read.
 void keep_rows(MeasuredPings& before, const Engine& engine, const std::vector<MeasuredPing>& pings,
                const std::vector<std::vector<MeasuredMask>>& rows, const std::vector<std::string>& problems) {
-  MeasuredPings now;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     const auto& [ping_index, refs] = pings[i];
-    now.changed = now.changed || kept_rows(&before, engine, ping_index, refs) == nullptr;
-    if (problems[i].empty()) now.pings[ping_index] = {key_of(engine, ping_index, refs), rows[i]};
+    if (!problems[i].empty() || kept_rows(&before, engine, ping_index, refs) != nullptr) continue;
+    before.pings[ping_index] = {key_of(engine, ping_index, refs), rows[i]};
+    before.changed = true;
   }
-  now.changed = now.changed || before.changed || now.pings.size() != before.pings.size();
-  before = std::move(now);
 }
 
 /// All rows, by school and ping, their corrected columns filled.
