@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "model/strongest_ping.h"
@@ -90,6 +91,14 @@ class Page {
   }
 
  private:
+  /// However long it is, that the data is synthetic stays.
+  [[nodiscard]] std::string whole_or_short(double size_px) const {
+    constexpr std::string_view kSynthetic = "SYNTHETIC";
+    const std::string shown = elided(facts_.title, size_px, kWidth - 90.0);
+    const bool lost = facts_.title.find(kSynthetic) != std::string::npos && shown.find(kSynthetic) == std::string::npos;
+    return lost ? elided(std::string(kSynthetic) + " " + facts_.title, size_px, kWidth - 90.0) : shown;
+  }
+
   void add_head() {
     constexpr double kTitle_px = 19.0;
     const double right = kMargin + kWidth;
@@ -97,8 +106,7 @@ class Page {
                               TextAnchor::right);
     double size = kTitle_px;
     while (size > 11.0 && text_width_px(facts_.title.c_str(), 1.1 * size) > kWidth - 90.0) size -= 1.0;
-    TextItem title = text_item({kMargin, kMargin + 0.5 * kTitle_px}, elided(facts_.title, 1.1 * size, kWidth - 90.0),
-                               size, theme_.text);
+    TextItem title = text_item({kMargin, kMargin + 0.5 * kTitle_px}, whole_or_short(1.1 * size), size, theme_.text);
     title.bold = true;
     page_.items.emplace_back(std::move(title));
     page_.items.emplace_back(std::move(mark));

@@ -68,6 +68,7 @@ TEST(Report, NothingLeavesThePaperOrItsNeighboursColumn) {
     const auto source = survey(schools, std::string(300, 'W') + " SYNTHETIC");
     const auto page = page_of(*source);
     ASSERT_TRUE(page);
+    EXPECT_THAT(texts(*page), Contains(testing::StartsWith("SYNTHETIC W"))) << "never shortened away";
     for (const auto& item : page->items) {
       const auto* text = std::get_if<TextItem>(&item);
       if (text == nullptr || text->turned_deg != 0.0) continue;
