@@ -65,10 +65,10 @@ void add_common(CLI::App& verb, RenderArguments& a) {
       ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   suits(verb.add_option("--fan", a.picture.fan, "Fan from 0, the deepest; default: through the largest school"),
-        "slice-top echogram");
+        "slice-top echogram volume");
   suits(verb.add_option("--beam", a.picture.beam,
                         "Beam from 0, clockwise (looking to port: from aft); default: through the largest school"),
-        "slice-side echogram");
+        "slice-side echogram volume");
   suits(verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of --map")
             ->check(named_file()),
         kOfSv);
@@ -134,6 +134,9 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   add_common(verb, a);
   // A file is drawn once, where a window goes on while one looks.
   a.picture.volume.frames = 8;
+  // Nor has it a selected school, or slices beside it.
+  a.picture.volume.drop_lines = DropLines::all;
+  a.picture.volume.slice_planes = false;
   DescribedFlags display(verb, "How data and schools look", "", a.suits);
   describe(display, a.picture.display);
   verb.get_option("--removed")->default_str("shown; transparent where noise is removed");

@@ -53,14 +53,14 @@ Rgba8 colour_of(const DrawnMask& drawn, const PictureOptions& options) {
 
 }  // namespace
 
-std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
-  std::vector<SchoolKey> keys;
+std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
+  std::vector<DrawnSchoolKey> keys;
   if (!options.display.masks) return keys;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const char* comma = drawn.status.empty() ? "" : ", ";
-    keys.push_back(
-        {colour_of(drawn, options), drawn.status, fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status)});
+    keys.push_back({drawn.school_id, colour_of(drawn, options), drawn.status,
+                    fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status)});
   }
   return keys;
 }

@@ -27,13 +27,14 @@ namespace sonar {
 [[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
 
 /// A school of a ping as a key names it: "school 3, unreviewed". Rejected ones are grey, as their masks are.
-struct SchoolKey {
+struct DrawnSchoolKey {
+  std::int64_t id = 0;  ///< SchoolRow::school_id
   Rgba8 colour;
   std::string status;
   std::string name;
 };
 /// Of the masks that the options ask for, in their order.
-[[nodiscard]] std::vector<SchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
+[[nodiscard]] std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
 /// What of a ping was refused, where the options ask for it.
 [[nodiscard]] std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
 #include <utility>
 
+#include "publish/chart_seabed.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
@@ -25,16 +28,19 @@ bool same_masks(const std::vector<MaskLayer>& a, const std::vector<MaskLayer>& b
   });
 }
 
+/// A chart is read with so much to spare that a ship sails on for a while before it is read again.
+constexpr double kChartSpare = 1.0;
+/// Drawn while something moves.
+constexpr int kChartNodes = 61;
+
 /// What the surroundings depend on beside the sector.
 struct ContextKey {
   Camera camera;
   PixelSize size;
   Theme theme;
   double scale = 1.0;
-  bool context = true;
-  double ship_length_m = 0.0;
-  double transducer_depth_m = 0.0;
-  double heading_deg = 0.0;
+  ContextParams surroundings;
+  std::shared_ptr<const SeabedPatch> seabed;
   friend bool operator==(const ContextKey&, const ContextKey&) = default;
 };
 
@@ -78,8 +84,11 @@ struct LiveVolume::State {
   std::shared_ptr<const OpticalTable> table;
   bool masks_set = false;
   bool masks_outlined = false;  ///< the renderer has none of them: they are laid over its rays
+  VolumeCut cut;                ///< of `volume`
   std::optional<ContextKey> context_key;
   ContextPicture context;
+  ChartSeabed chart{kChartSpare, kChartNodes};
+  std::string chart_notice;
 
   void let_go() {
     refinement.reset();
@@ -91,10 +100,12 @@ struct LiveVolume::State {
     masks_set = false;
     context_key.reset();
     context = {};
+    chart = ChartSeabed{kChartSpare, kChartNodes};
   }
 
   Result<void> begin(RendererChoice asked_for);
-  Result<void> set(const LiveVolumeInput& input, bool outlined);
+  Result<void> set(const LiveVolumeInput& input, const VolumeCut& wanted_cut, bool outlined);
+  VolumeFigure figure_of(const LiveVolumeInput& input);
   Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token, Work& better,
                     const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
@@ -118,13 +129,14 @@ Result<void> LiveVolume::State::begin(RendererChoice asked_for) {
 }
 
 /// Hands the renderer what it has not yet.
-Result<void> LiveVolume::State::set(const LiveVolumeInput& input, bool outlined) {
+Result<void> LiveVolume::State::set(const LiveVolumeInput& input, const VolumeCut& wanted_cut, bool outlined) {
   VolumeRenderer& renderer = *offscreen->renderer;
   const PictureOptions& options = input.options;
   const double depth_m = input.navigation.transducer_depth_m;
   if (!volume || drawn.staged != input.staged || drawn.sector != input.sector || !same_volume(drawn.options, options) ||
-      drawn.navigation.transducer_depth_m != depth_m) {
-    volume = drawn_volume(*input.sector, *input.staged, options, depth_m);
+      drawn.navigation.transducer_depth_m != depth_m || cut != wanted_cut) {
+    volume = drawn_volume(*input.sector, *input.staged, options, wanted_cut, depth_m);
+    cut = wanted_cut;
     masks_set = false;
     if (auto done = renderer.set_volume(volume); !done) return done;
   }
@@ -153,37 +165,55 @@ Result<void> LiveVolume::State::set(const LiveVolumeInput& input, bool outlined)
 
 void LiveVolume::State::draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
                                      const Camera& camera) {
-  const PingNavigation& navigation = input.navigation;
-  const double heading = std::isnan(navigation.heading_deg) ? -1.0 : navigation.heading_deg;
-  const ContextKey key{camera,
-                       place.rays,
-                       place.theme,
-                       place.scale,
-                       input.options.volume.context,
-                       input.options.volume.ship_length_m,
-                       navigation.transducer_depth_m,
-                       heading};
+  const ContextKey key{camera,       place.rays, place.theme, place.scale, volume_surroundings(figure, input.options),
+                       figure.seabed};
   if (context_key == key && drawn.sector == input.sector) return;
   context = volume_context(figure, input.options, place, camera, first);
   context_key = key;
+}
+
+/// All of a picture but its volume. Without its chart it is drawn all the same, and a notice says why.
+VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
+  VolumeFigure figure;
+  figure.masks = input.masks;
+  figure.names = input.names;
+  figure.legend = input.legend;
+  figure.navigation = input.navigation;
+  figure.title = input.title;
+  figure.title_line = input.title_line;
+  figure.refused = input.refused;
+  figure.fitted = fitted_seabed(*input.staged);
+  figure.fan = input.fan;
+  figure.beam = input.beam;
+  figure.outlined = wants_outlines(figure, input.options);
+  chart_notice.clear();
+  const std::filesystem::path& raster = input.options.depth_raster;
+  if (raster.empty() || !input.options.volume.seabed || !input.options.volume.context) return figure;
+  const RangeAxis& range = input.sector->range();
+  auto seabed = chart.round(raster, input.navigation, range.range_m(range.count - 1));
+  if (seabed) {
+    figure.seabed = std::move(*seabed);
+  } else {
+    chart_notice = "the volume shows no depth chart: " + to_line(seabed.error());
+  }
+  return figure;
 }
 
 Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,
                                      Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
   if (other_sector) context_key.reset();
-  VolumeFigure figure{volume, input.masks, input.legend, input.navigation, input.title, input.title_line, true};
-  figure.outlined = wants_outlines(figure, input.options);
-  figure.refused = input.refused;
-  if (auto done = set(input, figure.outlined); !done) {
+  VolumeFigure figure = figure_of(input);
+  const auto camera = volume_camera(*input.sector, input.options, place.rays);
+  if (!camera) return pass_on(camera);
+  const VolumeCut wanted_cut = volume_cut(*input.sector, input.options, *camera, input.fan, input.beam);
+  if (auto done = set(input, wanted_cut, figure.outlined); !done) {
     // What the renderer holds now is not known.
     volume.reset();
     table.reset();
     return done;
   }
   figure.volume = volume;
-  const auto camera = volume_camera(*input.sector, input.options, place.rays);
-  if (!camera) return pass_on(camera);
   draw_context(figure, input, place, *camera);
   const VolumeView view = volume_view(figure, input.options, place, *camera, context);
   const std::vector<MaskLayer> met(
@@ -212,9 +242,9 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
                    static_cast<int>(std::lround(1.5 * place.theme.line_px * place.scale)), place.theme.text);
     }
     if (work == &first || worth_showing(*frame)) {
-      auto shown = std::make_shared<LiveVolumeShown>(
-          LiveVolumeShown{volume, table, met, view, place.rect, input.staged->ping_index, frame->quality.divisor,
-                          frame->averaged, frame->done, offscreen->renderer->name(), notice});
+      auto shown = std::make_shared<LiveVolumeShown>(LiveVolumeShown{
+          volume, table, met, view, place.rect, input.staged->ping_index, frame->quality.divisor, frame->averaged,
+          frame->done, offscreen->renderer->name(), notice.empty() ? chart_notice : notice});
       show({volume_figure_frame(figure, labelled, place, view, context, frame->image, first), std::move(shown)});
     }
     if (frame->done || token.cancelled()) return {};

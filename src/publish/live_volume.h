@@ -33,10 +33,13 @@ struct LiveVolumeInput {
   std::string title_line;  ///< of the picture
   std::vector<MaskLayer> masks;
   std::size_t tried = 0;                              ///< the last so many masks are only tried: pointers pass through
+  std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   std::vector<RefusedMark> refused;
+  int fan = 0;                    ///< of the slice from above
+  int beam = 0;                   ///< of the slice from the side
   bool scale_bar = true;          ///< the colour bar shows the scale, else the transfer function
-  PictureOptions options;         ///< what pictures of volumes know of them; no seabed
+  PictureOptions options;         ///< what pictures of volumes know of them
   double scale = 1.0;             ///< device pixels a pixel of the picture
   double moving_budget_s = 0.05;  ///< what the first picture of a change may take
 };
@@ -53,7 +56,7 @@ struct LiveVolumeShown {
   int averaged = 0;      ///< jittered frames in it
   bool done = false;     ///< it gets no better
   std::string renderer;  ///< "cpu (AVX3)"
-  std::string notice;    ///< why another back-end draws than was asked for; empty = none
+  std::string notice;    ///< why another back-end draws than was asked for, or no depth chart; empty = none
 
   /// What is seen at a place of the picture; below a millisecond or so.
   [[nodiscard]] std::optional<Picked> picked_at(PixelPoint at) const;

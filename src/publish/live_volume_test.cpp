@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -136,6 +137,54 @@ TEST(LiveVolume, OutlinesSchoolsWhileSomethingMoves) {
   pictures = drawn();
   EXPECT_GT(lines(pictures.front().second).width, 0.0);
   EXPECT_GT(lines(pictures.back().second).width, 0.0);
+}
+
+// Cut open at a slice, the echoes on the eye's side are gone, and come back; the school stays whole.
+TEST(LiveVolume, IsCutOpenAtASlice) {
+  LiveVolume live;
+  LiveVolumeInput input = block_of_echo();
+  input.fan = 4;
+  input.beam = 3;
+  std::shared_ptr<const LiveVolumeShown> shown;
+  const auto draw = [&](VolumeClip clip, double orbit_deg) {
+    input.options.volume.clip = clip;
+    input.options.kind.volume.orbit_deg = orbit_deg;
+    Work work(1);
+    EXPECT_TRUE(live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& p) { shown = p.shown; }));
+    int echo = 0;
+    for (const std::int16_t count : shown->volume->sv.all()) echo += count > kMinCount ? 1 : 0;
+    return echo;
+  };
+  constexpr int kBlock = 3 * 3 * 10;
+  EXPECT_EQ(draw(VolumeClip::none, 0.0), kBlock);
+  const auto whole = shown->volume;
+  EXPECT_EQ(draw(VolumeClip::none, 90.0), kBlock);
+  EXPECT_EQ(shown->volume, whole) << "nothing is prepared again";
+  // The overview is from above: the fans 3 and 4 of 3 to 5 are left.
+  EXPECT_EQ(draw(VolumeClip::top_slice, 0.0), kBlock * 2 / 3);
+  EXPECT_EQ(shown->volume->sv(5, 3, 20), kNoData);
+  EXPECT_EQ(shown->masks.front().mask->voxels(), input.masks.front().mask->voxels());
+  // Beams 2 to 4: whichever side the eye is on, the slice and one beam are left.
+  EXPECT_EQ(draw(VolumeClip::side_slice, 0.0), kBlock * 2 / 3);
+  const bool first = shown->volume->sv(4, 2, 20) != kNoData;
+  EXPECT_EQ(draw(VolumeClip::side_slice, 180.0), kBlock * 2 / 3);
+  EXPECT_EQ(shown->volume->sv(4, 2, 20) != kNoData, !first) << "seen from behind, the other side is cut away";
+  EXPECT_EQ(draw(VolumeClip::both_slices, 0.0), kBlock * 4 / 9);
+  EXPECT_EQ(draw(VolumeClip::none, 0.0), kBlock);
+}
+
+// A chart that cannot be read takes nothing else away, and is told of.
+TEST(LiveVolume, AChartThatIsNotThereIsToldOf) {
+  LiveVolume live;
+  LiveVolumeInput input = block_of_echo();
+  input.options.volume.context = true;
+  const Image without = settled(live, input);
+  input.options.depth_raster = "no-such-chart.tif";
+  Work work(1);
+  std::string notice;
+  EXPECT_TRUE(live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& p) { notice = p.shown->notice; }));
+  EXPECT_NE(notice.find("no depth chart"), std::string::npos) << notice;
+  EXPECT_EQ(settled(live, input), without);
 }
 
 }  // namespace

@@ -36,12 +36,14 @@ struct PictureOptions {
   std::optional<int> ping;                   ///< empty = that of the strongest whole school, else the middle one
   double towards_next = 0.0;          ///< of a movie's picture between two pings: how far to the next, 0 <= x < 1
   std::vector<std::int64_t> schools;  ///< empty = all
-  std::optional<int> fan;             ///< of slices; empty = through the largest school, else the middle
+  /// Of slices and of what volumes show of them; empty = through the largest school, else the middle.
+  std::optional<int> fan;
   std::optional<int> beam;
   VolumeParams volume;
-  std::optional<Camera> camera;        ///< in place of the one that `kind` names
-  PictureParams kind;                  ///< what is asked for one kind alone
-  std::filesystem::path depth_raster;  ///< seabed of volumes and maps; empty = none
+  std::optional<std::int64_t> selected_school;  ///< highlighted in volumes
+  std::optional<Camera> camera;                 ///< in place of the one that `kind` names
+  PictureParams kind;                           ///< what is asked for one kind alone
+  std::filesystem::path depth_raster;           ///< seabed of volumes and maps; empty = none
 };
 
 /// Refuses what no picture can be made of, before anything is read.

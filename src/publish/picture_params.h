@@ -132,6 +132,14 @@ enum class RendererChoice : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 3> kRendererNames{"auto", "cpu", "gl"};
 
+/// Which schools have a line straight up to the sea surface and down to the seabed.
+enum class DropLines : std::uint8_t { none, selected, all };
+inline constexpr std::array<std::string_view, 3> kDropLinesNames{"none", "selected", "all"};
+
+/// What of a volume is cut away, so that one looks into it.
+enum class VolumeClip : std::uint8_t { none, top_slice, side_slice, both_slices };
+inline constexpr std::array<std::string_view, 4> kVolumeClipNames{"none", "top_slice", "side_slice", "both_slices"};
+
 /// How volumes are drawn.
 struct VolumeParams {
   RayMode mode = RayMode::accumulate;
@@ -140,6 +148,10 @@ struct VolumeParams {
   bool data = true;
   bool filtered = true;
   bool context = true;
+  DropLines drop_lines = DropLines::selected;
+  bool seabed = true;
+  bool slice_planes = true;
+  VolumeClip clip = VolumeClip::none;
   double ship_length_m = 60.0;
   double moving_budget_ms = 50.0;
   int frames = 16;
@@ -163,7 +175,19 @@ void describe(Visitor& v, VolumeParams& p) {
            .tier = Tier::basic,
            .flag = kNoFlag});
   v.field("context", p.context,
-          {.text = "show the sector's frame, range rings, sea surface, ship and axes", .tier = Tier::basic});
+          {.text = "show the sector's frame, range rings, sea surface, ship, axes, scale bar and numbers of schools",
+           .tier = Tier::basic});
+  v.choice(
+      "drop_lines", p.drop_lines, kDropLinesNames,
+      {"schools with a line straight up to the sea surface and down to the seabed, where that is known", Tier::basic});
+  v.field(
+      "seabed", p.seabed,
+      {.text = "show the seabed: of the depth chart where one is chosen, else the plane fitted to the ping's echoes",
+       .tier = Tier::basic});
+  v.field("slice_planes", p.slice_planes,
+          {.text = "show where the slices from above and from the side lie", .tier = Tier::basic});
+  v.choice("clip", p.clip, kVolumeClipNames,
+           {"leave out the echoes on the viewer's side of a slice; schools stay whole", Tier::basic});
   v.field("ship_length_m", p.ship_length_m, {.unit = "m", .min = 1, .max = 500, .text = "length of the drawn ship"});
   v.field(
       "moving_budget_ms", p.moving_budget_ms,

@@ -33,7 +33,7 @@ SliceKey slice_key_of(const DrawnPing& ping, const PictureOptions& options) {
   key.filtered = ping.staged != nullptr && options.display.filtered;
   key.weak_below_db = weak_below(options.display);
   // Keys and masks are in one order.
-  for (const SchoolKey& school : school_keys(ping, options)) {
+  for (const DrawnSchoolKey& school : school_keys(ping, options)) {
     key.schools.push_back({school.colour, status_line(school.status), school.name, key.schools.size()});
   }
   return key;

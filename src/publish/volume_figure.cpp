@@ -11,8 +11,9 @@
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/sample_looks.h"
+#include "publish/volume_legend.h"
 #include "view/colour_bar.h"
-#include "view/shapes.h"
+#include "view/volume/distance_bar.h"
 
 namespace sonar {
 namespace {
@@ -49,6 +50,7 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
                           std::abs(options.volume.first_hit_db));
     }
     if (options.volume.lighting) line += ", lit";
+    if (options.volume.clip != VolumeClip::none) line += ", cut open";
   }
   if (figure.seabed && known_percent(*figure.seabed) < 100) {
     line += fmt::format("; depths known of {} % of the seabed", known_percent(*figure.seabed));
@@ -82,82 +84,78 @@ void add_colour_bars(FrameDescription& frame, const VolumeFigure& figure, const 
     add_colour_bar(frame, below, seabed_colours(), depths->first, depths->second, theme, "seabed depth (m)", true);
 }
 
-/// How core and fuzzy area look, and which colour is which school, in the lower left corner.
-class SchoolLegend {
- public:
-  SchoolLegend(FrameDescription& frame, const PixelRect& place, const Theme& theme, std::size_t rows)
-      : frame_(frame),
-        theme_(theme),
-        x_(place.x + line()),
-        y_(place.y + place.height - line() * (static_cast<double>(rows))) {}
-
-  void area(Rgba8 colour, const std::string& words) {
-    const double em = theme_.text_px;
-    frame_.items.emplace_back(rectangle_item({x_, y_ - 0.4 * em, 0.8 * em, 0.8 * em}, colour));
-    text(words);
+/// Of the refused marks that are seen, in the picture; as many as `figure.refused`, NaN = not seen.
+std::vector<PixelPoint> places_of_refused(const VolumeFigure& figure, const VolumePlace& place,
+                                          const VolumeView& view) {
+  const CameraBasis eye = basis(view.camera, view.size);
+  std::vector<PixelPoint> out;
+  for (const RefusedMark& mark : figure.refused) {
+    out.push_back({std::nan(""), std::nan("")});
+    const auto seen = eye.project(figure.sector().centre(mark.loudest.fan, mark.loudest.beam, mark.loudest.sample));
+    if (!seen) continue;
+    const PixelPoint at{place.rect.x + seen->pixel.x / place.scale, place.rect.y + seen->pixel.y / place.scale};
+    if (inside(place.rect, at)) out.back() = at;
   }
-  void mark(const std::string& words) {
-    add_refused_mark(frame_, {x_ + 0.4 * theme_.text_px, y_}, false, theme_);
-    text(words);
-  }
-  void outline(bool broken, const std::string& words) {
-    const double em = theme_.text_px;
-    PathItem item = line_item({x_ - 0.2 * em, y_}, {x_ + em, y_}, theme_.text, 2.0 * theme_.line_px);
-    if (broken) item.stroke.dashes_px = {0.3 * em, 0.3 * em};
-    frame_.items.emplace_back(std::move(item));
-    text(words);
-  }
-
- private:
-  [[nodiscard]] double line() const { return 1.5 * theme_.text_px; }
-  void text(const std::string& words) {
-    frame_.items.emplace_back(
-        TextItem{{x_ + line(), y_}, words, theme_.text_px, theme_.text, TextAnchor::left, 0.0, false, theme_.halo});
-    y_ += line();
-  }
-
-  FrameDescription& frame_;
-  const Theme& theme_;
-  double x_;
-  double y_;
-};
-
-void add_school_legend(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
-                       const PixelRect& place, const Theme& theme) {
-  constexpr std::size_t kMostEntries = 12;
-  const bool schools = options.display.masks && !figure.legend.empty() && figure.legend.size() <= kMostEntries;
-  const bool refused = !figure.refused.empty();
-  SchoolLegend legend(frame, place, theme, (schools ? figure.legend.size() + 2 : 0) + (refused ? 1 : 0));
-  if (refused) legend.mark(kRefusedWords);
-  if (!schools) return;
-  const std::string core = fmt::format("core, confidence {:g} and more", options.display.core_at);
-  if (figure.outlined) {
-    legend.outline(true, core);
-    legend.outline(false, "fuzzy area");
-  } else {
-    legend.area(theme.text, core);
-    legend.area(
-        with_alpha(theme.text, static_cast<int>(255.0F * mask_style(options.display, options.volume).fuzzy_opacity)),
-        "fuzzy area");
-  }
-  for (const auto& [colour, name] : figure.legend) legend.area(colour, name);
+  return out;
 }
 
 void add_refused(FrameDescription& frame, const VolumeFigure& figure, const VolumePlace& place,
                  const VolumeView& view) {
-  const CameraBasis eye = basis(view.camera, view.size);
-  for (const RefusedMark& mark : figure.refused) {
-    const auto seen = eye.project(figure.sector().centre(mark.loudest.fan, mark.loudest.beam, mark.loudest.sample));
-    if (!seen) continue;
-    const PixelPoint at{place.rect.x + seen->pixel.x / place.scale, place.rect.y + seen->pixel.y / place.scale};
-    if (inside(place.rect, at)) add_refused_mark(frame, at, mark.chosen, place.theme);
+  const std::vector<PixelPoint> places = places_of_refused(figure, place, view);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!std::isnan(places[i].x)) add_refused_mark(frame, places[i], figure.refused[i].chosen, place.theme);
+  }
+}
+
+/// Where the scale bar stands: in the first corner that the legend leaves free.
+PixelRect bar_place(const DistanceBar& bar, const PixelRect& inside, const PixelRect& legend, const Theme& theme) {
+  const double gap = 0.6 * theme.text_px;
+  const PixelRect low = distance_bar_place(bar, inside.x + inside.width - gap, inside.y + inside.height - gap, theme);
+  if (low.x > legend.x + legend.width) return low;
+  PixelRect above = low;
+  above.y = std::min(low.y, legend.y - low.height);
+  return above;
+}
+
+/// Labels of the surroundings and the scale bar, which keep off the legend and off each other.
+void add_labels(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
+                const VolumePlace& place, const VolumeView& view, const std::vector<LegendRow>& legend) {
+  const Theme& theme = place.theme;
+  const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
+  const PixelRect inside{0.0, 0.0, place.rect.width, place.rect.height};
+  FrameDescription labels{size, theme.background, {}, {}};
+  std::vector<PixelRect> taken{legend_place(legend, inside, theme)};
+  const auto bar = distance_bar(view.camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px));
+  if (bar) {
+    taken.push_back(bar_place(*bar, inside, taken.front(), theme));
+    PixelRect at = taken.back();
+    at.x += place.rect.x;
+    at.y += place.rect.y;
+    add_distance_bar(frame, *bar, at, theme);
+  }
+  const double reach = mark_reach_px(theme);
+  for (const PixelPoint& mark : places_of_refused(figure, place, view)) {
+    if (std::isnan(mark.x)) continue;
+    taken.push_back({mark.x - place.rect.x - reach, mark.y - place.rect.y - reach, 2.0 * reach, 2.0 * reach});
+  }
+  OpaqueView opaque{view.size, {}};
+  if (view.opaque_m) opaque.metres = *view.opaque_m;
+  add_context_labels(labels, figure.sector(), volume_surroundings(figure, options), basis(view.camera, size), theme,
+                     opaque, taken);
+  for (auto& item : labels.items) {
+    if (auto* text = std::get_if<TextItem>(&item)) {
+      text->at.x += place.rect.x;
+      text->at.y += place.rect.y;
+      frame.items.emplace_back(std::move(*text));
+    }
   }
 }
 
 }  // namespace
 
 std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
-                                               const PictureOptions& options, double transducer_depth_m) {
+                                               const PictureOptions& options, const VolumeCut& cut,
+                                               double transducer_depth_m) {
   const SampleFlags reasons = put_back(options.display);
   Volume shown{!options.volume.filtered ? staged.sv.counts
                : any(reasons)           ? counts_put_back(staged, reasons)
@@ -165,7 +163,9 @@ std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const Stage
                staged.filtered->flags};
   if (const auto below_db = weak_below(options.display)) flag_weak(staged, *below_db, shown.flags.view());
   const SampleFlags left_out = left_out_of_volume(options.display);
-  return std::make_shared<const VolumeData>(volume_data(sector, shown, left_out, transducer_depth_m));
+  VolumeData drawn = volume_data(sector, shown, left_out, transducer_depth_m);
+  cut_away(drawn.sv, cut);
+  return std::make_shared<const VolumeData>(std::move(drawn));
 }
 
 bool wants_outlines(const VolumeFigure& figure, const PictureOptions& options) {
@@ -219,26 +219,6 @@ Result<OpticalTable> volume_table(const PictureOptions& options) {
   return table;
 }
 
-ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options) {
-  ContextParams params;
-  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis =
-      options.volume.context;
-  params.ship_length_m = options.volume.ship_length_m;
-  params.transducer_depth_m = navigation.transducer_depth_m;
-  if (const double heading = navigation.heading_deg; !std::isnan(heading)) params.heading_deg = heading;
-  return params;
-}
-
-ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
-                              const Camera& camera, Work& work) {
-  const ContextParams params = volume_surroundings(figure.navigation, options);
-  Theme theme = place.theme;
-  theme.line_px *= place.scale;
-  theme.text_px *= place.scale;
-  return draw_context(context_scene(figure.sector(), params, theme, figure.seabed), camera, place.rays, theme.plot,
-                      -params.transducer_depth_m, work);
-}
-
 VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
                        const Camera& camera, const ContextPicture& context) {
   VolumeView view;
@@ -259,23 +239,10 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   const Theme& theme = place.theme;
   FrameDescription frame{options.size, theme.background, figure.title, {}};
   frame.items.emplace_back(ImageItem{place.rect, std::make_shared<const Image>(between(context, rays, work)), false});
-  const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
-  FrameDescription labels{size, theme.background, {}, {}};
-  if (options.volume.context) {
-    OpaqueView opaque{view.size, {}};
-    if (view.opaque_m) opaque.metres = *view.opaque_m;
-    add_context_labels(labels, figure.sector(), volume_surroundings(figure.navigation, options),
-                       basis(view.camera, size), theme, opaque);
-  }
-  for (auto& item : labels.items) {
-    if (auto* text = std::get_if<TextItem>(&item)) {
-      text->at.x += place.rect.x;
-      text->at.y += place.rect.y;
-      frame.items.emplace_back(std::move(*text));
-    }
-  }
+  const std::vector<LegendRow> legend = volume_legend(figure, options, place.rect, theme);
+  if (options.volume.context) add_labels(frame, figure, options, place, view, legend);
   add_refused(frame, figure, place, view);
-  add_school_legend(frame, figure, options, place.rect, theme);
+  add_volume_legend(frame, legend, place.rect, theme);
   if (!view.masks.data_too && figure.masks.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
     const char* words = !figure.searched ? "no masks: schools not detected" : "no masks: no school in this ping";

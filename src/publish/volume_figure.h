@@ -17,6 +17,7 @@
 #include "view/axes.h"
 #include "view/refused_marks.h"
 #include "view/volume/context_scene.h"
+#include "view/volume/volume_cut.h"
 
 namespace sonar {
 
@@ -24,22 +25,33 @@ namespace sonar {
 struct VolumeFigure {
   std::shared_ptr<const VolumeData> volume;
   std::vector<MaskLayer> masks;
+  std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   PingNavigation navigation;
   std::string title;
-  std::string title_line;               ///< of the picture; the title with the ping
-  bool samples = true;                  ///< false: the masks alone are known
-  std::optional<SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
-  bool outlined = false;                ///< masks are lines over the data, not a tint
-  bool searched = true;                 ///< schools were looked for
-  std::vector<RefusedMark> refused{};   ///< marked, whatever stands before them
+  std::string title_line;                       ///< of the picture; the title with the ping
+  bool samples = true;                          ///< false: the masks alone are known
+  std::shared_ptr<const SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
+  std::optional<FittedSeabed> fitted{};         ///< of this ping's echoes; drawn where `seabed` is not given
+  int fan = 0;                                  ///< of the slice from above
+  int beam = 0;                                 ///< of the slice from the side
+  bool outlined = false;                        ///< masks are lines over the data, not a tint
+  bool searched = true;                         ///< schools were looked for
+  std::vector<RefusedMark> refused{};           ///< marked, whatever stands before them
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };
 
-/// A ping's stages as a volume to draw, without what the options leave out.
+/// A ping's stages as a volume to draw, without what the options and the cut leave out.
 [[nodiscard]] std::shared_ptr<const VolumeData> drawn_volume(const Sector& sector, const StagedPing& staged,
-                                                             const PictureOptions& options, double transducer_depth_m);
+                                                             const PictureOptions& options, const VolumeCut& cut,
+                                                             double transducer_depth_m);
+/// What of a volume is cut away where it is looked at so.
+/// fan, beam  of the slices
+[[nodiscard]] VolumeCut volume_cut(const Sector& sector, const PictureOptions& options, const Camera& camera, int fan,
+                                   int beam);
+/// The seabed as detection has found it in a ping; empty where it has not.
+[[nodiscard]] std::optional<FittedSeabed> fitted_seabed(const StagedPing& staged);
 /// Whether drawn_volume() is the same for both.
 [[nodiscard]] bool same_volume(const PictureOptions& a, const PictureOptions& b);
 
@@ -64,7 +76,7 @@ struct VolumePlace {
 /// The view curve's colours and extinctions. errors: bad_parameter
 [[nodiscard]] Result<OpticalTable> volume_table(const PictureOptions& options);
 /// What stands round the volume, and how it is labelled.
-[[nodiscard]] ContextParams volume_surroundings(const PingNavigation& navigation, const PictureOptions& options);
+[[nodiscard]] ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptions& options);
 [[nodiscard]] ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options,
                                             const VolumePlace& place, const Camera& camera, Work& work);
 [[nodiscard]] VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options,

@@ -4,25 +4,46 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
-#include "base/units.h"
-#include "geo/geodesic.h"
-#include "io/depth_raster.h"
 #include "publish/between_pings.h"
+#include "publish/chart_seabed.h"
 #include "publish/drawn_schools.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
+#include "view/slices/slice.h"
 
 namespace sonar {
 namespace {
 
-constexpr int kPatchNodes = 121;
+/// Where the slices lie: as asked for, else through the largest school, else in the middle.
+Result<void> place_slices(VolumeFigure& figure, const Sector& sector, const DrawnPing& ping,
+                          const PictureOptions& options) {
+  // Whether schools are shown or not.
+  const auto school = middle_of_largest(chosen_layers(ping, options), sector.beams());
+  figure.fan = options.fan.value_or(school ? school->fan : sector.fans() / 2);
+  figure.beam = options.beam.value_or(school ? school->beam : sector.beams() / 2);
+  if (auto there = check_slice(sector, {TopSlice{figure.fan}}); !there) return there;
+  return check_slice(sector, {SideSlice{figure.beam}});
+}
+
+/// The selected school's outline is wider.
+void take_masks(VolumeFigure& figure, const DrawnPing& ping, const PictureOptions& options) {
+  figure.masks = mask_layers(ping, options);
+  for (DrawnSchoolKey& school : school_keys(ping, options)) {
+    figure.legend.emplace_back(school.colour, std::move(school.name));
+    figure.names.push_back(std::to_string(school.id));
+    if (school.id == options.selected_school) figure.masks[figure.names.size() - 1].selected = true;
+  }
+}
 
 /// The ping asked for, and its schools.
-Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions& options, Work& work) {
+/// place  of the volume in its picture: what is cut away depends on the camera
+Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions& options, const VolumePlace& place,
+                             Work& work) {
   if (auto known = require_schools(observation, options); !known) return pass_on(known);
   const auto index = chosen_ping(observation, options);
   if (!index) return pass_on(index);
@@ -31,10 +52,8 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   const auto ping = drawn_ping(observation, *index, options, work);
   if (!ping) return pass_on(ping);
   VolumeFigure out;
-  out.masks = mask_layers(*ping, options);
-  for (SchoolKey& school : school_keys(*ping, options)) {
-    out.legend.emplace_back(school.colour, std::move(school.name));
-  }
+  take_masks(out, *ping, options);
+  if (auto placed = place_slices(out, *sector, *ping, options); !placed) return pass_on(placed);
   out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
   out.samples = ping->staged != nullptr;
@@ -44,7 +63,11 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
       fmt::format("{}{}   ping {}", out.title, out.samples ? "" : " (masks alone: no raw files)", ping->ping_index);
   const double depth = out.navigation.transducer_depth_m;
   if (ping->staged) {
-    out.volume = drawn_volume(*sector, *ping->staged, options, depth);
+    const auto camera = volume_camera(*sector, options, place.rays);
+    if (!camera) return pass_on(camera);
+    const VolumeCut cut = volume_cut(*sector, options, *camera, out.fan, out.beam);
+    out.volume = drawn_volume(*sector, *ping->staged, options, cut, depth);
+    out.fitted = fitted_seabed(*ping->staged);
   } else {
     const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
     // Weakest of all: something for the masks to lie in, which is never shown itself.
@@ -53,21 +76,10 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   return out;
 }
 
-Result<std::optional<SeabedPatch>> seabed(const VolumeFigure& figure, const PictureOptions& options) {
-  if (options.depth_raster.empty()) return std::optional<SeabedPatch>{};
-  const PingNavigation& navigation = figure.navigation;
-  if (!navigation.has_position()) {
-    return fail(ErrorCode::mismatch, "no seabed: the ping has no position", {options.depth_raster.string()});
-  }
+Result<std::shared_ptr<const SeabedPatch>> seabed(const VolumeFigure& figure, const PictureOptions& options) {
+  if (options.depth_raster.empty() || !options.volume.seabed) return std::shared_ptr<const SeabedPatch>{};
   const RangeAxis& range = figure.sector().range();
-  const double reach = 1.1 * range.range_m(range.count - 1);
-  const Geographic ship = navigation.transducer;
-  const auto extent = extent_of(std::span(&ship, 1));
-  const auto grid = read_depth_raster(options.depth_raster, widened(*extent, 1.5 * reach));
-  if (!grid) return pass_on(grid);
-  auto patch = seabed_patch(*grid, navigation.placement(), reach);
-  if (!patch) return pass_on(patch);
-  return std::optional(std::move(*patch));
+  return ChartSeabed().round(options.depth_raster, figure.navigation, range.range_m(range.count - 1));
 }
 
 Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const PictureOptions& options, Work& work) {
@@ -117,26 +129,11 @@ Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, cons
 
 }  // namespace
 
-Result<SeabedPatch> seabed_patch(const DepthGrid& grid, const Placement& ship, double reach_m) {
-  SeabedPatch patch{kPatchNodes, kPatchNodes, -reach_m, -reach_m, 2.0 * reach_m / (kPatchNodes - 1), {}};
-  bool known = false;
-  for (int iy = 0; iy < patch.ny; ++iy) {
-    for (int ix = 0; ix < patch.nx; ++ix) {
-      const Point<Sonar> at{patch.first_x_m + ix * patch.spacing_m, patch.first_y_m + iy * patch.spacing_m, 0.0};
-      const double depth = grid.depth_at(to_geographic(to_enu(at, ship.heading_rad), ship.transducer));
-      known = known || !std::isnan(depth);
-      patch.depth_m.push_back(static_cast<float>(depth));
-    }
-  }
-  if (!known) return fail(ErrorCode::mismatch, "no depth is known round the ship", {grid.source});
-  return patch;
-}
-
 Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& options, Work& work) {
-  auto figure = prepare(observation, options, work);
-  if (!figure) return pass_on(figure);
   const auto place = volume_place(options, options.scale);
   if (!place) return pass_on(place);
+  auto figure = prepare(observation, options, *place, work);
+  if (!figure) return pass_on(figure);
   auto patch = seabed(*figure, options);
   if (!patch) return pass_on(patch);
   figure->seabed = std::move(*patch);

@@ -16,6 +16,7 @@ namespace {
 constexpr int kSubPixels = 2;       ///< a side
 constexpr double kNear_m = 0.1;     ///< nearer things are cut off
 constexpr double kFaintLine = 0.3;  ///< share of a line's alpha that is drawn before the volume
+constexpr double kPalest = 0.5;     ///< how much of the background the farthest line has
 constexpr int kBandRows = 32;
 
 /// A corner on the sub-pixel raster; `inverse` = 1 / depth, which is linear on the screen.
@@ -94,8 +95,37 @@ std::vector<Piece> pieces(const std::vector<SceneTriangle>& triangles, const Scr
   return out;
 }
 
+/// Lines fade into the background with their distance from the eye: what is near and what is far can be told.
+class DepthCue {
+ public:
+  DepthCue(const std::vector<SceneLine>& lines, const Screen& screen, Rgba8 background) : background_(background) {
+    for (const SceneLine& line : lines) {
+      const double depth_m = screen.depth((line.from + line.to) * 0.5);
+      if (depth_m < kNear_m) continue;
+      nearest_m_ = std::min(nearest_m_, depth_m);
+      farthest_m_ = std::max(farthest_m_, depth_m);
+    }
+  }
+  [[nodiscard]] Rgba8 seen(const SceneLine& line, const Screen& screen) const {
+    if (!(farthest_m_ > nearest_m_)) return line.colour;
+    const double depth_m = screen.depth((line.from + line.to) * 0.5);
+    const double pale = kPalest * std::clamp((depth_m - nearest_m_) / (farthest_m_ - nearest_m_), 0.0, 1.0);
+    const auto mixed = [pale](std::uint8_t own, std::uint8_t ground) {
+      return static_cast<std::uint8_t>(std::lround(own + pale * (ground - own)));
+    };
+    const Rgba8& c = line.colour;
+    return {mixed(c.r, background_.r), mixed(c.g, background_.g), mixed(c.b, background_.b), c.a};
+  }
+
+ private:
+  Rgba8 background_;
+  double nearest_m_ = std::numeric_limits<double>::infinity();
+  double farthest_m_ = 0.0;
+};
+
 /// Lines become quads as wide as they are on the screen.
-std::vector<Piece> pieces(const std::vector<SceneLine>& lines, const Screen& screen, double share) {
+std::vector<Piece> pieces(const std::vector<SceneLine>& lines, const Screen& screen, const DepthCue& cue,
+                          double share) {
   std::vector<Piece> out;
   for (const SceneLine& line : lines) {
     const double d0 = screen.depth(line.from) - kNear_m;
@@ -114,7 +144,7 @@ std::vector<Piece> pieces(const std::vector<SceneLine>& lines, const Screen& scr
                     {b.x - nx, b.y - ny, b.inverse},
                     {a.x - nx, a.y - ny, a.inverse}},
                    4,
-                   premultiplied(line.colour, share)});
+                   premultiplied(cue.seen(line, screen), share)});
   }
   return out;
 }
@@ -225,8 +255,10 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
   const bool above = camera.eye.z < surface_z_m;
   const std::vector<Piece> opaque = pieces(scene.opaque, screen);
   const std::vector<Piece> translucent = pieces(scene.translucent, screen);
-  const std::vector<Piece> lines = pieces(scene.lines, screen, 1.0);
-  const std::vector<Piece> faint = pieces(scene.lines, screen, kFaintLine);
+  const std::vector<Piece> ground = pieces(scene.ground, screen);
+  const DepthCue cue(scene.lines, screen, background);
+  const std::vector<Piece> lines = pieces(scene.lines, screen, cue, 1.0);
+  const std::vector<Piece> faint = pieces(scene.lines, screen, cue, kFaintLine);
   ContextPicture out{Image(size), Image(size, {0, 0, 0, 0}), nullptr};
   const Premultiplied filled = premultiplied(background);
   std::vector<float> metres(opaque.empty() ? 0 : size.count());
@@ -237,6 +269,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
     std::fill(behind.rgba.begin(), behind.rgba.end(), filled);
     draw_opaque(opaque, behind);
     Band front(behind.first_row, behind.rows, behind.width);
+    draw_over(ground, behind, behind);
     draw_over(translucent, behind, above ? front : behind);
     draw_over(lines, behind, behind);
     draw_over(faint, behind, front);

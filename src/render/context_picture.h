@@ -19,7 +19,8 @@ struct ContextPicture {
   std::shared_ptr<const std::vector<float>> opaque_m;  ///< VolumeView::opaque_m; null where nothing is opaque
 };
 
-/// Draws a scene by the processor, the same for both back-ends. Edges are smoothed (2 x 2 samples a pixel).
+/// Draws a scene by the processor, the same for both back-ends. Edges are smoothed (2 x 2 samples a pixel), and lines
+/// fade into the background with their distance.
 /// surface_z_m  of the sea surface: which layer translucent things go to depends on the eye's side of it
 [[nodiscard]] ContextPicture draw_context(const ContextScene& scene, const Camera& camera, PixelSize size,
                                           Rgba8 background, double surface_z_m, Work& work);

@@ -219,6 +219,9 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.beam = workspace.slices().beam;
   }
   if (file.camera_of_window) options.camera = workspace.camera();
+  if (const auto selected = workspace.selected()) {
+    options.selected_school = workspace.document.state().schools[*selected]->number;
+  }
   if (kind != PictureKind::volume || file.seabed) options.depth_raster = workspace.depth_raster();
   if (const auto school = selected_school(workspace); school && file.selected_school_alone) {
     options.schools = {school->name.number};

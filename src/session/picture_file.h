@@ -15,7 +15,7 @@ struct PictureFileParams {
   PaperParams paper{1600, 1200, 1.0};
   bool selected_school_alone = false;
   bool camera_of_window = true;
-  bool seabed = false;
+  bool seabed = true;
   PictureParams kind;
 };
 
@@ -26,7 +26,7 @@ void describe(Visitor& v, PictureFileParams& p) {
   v.field(
       "camera_of_window", p.camera_of_window,
       {.text = "look from where the window does; off = from the eye named below, or an overview", .suits = "volume"});
-  v.field("seabed", p.seabed, {.text = "draw the seabed of the depth chart; one must be chosen", .suits = "volume"});
+  v.field("seabed", p.seabed, {.text = "draw the seabed of the depth chart, where one is chosen", .suits = "volume"});
   describe(v, p.kind);
 }
 

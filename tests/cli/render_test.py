@@ -74,6 +74,7 @@ PICTURES = {
     "volume-masks": (["volume", sonarx.OUT, "--frames", "2", "--masks-alone"], TRACED),
     "volume-tint": (["volume", *BOTH, "--frames", "2", "--tint", "--ping", "9", *NEAR], TRACED),
     "volume-many-lines": (["volume", *BOTH, "--frames", "2", "--ping", "9", *NEAR, "--map", "ek500", "--no-lighting"], TRACED),
+    "volume-cut-open": (["volume", *BOTH, "--frames", "2", "--ping", "9", "--clip", "both-slices", "--slice-planes", "--no-masks"], TRACED),
     "propagation-raw-alone": (["propagation", sonarx.SURVEY, "--ping", "0"], DRAWN),
     "survey-map-raw-alone": (["survey-map", sonarx.SURVEY], DRAWN),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
@@ -160,7 +161,8 @@ class Goldens(unittest.TestCase):
 
     def test_both_back_ends_draw_the_same_volume(self):
         reference = sonarx.WORK / "cpu.png"
-        for arguments, (largest, mean) in ((["--no-masks", "--no-lighting"], SMOOTH), (["--tint"], SURFACES), (["--masks-alone"], SURFACES)):
+        for arguments, (largest, mean) in ((["--no-masks", "--no-lighting"], SMOOTH), (["--tint"], SURFACES), (["--masks-alone"], SURFACES),
+                                            (["--no-masks", "--no-lighting", "--clip", "both-slices"], SMOOTH)):
             with self.subTest(arguments):
                 arguments = ["volume", *BOTH, "--frames", "2", *SIZE, *arguments]
                 self.assertEqual(render(*arguments, "--renderer", "cpu", "--out", reference)[0], 0)
@@ -210,6 +212,35 @@ class Files(sonarx.Case):
             code, out, error = render("volume", *BOTH, *SIZE, "--frames", "0", *said, "--out", picture)
             self.assertEqual((code, error), (0, ""), out + error)
         self.assertEqual(pictures[0].read_bytes(), pictures[1].read_bytes())
+
+    def test_what_stands_round_a_volume_says_what_it_is(self):
+        said = self.words("volume", *BOTH, "--ping", "9", "--frames", "0")
+        for word in ("range ", "depth "):
+            self.assertTrue(any(text.startswith(word) and text.endswith(" m") for text in said), said)
+        self.assertTrue(any(text.endswith(" m at the view's centre") for text in said), said)
+        self.assertIn("seabed, fitted to the ping's echoes", said)
+        self.assertEqual([text for text in said if text in ("1", "2")], ["1", "2"], "numbers beside the schools")
+        self.assertFalse(any(text.startswith("slice from") for text in said), said)
+        said = self.words("volume", *BOTH, "--ping", "9", "--frames", "0", "--slice-planes", "--depth-raster", DEPTHS)
+        self.assertIn("slice from above", said)
+        self.assertIn("seabed of the depth chart", said)
+        self.assertNotIn("seabed, fitted to the ping's echoes", said)
+        said = " ".join(self.words("volume", *BOTH, "--ping", "9", "--frames", "0", "--no-context"))
+        self.assertNotIn("range", said)
+        self.assertNotIn("centre", said)
+
+    def test_a_volume_is_cut_open_at_the_slices(self):
+        plain = sonarx.WORK / "uncut.png"
+        view = ["volume", *BOTH, "--ping", "9", "--frames", "0", *SIZE]
+        self.assertEqual(render(*view, "--clip", "none", "--out", plain)[0], 0)
+        for options, code in (([], 0), (["--fan", "3"], 0), (["--clip", "top-slice"], 1), (["--clip", "side-slice"], 1),
+                              (["--clip", "both-slices", "--fan", "3", "--beam", "3"], 1), (["--drop-lines", "none"], 1),
+                              (["--no-seabed"], 1), (["--slice-planes"], 1)):
+            self.assertEqual(render(*view, *options, "--reference", plain, "--largest-difference", 0,
+                                    "--mean-difference", 0)[0], code, options)
+        code, _, error = render(*view, "--fan", "99", "--out", sonarx.WORK / "x.png")
+        self.assertNotEqual(code, 0)
+        self.assertIn("there is no fan 99", error)
 
     def test_raw_files_alone_do_not_look_like_a_survey_without_schools(self):
         for kind in ("propagation", "survey-map", "observation-map", "timeline"):

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QComboBox>
+#include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
 #include "gui/action_menus.h"
@@ -68,6 +71,55 @@ TEST_F(VolumeInTheWindow, HoverPreviewsAndAClickSelectsWhatIsSeen) {
   EXPECT_EQ(seeds[0]["sample"], voxel.sample);
   double_click("volume", at);
   EXPECT_GT(masks().size(), 1U);
+}
+
+// The panel's own control, by hand: unfolded by a click, changed by a key. Then a key moves the slice, and the cut with it.
+TEST_F(VolumeInTheWindow, IsCutOpenFromThePanel) {
+  auto* clip = window_->findChild<QComboBox*>("clip");
+  ASSERT_NE(clip, nullptr);
+  for (auto* fold : window_->findChildren<QToolButton*>()) {
+    if (fold->text() == "Volume" && !clip->isVisible()) QTest::mouseClick(fold, Qt::LeftButton);
+  }
+  settle();
+  ASSERT_TRUE(clip->isVisible());
+  const auto known = [&] {
+    const auto all = model().shown()->volume->sv.all();
+    return std::count_if(all.begin(), all.end(), [](std::int16_t count) { return count != kNoData; });
+  };
+  const auto whole = known();
+  clip->setFocus(Qt::TabFocusReason);
+  QTest::keyClick(clip, Qt::Key_Down);
+  settle();
+  ASSERT_EQ(workspace().volume.values().clip, VolumeClip::top_slice);
+  const auto cut = known();
+  EXPECT_LT(cut, whole);
+  keep_picture("cut-open");
+  view("volume")->setFocus(Qt::TabFocusReason);
+  const int fan = workspace().slices().fan;
+  key(Qt::Key_Up);
+  ASSERT_GT(workspace().slices().fan, fan);
+  EXPECT_GT(known(), cut) << "the eye is above: a fan more is left";
+  clip->setFocus(Qt::TabFocusReason);
+  QTest::keyClick(clip, Qt::Key_Up);
+  settle();
+  EXPECT_EQ(known(), whole);
+}
+
+// A school that is clicked has its number and its drop line: what is drawn differs from the school without them.
+TEST_F(VolumeInTheWindow, TheSelectedSchoolHasADropLine) {
+  click("volume", seen());
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  ASSERT_TRUE(workspace().selected());
+  const Image with = model().image();
+  VolumeParams params = workspace().volume.values();
+  params.drop_lines = DropLines::none;
+  workspace().volume.assign(params);
+  settle();
+  EXPECT_NE(model().image(), with);
+  params.drop_lines = DropLines::selected;
+  workspace().volume.assign(params);
+  settle();
+  EXPECT_EQ(model().image(), with);
 }
 
 }  // namespace

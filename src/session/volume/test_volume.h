@@ -83,6 +83,8 @@ class VolumeApp {
     options.ping = static_cast<int>(workspace_.document.ping());
     options.transfer = workspace_.view_curve();
     options.camera = camera;
+    options.fan = workspace_.slices().fan;
+    options.beam = workspace_.slices().beam;
     options.display = workspace_.display.values();
     options.volume = workspace_.volume.values();
     const std::filesystem::path folder = TestSurvey::easy().folder();

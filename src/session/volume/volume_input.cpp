@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
     if (!tried && input.masks.size() >= kMostMasks) continue;
     input.masks.push_back(school.layer);
     input.masks.back().selected = school.selected;
+    input.names.push_back(tried ? std::string() : std::to_string(school.number));
     if (tried) ++input.tried;
     if (!tried) input.legend.emplace_back(colour_of(school.layer), school.title);
   }
@@ -55,6 +57,10 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
   input.refused = refused_layer_in(workspace, input.staged->ping_index);
+  input.options.depth_raster = workspace.depth_raster();
+  // Slices are put right when the observation on show is another one; until then the old places are kept.
+  input.fan = std::clamp(workspace.slices().fan, 0, shown->sector().fans() - 1);
+  input.beam = std::clamp(workspace.slices().beam, 0, shown->sector().beams() - 1);
   input.scale_bar = workspace.curve_follows_scale();
   input.scale = scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;

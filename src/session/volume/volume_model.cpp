@@ -42,15 +42,20 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
     stop_listening_.push_back([&listeners, id = listeners.add(std::move(what))] { listeners.remove(id); });
   };
   listen(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
-  for (Listeners<>* changed :
-       {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
-        &workspace.curve_follows_scale.changed(), &workspace.school.changed(), &workspace.echo.changed()}) {
+  for (Listeners<>* changed : {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
+                               &workspace.curve_follows_scale.changed(), &workspace.school.changed(),
+                               &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
     listen(*changed, [this] { update(); });
   }
   for (Listeners<>* changed_over :
        {&workspace.cursor.changed(), &workspace.tool.changed(), &workspace.measurement.changed()}) {
     listen(*changed_over, [this] { changed().tell(); });
   }
+  listen(workspace.slices.changed(), [this] {
+    const VolumeParams& params = workspace_.volume.values();
+    const bool shown = params.context && params.slice_planes;
+    if (shown || params.clip != VolumeClip::none) update();
+  });
   const auto again = [this, here = std::weak_ptr<bool>(here_)](const auto&) {
     if (!here.expired()) update();
   };

@@ -185,6 +185,54 @@ TEST_F(VolumeAtWork, WhatIsTriedIsDrawnButPointersPassThroughIt) {
   EXPECT_EQ(model_->image(), before);
 }
 
+// Moving a slice moves its outline; where none is shown nothing is drawn again.
+TEST_F(VolumeAtWork, SlicesAreShownWhereTheyLie) {
+  const auto place = [&](int fan) {
+    SlicePlaces places = workspace_.slices();
+    places.fan = fan;
+    workspace_.slices.set(places);
+    settle();
+    return model_->image();
+  };
+  const Image low = place(1);
+  EXPECT_NE(place(4), low);
+  EXPECT_EQ(place(1), low);
+  VolumeParams params = workspace_.volume.values();
+  params.slice_planes = false;
+  workspace_.volume.assign(params);
+  settle();
+  const auto pictures = model_->pictures();
+  (void)place(4);
+  EXPECT_EQ(model_->pictures(), pictures);
+  params.clip = VolumeClip::top_slice;
+  workspace_.volume.assign(params);
+  settle();
+  const Image cut = model_->image();
+  EXPECT_NE(place(1), cut) << "less is left";
+}
+
+// The seabed is the chart's where one is chosen; without, that of the ping's echoes.
+TEST_F(VolumeAtWork, ADepthChartIsTheSeabed) {
+  const Image without = model_->image();
+  workspace_.depth_raster.set(TestSurvey::easy().folder() / "truth" / "depth.tif");
+  settle();
+  EXPECT_EQ(model_->shown()->notice, "");
+  ASSERT_TRUE(model_->shown()->view.opaque_m);
+  EXPECT_NE(model_->image(), without);
+  VolumeParams params = workspace_.volume.values();
+  params.seabed = false;
+  workspace_.volume.assign(params);
+  settle();
+  const Image bare = model_->image();
+  workspace_.depth_raster.set({});
+  settle();
+  EXPECT_EQ(model_->image(), bare);
+  params.seabed = true;
+  workspace_.volume.assign(params);
+  settle();
+  EXPECT_EQ(model_->image(), without);
+}
+
 TEST_F(VolumeAtWork, HiddenItDrawsNothingAndKeepsNothing) {
   auto watch = std::make_shared<Watch>();
   show(std::make_unique<VolumeModel>(workspace_, [watch](RendererChoice) -> Result<OffscreenRenderer> {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "view/label_room.h"
 #include "view/volume/context_layout.h"
@@ -47,6 +48,7 @@ class ContextLabels {
         opaque_(&opaque),
         room_({0.0, 0.0, static_cast<double>(frame.size.width), static_cast<double>(frame.size.height)}) {}
 
+  void keep_off(const PixelRect& place) { room_.take(place); }
   void keep_off(const std::vector<SceneLine>& lines) {
     for (const SceneLine& line : lines) {
       const auto a = camera_->project(line.from);
@@ -57,6 +59,28 @@ class ContextLabels {
 
   /// Whether the picture is so small that labels would cover what they name.
   [[nodiscard]] bool small() const { return frame_->size.width < kSmall_em * theme_->text_px; }
+  /// A school's name beside the school.
+  void name(const SchoolPlace& school, const PixelRect& box) {
+    const auto middle = camera_->project(school.middle);
+    if (!middle || hidden(school.middle, middle->pixel)) return;
+    const double em = theme_->text_px;
+    TextItem label{middle->pixel, school.name,     em,          theme_->text, TextAnchor::centre,
+                   0.0,           school.selected, theme_->halo};
+    const PixelRect own = LabelRoom::box_of(label);
+    const double right = 0.5 * (box.width + own.width) + 0.3 * em;
+    const double down = 0.5 * (box.height + own.height) + 0.15 * em;
+    const PixelPoint c{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+    const std::array<PixelPoint, 8> places{{{c.x + right, c.y},
+                                            {c.x - right, c.y},
+                                            {c.x, c.y - down},
+                                            {c.x, c.y + down},
+                                            {c.x + right, c.y - down},
+                                            {c.x - right, c.y - down},
+                                            {c.x + right, c.y + down},
+                                            {c.x - right, c.y + down}}};
+    if (auto placed = room_.place(std::move(label), places)) frame_->items.emplace_back(std::move(*placed));
+  }
+
   /// Whether there was room.
   bool add(const Labelled& place, std::string text) {
     const auto at = camera_->project(place.at);
@@ -107,14 +131,37 @@ class ContextLabels {
   LabelRoom room_;
 };
 
+/// Numbers and names beside the schools. No label lies on a school, whatever comes later.
+void label_schools(ContextLabels& labels, const std::vector<SchoolPlace>& schools, const CameraBasis& camera) {
+  std::vector<std::pair<const SchoolPlace*, PixelRect>> seen;
+  for (const SchoolPlace& school : schools) {
+    const auto box = school_box(school, camera);
+    if (!box) continue;
+    labels.keep_off(*box);
+    seen.emplace_back(&school, *box);
+  }
+  // The selected one has the first choice.
+  std::stable_partition(seen.begin(), seen.end(), [](const auto& one) { return one.first->selected; });
+  for (const auto& [school, box] : seen) {
+    if (!school->name.empty()) labels.name(*school, box);
+  }
+}
+
+/// Of the rings and the depth axis: both are metres. In a small picture one of each says what its figures are.
+std::string distance_text(const char* word, double metres, bool with_word) {
+  return with_word ? fmt::format("{} {:g} m", word, metres) : fmt::format("{:g} m", metres);
+}
+
 void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z) {
   const double edge = grid.first_azimuth_rad;
   // Every second one in a small picture, the farthest among them.
   const std::size_t step = labels.small() ? 2 : 1;
+  bool named = false;
   for (std::size_t i = (grid.radii_m.size() - 1) % step; i < grid.radii_m.size(); i += step) {
     const double radius = grid.radii_m[i];
-    labels.add({on_surface(radius, edge, z), on_surface(0.9 * radius, edge, z), on_surface(radius, edge - 0.05, z)},
-               fmt::format("{:g} m", radius));
+    const Labelled place{on_surface(radius, edge, z), on_surface(0.9 * radius, edge, z),
+                         on_surface(radius, edge - 0.05, z)};
+    if (labels.add(place, distance_text("range", radius, !named))) named = labels.small();
   }
 }
 
@@ -122,10 +169,8 @@ void label_depths(ContextLabels& labels, const DepthAxis& axis, double far_m, do
   bool named = false;
   for (const double depth : axis.depths_m) {
     const Point<Sonar> tick = Point<Sonar>{axis.top.x, axis.top.y, depth + z} + axis.outwards * (0.015 * far_m);
-    // One says what the figures are: those of the rings are metres too.
-    const std::string text = fmt::format("{}{:g} m", named ? "" : "depth ", depth);
-    if (labels.add({tick, tick + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, tick + axis.outwards * (0.05 * far_m)}, text))
-      named = true;
+    const Labelled place{tick, tick + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, tick + axis.outwards * (0.05 * far_m)};
+    if (labels.add(place, distance_text("depth", depth, !named))) named = labels.small();
   }
 }
 
@@ -139,19 +184,65 @@ void label_bearings(ContextLabels& labels, const SurfaceGrid& grid, const Contex
   }
 }
 
+/// At the slices' far edges, where these are far from each other: the slice from above at the end of its arc, the slice
+/// from the side low down.
+void label_slices(ContextLabels& labels, const Sector& sector, const ContextParams& params) {
+  constexpr double kAlong = 0.9;
+  const double far_m = far_range_m(sector);
+  const auto between = [](double first, double last, double share) { return first + share * (last - first); };
+  const auto label = [&](double elevation, double azimuth, double up_rad, double on_rad, const char* words) {
+    const Point<Sonar> at = Sector::direction(elevation, azimuth) * far_m;
+    labels.add({at, Sector::direction(elevation + up_rad, azimuth + on_rad) * far_m, at * 1.05}, words);
+  };
+  if (params.top_fan) {
+    const double azimuth = between(sector.azimuth_rad(0), sector.azimuth_rad(sector.beams() - 1), kAlong);
+    label(sector.elevation_rad(*params.top_fan), azimuth, 0.0, 0.02, "slice from above");
+  }
+  if (params.side_beam) {
+    const double elevation = between(sector.elevation_rad(sector.fans() - 1), sector.elevation_rad(0), kAlong);
+    label(elevation, sector.azimuth_rad(*params.side_beam), 0.02, 0.0, "slice from the side");
+  }
+}
+
 }  // namespace
 
+std::optional<PixelRect> school_box(const SchoolPlace& school, const CameraBasis& camera) {
+  double left = camera.size.width;
+  double right = 0.0;
+  double top = camera.size.height;
+  double bottom = 0.0;
+  for (const Point<Sonar>& place : school.edge) {
+    const auto seen = camera.project(place);
+    if (!seen) continue;
+    left = std::min(left, seen->pixel.x);
+    right = std::max(right, seen->pixel.x);
+    top = std::min(top, seen->pixel.y);
+    bottom = std::max(bottom, seen->pixel.y);
+  }
+  left = std::max(left, 0.0);
+  top = std::max(top, 0.0);
+  right = std::min<double>(right, camera.size.width);
+  bottom = std::min<double>(bottom, camera.size.height);
+  if (!(left < right) || !(top < bottom)) return std::nullopt;
+  return PixelRect{left, top, right - left, bottom - top};
+}
+
 void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,
-                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque) {
+                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque,
+                        std::span<const PixelRect> taken) {
   ContextParams lines = params;
   lines.ship = lines.sea_surface = false;
+  lines.fitted_seabed.reset();
   ContextLabels labels(frame, camera, theme, opaque);
+  for (const PixelRect& place : taken) labels.keep_off(place);
   labels.keep_off(context_scene(sector, lines, theme).lines);
+  label_schools(labels, params.schools, camera);
   const double z = -params.transducer_depth_m;
   const SurfaceGrid grid = surface_grid(sector, params);
   if (params.range_rings) label_rings(labels, grid, z);
   if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z);
   if (params.range_rings) label_bearings(labels, grid, params, z);
+  label_slices(labels, sector, params);
 }
 
 }  // namespace sonar

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -119,6 +120,31 @@ TEST(ContextLabels, NeverCollide) {
   EXPECT_GT(most, 12U);
 }
 
+// Both are metres: every label says of which, but in a small picture one of each does.
+TEST(ContextLabels, RangesAndDepthsAreToldApart) {
+  const Sector sector = slice_example::sectors()[0].sector;
+  for (const PixelSize size : {PixelSize{900, 700}, PixelSize{300, 240}}) {
+    int ranges = 0;
+    int depths = 0;
+    int bare = 0;
+    for (const TextItem& label : labels_of(sector, {}, overview(sector, size), size)) {
+      ranges += label.text.starts_with("range ") ? 1 : 0;
+      depths += label.text.starts_with("depth ") ? 1 : 0;
+      bare += label.text.ends_with(" m") && std::isdigit(static_cast<unsigned char>(label.text[0])) != 0 ? 1 : 0;
+    }
+    EXPECT_GE(ranges, 1);
+    EXPECT_GE(depths, 1);
+    if (size.width == 900) {
+      EXPECT_EQ(bare, 0);
+      EXPECT_GE(ranges, 3);
+      EXPECT_GE(depths, 2);
+    } else {
+      EXPECT_EQ(ranges, 1);
+      EXPECT_EQ(depths, 1);
+    }
+  }
+}
+
 // From above, 1200 m up, 60 degrees: a metre is 0.5 pixels (300 / (1000 tan 30) = 0.52). The sector of 200 m looks to
 // port, its first edge at 242.5: the rings' labels lie beyond it, aft; nothing crosses the sector's own lines.
 TEST(ContextLabels, StandBesideWhatTheyName) {
@@ -131,7 +157,8 @@ TEST(ContextLabels, StandBesideWhatTheyName) {
   const std::vector<TextItem> labels = labels_of(sector, params, camera, kSize);
   const double edge = sector.azimuth_rad(0);
   for (const std::string text : {"50 m", "100 m", "150 m"}) {
-    const auto label = std::find_if(labels.begin(), labels.end(), [&](const TextItem& t) { return t.text == text; });
+    const auto label =
+        std::find_if(labels.begin(), labels.end(), [&](const TextItem& t) { return t.text == "range " + text; });
     ASSERT_NE(label, labels.end()) << text;
     const double radius = std::stod(text);
     const PixelPoint tick = b.project(on_surface(radius, edge, -7.0))->pixel;

@@ -80,6 +80,37 @@ DepthAxis depth_axis(const Sector& sector, const ContextParams& params) {
   return out;
 }
 
+namespace {
+
+/// Of the first sample that is drawn.
+double near_range_m(const Sector& sector) { return std::max(0.0, sector.range().range_m(0)); }
+
+}  // namespace
+
+std::vector<Point<Sonar>> fan_outline(const Sector& sector, int fan) {
+  std::vector<Point<Sonar>> out;
+  const double elevation = sector.elevation_rad(fan);
+  const std::vector<double> azimuths = even_angles(sector.azimuth_rad(0), sector.azimuth_rad(sector.beams() - 1));
+  for (const double azimuth : azimuths) out.push_back(Sector::direction(elevation, azimuth) * far_range_m(sector));
+  for (auto azimuth = azimuths.rbegin(); azimuth != azimuths.rend(); ++azimuth) {
+    out.push_back(Sector::direction(elevation, *azimuth) * near_range_m(sector));
+  }
+  out.push_back(out.front());
+  return out;
+}
+
+std::vector<Point<Sonar>> beam_outline(const Sector& sector, int beam) {
+  std::vector<Point<Sonar>> out;
+  const double azimuth = sector.azimuth_rad(beam);
+  const std::vector<double> elevations = even_angles(sector.elevation_rad(0), sector.elevation_rad(sector.fans() - 1));
+  for (const double elevation : elevations) out.push_back(Sector::direction(elevation, azimuth) * far_range_m(sector));
+  for (auto elevation = elevations.rbegin(); elevation != elevations.rend(); ++elevation) {
+    out.push_back(Sector::direction(*elevation, azimuth) * near_range_m(sector));
+  }
+  out.push_back(out.front());
+  return out;
+}
+
 std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed) {
   double low = 1e300;
   double high = -1e300;

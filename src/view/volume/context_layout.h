@@ -42,6 +42,19 @@ struct DepthAxis {
 /// One light from above and ahead of port, as on a chart; both sides of a face are lit alike.
 [[nodiscard]] Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& corners);
 
+/// Where the slice from above or from the side ends: along the edges of its fan or beam, closed.
+[[nodiscard]] std::vector<Point<Sonar>> fan_outline(const Sector& sector, int fan);
+[[nodiscard]] std::vector<Point<Sonar>> beam_outline(const Sector& sector, int beam);
+
+/// A muted plane where the seabed was seen, with a grid and an edge.
+void add_fitted_seabed(ContextScene& scene, const FittedSeabed& bed, const Theme& theme);
+
+/// Lines straight up and down from the schools that have them, with a ring at each end.
+void add_drop_lines(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme);
+
+/// A straight line in pieces: farther ones are drawn paler.
+void add_straight(ContextScene& scene, const Point<Sonar>& from, const Point<Sonar>& to, Rgba8 colour, double width_px);
+
 /// Faces lit as a relief, lines of equal depth, and a grid ahead and across.
 void add_seabed(ContextScene& scene, const SeabedPatch& bed, double transducer_depth_m, const Theme& theme);
 

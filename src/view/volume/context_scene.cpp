@@ -15,7 +15,7 @@ Point<Sonar> cross(const Point<Sonar>& a, const Point<Sonar>& b) {
 }
 
 void add_polyline(ContextScene& scene, const std::vector<Point<Sonar>>& points, Rgba8 colour, double width_px) {
-  for (std::size_t i = 1; i < points.size(); ++i) scene.lines.push_back({points[i - 1], points[i], colour, width_px});
+  for (std::size_t i = 1; i < points.size(); ++i) add_straight(scene, points[i - 1], points[i], colour, width_px);
 }
 
 /// Along one fan's or one beam's edge of the sector.
@@ -39,7 +39,7 @@ void add_sector_frame(ContextScene& scene, const Sector& sector, const Theme& th
     add_polyline(scene, arc, theme.outline, 1.5 * theme.line_px);
     for (const int fan : {0, sector.fans() - 1}) {
       const Point<Sonar> edge = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
-      scene.lines.push_back({edge * near_m, edge * far_m, theme.outline, 1.5 * theme.line_px});
+      add_straight(scene, edge * near_m, edge * far_m, theme.outline, 1.5 * theme.line_px);
     }
   }
 }
@@ -55,8 +55,7 @@ void add_rings(ContextScene& scene, const Sector& sector, const ContextParams& p
     add_polyline(scene, arc, theme.ring, theme.line_px);
   }
   for (const double azimuth : grid.azimuths_rad) {
-    scene.lines.push_back(
-        {on_surface(0.0, azimuth, z), on_surface(grid.edge_m, azimuth, z), theme.ring, theme.line_px});
+    add_straight(scene, on_surface(0.0, azimuth, z), on_surface(grid.edge_m, azimuth, z), theme.ring, theme.line_px);
   }
 }
 
@@ -71,13 +70,29 @@ void add_sea(ContextScene& scene, const Sector& sector, const ContextParams& par
   }
 }
 
+/// A rod whose every second piece is thick: no ring or edge looks so.
 void add_depth_axis(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme) {
   const DepthAxis axis = depth_axis(sector, params);
-  scene.lines.push_back({axis.top, axis.bottom, theme.axis, 1.5 * theme.line_px});
+  const auto at_depth = [&](double depth) {
+    return Point<Sonar>{axis.top.x, axis.top.y, depth - params.transducer_depth_m};
+  };
+  Point<Sonar> above = axis.top;
+  bool thick = true;
   for (const double depth : axis.depths_m) {
-    const Point<Sonar> at{axis.top.x, axis.top.y, depth - params.transducer_depth_m};
+    const Point<Sonar> at = at_depth(depth);
+    add_straight(scene, above, at, theme.axis, (thick ? 3.5 : 1.5) * theme.line_px);
     scene.lines.push_back({at, at + axis.outwards * (0.015 * far_range_m(sector)), theme.axis, theme.line_px});
+    above = at;
+    thick = !thick;
   }
+  if (above.z < axis.bottom.z) add_straight(scene, above, axis.bottom, theme.axis, (thick ? 3.5 : 1.5) * theme.line_px);
+}
+
+/// Outlines alone: a filled plane would have to lie between the samples before and behind it.
+void add_slices(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme) {
+  const Rgba8 colour = with_alpha(theme.accent, 150);
+  if (params.top_fan) add_polyline(scene, fan_outline(sector, *params.top_fan), colour, 1.2 * theme.line_px);
+  if (params.side_beam) add_polyline(scene, beam_outline(sector, *params.side_beam), colour, 1.2 * theme.line_px);
 }
 
 void add_ship(ContextScene& scene, const ContextParams& params) {
@@ -90,6 +105,17 @@ void add_ship(ContextScene& scene, const ContextParams& params) {
 }
 
 }  // namespace
+
+void add_straight(ContextScene& scene, const Point<Sonar>& from, const Point<Sonar>& to, Rgba8 colour,
+                  double width_px) {
+  constexpr double kPiece_m = 25.0;
+  constexpr double kMostPieces = 24.0;
+  const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPiece_m), 1.0, kMostPieces));
+  for (int i = 0; i < pieces; ++i) {
+    const auto at = [&](int k) { return from + (to - from) * (static_cast<double>(k) / pieces); };
+    scene.lines.push_back({at(i), at(i + 1), colour, width_px});
+  }
+}
 
 Rgba8 lit(Rgba8 colour, const std::array<Point<Sonar>, 3>& c) {
   const Point<Sonar> normal = cross(c[1] - c[0], c[2] - c[0]);
@@ -109,7 +135,10 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (params.sector_frame) add_sector_frame(scene, sector, theme);
   if (params.depth_axis) add_depth_axis(scene, sector, params, theme);
   if (params.ship) add_ship(scene, params);
+  if (params.fitted_seabed) add_fitted_seabed(scene, *params.fitted_seabed, theme);
   if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
+  add_slices(scene, sector, params, theme);
+  add_drop_lines(scene, sector, params, theme);
   return scene;
 }
 

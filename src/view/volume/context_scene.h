@@ -13,6 +13,7 @@
 #include "view/frame_description.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
+#include "view/volume/school_places.h"
 
 namespace sonar {
 
@@ -33,6 +34,7 @@ struct SceneLine {
 struct ContextScene {
   std::vector<SceneTriangle> opaque;
   std::vector<SceneTriangle> translucent;
+  std::vector<SceneTriangle> ground;  ///< translucent, always behind the volume
   std::vector<SceneLine> lines;
 };
 
@@ -47,6 +49,19 @@ struct SeabedPatch {
   std::vector<float> depth_m;  ///< [ny][nx]
 };
 
+/// The seabed as a plane that was fitted to a ping's echoes: z = offset_m + slope_x x + slope_y y, and where it was seen.
+struct FittedSeabed {
+  double offset_m = 0.0;
+  double slope_x = 0.0;
+  double slope_y = 0.0;
+  double min_x = 0.0;
+  double max_x = 0.0;
+  double min_y = 0.0;
+  double max_y = 0.0;
+  [[nodiscard]] double z_at(double x, double y) const { return offset_m + slope_x * x + slope_y * y; }
+  friend bool operator==(const FittedSeabed&, const FittedSeabed&) = default;
+};
+
 /// Which things are shown, and how large.
 struct ContextParams {
   bool sector_frame = true;
@@ -58,6 +73,11 @@ struct ContextParams {
   double ship_length_m = 60.0;
   double transducer_depth_m = 7.0;
   std::optional<double> heading_deg;  ///< bearings are labelled from true north where it is known, else from the bow
+  std::optional<int> top_fan;         ///< whose outline shows where the slice from above lies
+  std::optional<int> side_beam;       ///< the same of the slice from the side
+  std::optional<FittedSeabed> fitted_seabed;
+  std::vector<SchoolPlace> schools;  ///< have drop lines and names; labels keep off them
+  friend bool operator==(const ContextParams&, const ContextParams&) = default;
 };
 
 [[nodiscard]] ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
@@ -83,9 +103,18 @@ struct OpaqueView {
   std::span<const float> metres;
 };
 
-/// Labels of the rings, bearings and the depth axis, where the camera sees them: each beside what it names, none on
-/// another, and off the lines where there is room. What has no room, or is hidden, is left out.
+/// Depth of a seabed under a place, between its nodes; NaN where it is not known.
+[[nodiscard]] double depth_under(const SeabedPatch& bed, double x_m, double y_m);
+
+/// What a school covers of a picture, at most; empty where it is not seen.
+[[nodiscard]] std::optional<PixelRect> school_box(const SchoolPlace& school, const CameraBasis& camera);
+
+/// Names of the schools, labels of the rings, bearings, the depth axis and the slices, where the camera sees them: each
+/// beside what it names, none on another or on a school, and off the lines where there is room. What has no room, or is
+/// hidden, is left out.
+/// taken  where something else stands in the picture: a legend, a scale bar
 void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,
-                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque = {});
+                        const CameraBasis& camera, const Theme& theme, const OpaqueView& opaque = {},
+                        std::span<const PixelRect> taken = {});
 
 }  // namespace sonar

@@ -23,9 +23,14 @@ float depth_at(const SeabedPatch& bed, int ix, int iy) {
   return bed.depth_m[static_cast<std::size_t>(iy) * static_cast<std::size_t>(bed.nx) + static_cast<std::size_t>(ix)];
 }
 
-/// Neither white nor black, so that light and shade still show; 0 = shallowest.
+/// Neither white nor black, so that light and shade still show, and muted: the echoes are what is looked at. 0 =
+/// shallowest.
 Rgba8 seabed_colour(double share) {
-  return colour_map(ColourMapName::deep).at(0.15 + 0.6 * std::clamp(share, 0.0, 1.0));
+  constexpr double kGrey = 0.55;
+  const Rgba8 c = colour_map(ColourMapName::deep).at(0.15 + 0.6 * std::clamp(share, 0.0, 1.0));
+  const double grey = 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;  // as bright as the colour (BT.601)
+  const auto muted = [&](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v + kGrey * (grey - v))); };
+  return {muted(c.r), muted(c.g), muted(c.b), c.a};
 }
 
 /// The triangle that the light falls on: the same place, so many times as steep.
@@ -119,6 +124,19 @@ double relief_exaggeration(const SeabedPatch& bed) {
   }
   const double usual = count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
   return usual > 1e-9 ? std::clamp(kLitSlope / usual, 1.0, kMostExaggerated) : 1.0;
+}
+
+double depth_under(const SeabedPatch& bed, double x_m, double y_m) {
+  const double u = (x_m - bed.first_x_m) / bed.spacing_m;
+  const double v = (y_m - bed.first_y_m) / bed.spacing_m;
+  if (bed.nx < 2 || bed.ny < 2 || !(u >= 0.0 && v >= 0.0 && u <= bed.nx - 1 && v <= bed.ny - 1)) return std::nan("");
+  const int ix = std::min(static_cast<int>(u), bed.nx - 2);
+  const int iy = std::min(static_cast<int>(v), bed.ny - 2);
+  const auto along = [&](int row) {
+    const auto left = static_cast<double>(depth_at(bed, ix, row));
+    return left + (u - ix) * (static_cast<double>(depth_at(bed, ix + 1, row)) - left);
+  };
+  return along(iy) + (v - iy) * (along(iy + 1) - along(iy));
 }
 
 double seabed_line_step_m(const SeabedPatch& bed) {
