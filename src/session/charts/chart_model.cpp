@@ -47,6 +47,16 @@ std::vector<ObservationProduct> tables_of(const ChartWish& wish) {
   return tables;
 }
 
+std::pair<double, double> zoomed_about(double low, double high, double share, double factor) {
+  const double at = low + share * (high - low);
+  return {at + (low - at) / factor, at + (high - at) / factor};
+}
+
+/// Rounding would show sooner than anything new.
+bool can_be_read(double low, double high) {
+  return high - low > 1e-9 * std::max({1e-12, std::abs(low), std::abs(high)});
+}
+
 std::string bar_text(const ChartData& data, const ChartPlaces::Bar& bar) {
   std::set<ChartSchool> schools;
   for (const std::size_t row : bar.rows) schools.insert(data.rows[row].school);
@@ -150,7 +160,8 @@ LivePicture::Build ChartModel::build() {
     if (!data) return pass_on(data);
     auto made = chart(*data, wish.style, size, dock_theme(size, wish.scale, wish.dark));
     if (!made) return pass_on(made);
-    auto sight = std::make_shared<ChartSight>(ChartSight{std::move(*data), std::move(made->places), wish.observations});
+    auto sight = std::make_shared<ChartSight>(
+        ChartSight{std::move(*data), std::move(made->places), made->whole, wish.observations});
     show({std::move(made->frame), std::nullopt, std::move(sight)});
     return {};
   };
@@ -242,12 +253,6 @@ bool ChartModel::aim(PixelPoint at) {
   return true;
 }
 
-ChartPart ChartModel::part() const {
-  const PlotFrame& plot = sight_->places.plot;
-  const auto [low, high] = std::minmax(plot.y.first, plot.y.last);
-  return {plot.x.first, plot.x.last, low, high};
-}
-
 void ChartModel::show_all() {
   drag_.reset();
   pan_.reset();
@@ -260,25 +265,25 @@ void ChartModel::zoom(PixelPoint at, double factor) {
   const PlotFrame& plot = sight_->places.plot;
   if (!inside(plot.place, at)) return;
   const ChartPart now = part();
-  const double x = plot.x_at(at.x);
-  const double y = plot.y_at(at.y);
-  const ChartPart to{x + (now.x_low - x) / factor, x + (now.x_high - x) / factor, y + (now.y_low - y) / factor,
-                     y + (now.y_high - y) / factor};
-  // Rounding would show sooner than anything new.
-  const auto fine = [](double low, double high) {
-    return high - low > 1e-9 * std::max({1e-12, std::abs(low), std::abs(high)});
-  };
-  if (!fine(to.x_low, to.x_high) || !fine(to.y_low, to.y_high)) return;
-  shown_ = to;
+  const double right = (at.x - plot.place.x) / plot.place.width;
+  const double down = (at.y - plot.place.y) / plot.place.height;
+  const auto [x_low, x_high] = zoomed_about(now.x_low, now.x_high, right, factor);
+  const auto [y_low, y_high] =
+      zoomed_about(now.y_low, now.y_high, plot.y.first < plot.y.last ? down : 1.0 - down, factor);
+  const ChartPart& whole = sight_->whole;
+  if (x_high - x_low >= whole.x_high - whole.x_low && y_high - y_low >= whole.y_high - whole.y_low) return show_all();
+  if (!can_be_read(x_low, x_high) || !can_be_read(y_low, y_high)) return;
+  shown_ = ChartPart{x_low, x_high, y_low, y_high};
   update();
 }
 
 void ChartModel::pan_to(PixelPoint at) {
   if (!pan_) return;
   const PlotFrame& plot = sight_->places.plot;
-  const double x = (pan_->from.x - at.x) / plot.place.width * (plot.x.last - plot.x.first);
-  const double y = (pan_->from.y - at.y) / plot.place.height * (plot.y.last - plot.y.first);
   const ChartPart& part = pan_->part;
+  const double x = (pan_->from.x - at.x) / plot.place.width * (part.x_high - part.x_low);
+  const double down = (pan_->from.y - at.y) / plot.place.height * (part.y_high - part.y_low);
+  const double y = plot.y.first < plot.y.last ? down : -down;
   shown_ = ChartPart{part.x_low + x, part.x_high + x, part.y_low + y, part.y_high + y};
   update();
 }

@@ -19,6 +19,7 @@ namespace sonar {
 struct ChartSight {
   ChartData data;
   ChartPlaces places;
+  ChartPart whole;                        ///< what it shows without zooming
   std::vector<std::size_t> observations;  ///< index in the survey, by ChartSchool::observation
   [[nodiscard]] SchoolName name_of(std::size_t row) const;
 };
@@ -68,7 +69,8 @@ class ChartModel : public LivePicture {
   void pan_to(PixelPoint at);
   /// Where there is a line instead of a chart, the last one is not what is pointed at.
   [[nodiscard]] bool in_sight() const { return sight_ && problem().empty(); }
-  [[nodiscard]] ChartPart part() const;
+  /// What was asked for last; its picture may still be on its way.
+  [[nodiscard]] ChartPart part() const { return shown_.value_or(sight_->whole); }
   [[nodiscard]] std::set<SchoolName> selection() const;
 
   Workspace& workspace_;

@@ -87,11 +87,12 @@ TEST_F(Charts, ShowTheTablesFiguresAsTheyAreMeasured) {
 
 TEST_F(Charts, DraggingOverPointsSelectsTheirSchoolsInTablesToo) {
   show("ping_index", "depth_m");
+  const std::int64_t looked_at = document().ping();
   brush(place_of(1, 2), place_of(1, 2));
   EXPECT_EQ(workspace().chosen_schools(), (std::set<SchoolName>{{0, 1}, {0, 2}}));
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
   EXPECT_EQ(app_->rows("schools")->chosen(), (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(document().ping(), 0) << "what is looked at stays";
+  EXPECT_EQ(document().ping(), looked_at) << "what is looked at stays";
   brush(place_of(1, 4), place_of(1, 4));
   EXPECT_TRUE(workspace().chosen_schools().empty()) << "one alone";
   EXPECT_EQ(workspace().school(), (SchoolName{0, 1}));
@@ -114,7 +115,7 @@ TEST_F(Charts, DraggingOverPointsSelectsTheirSchoolsInTablesToo) {
 }
 
 TEST_F(Charts, AClickOnAPointGoesToItsPing) {
-  show("time_utc", "sv_mean_db");
+  show("time_utc", "depth_m");
   click(place_of(3, 8));
   EXPECT_EQ(document().ping(), 8);
   EXPECT_EQ(workspace().school(), (SchoolName{0, 3}));
@@ -171,6 +172,15 @@ TEST_F(Charts, ZoomAboutThePointerPanAndShowAllAgain) {
   settle();
   EXPECT_FALSE(chart().zoomed());
   EXPECT_NEAR(place_of(1, 3).x, at.x, 0.01);
+  for (int i = 0; i < 3; ++i) chart().pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = 1.0});
+  settle();
+  const PlotFrame& plot = chart().sight()->places.plot;
+  const ChartPart& whole = chart().sight()->whole;
+  EXPECT_NEAR((whole.x_high - whole.x_low) / (plot.x.last - plot.x.first), 1.25 * 1.25 * 1.25, 1e-9)
+      << "notches that come faster than pictures all count";
+  for (int i = 0; i < 4; ++i) chart().pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = -1.0});
+  settle();
+  EXPECT_FALSE(chart().zoomed()) << "there is no more than everything";
   for (int i = 0; i < 300; ++i) chart().pointer({.action = PointerAction::wheel, .at = at, .wheel_steps = 3.0});
   settle();
   EXPECT_EQ(chart().problem(), "") << "however far";

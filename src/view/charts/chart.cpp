@@ -53,6 +53,7 @@ struct Scales {
   ChartAxis x;
   ChartAxis y;
   ChartBins bins;
+  ChartPart whole;
 };
 
 /// Values of rows that are drawn; the others are NaN.
@@ -68,7 +69,6 @@ Scales scales_of(const ChartData& data, const ChartStyle& style) {
   if (data.y) {
     scales.x = chart_axis(data.x, known_values(data, data.x_values));
     scales.y = chart_axis(*data.y, known_values(data, data.y_values));
-    if (style.shown) scales.y = part_of(scales.y, style.shown->y_low, style.shown->y_high);
   } else {
     scales.bins = chart_bins(data.x_values, data.x, style.bins);
     std::vector<double> counts(scales.bins.count());
@@ -79,7 +79,10 @@ Scales scales_of(const ChartData& data, const ChartStyle& style) {
     const std::string_view what = data.table == ChartTable::schools ? "n_schools" : "n_school_pings";
     scales.y = chart_axis({.name = what, .unit = "1", .whole = true}, counts, true);
   }
-  if (style.shown) scales.x = part_of(scales.x, style.shown->x_low, style.shown->x_high);
+  scales.whole = {scales.x.low, scales.x.high, scales.y.low, scales.y.high};
+  if (!style.shown) return scales;
+  scales.x = part_of(scales.x, style.shown->x_low, style.shown->x_high);
+  if (data.y) scales.y = part_of(scales.y, style.shown->y_low, style.shown->y_high);
   return scales;
 }
 
@@ -132,6 +135,7 @@ Result<Chart> chart(const ChartData& data, const ChartStyle& style, PixelSize si
   const Layout layout = lay_out(size, theme, needs);
 
   Chart out;
+  out.whole = scales.whole;
   ChartPlaces& places = out.places;
   places.reach_px = style.reach_px;
   places.plot.place = layout.plot;

@@ -32,6 +32,7 @@ struct ChartStyle {
 struct Chart {
   FrameDescription frame;
   ChartPlaces places;
+  ChartPart whole;  ///< what is shown where nothing is said of a part
 };
 
 /// A histogram of one column, or one column over another: each row a point in the colour of its school, rejected ones
