@@ -106,6 +106,7 @@ Result<BuiltEchogram> built_echogram(const EchogramWish& wish, PixelSize size) {
   const bool two = wish.below && size.height >= kTwoFrom_em * theme.text_px;
   const double room_px = two ? upper_height(size) : size.height;
   panel.style.brief = room_px < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
+  if (!panel.style.brief) panel.observation.label.clear();  // the title says it
   auto places = std::make_shared<EchogramPlaces>();
   places->heights = drawn.heights;
   if (!two) {
