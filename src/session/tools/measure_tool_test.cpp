@@ -262,13 +262,14 @@ TEST_F(MeasureAtWork, ItBelongsToItsPingAndItsSlice) {
   EXPECT_EQ(measured_text(workspace()), "");
   app_.look_at_bright();
   EXPECT_EQ(lines(), 1);
-  workspace().slices.set({bright().fan - 1, bright().beam});
+  workspace().slices.set({bright().fan == 0 ? 1 : bright().fan - 1, bright().beam});
   app_.settle();
   EXPECT_EQ(lines(), 0) << "another fan";
 }
 
 TEST_F(MeasureAtWork, TheLineStaysOnItsVoxelsWhenZoomedAndTurned) {
-  const Voxel to{bright().fan, bright().beam + 2, bright().sample};
+  const int beam = bright().beam + (bright().beam < sector().beams() / 2 ? 2 : -2);
+  const Voxel to{bright().fan, beam, bright().sample};
   drag(app_.top(), {at(app_.top(), bright()), at(app_.top(), to)});
   const auto end = [&]() -> PixelPoint {
     for (const Overlay& overlay : app_.top().overlays()) {
