@@ -62,7 +62,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 26> kBegin{"edit.undo",
+constexpr std::array<Id, 27> kBegin{"edit.undo",
                                     "file.calibration",
                                     "file.save_view",
                                     "file.quit",
@@ -87,7 +87,8 @@ constexpr std::array<Id, 26> kBegin{"edit.undo",
                                     "slice.plane_horizontal",
                                     "slice.range_out",
                                     "view.volume",
-                                    "view.observation_map"};
+                                    "view.observation_map",
+                                    "list.pings_of_all"};
 
 struct Menu {
   Id dock;

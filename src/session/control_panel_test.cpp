@@ -36,7 +36,10 @@ TEST(ControlPanel, EverySettingIsThereOnce) {
   std::multiset<std::string> shown;
   std::set<std::string> there;
   for (const PanelSection& section : control_panel(workspace)) {
-    for (const Property& one : section.source->properties()) there.insert(one.name);
+    for (const Property& one : section.source->properties()) {
+      // Of what pictures are asked for, a chart's part alone is a view's.
+      if (section.title != "Charts" || one.name.starts_with("chart.")) there.insert(one.name);
+    }
     if (section.names.empty()) {
       for (const Property& one : section.source->properties()) shown.insert(one.name);
     }
