@@ -2,19 +2,18 @@
 #include "gui/start_page.h"
 
 #include <QAction>
+#include <QCommandLinkButton>
 #include <QEvent>
 #include <QGridLayout>
 #include <QIcon>
 #include <QLabel>
 #include <QPixmap>
-#include <QPushButton>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <array>
 #include <functional>
-#include <utility>
 
 #include "gui/action_menus.h"
 #include "session/recent_surveys.h"
@@ -22,22 +21,28 @@
 namespace sonar {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 5> kBeginnings{
-    {{"file.open_folder", "Open a folder of raw files, or of results…"},
-     {"file.open_files", "Open some raw files…"},
-     {"file.demo", "Open the demo survey"},
-     {"help.guide", "Read the guide"},
-     {"help.keys", "See all keys"}}};
+struct Beginning {
+  const char* action;
+  const char* text;
+  const char* more;
+};
+constexpr std::array<Beginning, 4> kBeginnings{
+    {{"file.open_folder", "Open a folder", "Raw files of a survey, or the results of a run with their schools"},
+     {"file.open_files", "Open some files", "A part of a survey"},
+     {"file.demo", "Open the demo survey", "Simulated; it takes a moment to make at the first time"},
+     {"help.guide", "Read the guide", "From opening a survey to its map; F1 shows all keys"}}};
 
 constexpr const char* kSteps =
     "<ol style=\"margin-left:-24px\">"
-    "<li><b>Open</b> a survey: drop its folder here, or a folder of results with its schools.</li>"
-    "<li><b>Find schools</b>: Ctrl+D detects them in all pings; or click on one in a slice, and Ctrl+P follows it.</li>"
+    "<li style=\"margin-bottom:6px\"><b>Open</b> a survey: drop its folder here, or a folder of results with its "
+    "schools.</li>"
+    "<li style=\"margin-bottom:6px\"><b>Find schools</b>: Ctrl+D detects them in all pings; or click on one in a "
+    "slice, and Ctrl+P follows it.</li>"
     "<li><b>Review and export</b>: A accepts, R rejects; Ctrl+E writes tables, masks and the map.</li></ol>";
 
 constexpr const char* kInstruments =
     "Simrad MS70: schools are detected, followed and measured. ME70 and similar sonars: the same where the beams form "
-    "fans. EK60: read, but schools are not detected in single beams yet. EK80: named, but not read yet.";
+    "fans. EK60: shown as an echogram; schools are not detected in single beams yet. EK80: named, but not read yet.";
 
 class StartPage : public QWidget {
  public:
@@ -45,13 +50,15 @@ class StartPage : public QWidget {
     setObjectName("start_page");
     setAutoFillBackground(true);
     auto* page = new QGridLayout(this);
-    page->setContentsMargins(40, 24, 40, 24);
-    page->setHorizontalSpacing(48);
+    page->setContentsMargins(56, 40, 56, 24);
+    page->setHorizontalSpacing(64);
+    page->setVerticalSpacing(16);
     page->setColumnStretch(0, 1);
     page->setColumnStretch(1, 1);
     page->setRowStretch(2, 1);
     page->addWidget(heading("Sonar Explorer", 2.0), 0, 0);
     page->addLayout(beginnings(), 1, 0, Qt::AlignTop);
+    recent_->setSpacing(6);
     page->addLayout(recent_, 1, 1, 2, 1, Qt::AlignTop);
     page->addWidget(heading("Opened before", 1.3), 0, 1, Qt::AlignBottom);
     window.installEventFilter(this);
@@ -86,17 +93,18 @@ class StartPage : public QWidget {
 
   QVBoxLayout* beginnings() {
     auto* column = new QVBoxLayout;
-    for (const auto& [id, text] : kBeginnings) {
+    for (const auto& [id, text, more] : kBeginnings) {
       QAction* action = find_action(window_, id);
-      auto* button = new QPushButton(text, this);
+      auto* button = new QCommandLinkButton(text, more, this);
       button->setObjectName(QString("start.") + id);
-      button->setToolTip(action->toolTip());
       QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
-      column->addWidget(button, 0, Qt::AlignLeft);
+      column->addWidget(button);
     }
     column->addSpacing(16);
     column->addWidget(heading("Three steps", 1.3));
+    column->addSpacing(8);
     column->addWidget(words(kSteps, "start.steps"));
+    column->addSpacing(8);
     column->addWidget(words(kInstruments, "start.instruments"));
     return column;
   }
@@ -119,7 +127,7 @@ class StartPage : public QWidget {
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::StrongFocus);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    button->setIconSize(QSize(kThumbnail.width, kThumbnail.height) / 3);
+    button->setIconSize(QSize(kThumbnail.width, kThumbnail.height) / 2);
     QPixmap picture(kThumbnail.width, kThumbnail.height);
     picture.fill(Qt::transparent);
     if (!survey.thumbnail.empty()) picture.load(QString::fromStdString(survey.thumbnail.string()));

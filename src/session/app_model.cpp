@@ -70,7 +70,7 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
          "File > Demo survey opens a simulated one.\n\n"
          "Simrad MS70: schools are detected, followed and measured.\n"
          "ME70 and similar sonars: the same where the beams form fans.\n"
-         "EK60: read, but schools are not detected in single beams yet.\n"
+         "EK60: shown as an echogram; schools are not detected in single beams yet.\n"
          "EK80: named, but not read yet.";
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <QCommandLinkButton>
 #include <QLabel>
-#include <QPushButton>
 #include <QToolButton>
 
 #include "window_at_work.h"
