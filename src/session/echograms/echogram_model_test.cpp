@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
-#include "io/simrad/test_bytes.h"
+#include "pipeline/survey/test_ek60.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -196,7 +195,8 @@ TEST_F(Echogram, BeamsThatNobodyLooksAtAreLetGoInTime) {
   EXPECT_LE(std::count_if(names.begin(), names.end(), kept), 6);
 }
 
-/// Two pings a second apart of a sounder with 38 and 120 kHz, over the time of the simulated survey's first observation.
+/// A sounder with 38 and 120 kHz over the time of the simulated survey's first observation.
+/// fans  that survey beside it
 std::filesystem::path with_ek60(bool fans) {
   const std::filesystem::path folder = TestSurvey::easy().fresh() / "both";
   std::filesystem::create_directories(folder);
@@ -209,22 +209,7 @@ std::filesystem::path with_ek60(bool fans) {
       std::filesystem::copy_file(file.path, folder / file.path.filename());
     }
   }
-  test::Con0Spec con0;
-  con0.sounder = "ER60";
-  con0.beams = {{38'000.0F, 0.0F, 0.0F, 25.0F, -20.5F}, {120'000.0F, 0.0F, 0.0F, 27.0F, -21.0F}};
-  const TimeNs start = survey->ping_time(first, 0);
-  test::Bytes bytes = test::con0(con0, start);
-  for (int ping = 0; ping < 30; ++ping) {
-    for (int channel = 1; channel <= 2; ++channel) {
-      test::Raw0Spec spec;
-      spec.channel = channel;
-      spec.frequency_hz = channel == 1 ? 38'000.0F : 120'000.0F;
-      spec.transducer_depth_m = 6.0F;
-      bytes.add(test::raw0(start + ping * kSecondNs, spec, std::vector<std::int16_t>(300, -9000)));
-    }
-  }
-  std::ofstream out(folder / "ek60.raw", std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data.data()), static_cast<std::streamsize>(bytes.size()));
+  test::write_ek60(folder / "ek60.raw", survey->ping_time(first, 0));
   return folder;
 }
 
