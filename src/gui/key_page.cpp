@@ -3,7 +3,7 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QSignalBlocker>
+#include <QKeyEvent>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
@@ -25,6 +25,30 @@ QString keys_text(const std::vector<std::string>& keys) {
 QString menu_text(const Action& action) { return text(action.menu).remove('&').replace("/", " > "); }
 
 }  // namespace
+
+KeyField::KeyField(QWidget* parent) : QLineEdit(parent) {
+  setReadOnly(true);
+  setPlaceholderText("Click here, then press the key");
+}
+
+bool KeyField::event(QEvent* event) {
+  const bool asked = event->type() == QEvent::ShortcutOverride;
+  if (!asked && event->type() != QEvent::KeyPress) return QLineEdit::event(event);
+  const auto& pressed = dynamic_cast<const QKeyEvent&>(*event);
+  const int key = pressed.key();
+  const bool other = key == Qt::Key_Tab || key == Qt::Key_Backtab || key == Qt::Key_Escape || key == Qt::Key_unknown;
+  if (other) return QLineEdit::event(event);
+  event->accept();
+  const bool alone = key == Qt::Key_Shift || key == Qt::Key_Control || key == Qt::Key_Alt || key == Qt::Key_Meta ||
+                     key == Qt::Key_AltGr;
+  if (asked || alone || !told_) return true;
+  auto modifiers = pressed.modifiers() & ~Qt::KeypadModifier;
+  // "+" is "+" wherever a keyboard has it; only letters are told apart by Shift.
+  const bool sign = key > Qt::Key_Space && key < Qt::Key_Escape && (key < Qt::Key_A || key > Qt::Key_Z);
+  if (sign) modifiers &= ~Qt::ShiftModifier;
+  told_(QKeySequence(QKeyCombination(modifiers, static_cast<Qt::Key>(key))));
+  return true;
+}
 
 KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(actions) {
   auto* column = new QVBoxLayout(this);
@@ -58,7 +82,7 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
   told_->setObjectName("told");
   told_->setWordWrap(true);
   column->addWidget(told_);
-  connect(key_, &QKeySequenceEdit::keySequenceChanged, this, [this](const QKeySequence& key) { press(key); });
+  key_->on_key([this](const QKeySequence& key) { press(key); });
   connect(none_, &QPushButton::clicked, this, [this] { set({}); });
   connect(usual_, &QPushButton::clicked, this, [this] {
     if (const Action* action = chosen()) set(actions_.usual_keys(*action));
@@ -104,22 +128,19 @@ void KeyPage::narrow(const QString& words) {
 }
 
 void KeyPage::choose() {
-  const QSignalBlocker silent(key_);
   const Action* action = chosen();
   for (QWidget* one : {static_cast<QWidget*>(key_), static_cast<QWidget*>(none_), static_cast<QWidget*>(usual_)}) {
     one->setEnabled(action != nullptr);
   }
-  key_->clear();
   told_->setText(action == nullptr ? "Choose an action, then press the key that it is to have."
                                    : text(action->text + ": " + action->tip));
 }
 
 void KeyPage::press(const QKeySequence& key) {
   const Action* action = chosen();
-  if (action == nullptr || key.isEmpty()) return;
-  const QKeySequence first(key[0]);  // a key is one stroke
-  const std::string wanted = first.toString(QKeySequence::PortableText).toStdString();
-  const QString shown = first.toString(QKeySequence::NativeText);
+  if (action == nullptr) return;
+  const std::string wanted = key.toString(QKeySequence::PortableText).toStdString();
+  const QString shown = key.toString(QKeySequence::NativeText);
   const Action* owner = actions_.with_key(wanted);
   if (owner != nullptr && owner != action) {
     told_->setText(
@@ -127,8 +148,6 @@ void KeyPage::press(const QKeySequence& key) {
   } else {
     set({wanted});
   }
-  const QSignalBlocker silent(key_);
-  key_->clear();
 }
 
 void KeyPage::set(std::vector<std::string> keys) {

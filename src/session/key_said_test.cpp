@@ -53,6 +53,7 @@ TEST_F(KeySaidApp, ASwitchSaysWhetherItIsOn) {
 }
 
 TEST_F(KeySaidApp, WhatCannotBeDoneIsSaidAndNotDone) {
+  workspace().school.set(std::nullopt);
   const std::size_t lines = document().choices().lines->size();
   EXPECT_THAT(key("review.reject"), ElementsAre("Reject: select a school first"));
   EXPECT_EQ(document().choices().lines->size(), lines);
