@@ -81,6 +81,8 @@ TEST_F(PictureFile, IsNotMadeWhereTheHumanDeclines) {
 }
 
 TEST_F(PictureFile, EveryKindAsksForWhatItNeedsAndIsMade) {
+  paint(4, 6, 5, 5, 200);  // a chart is of schools
+  document().settle();
   for (const PictureKindInfo& kind : picture_kinds()) {
     if (kind.name == "movie") continue;  // it has menu entries of its own
     answer([](ParameterSource& source) {

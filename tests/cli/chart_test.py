@@ -14,12 +14,10 @@ class Picture:
     def __init__(self, file):
         text = file.read_text(encoding="utf-8")
         self.words = " | ".join(html.unescape(one) for one in re.findall(r"<text [^>]*>([^<]*)</text>", text))
-        self.discs, self.bars = [], []
-        for path in re.findall(r"<path [^>]*\bd=\"([^\"]*)\"", text):
-            places = [(float(x), float(y)) for x, y in re.findall(PAIR, path)]
-            closed = "Z" in path and "C" not in path
-            if closed and len(places) in (9, 17, 8, 16):
-                corners = places[:-1] if len(places) in (9, 17) else places
+        self.discs = []
+        for path in re.findall(r"<path (?=[^>]*fill=\"rgb|[^>]*fill:rgb)[^>]*\bd=\"([^\"]*)\"", text):
+            corners = {(float(x), float(y)) for x, y in re.findall(PAIR, path)}
+            if "Z" in path and len(corners) in (8, 16):
                 self.discs.append((sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners)))
 
 
