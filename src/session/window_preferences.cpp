@@ -72,22 +72,25 @@ void change_preferences(AppModel& app) {
 
 void add_window_preferences(AppModel& app) {
   Workspace& workspace = app.workspace;
-  workspace.window.on_change([&app, before = WindowParams{}](const WindowParams& now) mutable {
-    follow(app, std::exchange(before, now), now);
+  // What a key has changed comes here later, when another may have been pressed: it is followed already.
+  const auto followed = std::make_shared<WindowParams>();
+  workspace.window.on_change([&app, followed](const WindowParams& now) {
+    const WindowParams before = std::exchange(*followed, now);
+    follow(app, before, now);
   });
-  workspace.dark.changed().add([&app] {
+  workspace.dark.changed().add([&app, followed] {
     WindowParams params = app.workspace.window.values();
     if (is_dark(app, params.theme) == app.workspace.dark()) return;
-    params.theme = app.workspace.dark() ? ThemeName::dark : ThemeName::light;
+    followed->theme = params.theme = app.workspace.dark() ? ThemeName::dark : ThemeName::light;
     app.workspace.window.assign(params);
   });
-  app.playback->changed().add([&app] {
+  app.playback->changed().add([&app, followed] {
     WindowParams params = app.workspace.window.values();
     const double rate = app.playback->rate();
     const bool kept = !std::isfinite(rate) || rate == params.play_rate;  // as fast as possible is for now
     if (kept && app.playback->loops() == params.play_loop) return;
-    if (!kept) params.play_rate = rate;
-    params.play_loop = app.playback->loops();
+    if (!kept) followed->play_rate = params.play_rate = rate;
+    followed->play_loop = params.play_loop = app.playback->loops();
     app.workspace.window.assign(params);
   });
   app.actions.add({.id = "edit.preferences",

@@ -59,6 +59,18 @@ TEST_F(WindowPreferences, PlaybackFollowsAndItsKeysAreKept) {
   EXPECT_EQ(app_->playback->rate(), Playback::kFastest) << "another setting does not touch it";
 }
 
+TEST_F(WindowPreferences, KeysThatAreQuickerThanTheWindowsTurnsAllCount) {
+  for (int i = 0; i < 4; ++i) app_->playback->faster();  // 5, 10, 20, as fast as possible
+  press("view.dark");
+  press("view.dark");
+  press("view.dark");
+  queue_.drain();
+  queue_.drain();
+  EXPECT_EQ(app_->playback->rate(), Playback::kFastest);
+  EXPECT_TRUE(workspace().dark());
+  EXPECT_EQ(now().theme, ThemeName::dark);
+}
+
 TEST_F(WindowPreferences, MemoryHoldsForWhatIsOpenedNext) {
   set("memory_gb", 2.0);
   EXPECT_EQ(document().options().memory_bytes, 2'000'000'000U);
