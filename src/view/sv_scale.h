@@ -35,7 +35,7 @@ template <class Visitor>
 void describe(Visitor& v, SvScale& p) {
   constexpr std::string_view kOfSv = "slice- volume timeline echogram";
   constexpr std::string_view kScaled = "slice- volume timeline survey-map echogram";
-  v.choice("map", p.map, colour_map_names(), {"colour map", Tier::expert, kOfSv});
+  v.choice("map", p.map, colour_map_names(), {"colours that Sv is drawn in", Tier::expert, kOfSv});
   v.field("low_db", p.low_db,
           {.unit = "dB",
            .min = -190,
