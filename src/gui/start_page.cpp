@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QCommandLinkButton>
 #include <QEvent>
+#include <QFontInfo>
 #include <QGridLayout>
 #include <QIcon>
 #include <QLabel>
@@ -80,7 +81,7 @@ class StartPage : public QWidget {
   QLabel* heading(const QString& text, double size) {
     auto* label = new QLabel(text, this);
     QFont font = label->font();
-    font.setPointSizeF(size * font.pointSizeF());
+    font.setPointSizeF(size * QFontInfo(font).pointSizeF());
     label->setFont(font);
     return label;
   }

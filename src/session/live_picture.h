@@ -25,7 +25,7 @@ struct Overlay {
   std::optional<PixelPoint> cross;      ///< a cross-hair
   std::optional<PixelPoint> circle_at;  ///< a ring round a place
   double circle_px = 0.0;
-  bool muted = false;  ///< thin and pale: it tells where something lies, and hides nothing
+  bool muted = false;               ///< thin and pale: it tells where something lies, and hides nothing
   bool dashed = false;              ///< the line
   std::optional<PixelRect> clip{};  ///< what it must not leave
   std::string text{};               ///< lines to stand beside a rectangle, light on dark; or empty

@@ -93,7 +93,7 @@ PICTURES = {
     "timeline-without-schools": (["timeline", *BOTH, "--no-masks", "--along-log", "--dark"], DRAWN),
     "echogram": (["echogram", *BOTH], DRAWN),
     "echogram-depth-filtered": (["echogram", *BOTH, "--depth", "--filtered", "--dark", "--from-ping", "2", "--to-ping", "9"], DRAWN),
-    "echogram-fan": (["echogram", *BOTH, "--of-fan", "--fan", "14", "--map", "ek500", "--along-log"], DRAWN),
+    "echogram-fan": (["echogram", *BOTH, "--of-fan", "--fan", "6", "--map", "ek500", "--along-log"], DRAWN),
     "echogram-product-alone": (["echogram", sonarx.OUT], DRAWN),
     "timeline-log": (["timeline", *BOTH, "--along-log", "--maximum", "--whole-survey"], DRAWN),
     "chart": (["chart", sonarx.OUT, "--observation", "obs-0001"], DRAWN),

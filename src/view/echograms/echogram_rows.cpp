@@ -52,10 +52,10 @@ EchogramRange echogram_range(const Sector& sector, std::span<const Placement> pi
     for (const Placement& ping : pings) {
       for (const EchogramRow& row : echogram_rows(sector, ping, of)) {
         widest_m = std::max(widest_m, std::abs(row.step_m));
-        deepest_m = std::max(
-            {deepest_m, row.height_m(0), row.height_m(count - 1) + std::max(std::abs(row.step_m), kLeastBin_m)});
+        deepest_m = std::max({deepest_m, row.height_m(0), row.height_m(count - 1)});
       }
     }
+    deepest_m += widest_m;
     out.bin_m = widest_m;
     out.first_m = 0.0;
   }
