@@ -6,8 +6,10 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QLineEdit>
+#include <cmath>
+#include <vector>
 
-#include "gui/action_menus.h"
+#include "session/volume/volume_model.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -99,12 +101,16 @@ TEST_F(Measuring, OnTheMapsADragMeasuresAndDoesNotPan) {
 
 TEST_F(Measuring, InTheVolumeTwoClicksAreALine) {
   raise("volume");
-  const QSize size = view("volume")->size();
-  std::vector<PixelPoint> seen;
-  for (int i = 1; i < 40 && seen.size() < 2; ++i) {
-    const PixelPoint at{size.width() * (0.15 + 0.018 * i), size.height() * (seen.empty() ? 0.5 : 0.6)};
-    move("volume", at);
-    if (workspace().cursor()) seen.push_back(at);
+  const auto& model = dynamic_cast<VolumeModel&>(*app_->picture("volume"));
+  ASSERT_TRUE(model.shown());
+  const PixelRect& plot = model.shown()->place;
+  std::vector<PixelPoint> seen;  // far enough from each other to be no double click
+  for (double y = plot.y + 4.0; y < plot.y + plot.height && seen.size() < 2; y += 6.0) {
+    for (double x = plot.x + 4.0; x < plot.x + plot.width && seen.size() < 2; x += 6.0) {
+      const PixelPoint at{std::floor(x), std::floor(y)};
+      if (!model.shown()->picked_at(at)) continue;
+      if (seen.empty() || std::hypot(at.x - seen[0].x, at.y - seen[0].y) > 20.0) seen.push_back(at);
+    }
   }
   ASSERT_EQ(seen.size(), 2U);
   for (const PixelPoint& at : seen) click("volume", at);

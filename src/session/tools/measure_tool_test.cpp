@@ -148,7 +148,9 @@ TEST_F(MeasureAtWork, ALineFromAboveIsThatBetweenItsVoxels) {
   ASSERT_TRUE(ends[0].where && ends[1].where);
   EXPECT_NEAR(sphere_m(*ends[0].where, *ends[1].where) / line.horizontal_m, 1.0, 0.006);
   EXPECT_NEAR(wrap_180(geodesic(*ends[0].where, *ends[1].where).bearing_deg - line.bearing_deg), 0.0, 0.02);
-  EXPECT_EQ(read_out(workspace(), to).sv, fmt::format("Sv {:.1f} dB", ends[1].sv_db));
+  // The voxel that the pixel shows, which need not be the one whose centre lies in it.
+  EXPECT_EQ(ends[1].voxel, app_.top().picture()->voxel_at(at(app_.top(), to)));
+  EXPECT_EQ(read_out(workspace(), *ends[1].voxel).sv, fmt::format("Sv {:.1f} dB", ends[1].sv_db));
   EXPECT_THAT(measured_text(workspace()), HasSubstr(fmt::format("{:.1f} m slant", line.slant_m)));
 }
 
@@ -178,7 +180,8 @@ TEST_F(MeasureAtWork, ABoxSumsTheVoxelsOfItsSlice) {
 
 TEST_F(MeasureAtWork, ALassoSumsWhatItEnclosesOnce) {
   // Two triangles that meet in the middle, drawn in one stroke.
-  const PixelPoint m = at(app_.top(), bright());
+  // The crossing lies beside every voxel's centre.
+  const PixelPoint m{at(app_.top(), bright()).x + 0.37, at(app_.top(), bright()).y + 0.11};
   std::vector<PixelPoint> way{{m.x - 50, m.y - 40}, {m.x + 50, m.y + 40}, {m.x + 50, m.y - 40}, {m.x - 50, m.y + 40}};
   drag(app_.top(), way, false, true);
   ASSERT_TRUE(measured());
@@ -283,8 +286,11 @@ TEST_F(MeasureAtWork, TheLineStaysOnItsVoxelsWhenZoomedAndTurned) {
   app_.top().pointer(wheel);
   app_.settle();
   EXPECT_NEAR(end().x, at(app_.top(), to).x, 1e-6);
+  EXPECT_NEAR(end().y, at(app_.top(), to).y, 1e-6);
+  app_.ask("display.all");
   app_.ask("display.north_up");
   app_.settle();
+  EXPECT_NE(app_.top().picture()->map->view().up_rad, 0.0);
   EXPECT_NEAR(end().x, at(app_.top(), to).x, 1e-6);
   EXPECT_NEAR(end().y, at(app_.top(), to).y, 1e-6);
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "base/number_text.h"
@@ -44,7 +45,8 @@ std::string depth_text(const LineFigures& line) {
 std::string distance_text(const Measurement& measured) {
   const double distance_m = measured.line.horizontal_m;
   if (measured.on != Measurement::On::map) return fmt::format("{:.1f} m horizontal", distance_m);
-  return fmt::format("{:.0f} m, {:.3f} nmi", distance_m, distance_m / kMetresPerNauticalMile);
+  return fmt::format("{} m, {:.3f} nmi", grouped(static_cast<std::size_t>(std::llround(distance_m))),
+                     distance_m / kMetresPerNauticalMile);
 }
 
 std::string slant_text(const LineFigures& line) {

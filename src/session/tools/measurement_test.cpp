@@ -74,7 +74,7 @@ TEST(MeasurementText, ABearingJustBelowNorthIsNorth) {
   measured.on = Measurement::On::map;
   measured.line.horizontal_m = 1852.0;
   measured.line.bearing_deg = 359.97;
-  EXPECT_EQ(brief_text(measured), "1852 m, 1.000 nmi\nbearing 000.0\u00B0");
+  EXPECT_EQ(brief_text(measured), "1 852 m, 1.000 nmi\nbearing 000.0\u00B0");
 }
 
 }  // namespace
