@@ -65,13 +65,15 @@ void SliceModel::press(const PointerEvent& event, bool double_press) {
     panned_ = event.at;
     return;
   }
-  const auto voxel = voxel_at(event.at);
-  if (event.button != PointerButton::left || !voxel) return;
-  if (event.alt) return seed_.select(*voxel);
+  if (event.button != PointerButton::left) return;
   if (workspace_.tool() == ToolName::section) {
-    section_ = event.at;
+    // A line may begin beside the sector.
+    if (picture_ && inside(picture_->plot.place, event.at)) section_ = event.at;
     return;
   }
+  const auto voxel = voxel_at(event.at);
+  if (!voxel) return;
+  if (event.alt) return seed_.select(*voxel);
   if (on_brush()) {
     brush_.press(*picture_->map, on_map(event.at), workspace_.tool() == ToolName::eraser, scale());
   } else if (on_seed()) {

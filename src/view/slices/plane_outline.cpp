@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "view/slices/slice_geometry.h"
+
 namespace sonar {
 
 double inside_by_m(const Sector& sector, const Point<Sonar>& p) {
@@ -35,9 +37,11 @@ std::vector<ContourLine> plane_outline(const SliceMap& map) {
   field.size = {static_cast<int>(std::ceil(size.width / step)) + 1,
                 static_cast<int>(std::ceil(size.height / step)) + 1};
   field.values.reserve(field.size.count());
+  const SliceGeometry geometry(map.sector(), map.view());
   for (int y = 0; y < field.size.height; ++y) {
     for (int x = 0; x < field.size.width; ++x) {
-      field.values.push_back(static_cast<float>(inside_by_m(map.sector(), map.point_at({x * step, y * step}))));
+      const PixelPoint at = map.slice_coordinates({x * step, y * step});
+      field.values.push_back(static_cast<float>(inside_by_m(map.sector(), geometry.point(at.x, at.y))));
     }
   }
   std::vector<ContourLine> lines = contour_lines(field, 0.0);

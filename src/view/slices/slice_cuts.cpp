@@ -192,6 +192,9 @@ std::vector<std::vector<PixelPoint>> slice_cut(const SliceMap& map, const Slice&
       field.values.push_back(static_cast<float>(surface.distance(point({x * step_x, y * step_y}))));
     }
   }
+  // A plane may be the other slice itself: then it is cut nowhere, and all that is left is rounding.
+  constexpr float kSame_m = 1e-3F;
+  if (std::ranges::all_of(field.values, [](float off_m) { return std::abs(off_m) < kSame_m; })) return {};
   // Where everything meets, at the sonar, the lattice is too coarse: lines begin a cell away from it.
   const bool in_metres = kind_of(map.view().slice) != SliceKind::range;
   const SliceExtent& e = map.extent();

@@ -17,9 +17,12 @@ const PixelSize kSize{400, 300};
 std::vector<Slice> slices_of(const Sector& sector) {
   const Voxel middle{sector.fans() / 2, sector.beams() / 2, sector.range().count / 2};
   const Point<Sonar> centre = sector.centre(middle.fan, middle.beam, middle.sample);
-  return {TopSlice{middle.fan},        SideSlice{middle.beam},
-          RangeSlice{middle.sample},   horizontal_plane(centre.z, 0.0),
-          *vertical_plane({}, centre), *oblique_plane(centre, {0.3, 0.4, -0.7})};
+  return {TopSlice{middle.fan},
+          SideSlice{middle.beam},
+          RangeSlice{middle.sample},
+          horizontal_plane(centre.z, 0.0),
+          *vertical_plane({20.0, 5.0, 0.0}, centre),
+          *oblique_plane(centre, {0.3, 0.4, -0.7})};
 }
 
 SliceMap map_of(const Sector& sector, const Slice& slice) {
@@ -87,6 +90,15 @@ TEST(SliceCut, OfABeamInAFanIsOneStraightLine) {
   EXPECT_EQ(lines[0].size(), 2U);
   // Beam 3 lies at azimuth 270: to port, which is left.
   EXPECT_NEAR(lines[0][0].y, lines[0][1].y, 1e-6);
+}
+
+// By hand: the plane through the sonar along a beam's azimuth is where that beam's slice lies.
+TEST(SliceCut, OfASliceInTheSamePlaceIsNothing) {
+  const Sector sector = slice_example::hand_sector();
+  const Slice same = vertical_plane(sector.azimuth_rad(3));
+  EXPECT_TRUE(slice_cut(map_of(sector, SideSlice{3}), same).empty());
+  EXPECT_TRUE(slice_cut(map_of(sector, same), SideSlice{3}).empty());
+  EXPECT_TRUE(slice_cut(map_of(sector, same), SideSlice{5}).empty()) << "they meet at the sonar alone";
 }
 
 // Law: what pixels show of a run is cut, and no pixel shows a run that is not.

@@ -123,7 +123,7 @@ TEST(ContextLabels, NeverCollide) {
 // Both are metres: every label says of which, but in a small picture one of each does.
 TEST(ContextLabels, RangesAndDepthsAreToldApart) {
   const Sector sector = slice_example::sectors()[0].sector;
-  for (const PixelSize size : {PixelSize{900, 700}, PixelSize{300, 240}}) {
+  for (const PixelSize size : {PixelSize{900, 700}, PixelSize{280, 230}}) {
     int ranges = 0;
     int depths = 0;
     int bare = 0;
