@@ -11,6 +11,7 @@
 #include <QTreeView>
 
 #include "gui/action_menus.h"
+#include "session/slices/slice_places.h"
 #include "session/timelines/timeline_model.h"
 #include "window_at_work.h"
 
@@ -156,6 +157,8 @@ TEST_F(Menus, RowsAndTheTreeHaveMenusToo) {
 }
 
 TEST_F(Menus, EveryViewAndListHasAMenu) {
+  for (const SliceKind kind : kSliceKinds) switch_on(workspace(), kind);
+  settle();
   for (const PictureDock& one : app_->pictures) {
     raise(one.id);
     close(*right_click(one.id, {20.0, 20.0}));
