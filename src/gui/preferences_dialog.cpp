@@ -8,6 +8,8 @@
 #include <QScrollArea>
 #include <QTabWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
 #include "gui/key_page.h"
 #include "gui/panel_section.h"
@@ -61,9 +63,14 @@ bool ask_preferences(QWidget& window, AppModel& app) {
 }
 
 void take_text_size(double percent) {
-  static const double kUsual_pt = QApplication::font().pointSizeF();
+  static const QFont kUsual = QApplication::font();
   QFont font = QApplication::font();
-  font.setPointSizeF(kUsual_pt * percent / 100.0);
+  // A font has its size in points or in pixels.
+  if (kUsual.pixelSize() > 0) {
+    font.setPixelSize(std::max(1, static_cast<int>(std::lround(kUsual.pixelSize() * percent / 100.0))));
+  } else {
+    font.setPointSizeF(kUsual.pointSizeF() * percent / 100.0);
+  }
   if (font != QApplication::font()) QApplication::setFont(font);
 }
 
