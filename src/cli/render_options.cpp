@@ -150,6 +150,8 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   }
   for (const char* column : {"--x", "--y"}) verb.get_option(column)->check(some_column(column[2] == 'y'));
   verb.get_option("--through")->check(numbers_between_commas("X,Y,X,Y"));
+  verb.get_option("--channel")->check(some_name("X"));
+  verb.get_option("--below")->check(some_name());
 }
 
 std::string drawn_kind_name(const RenderArguments& arguments) {
