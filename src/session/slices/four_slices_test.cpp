@@ -140,7 +140,9 @@ TEST_F(FourSlices, ACursorBesideASliceIsCarriedIntoIt) {
 TEST_F(FourSlices, EachShowsWhereTheOthersRunThroughIt) {
   app_.ask("slice.plane_vertical");
   app_.settle();
-  for (SliceModel* slice : {&app_.top(), &app_.side(), &app_.range(), &app_.plane()}) EXPECT_GE(lines_in(*slice), 3U);
+  // The plane stands along the beam that the slice from the side is of: of these two neither cuts the other.
+  for (SliceModel* slice : {&app_.side(), &app_.plane()}) EXPECT_GE(lines_in(*slice), 2U);
+  for (SliceModel* slice : {&app_.top(), &app_.range()}) EXPECT_GE(lines_in(*slice), 3U);
   ViewSwitches views = workspace().views.values();
   views.range_slice = views.plane_slice = false;
   workspace().views.assign(views);
