@@ -80,8 +80,8 @@ void lay_out_docks(QMainWindow& window) {
   QDockWidget* left = put(window, Qt::LeftDockWidgetArea, "survey_tree");
   QDockWidget* notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
   QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");
+  behind(window, right, {"range_slice", "plane_slice"});  // out of the way: a row of all six would widen the window
   QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
-  behind(window, top, {"range_slice", "plane_slice"});  // a row of all six would widen the window
   QDockWidget* side = put(window, Qt::TopDockWidgetArea, "side_slice");
   QDockWidget* maps = put(window, Qt::TopDockWidgetArea, "observation_map");
   QDockWidget* volume = put(window, Qt::TopDockWidgetArea, "volume");
