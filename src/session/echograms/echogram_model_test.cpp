@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include "pipeline/survey/test_ek60.h"
+#include "publish/picture.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -240,6 +242,26 @@ TEST_F(EchogramWithEk60, ItsChannelsLieBelowUnderTheSameTime) {
   echogram_.set_other_below(false);
   settle();
   EXPECT_FALSE(echogram_.places()->below);
+}
+
+TEST_F(EchogramWithEk60, AFileShowsBothToo) {
+  Work work;
+  const auto source = PictureSource::open(document().paths(), std::nullopt, work);
+  ASSERT_TRUE(source) << to_line(source.error());
+  PictureOptions options;
+  options.size = {900, 700};
+  options.kind.echogram.below = "auto";
+  options.kind.echogram.channel = "120";
+  const auto frame = picture_frame(PictureKind::echogram, **source, "obs-0001", options, work);
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  const auto says = [&](const std::string& words) {
+    return std::any_of(frame->items.begin(), frame->items.end(), [&](const auto& item) {
+      const auto* text = std::get_if<TextItem>(&item);
+      return text != nullptr && text->text.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says("beam 12 of fan 10")) << "the middle one, where no school is known";
+  EXPECT_TRUE(says("channel 2 of 2: 120 kHz"));
 }
 
 class EchogramOfEk60 : public Echogram {
