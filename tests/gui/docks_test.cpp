@@ -117,6 +117,8 @@ TEST_F(Docks, ClosingADockIsSwitchingItsViewOff) {
 }
 
 TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));  // without a school there is nothing to chart
   for (const SliceKind kind : kSliceKinds) switch_on(workspace(), kind);
   settle();
   for (const QSize size : {QSize(1280, 800), QSize(1366, 768)}) {
