@@ -154,11 +154,11 @@ bool is_single_character(const QKeySequence& key) {
 void add_view_keys(QMainWindow& window, AppModel& app) { new ViewKeys(window, app); }
 
 bool KeyedAction::event(QEvent* event) {
-  if (event->type() == QEvent::Shortcut) {
-    const QKeySequence key = dynamic_cast<QShortcutEvent&>(*event).key();
-    const auto bare = key.count() == 1 ? key[0].key() : Qt::Key_unknown;
-    by_key_ = is_single_character(key) || bare == Qt::Key_Return || bare == Qt::Key_Enter || bare == Qt::Key_Delete;
-  }
+  // Others come while it is triggered, as when a switch is set: they are no keys.
+  if (event->type() != QEvent::Shortcut) return QAction::event(event);
+  const QKeySequence key = dynamic_cast<QShortcutEvent&>(*event).key();
+  const auto bare = key.count() == 1 ? key[0].key() : Qt::Key_unknown;
+  by_key_ = is_single_character(key) || bare == Qt::Key_Return || bare == Qt::Key_Enter || bare == Qt::Key_Delete;
   const bool taken = QAction::event(event);
   by_key_ = false;
   return taken;
