@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QPalette>
+#include <QSocketNotifier>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "base/asked_to_end.h"
 #include "base/manual.h"
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
@@ -98,6 +100,17 @@ void end_without_display(QtMsgType type, const QMessageLogContext& /*where*/, co
   std::_Exit(1);
 }
 
+/// As a user would.
+void close_when_asked(QWidget& window) {
+  const int asked = asked_to_end();
+  if (asked < 0) return;
+  auto* notifier = new QSocketNotifier(asked, QSocketNotifier::Read, &window);
+  QObject::connect(notifier, &QSocketNotifier::activated, &window, [notifier, &window] {
+    notifier->setEnabled(false);
+    window.close();
+  });
+}
+
 int run_program(int argc, char** argv) {
   CommandLine line;
   QCommandLineParser& parser = line.parser;
@@ -140,6 +153,7 @@ int run_program(int argc, char** argv) {
   MainWindow window(app);
   window.take_layout(app.preferences.window_layout);
   window.show();
+  close_when_asked(window);
   if (!loaded.notice.empty()) app.workspace.document.tell(loaded.notice);
   std::vector<std::filesystem::path> paths;
   for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());

@@ -7,7 +7,11 @@
 #include <QMenu>
 #include <QProcess>
 #include <QTreeView>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "base/test_full_disk.h"
 #include "gui/action_menus.h"
@@ -223,6 +227,34 @@ TEST(Program, TellsItsOptionsAndItsVersionWhereThereIsNoDisplay) {
     EXPECT_EQ(process.exitCode(), 0) << option;
     EXPECT_THAT(process.readAllStandardOutput().toStdString(), testing::HasSubstr(told));
   }
+}
+
+/// Whether a program has a handler of its own for SIGTERM, as the system says.
+bool hears_term(qint64 process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0;
+  }
+  return false;
+}
+
+TEST(Program, ThatIsAskedToEndClosesAsAUserWould) {
+  const char* program = std::getenv("SONAR_EXPLORER");
+  if (program == nullptr) GTEST_SKIP() << "SONAR_EXPLORER, the program with the window, is not given";
+  const auto home = TestSurvey::easy().fresh();
+  QProcess process;
+  QProcessEnvironment own = QProcessEnvironment::systemEnvironment();
+  for (const char* name : {"XDG_CONFIG_HOME", "XDG_CACHE_HOME"})
+    own.insert(name, QString::fromStdString(home.string()));
+  process.setProcessEnvironment(own);
+  process.start(program, QStringList{});
+  ASSERT_TRUE(process.waitForStarted(-1));
+  while (process.state() == QProcess::Running && !hears_term(process.processId())) process.waitForFinished(20);
+  process.terminate();
+  ASSERT_TRUE(process.waitForFinished(-1));
+  EXPECT_EQ(process.exitStatus(), QProcess::NormalExit);
+  EXPECT_EQ(process.exitCode(), 0);
+  EXPECT_TRUE(std::filesystem::exists(home / "sonar-explorer" / "preferences.json")) << "the layout is kept";
 }
 
 }  // namespace
