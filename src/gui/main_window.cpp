@@ -124,8 +124,8 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
     tint_tool_bar(*this);
   };
   app.workspace.dark.changed().add(theme);
-  app.workspace.window.on_change([](const WindowParams& window) { take_text_size(window.text_percent); });
-  take_text_size(app.workspace.window.values().text_percent);
+  app.workspace.window.on_change([](const WindowParams& window) { take_text_size(window.text_size_percent); });
+  take_text_size(app.workspace.window.values().text_size_percent);
   theme();
   app.workspace.document.changes().add([this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();

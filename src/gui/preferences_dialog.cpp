@@ -6,6 +6,7 @@
 #include <QDialogButtonBox>
 #include <QKeyEvent>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTabWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -52,6 +53,9 @@ class PreferencesDialog : public QDialog {
     column->addWidget(panel_section(section, inside));
     column->addStretch(1);
     scroll->setWidget(inside);
+    // As wide as what stands in it: it scrolls up and down alone.
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setMinimumWidth(inside->minimumSizeHint().width() + scroll->verticalScrollBar()->sizeHint().width());
     pages.addTab(scroll, QString::fromStdString(section.title));
   }
 };

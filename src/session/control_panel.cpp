@@ -62,6 +62,15 @@ std::vector<PanelSection::Words> picture_words() {
   return {std::move(x), {"chart.y", std::move(names)}};
 }
 
+PanelSection colours_section(Workspace& workspace) {
+  PanelSection colours =
+      first_section("Colours", std::make_shared<SourceOf<DisplayParams>>(workspace.display), kColours);
+  colours.looks = {{"scale.low_db", "", {-100.0, 0.0}},
+                   {"scale.span_db", "", {6.0, 80.0}},
+                   {"scale.threshold_db", "none", {-100.0, 0.0}}};
+  return colours;
+}
+
 std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto display = std::make_shared<SourceOf<DisplayParams>>(workspace.display);
   const auto select = std::make_shared<SourceOf<SelectParams>>(workspace.select);
@@ -76,17 +85,13 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto mode_is = [mode](bool paper) { return [mode, paper] { return (mode() == GrowMode::paper) == paper; }; };
   PanelSection selection = first_section("Selection", select, kSelection);
   selection.uses = {{"tolerance_db", mode_is(false)}, {"margin_db", mode_is(false)}};
-  PanelSection colours = first_section("Colours", display, kColours);
-  colours.looks = {{"scale.low_db", "", {-100.0, 0.0}},
-                   {"scale.span_db", "", {6.0, 80.0}},
-                   {"scale.threshold_db", "none", {-100.0, 0.0}}};
   PanelSection more{
       "More of selection", select, {"mode", "tolerance_opacity", "connectivity", "backwards", "forwards"}, {}, false};
   more.uses.push_back({"tolerance_opacity", mode_is(true)});
   return {
       std::move(selection),
       first_section("Schools", display, kSchools),
-      std::move(colours),
+      colours_section(workspace),
       first_section("Noise", display, kNoise),
       std::move(more),
       {"More of schools",

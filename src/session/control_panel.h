@@ -12,6 +12,9 @@ namespace sonar {
 /// all others, folded.
 [[nodiscard]] std::vector<PanelSection> control_panel(Workspace& workspace);
 
+/// Of them the one about the colours of Sv.
+[[nodiscard]] PanelSection colours_section(Workspace& workspace);
+
 /// Texts of the parameters of pictures that are one of a list: columns of tables.
 [[nodiscard]] std::vector<PanelSection::Words> picture_words();
 

@@ -354,18 +354,6 @@ TEST_F(Exports, WithoutASurveyThereIsNothingToWrite) {
   EXPECT_THAT(app.workspace.document.notices().back(), HasSubstr("no survey is open"));
 }
 
-TEST_F(Exports, RecentSurveysAreKeptAndOpened) {
-  EXPECT_EQ(app_->actions.find("file.recent.1")->text_now(), TestSurvey::easy().folder().string());
-  EXPECT_TRUE(app_->actions.find("file.recent.1")->enabled());
-  EXPECT_FALSE(app_->actions.find("file.recent.2")->enabled());
-  const auto before = document().survey_files();
-  ASSERT_TRUE(document().show(1));
-  press("file.recent.1");
-  document().settle();
-  EXPECT_NE(document().survey_files(), before);
-  EXPECT_EQ(document().shown()->index(), 1U) << "where it was left";
-}
-
 // The window numbers schools in the survey as results would have them now; once they are written, as they have them.
 TEST_F(Exports, NumbersInTheSurveyAreThoseOfTheResultsAndStay) {
   const auto numbers = [this] {

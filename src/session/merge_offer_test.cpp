@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "session/test_app.h"
 
 namespace sonar {
@@ -19,14 +17,7 @@ class MergeOffered : public TestApp, public testing::Test {
  protected:
   void SetUp() override {
     begin();
-    document().detect({0});
-    document().settle();
-    const auto& schools = document().state().schools;
-    const auto longest = std::max_element(schools.begin(), schools.end(), [](const auto& a, const auto& b) {
-      return a->masks.pings.size() < b->masks.pings.size();
-    });
-    ASSERT_NE(longest, schools.end());
-    found_ = (*longest)->masks;
+    found_ = longest_found();
     ASSERT_GE(found_.pings.size(), 6U);
     document().undo();
     document().settle();

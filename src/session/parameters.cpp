@@ -9,8 +9,8 @@
 namespace sonar {
 
 std::string label_of(std::string_view name, std::string_view unit) {
-  constexpr std::array<std::string_view, 9> kSuffixes{"_px",  "_db",   "_m",     "_deg", "_s",
-                                                      "_mps", "_mps2", "_pings", "_hz"};
+  constexpr std::array<std::string_view, 11> kSuffixes{"_px",   "_db",    "_m",  "_deg", "_s",      "_mps",
+                                                       "_mps2", "_pings", "_hz", "_gb",  "_percent"};
   if (!unit.empty()) {
     for (const std::string_view suffix : kSuffixes) {
       if (!name.ends_with(suffix)) continue;

@@ -41,7 +41,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
   out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
   out.window.theme = ThemeName::dark;
-  out.window.text_percent = 120.0;
+  out.window.text_size_percent = 120.0;
   out.window.memory_gb = 3.0;
   out.window.play_rate = 5.0;
   out.keys = {{"display.masks", {"Ctrl+G"}}, {"review.next", {}}};
@@ -57,7 +57,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   EXPECT_EQ(in.notice, "");
   EXPECT_TRUE(in.preferences.dark);
   EXPECT_EQ(in.preferences.window.theme, ThemeName::dark);
-  EXPECT_EQ(in.preferences.window.text_percent, 120.0);
+  EXPECT_EQ(in.preferences.window.text_size_percent, 120.0);
   EXPECT_EQ(in.preferences.window.memory_gb, 3.0);
   EXPECT_EQ(in.preferences.window.play_rate, 5.0);
   EXPECT_EQ(in.preferences.keys, out.keys);

@@ -82,5 +82,22 @@ TEST_F(OpenedBefore, IsListedWithItsPictureAndToldWhereItIsGone) {
   EXPECT_EQ(static_cast<unsigned char>(head[23]), kThumbnail.height);
 }
 
+TEST_F(OpenedBefore, IsInTheMenuAndOpensWhereItWasLeft) {
+  const auto app = begin();
+  Document& document = app->workspace.document;
+  document.open({TestSurvey::easy().folder()});
+  document.settle();
+  const Action* first = app->actions.find("file.recent.1");
+  EXPECT_EQ(first->text_now(), TestSurvey::easy().folder().string());
+  EXPECT_TRUE(first->enabled());
+  EXPECT_FALSE(app->actions.find("file.recent.2")->enabled());
+  const auto before = document.survey_files();
+  ASSERT_TRUE(document.show(1));
+  first->run();
+  document.settle();
+  EXPECT_NE(document.survey_files(), before);
+  EXPECT_EQ(document.shown()->index(), 1U) << "where it was left";
+}
+
 }  // namespace
 }  // namespace sonar

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,16 @@ class TestApp {
   }
   [[nodiscard]] Document& document() { return app_->workspace.document; }
   [[nodiscard]] Workspace& workspace() { return app_->workspace; }
+  /// Masks of the school that detection finds in most pings of the first observation.
+  [[nodiscard]] SchoolMasks longest_found() {
+    document().detect({0});
+    document().settle();
+    const auto& schools = document().state(0).schools;
+    const auto longest = std::max_element(schools.begin(), schools.end(), [](const auto& a, const auto& b) {
+      return a->masks.pings.size() < b->masks.pings.size();
+    });
+    return longest == schools.end() ? SchoolMasks{} : (*longest)->masks;
+  }
   /// What a key or a menu does.
   void press(const std::string& id) {
     const Action* action = app_->actions.find(id);

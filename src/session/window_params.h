@@ -14,7 +14,7 @@ inline constexpr std::array<std::string_view, 3> kThemeNames{"system", "light", 
 /// What a user wants of the window itself.
 struct WindowParams {
   ThemeName theme = ThemeName::light;
-  double text_percent = 100.0;
+  double text_size_percent = 100.0;
   double memory_gb = 0.0;
   double play_rate = 2.0;
   bool play_loop = false;
@@ -25,7 +25,7 @@ void describe(Visitor& v, WindowParams& p) {
   v.choice("theme", p.theme, kThemeNames,
            "Colours of the window and its pictures: light, dark for night watches, or as the desktop has them.");
   v.field(
-      "text_percent", p.text_percent,
+      "text_size_percent", p.text_size_percent,
       {.unit = "%",
        .min = 70,
        .max = 200,

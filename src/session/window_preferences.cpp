@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "session/app_parts.h"
+#include "session/control_panel.h"
 #include "session/playback.h"
 
 namespace sonar {
@@ -41,18 +42,15 @@ std::vector<PanelSection::Note> sentences(const ParameterSource& source, const s
 
 std::vector<PanelSection> preference_pages(AppModel& app) {
   const auto window = std::make_shared<SourceOf<WindowParams>>(app.workspace.window);
-  const auto display = std::make_shared<SourceOf<DisplayParams>>(app.workspace.display);
   const auto page = [](std::string title, std::shared_ptr<ParameterSource> source, std::vector<std::string> names) {
     auto notes = sentences(*source, names);
     return PanelSection{std::move(title), std::move(source), std::move(names), std::move(notes)};
   };
-  std::vector<PanelSection> pages{page("Appearance", window, {"theme", "text_percent"}),
-                                  page("Colours of Sv", display, {"scale.map", "scale.low_db", "scale.span_db"}),
-                                  page("Playback", window, {"play_rate", "play_loop"}),
+  std::vector<PanelSection> pages{page("Appearance", window, {"theme", "text_size_percent"}),
+                                  colours_section(app.workspace), page("Playback", window, {"play_rate", "play_loop"}),
                                   page("Memory", window, {"memory_gb"})};
-  pages[1].looks = {{"scale.low_db", "", {-100.0, 0.0}}, {"scale.span_db", "", {6.0, 80.0}}};
   pages[2].looks = {{"play_rate", "real time", {0.0, 20.0}}};
-  pages[3].looks = {{"memory_gb", "half of the machine's", {0.0, 64.0}}};
+  pages[3].looks = {{"memory_gb", "automatic", {0.0, 64.0}}};
   return pages;
 }
 

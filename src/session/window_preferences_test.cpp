@@ -55,7 +55,7 @@ TEST_F(WindowPreferences, PlaybackFollowsAndItsKeysAreKept) {
   EXPECT_EQ(now().play_rate, 10.0);
   app_->playback->set_rate(Playback::kFastest);
   EXPECT_EQ(now().play_rate, 10.0) << "no number";
-  set("text_percent", 120.0);
+  set("text_size_percent", 120.0);
   EXPECT_EQ(app_->playback->rate(), Playback::kFastest) << "another setting does not touch it";
 }
 

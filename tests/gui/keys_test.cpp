@@ -158,13 +158,13 @@ TEST_F(Keys, PreferencesFollowAtOnceAndCancelBringsBackWhatWasThere) {
     keep(dialog, "preferences-playback");
     show_page(dialog, "Memory");
     keep(dialog, "preferences-memory");
-    show_page(dialog, "Colours of Sv");
+    show_page(dialog, "Colours");
     keep(dialog, "preferences-colours");
     press_button(dialog, "Cancel");
   });
   EXPECT_EQ(app_->playback->rate(), 2.0);
   in_preferences([&](QDialog& dialog) {
-    auto* size = dialog.findChild<QDoubleSpinBox*>("text_percent.box");
+    auto* size = dialog.findChild<QDoubleSpinBox*>("text_size_percent.box");
     size->selectAll();
     QTest::keyClicks(size, "150");
     QTest::keyClick(size, Qt::Key_Return);
@@ -172,9 +172,9 @@ TEST_F(Keys, PreferencesFollowAtOnceAndCancelBringsBackWhatWasThere) {
     keep(dialog, "preferences-large-text");
     press_button(dialog, "OK");
   });
-  EXPECT_EQ(workspace().window.values().text_percent, 150.0);
+  EXPECT_EQ(workspace().window.values().text_size_percent, 150.0);
   keep_picture("preferences-large-window");
-  ASSERT_TRUE(workspace().window.set("text_percent", 100.0));
+  ASSERT_TRUE(workspace().window.set("text_size_percent", 100.0));
   settle();
 }
 
