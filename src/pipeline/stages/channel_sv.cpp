@@ -61,7 +61,10 @@ Result<ChannelSv> load_channel_sv(const SurveyFiles& survey, const ObservationFi
   out.counts = power_of(*head, observation.range.count);
   out.range = channel_range(observation, recipe.survey, settings_of(*head), static_cast<int>(out.counts.size()));
   const double given_mps = observation.sound_speed_given ? observation.sound_speed_mps : 0.0;
-  const UserCalibration users(recipe.calibration.beams);
+  // A table's lines name channels, not sounders: beside a sonar with fans they are the sonar's.
+  const auto& all = survey.observations;
+  const bool of_sonar = std::any_of(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); });
+  const UserCalibration users(of_sonar ? std::vector<BeamCalibration>{} : recipe.calibration.beams);
   const ChannelCalibration calibration =
       channel_calibration(observation.config.beams[index], *head, recipe.calibration, users.of(channel), given_mps);
   const SampleRanges ranges(out.range.first_m, out.range.spacing_m, out.range.count);

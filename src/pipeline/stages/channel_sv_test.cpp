@@ -87,6 +87,40 @@ TEST(ChannelSv, IsTheSonarEquationOfTheChannelItself) {
   EXPECT_TRUE(lacking->counts.empty());
 }
 
+// The lines of a table name channels alone: 0 is the sonar's, and the sounder's too.
+TEST(ChannelSv, ATableIsTheSoundersOwnOnlyWhereNoSonarHasFans) {
+  const test::TemporaryFolder folder;
+  test::Con0Spec con0;
+  con0.sounder = "ER60";
+  con0.beams = {{38'000.0F, 0.0F, 0.0F, 25.0F, -20.5F}};
+  test::Raw0Spec spec;
+  spec.channel = 1;
+  spec.frequency_hz = 38'000.0F;
+  test::Bytes bytes = test::con0(con0);
+  bytes.add(test::raw0(kStart, spec, std::vector<std::int16_t>(40, -5000)));
+  folder.write("b.raw", bytes);
+  Recipe table;
+  table.calibration.beams.resize(1);
+  table.calibration.beams[0].channel = 0;
+  table.calibration.beams[0].gain_db = 20.0;
+  const auto sv_db = [&](const SurveyFiles& survey, const Recipe& recipe) {
+    for (const ObservationFiles& observation : survey.observations) {
+      if (observation.grid) continue;
+      const auto sv = load_channel_sv(survey, observation, 0, 0, recipe);
+      return sv ? db_from_counts(sv->counts.at(30)) : 0.0;
+    }
+    return 0.0;
+  };
+  const SurveyFiles alone = test::opened(folder);
+  // Ten decibels less of twice a gain of five less.
+  EXPECT_NEAR(sv_db(alone, table) - sv_db(alone, Recipe{}), 10.0, 0.03);
+  folder.write("a.raw", test::small_file(2));
+  const SurveyFiles both = test::opened(folder);
+  ASSERT_EQ(both.observations.size(), 2U);
+  ASSERT_TRUE(both.observations[0].grid || both.observations[1].grid);
+  EXPECT_EQ(sv_db(both, table), sv_db(both, Recipe{}));
+}
+
 TEST(ChannelSv, OfARecordedEk60IsTheSonarEquation) {
   const auto file = test::data_folder() / "raw" / "D20070724-T042400.raw";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no recorded files here";
