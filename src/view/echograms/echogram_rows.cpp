@@ -66,11 +66,6 @@ EchogramRange echogram_range(const Sector& sector, std::span<const Placement> pi
   return out;
 }
 
-int bin_of(const EchogramRange& range, double height_m) {
-  const double bin = std::floor((height_m - range.first_m) / range.bin_m);
-  return bin >= 0.0 && bin < range.bins ? static_cast<int>(bin) : -1;
-}
-
 std::vector<EchogramCell> echogram_column(const Sector& sector, View3<const std::int16_t> sv,
                                           View3<const SampleFlags> flags, SampleFlags hidden,
                                           std::span<const EchogramRow> rows, const EchogramRange& range) {

@@ -62,7 +62,4 @@ inline constexpr int kMostBeamBins = 4096;
                                                         View3<const SampleFlags> flags, SampleFlags hidden,
                                                         std::span<const EchogramRow> rows, const EchogramRange& range);
 
-/// The bin that a height falls into; -1 = none.
-[[nodiscard]] int bin_of(const EchogramRange& range, double height_m);
-
 }  // namespace sonar

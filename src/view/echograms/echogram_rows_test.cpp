@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -135,6 +136,21 @@ TEST(EchogramRows, AHorizontalBeamHasOneDepth) {
   for (const EchogramRow& row : echogram_rows(level, ping, {1, 0, EchogramHeight::depth})) {
     EXPECT_NEAR(row.height_m(49), 7.0, 1e-9);
     EXPECT_GE(bin_of(range, row.height_m(49)), 0);
+  }
+}
+
+// A sounder's usual pulse is four sample intervals: its first sample lies two spacings behind a transducer at the surface,
+// and every other one upon an edge.
+TEST(EchogramRows, SamplesOnTheEdgesOfBinsHaveOneEach) {
+  for (const double spacing_m : {0.192, 0.188, 0.1, 0.7}) {
+    const EchogramRange range{0.0, spacing_m, 3000};
+    std::vector<int> samples(3000, 0);
+    for (int s = 2; s < 3002; ++s) {
+      const int bin = bin_of(range, -2.0 * spacing_m + s * spacing_m);
+      ASSERT_GE(bin, 0) << s;
+      ++samples[static_cast<std::size_t>(bin)];
+    }
+    EXPECT_EQ(std::count(samples.begin(), samples.end(), 1), 3000) << spacing_m;
   }
 }
 

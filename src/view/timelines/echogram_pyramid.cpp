@@ -41,14 +41,20 @@ EchogramColumn::EchogramColumn(const EchogramRange& range, int samples)
       volumes_(static_cast<std::size_t>(range.bins), 0.0),
       cells_(static_cast<std::size_t>(range.bins)) {}
 
+int bin_of(const EchogramRange& range, double height_m) {
+  // What lies on an edge falls below it, however its sum was rounded: else rows would be doubled and others left empty.
+  constexpr double kOnEdge = 1e-6;
+  const double bin = std::floor((height_m - range.first_m) / range.bin_m + kOnEdge);
+  return bin >= 0.0 && bin < range.bins ? static_cast<int>(bin) : -1;
+}
+
 void EchogramColumn::lay(double first_m, double step_m) {
   if (first_m == first_m_ && step_m == step_m_) return;
   first_m_ = first_m;
   step_m_ = step_m;
   for (std::size_t i = 0; i < bin_of_.size(); ++i) {
     const double height_m = first_m + static_cast<double>(i) * step_m;
-    const double bin = std::floor((height_m - range_.first_m) / range_.bin_m);
-    bin_of_[i] = bin >= 0.0 && bin < range_.bins ? static_cast<int>(bin) : -1;
+    bin_of_[i] = bin_of(range_, height_m);
   }
 }
 

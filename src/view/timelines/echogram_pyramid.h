@@ -39,6 +39,8 @@ struct EchogramRange {
   }
   friend bool operator==(const EchogramRange&, const EchogramRange&) = default;
 };
+/// The bin that a range or depth falls into; -1 = none.
+[[nodiscard]] int bin_of(const EchogramRange& range, double height_m);
 /// Bins for a sonar's ranges: from 0 to the last sample, no finer than the samples, at most `most`.
 [[nodiscard]] EchogramRange echogram_range(const RangeAxis& axis, int most = 512);
 
