@@ -239,7 +239,7 @@ void add_exports(AppModel& app) {
                    }});
   app.workspace.document.changes().add([&app](DocumentChange change) {
     const Document& document = app.workspace.document;
-    if (change == DocumentChange::looking && document.shown()) {
+    if ((change == DocumentChange::looking || change == DocumentChange::ping) && document.shown()) {
       app.preferences.set_left_at(document.named(), document.shown()->name(), document.ping());
     }
     if (change != DocumentChange::survey || document.survey() == nullptr) return;

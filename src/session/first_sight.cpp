@@ -8,7 +8,8 @@ namespace sonar {
 FirstSight::FirstSight(Workspace& workspace) : workspace_(workspace) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) waiting_ = workspace_.document.survey() != nullptr;
-    if (change == DocumentChange::looking && workspace_.document.ping() != 0) waiting_ = false;
+    const bool looks = change == DocumentChange::looking || change == DocumentChange::ping;
+    if (looks && workspace_.document.ping() != 0) waiting_ = false;
     if (change == DocumentChange::measures) look();
   });
   listening_.to(workspace.school.changed(), [this] { waiting_ = waiting_ && !workspace_.school(); });

@@ -75,6 +75,17 @@ TEST_F(FirstSightOfASurvey, IsWhereItsUserLeftItBefore) {
   EXPECT_EQ(document().ping(), 7);
 }
 
+// Neighbours are made ahead: they are there at once, and nobody says that they are on their way.
+TEST_F(FirstSightOfASurvey, IsTheNeighbourThatItsUserSteppedTo) {
+  begin();
+  ASSERT_TRUE(document().shown()->cache().held(1));
+  document().look_at(1);
+  document().settle();
+  document().open({TestSurvey::easy().folder()});
+  document().settle();
+  EXPECT_EQ(document().ping(), 1);
+}
+
 TEST_F(FirstSightOfASurvey, IsTheFirstPingWhereTheObservationIsGone) {
   begin();
   app_->preferences.set_left_at({TestSurvey::easy().folder()}, "obs-0099", 7);
