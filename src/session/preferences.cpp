@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t kMostCharts = 100;  ///< and places that surveys were left at
+constexpr std::size_t kMostCharts = 100;
+constexpr std::size_t kMostPlaces = 100;  ///< that surveys were left at
 constexpr std::size_t kMostFiles = 10000;
 constexpr std::size_t kMostKeys = 1000;
 constexpr std::size_t kMostKeysOfOne = 4;
@@ -136,7 +137,7 @@ void read_left_at(const json& from, Preferences& to) {
   if (found == from.end() || !found->is_object()) return;
   for (const auto& [survey, place] : found->items()) {
     const bool sound = place.is_array() && place.size() == 2 && place[0].is_string() && place[1].is_number_integer();
-    if (sound && to.left_at.size() < kMostCharts)
+    if (sound && to.left_at.size() < kMostPlaces)
       to.left_at[survey] = {place[0].get<std::string>(), place[1].get<std::int64_t>()};
   }
 }
@@ -160,14 +161,6 @@ void read_curves(const json& from, Preferences& to) {
   to.growth_curve = curve("growth_curve");
 }
 
-fs::path whole_path(const fs::path& path) {
-  std::error_code unknown;
-  const fs::path whole = fs::absolute(path, unknown);
-  if (unknown) return path;
-  const fs::path normal = whole.lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
-
 fs::path home_folder(const char* variable, const char* below_home) {
   // NOLINTBEGIN(concurrency-mt-unsafe): nobody sets them
   if (const char* named = std::getenv(variable); named != nullptr && fs::path(named).is_absolute()) return named;
@@ -186,6 +179,14 @@ fs::path raw_folder(const fs::path& survey) {
 }
 
 }  // namespace
+
+fs::path whole_path(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path whole = fs::absolute(path, unknown);
+  if (unknown) return path;
+  const fs::path normal = whole.lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
 
 fs::path Preferences::path_of_user() {
   const fs::path folder = home_folder("XDG_CONFIG_HOME", ".config");
@@ -290,8 +291,18 @@ std::optional<std::pair<std::string, std::int64_t>> Preferences::left_at_of(cons
 void Preferences::set_left_at(const std::vector<fs::path>& survey, const std::string& observation, std::int64_t ping) {
   if (survey.empty()) return;
   const std::string name = whole_path(survey.front()).string();
-  if (left_at.size() >= kMostCharts && !left_at.contains(name)) left_at.erase(left_at.begin());
+  if (left_at.size() >= kMostPlaces && !left_at.contains(name)) forget_a_place();
   left_at[name] = {observation, ping};
+}
+
+/// Of a survey that was not opened lately.
+void Preferences::forget_a_place() {
+  const auto lately = [this](const auto& place) {
+    return std::any_of(recent.begin(), recent.end(),
+                       [&](const auto& survey) { return survey.front().string() == place.first; });
+  };
+  const auto other = std::find_if_not(left_at.begin(), left_at.end(), lately);
+  left_at.erase(other == left_at.end() ? left_at.begin() : other);
 }
 
 void Preferences::remember(std::vector<fs::path> opened) {

@@ -17,6 +17,9 @@ namespace sonar {
 
 struct LoadedPreferences;
 
+/// Absolute, without dots and a slash at its end: one name for one place.
+[[nodiscard]] std::filesystem::path whole_path(const std::filesystem::path& path);
+
 /// What a user wants of the window: never part of a result, never in a hash.
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
@@ -63,6 +66,9 @@ struct Preferences {
   void set_left_at(const std::vector<std::filesystem::path>& survey, const std::string& observation, std::int64_t ping);
   /// What was opened comes first among the recent.
   void remember(std::vector<std::filesystem::path> opened);
+
+ private:
+  void forget_a_place();
 };
 
 struct LoadedPreferences {

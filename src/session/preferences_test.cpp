@@ -21,6 +21,17 @@ using testing::HasSubstr;
 
 void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
+TEST(Preferences, APlaceThatWasLeftLatelyIsKept) {
+  Preferences preferences;
+  for (int i = 0; i < 150; ++i) {
+    const std::filesystem::path survey = "/data/" + std::to_string(1000 - i);
+    preferences.remember({survey});
+    preferences.set_left_at({survey}, "obs-0001", i);
+  }
+  for (int i = 141; i < 150; ++i) EXPECT_TRUE(preferences.left_at_of({"/data/" + std::to_string(1000 - i)})) << i;
+  EXPECT_EQ(preferences.left_at.size(), 100U);
+}
+
 TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   const fs::path path = TestSurvey::easy().fresh() / "below" / "preferences.json";
   Preferences out;

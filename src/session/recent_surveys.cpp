@@ -21,7 +21,7 @@ fs::path thumbnail_of(const AppModel& app, const std::vector<fs::path>& survey) 
   const fs::path& cache = app.workspace.document.options().cache.folder;
   if (cache.empty()) return {};
   std::string names;
-  for (const fs::path& path : survey) names += path.string() + '\n';
+  for (const fs::path& path : survey) names += whole_path(path).string() + '\n';
   return cache / (to_hex(hash_text(names)) + ".png");
 }
 
