@@ -152,7 +152,7 @@ void add_report_depths(FrameDescription& page, const PixelRect& place, std::span
   const double step = nice_ticks(0.0, deepest, 12).step;
   std::vector<int> bins(static_cast<std::size_t>(std::floor(deepest / step)) + 1);
   for (const ReportSchool& school : schools) {
-    if (school.depth_m >= 0.0) ++bins[static_cast<std::size_t>(school.depth_m / step)];
+    if (std::isfinite(school.depth_m) && school.depth_m >= 0.0) ++bins[static_cast<std::size_t>(school.depth_m / step)];
   }
   const int most = std::max(4, *std::ranges::max_element(bins));
   PlotFrame plot;

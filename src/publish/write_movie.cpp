@@ -61,7 +61,7 @@ fs::path picture_file(const fs::path& movie, std::size_t index) {
   return movie.parent_path() / fmt::format("{}-{:04}.png", movie.stem().string(), index);
 }
 
-/// Pictures of a movie that is not whole are removed with it.
+/// Under other names until the movie is whole: one that is stopped leaves the pictures of an earlier one as they were.
 class SinglePictures {
  public:
   explicit SinglePictures(const fs::path& movie) : movie_(movie) {}
@@ -72,12 +72,22 @@ class SinglePictures {
   SinglePictures(const SinglePictures&) = delete;
   SinglePictures& operator=(const SinglePictures&) = delete;
   Result<void> write(const FrameDescription& frame, std::size_t index, double scale) {
-    const fs::path file = picture_file(movie_, index);
+    fs::path file = picture_file(movie_, index);
+    file.replace_filename("." + file.filename().string());
     if (auto written = write_picture(frame, file, scale); !written) return written;
-    written_.push_back(file);
+    written_.push_back(std::move(file));
     return {};
   }
-  void keep() { written_.clear(); }
+  Result<void> keep() {
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+      std::error_code error;
+      const fs::path file = picture_file(movie_, i);
+      fs::rename(written_[i], file, error);
+      if (error) return fail(ErrorCode::io, error.message(), {file.string()});
+    }
+    written_.clear();
+    return {};
+  }
 
  private:
   fs::path movie_;
@@ -128,7 +138,7 @@ Result<WrittenMovie> write_movie(PictureSource& source, const std::string& obser
   }
   progress.tell(pictures, pictures);
   if (auto finished = to->finish(); !finished) return pass_on(finished);
-  single.keep();
+  if (auto kept = single.keep(); !kept) return pass_on(kept);
   return written;
 }
 
