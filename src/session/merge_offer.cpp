@@ -85,7 +85,8 @@ void MergeOffer::look(std::size_t observation, JournalStatePtr state, std::set<s
   limits.placement = [open](std::int64_t ping_index) { return open->placement(ping_index); };
   workspace_.document.run_beside([this, alive = std::weak_ptr<bool>(alive_), &queue = workspace_.queue, observation,
                                   open, state = std::move(state), changed = std::move(changed),
-                                  limits = std::move(limits)](const CancelToken&) {
+                                  limits = std::move(limits)](const CancelToken& token) mutable {
+    limits.stopped = [&token] { return token.cancelled(); };
     auto found = merge_proposals(*state, open->context(), limits, changed);
     queue.post([this, alive, observation, state, found = std::move(found)] {
       if (!alive.expired()) take_found(observation, state, found);

@@ -138,6 +138,7 @@ std::vector<MergeProposal> merge_proposals(const JournalState& state, const Comm
   };
   std::vector<MergeProposal> proposals;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (limits.stopped && limits.stopped()) break;
     for (std::size_t j = i + 1; j < all.size(); ++j) {
       const StateSchool* a = state.schools[i].get();
       const StateSchool* b = state.schools[j].get();

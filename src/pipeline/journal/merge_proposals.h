@@ -28,6 +28,7 @@ struct MergeProposal {
 struct ProposalLimits {
   TrackParams track;  ///< how long a school may be lost, and where it may be found again
   std::function<Placement(std::int64_t ping_index)> placement;
+  std::function<bool()> stopped = {};  ///< nobody waits any more: what was found so far comes back
 };
 
 /// Pairs of schools whose masks touch in a ping, and pairs of which one begins where the tracker would look for the other: at
