@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 
 namespace sonar {
@@ -13,8 +14,10 @@ namespace {
 std::array<int, 2> ends{-1, -1};  ///< of a pipe: a signal may interrupt anything, and may do nothing but write
 
 void write_end(int /*signal*/) {
+  const int before = errno;
   const char byte = 0;
   [[maybe_unused]] const auto written = ::write(ends[1], &byte, 1);
+  errno = before;
 }
 
 }  // namespace
