@@ -47,12 +47,18 @@ class Charts(sonarx.Case):
         discs = picture.discs[:len(picture.discs) - len(schools)]  # the last stand in the key
         self.assertEqual(len(discs), len(rows))
         # Axes are straight: the order of values is that of places, and one line leads from all to all.
-        for column, at, rising in (("volume_m3", 0, True), ("depth_m", 1, True)):
+        lines = []
+        for column, at in (("volume_m3", 0), ("depth_m", 1)):
             values = sorted(float(row[column]) for row in rows)
             places = sorted(disc[at] for disc in discs)
-            slope, _, off = line_through(list(zip(values, places)))
-            self.assertEqual(slope > 0, rising, "depths run downwards")
+            slope, offset, off = line_through(list(zip(values, places)))
+            self.assertGreater(slope, 0, "depths run downwards")
             self.assertLess(off, 0.1, column)
+            lines.append((slope, offset))
+        # Each row has its disc where both of its values say.
+        for row in rows:
+            x, y = (slope * float(row[column]) + offset for (slope, offset), column in zip(lines, ("volume_m3", "depth_m")))
+            self.assertLess(min(abs(x - disc[0]) + abs(y - disc[1]) for disc in discs), 0.3, row)
 
     def test_titles_count_rows_and_what_is_unknown(self):
         rows = read_csv(OUT / "school_pings.csv")
