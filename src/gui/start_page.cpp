@@ -31,15 +31,17 @@ constexpr std::array<Beginning, 4> kBeginnings{
     {{"file.open_folder", "Open a folder", "Raw files of a survey, or the results of a run with their schools"},
      {"file.open_files", "Open some files", "A part of a survey"},
      {"file.demo", "Open the demo survey", "Simulated; it takes a moment to make at the first time"},
-     {"help.guide", "Read the guide", "From opening a survey to its map; F1 shows all keys"}}};
+     {"help.guide", "Read the guide", "From opening a survey to its map; [help.keys] shows all keys"}}};
 
 constexpr const char* kSteps =
     "<ol style=\"margin-left:-24px\">"
     "<li style=\"margin-bottom:6px\"><b>Open</b> a survey: drop its folder here, or a folder of results with its "
     "schools.</li>"
-    "<li style=\"margin-bottom:6px\"><b>Find schools</b>: Ctrl+D detects them in all pings; or click on one in a "
-    "slice, and Ctrl+P follows it.</li>"
-    "<li><b>Review and export</b>: A accepts, R rejects; Ctrl+E writes tables, masks and the map.</li></ol>";
+    "<li style=\"margin-bottom:6px\"><b>Find schools</b>: [schools.detect_all] detects them in all pings; or click on "
+    "one in a "
+    "slice, and [school.propagate] follows it.</li>"
+    "<li><b>Review and export</b>: [review.accept] accepts, [review.reject] rejects; [export.results] writes tables, "
+    "masks and the map.</li></ol>";
 
 constexpr const char* kInstruments =
     "Simrad MS70: schools are detected, followed and measured. ME70 and similar sonars: the same where the beams form "
@@ -92,11 +94,21 @@ class StartPage : public QWidget {
     return label;
   }
 
+  /// A text that names actions, with their keys now and after each change of them.
+  void keep_keys(const char* text, std::function<void(const QString&)> show) {
+    const auto tell = [this, text, show = std::move(show)] {
+      show(QString::fromStdString(app_.actions.with_keys(text)));
+    };
+    tell();
+    app_.actions.keys_changed().add(tell);
+  }
+
   QVBoxLayout* beginnings() {
     auto* column = new QVBoxLayout;
     for (const auto& [id, text, more] : kBeginnings) {
       QAction* action = find_action(window_, id);
-      auto* button = new QCommandLinkButton(text, more, this);
+      auto* button = new QCommandLinkButton(text, this);
+      keep_keys(more, [button](const QString& now) { button->setDescription(now); });
       button->setObjectName(QString("start.") + id);
       QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
       column->addWidget(button);
@@ -104,7 +116,9 @@ class StartPage : public QWidget {
     column->addSpacing(16);
     column->addWidget(heading("Three steps", 1.3));
     column->addSpacing(8);
-    column->addWidget(words(kSteps, "start.steps"));
+    QLabel* steps = words({}, "start.steps");
+    keep_keys(kSteps, [steps](const QString& now) { steps->setText(now); });
+    column->addWidget(steps);
     column->addSpacing(8);
     column->addWidget(words(kInstruments, "start.instruments"));
     return column;

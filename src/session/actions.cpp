@@ -38,6 +38,20 @@ bool Actions::set_keys(std::string_view id, const std::vector<std::string>& keys
   return found->keys == keys;
 }
 
+std::string Actions::with_keys(std::string_view text) const {
+  std::string out;
+  for (;;) {
+    const std::size_t open = text.find('[');
+    const std::size_t close = open == text.npos ? text.npos : text.find(']', open);
+    if (close == text.npos) return out.append(text);
+    const Action* named = find(text.substr(open + 1, close - open - 1));
+    out.append(text.substr(0, open));
+    if (named == nullptr) out += '[';  // a bracket of the text's own
+    if (named != nullptr) out += named->keys.empty() ? named->text : named->keys.front();
+    text.remove_prefix((named == nullptr ? open : close) + 1);
+  }
+}
+
 const std::vector<std::string>& Actions::usual_keys(const Action& action) const {
   const auto changed = usual_.find(action.id);
   return changed == usual_.end() ? action.keys : changed->second;

@@ -50,6 +50,9 @@ class Actions {
   [[nodiscard]] const Action* with_key(std::string_view key) const;
   /// Gives an action other keys; what another one has stays with that. False = one was not given.
   bool set_keys(std::string_view id, const std::vector<std::string>& keys);
+  /// A text that names actions, "[schools.detect] detects them": the key of each stands for it, or, where it has none, what it
+  /// is called in the menu.
+  [[nodiscard]] std::string with_keys(std::string_view text) const;
   /// The keys that an action came with.
   [[nodiscard]] const std::vector<std::string>& usual_keys(const Action& action) const;
   /// By id, of those whose keys are not the usual ones.

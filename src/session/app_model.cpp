@@ -12,16 +12,17 @@
 namespace sonar {
 namespace {
 
-/// A survey begins where its user left it.
-DocumentOptions with_left_at(DocumentOptions options, const Preferences& preferences) {
+/// A survey begins where its user left it, and notices name the keys that are in force.
+DocumentOptions of_user(DocumentOptions options, const Preferences& preferences, const Actions& actions) {
   options.left_at = [&preferences](const auto& named) { return preferences.left_at_of(named); };
+  options.with_keys = [&actions](std::string_view text) { return actions.with_keys(text); };
   return options;
 }
 
 }  // namespace
 
 AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
-    : workspace(queue, with_left_at(std::move(options), preferences)),
+    : workspace(queue, of_user(std::move(options), preferences, actions)),
       thumbnails(std::make_shared<KeptThumbnails>(*this)),
       transfer(std::make_unique<TransferEditor>(workspace)),
       panel(control_panel(workspace)) {
@@ -66,12 +67,13 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
     return words + percent + ".\nEsc, or Cancel below, stops it." + glanced;
   }
   if (dock != "top_slice") return "";
-  return "Open a survey (Ctrl+O), or drop a folder of raw files, or of results, here.\n"
-         "File > Demo survey opens a simulated one.\n\n"
-         "Simrad MS70: schools are detected, followed and measured.\n"
-         "ME70 and similar sonars: the same where the beams form fans.\n"
-         "EK60: shown as an echogram; schools are not detected in single beams yet.\n"
-         "EK80: named, but not read yet.";
+  return app.actions.with_keys(
+      "Open a survey ([file.open_folder]), or drop a folder of raw files, or of results, here.\n"
+      "File > Demo survey opens a simulated one.\n\n"
+      "Simrad MS70: schools are detected, followed and measured.\n"
+      "ME70 and similar sonars: the same where the beams form fans.\n"
+      "EK60: shown as an echogram; schools are not detected in single beams yet.\n"
+      "EK80: named, but not read yet.");
 }
 
 }  // namespace sonar

@@ -29,7 +29,7 @@ Document::~Document() {
 }
 
 void Document::tell(std::string notice) {
-  notices_.push_back(std::move(notice));
+  notices_.push_back(options_.with_keys ? options_.with_keys(notice) : std::move(notice));
   changes_.tell(DocumentChange::notice);
 }
 

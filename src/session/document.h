@@ -40,7 +40,8 @@ struct DocumentOptions {
   /// Observation and ping that a survey, as it was named, was left at: it begins there. Empty = at its first observation.
   std::function<std::optional<std::pair<std::string, std::int64_t>>(const std::vector<std::filesystem::path>& named)>
       left_at;
-  std::int64_t prefetch = 5;  ///< pings to each side that are made ahead
+  std::function<std::string(std::string_view)> with_keys;  ///< of actions that notices name; empty = as they are
+  std::int64_t prefetch = 5;                               ///< pings to each side that are made ahead
   int threads = 0;
   std::uint64_t memory_bytes = 0;  ///< for the pings of the observation on show; 0 = half of the machine's
 };

@@ -106,7 +106,7 @@ void Document::tell_beyond_reach() {
     if (ends_first(ends) && goes_backward(command)) backward = command.reach_backward.value_or(command.reach);
     if (ends_last(ends) && goes_forward(command)) forward = command.reach_forward.value_or(command.reach);
     if (backward == 0 && forward == 0) continue;
-    tell(fmt::format("{} goes on beyond {}: continue? (Ctrl+Shift+P)", school_title(*school),
+    tell(fmt::format("{} goes on beyond {}: continue? ([school.continue])", school_title(*school),
                      reach_text(backward, forward)));
   }
 }

@@ -214,8 +214,9 @@ void Document::await_schools(const std::vector<JournalLine>& lines, const std::s
     }
   }
   if (lacking == 0 || work_folders_.empty()) return;
-  tell(fmt::format("{}: the schools of {} are not those of this version and recipe; Ctrl+D detects them again",
-                   work_folders_.front().string(), count_of(lacking, "observation")));
+  tell(fmt::format(
+      "{}: the schools of {} are not those of this version and recipe; [schools.detect_all] detects them again",
+      work_folders_.front().string(), count_of(lacking, "observation")));
 }
 
 }  // namespace sonar

@@ -32,11 +32,11 @@ std::string offer_text(const MergeProposal& proposal, const JournalState& state)
   const StateSchool* other = school_of(state, proposal.other);
   if (first == nullptr || other == nullptr) return {};
   if (proposal.touching()) {
-    return fmt::format("{} and {} touch in ping {}: merge them? (Ctrl+J)", school_title(*first), school_title(*other),
-                       proposal.first_ping);
+    return fmt::format("{} and {} touch in ping {}: merge them? ([school.merge_proposed])", school_title(*first),
+                       school_title(*other), proposal.first_ping);
   }
-  return fmt::format("{} begins in ping {} where {} ends in ping {}: merge them? (Ctrl+J)", school_title(*other),
-                     proposal.other_ping, school_title(*first), proposal.first_ping);
+  return fmt::format("{} begins in ping {} where {} ends in ping {}: merge them? ([school.merge_proposed])",
+                     school_title(*other), proposal.other_ping, school_title(*first), proposal.first_ping);
 }
 
 }  // namespace

@@ -91,7 +91,8 @@ void Review::next() {
   if (!document.progress().stage.empty() && unreviewed() == 0) {
     return document.tell(fmt::format("wait: {}", document.progress().stage));
   }
-  if (schools().empty()) return document.tell("no schools yet: press Ctrl+D to detect them, or click to select one");
+  if (schools().empty())
+    return document.tell("no schools yet: press [schools.detect_all] to detect them, or click to select one");
   if (!here && unreviewed() > 0) return document.tell("no unreviewed school passes the filter");
   document.tell(here ? "this is the last school that is not reviewed" : "every school is reviewed");
 }
