@@ -15,6 +15,7 @@
 #include <QScreen>
 #include <QUrl>
 
+#include "gui/about.h"
 #include "gui/action_menus.h"
 #include "gui/animation_timer.h"
 #include "gui/control_panel_view.h"
@@ -167,13 +168,7 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
 void MainWindow::answer() {
   app_.dialogs.preferences = [this] { return ask_preferences(*this, app_); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
-  app_.dialogs.show_about = [this] {
-    QMessageBox::about(
-        this, "Sonar Explorer",
-        QString("Sonar Explorer %1\nApache License 2.0\n\nWith Qt (LGPL 3), GDAL, PROJ, netCDF, Cairo, Pango, "
-                "oneTBB, Highway, nlohmann-json, fmt, pugixml, xxHash, libepoxy.")
-            .arg(QApplication::applicationVersion()));
-  };
+  app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
   app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };
   app_.dialogs.full_screen = [this] { isFullScreen() ? showNormal() : showFullScreen(); };
   answer_questions(*this, app_.dialogs);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -83,6 +84,8 @@ Result<std::shared_ptr<const SeabedPatch>> seabed(const VolumeFigure& figure, co
 }
 
 Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const PictureOptions& options, Work& work) {
+  const std::string stage = fmt::format("drawing by {}", renderer.name());
+  work.progress(stage, 0, std::max(options.volume.frames, 1));
   if (options.volume.frames <= 0) return renderer.draw(view, {}, work);
   Refinement refinement(renderer, {.most_frames = options.volume.frames, .rest_budget_s = options.kind.volume.seconds});
   refinement.restart(view);
@@ -91,7 +94,7 @@ Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const
     if (!frame) return pass_on(frame);
     if (frame->done) return std::move(frame->image);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    work.progress("drawing", frame->averaged, options.volume.frames);
+    work.progress(stage, frame->averaged, options.volume.frames);
   }
 }
 

@@ -43,6 +43,11 @@ class Terminal(Case):
         self.assertRegex(sent, r"\robservation 2 of 2: ")
         self.assertEqual([line for line in stays if not line.startswith("note ")], [""])
 
+    def test_a_volume_tells_what_draws_it(self):
+        _, stays = self.shown("render", "volume", SURVEY, "--renderer", "cpu", "--frames", "2", "-v", "--out",
+                              self.fresh("terminal-volume") / "volume.png")
+        self.assertEqual(sum(bool(re.fullmatch(r"drawing by cpu \(\w+\): 2", line)) for line in stays), 1, stays)
+
     def test_what_follows_the_observations_belongs_to_none(self):
         sent, _ = self.shown("run", SURVEY, "-o", self.fresh("terminal-merge"))
         for stage in ("merge", "map"):

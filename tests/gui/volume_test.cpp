@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/about.h"
 #include "gui/action_menus.h"
 #include "session/volume/volume_model.h"
 #include "window_at_work.h"
@@ -71,6 +72,12 @@ TEST_F(VolumeInTheWindow, HoverPreviewsAndAClickSelectsWhatIsSeen) {
   EXPECT_EQ(seeds[0]["sample"], voxel.sample);
   double_click("volume", at);
   EXPECT_GT(masks().size(), 1U);
+}
+
+TEST_F(VolumeInTheWindow, WhatDrewItIsTold) {
+  ASSERT_TRUE(model().shown());
+  EXPECT_THAT(about_text(*app_).toStdString(), testing::EndsWith("drawn by: " + model().shown()->renderer));
+  EXPECT_THAT(model().shown()->renderer, testing::AnyOf(testing::StartsWith("cpu ("), testing::StartsWith("gl (")));
 }
 
 // The panel's own control, by hand: unfolded by a click, changed by a key. Then a key moves the slice, and the cut with it.
