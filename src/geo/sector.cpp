@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/check.h"
+#include "geo/shells.h"
 
 namespace sonar {
 namespace {
@@ -47,13 +48,7 @@ Sector::Sector(std::vector<double> elevation_rad, std::vector<double> azimuth_ra
   SONAR_CHECK(range_.spacing_m > 0.0 && range_.count >= 0);
   elevation_bounds_ = tile(elevation_rad_, lone_elevation_width_rad);
   azimuth_bounds_ = tile(azimuth_rad_, lone_azimuth_width_rad);
-  shell_.resize(static_cast<std::size_t>(range_.count));
-  for (int i = 0; i < range_.count; ++i) {
-    const double r = range_.range_m(i);
-    const double r1 = r - range_.spacing_m / 2;
-    const double r2 = r + range_.spacing_m / 2;
-    shell_[static_cast<std::size_t>(i)] = r < range_.spacing_m ? 0.0 : (r2 * r2 * r2 - r1 * r1 * r1) / 3.0;
-  }
+  shell_ = shells_m3_per_sr(range_);
 }
 
 Point<Sonar> Sector::direction(double elevation_rad, double azimuth_rad) {

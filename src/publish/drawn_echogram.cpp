@@ -89,10 +89,6 @@ Result<std::unique_ptr<EchogramPyramid>> pyramid_of(const ObservationProduct& pr
   return pyramid;
 }
 
-TimelineHeights heights_of(const EchogramRange& range) {
-  return {std::max(0.0, range.first_m), range.first_m + range.bins * range.bin_m};
-}
-
 Result<DrawnEchogram> of_beams(DrawnObservation& observation, const PingSpan& span, const PictureOptions& options,
                                Work& work) {
   const auto sector = observation.sector();

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/units.h"
+#include "geo/shells.h"
 #include "pipeline/stages/channel_sv.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/sample_looks.h"
@@ -45,19 +46,6 @@ std::optional<double> number_of(std::string_view text) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
-}
-
-/// Volumes of a beam of one steradian: one beam's samples weigh by their shells alone.
-std::vector<double> shells_of(const RangeAxis& range) {
-  std::vector<double> out(static_cast<std::size_t>(std::max(0, range.count)), 0.0);
-  for (int i = 0; i < range.count; ++i) {
-    const double r = range.range_m(i);
-    if (r < range.spacing_m) continue;
-    const double near_m = r - range.spacing_m / 2.0;
-    const double far_m = r + range.spacing_m / 2.0;
-    out[static_cast<std::size_t>(i)] = (far_m * far_m * far_m - near_m * near_m * near_m) / 3.0;
-  }
-  return out;
 }
 
 }  // namespace
@@ -162,7 +150,7 @@ Result<std::vector<EchogramCell>> ChannelEchogram::column(std::int64_t ping_inde
   if (!sv) return pass_on(sv);
   if (sv->counts.empty()) return std::vector<EchogramCell>{};
   EchogramColumn column(range_, static_cast<int>(sv->counts.size()));
-  const std::vector<double> shells = shells_of(sv->range);
+  const std::vector<double> shells = shells_m3_per_sr(sv->range);
   const std::vector<SampleFlags> flags(sv->counts.size(), SampleFlags::none);
   column.lay(sv->range.first_m + offset_m(ping_index), sv->range.spacing_m);
   column.add({sv->counts, flags, shells}, SampleFlags::none);

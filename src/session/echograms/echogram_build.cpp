@@ -27,10 +27,6 @@ struct Drawn {
   TimelineHeights heights;
 };
 
-TimelineHeights heights_of(const EchogramRange& range) {
-  return {std::max(0.0, range.first_m), range.first_m + range.bins * range.bin_m};
-}
-
 ProductPtr head_of(const ObservationFiles& files) {
   return std::make_shared<const ObservationProduct>(observation_head(files));
 }

@@ -15,6 +15,13 @@ constexpr double kWheelStep = 1.25;           ///< of one notch
 constexpr TimeNs kShortest = 10 * kSecondNs;  ///< that fills an echogram: a few pings
 constexpr double kLowest_m = 2.0;
 
+/// The last one that began by then, or the first: a ping fills up to the next one.
+std::int64_t ping_at(const std::vector<PingNavigation>& pings, TimeNs time) {
+  const auto after =
+      std::upper_bound(pings.begin(), pings.end(), time, [](TimeNs t, const PingNavigation& n) { return t < n.time; });
+  return std::max<std::int64_t>(0, (after - pings.begin()) - 1);
+}
+
 }  // namespace
 
 std::optional<EchogramModel::There> EchogramModel::there(PixelPoint at) const {
@@ -24,11 +31,7 @@ std::optional<EchogramModel::There> EchogramModel::there(PixelPoint at) const {
     if (plot == nullptr || !inside(plot->places.plot.place, at)) continue;
     if (plot->of.name.observation >= survey->observations.size()) continue;
     const auto& pings = survey->observations[plot->of.name.observation].navigation;
-    // A ping fills up to the next one.
-    const TimeNs time = plot->places.time_at(at.x);
-    const auto after = std::upper_bound(pings.begin(), pings.end(), time,
-                                        [](TimeNs t, const PingNavigation& n) { return t < n.time; });
-    const std::int64_t ping = std::max<std::int64_t>(0, (after - pings.begin()) - 1);
+    const std::int64_t ping = ping_at(pings, plot->places.time_at(at.x));
     return There{plot, ping, plot->places.plot.y_at(at.y)};
   }
   return std::nullopt;
@@ -68,11 +71,7 @@ void EchogramModel::go_to(PixelPoint at) {
   std::int64_t ping = here->ping;
   if (here->plot->of.name.observation != shown->index()) {
     // Another sounder's echogram: the ping of the same time.
-    const auto& pings = shown->files().navigation;
-    const TimeNs time = here->plot->places.time_at(at.x);
-    const auto after = std::upper_bound(pings.begin(), pings.end(), time,
-                                        [](TimeNs t, const PingNavigation& n) { return t < n.time; });
-    ping = std::max<std::int64_t>(0, (after - pings.begin()) - 1);
+    ping = ping_at(shown->files().navigation, here->plot->places.time_at(at.x));
   }
   if (ping != workspace_.document.ping()) workspace_.document.look_at(ping);
 }

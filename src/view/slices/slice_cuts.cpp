@@ -19,11 +19,6 @@ constexpr double kStraight_px = 0.25;  ///< a bend that nobody sees
 
 double dot(const Point<Sonar>& a, const Point<Sonar>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-Point<Sonar> normal_of(const PlaneSlice& p) {
-  return {p.right.y * p.down.z - p.right.z * p.down.y, p.right.z * p.down.x - p.right.x * p.down.z,
-          p.right.x * p.down.y - p.right.y * p.down.x};
-}
-
 /// Ranges between two others at which a plane has corners of a beam's cell on both sides; the farthest sample of it.
 std::optional<Voxel> farthest_in_plane(const Sector& sector, const PlaneSlice& plane, const Run& run) {
   const Voxel beam{run.row / sector.beams(), run.row % sector.beams(), 0};

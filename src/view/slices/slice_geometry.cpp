@@ -17,11 +17,6 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double dot(const Point<Sonar>& a, const Point<Sonar>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-Point<Sonar> normal_of(const PlaneSlice& p) {
-  return {p.right.y * p.down.z - p.right.z * p.down.y, p.right.z * p.down.x - p.right.x * p.down.z,
-          p.right.x * p.down.y - p.right.y * p.down.x};
-}
-
 /// Index of the interval that holds a value; -1 outside. The ends give way to rounding, or a sector that goes all round
 /// would have a seam.
 int interval(const std::vector<double>& edges, double value) {
@@ -44,6 +39,11 @@ std::array<Point<Sonar>, 8> corners(const Sector& sector, const Voxel& v) {
 }
 
 }  // namespace
+
+Point<Sonar> normal_of(const PlaneSlice& p) {
+  return {p.right.y * p.down.z - p.right.z * p.down.y, p.right.z * p.down.x - p.right.x * p.down.z,
+          p.right.x * p.down.y - p.right.y * p.down.x};
+}
 
 bool same_cells(const Sector& a, const Sector& b) {
   if (a.fans() != b.fans() || a.beams() != b.beams() || a.range() != b.range()) return false;

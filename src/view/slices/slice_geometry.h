@@ -14,6 +14,9 @@ namespace sonar {
 /// Whether two sectors have the same cells.
 [[nodiscard]] bool same_cells(const Sector& a, const Sector& b);
 
+/// Right times down of a plane: away from the viewer, a unit vector.
+[[nodiscard]] Point<Sonar> normal_of(const PlaneSlice& plane);
+
 /// The plane of a slice as it lies on the picture: a horizontal one turned until `up_rad` points up.
 [[nodiscard]] PlaneSlice turned_plane(const SliceView& view);
 

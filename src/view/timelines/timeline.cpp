@@ -154,6 +154,10 @@ const char* value_label(EchogramValue value, bool brief, bool of_one) {
 
 }  // namespace
 
+TimelineHeights heights_of(const EchogramRange& range) {
+  return {std::max(0.0, range.first_m), range.first_m + range.bins * range.bin_m};
+}
+
 std::vector<TimeTick> time_ticks(TimeNs first, TimeNs last, int most) {
   constexpr std::array<double, 24> kSteps_s{1,      2,      5,       10,      15,      30,        60,        120,
                                             300,    600,    900,     1800,    3600,    7200,      10'800,    21'600,

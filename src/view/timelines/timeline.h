@@ -38,6 +38,8 @@ struct TimelineHeights {
   double last_m = 0.0;
   friend bool operator==(const TimelineHeights&, const TimelineHeights&) = default;
 };
+/// All of an echogram's bins, but what lies above the surface.
+[[nodiscard]] TimelineHeights heights_of(const EchogramRange& range);
 
 struct TimelineStyle {
   EchogramValue value = EchogramValue::mean;  ///< over beams (and pings and ranges, where a pixel has several)
