@@ -61,8 +61,9 @@ void lay_out_small(QMainWindow& window) {
   behind(window, right, {"survey_tree", "diagnostics", "journal"});
   behind(window, top, {"observation_map", "survey_map"});
   behind(window, side, {"volume", "range_slice", "plane_slice"});
-  behind(window, time,
-         {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "chart"});
+  behind(
+      window, time,
+      {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "marks", "chart"});
   const int width = window.width();
   const int height = window.height();
   share(window, Qt::Horizontal, {{top, width * 33 / 100}, {side, width * 33 / 100}, {right, width * 34 / 100}});
@@ -96,7 +97,7 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation"});
-  behind(window, tables, {"school_pings", "review", "refused", "chart"});
+  behind(window, tables, {"school_pings", "review", "refused", "marks", "chart"});
   const int width = window.width();
   const int height = window.height();
   // The tree's name, time, pings and schools are seen where the views can spare the room.

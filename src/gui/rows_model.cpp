@@ -4,8 +4,32 @@
 #include <QColor>
 #include <QGuiApplication>
 #include <QPalette>
+#include <QPixmap>
+#include <QPixmapCache>
+
+#include "session/thumbnails.h"
 
 namespace sonar {
+namespace {
+
+/// Half of the pixels that it is kept with: crisp on a dense screen too.
+constexpr qreal kDensity = 2.0;
+
+/// As large for every row, with or without a picture.
+QPixmap small_picture(const std::filesystem::path& file) {
+  QPixmap picture;
+  const QString name = QString::fromStdString(file.string());
+  if (!file.empty() && QPixmapCache::find(name, &picture)) return picture;
+  if (file.empty() || !picture.load(name)) {
+    picture = QPixmap(kThumbnail.width, kThumbnail.height);
+    picture.fill(Qt::transparent);
+  }
+  picture.setDevicePixelRatio(kDensity);
+  if (!file.empty()) QPixmapCache::insert(name, picture);
+  return picture;
+}
+
+}  // namespace
 
 RowsModel::RowsModel(const Rows& rows, QObject* parent) : QAbstractItemModel(parent), rows_(rows) { reset(); }
 
@@ -68,6 +92,9 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
       return QVariant(rows_.columns()[column].number ? Qt::AlignRight | Qt::AlignVCenter
                                                      : Qt::AlignLeft | Qt::AlignVCenter);
+    case Qt::DecorationRole:
+      if (const auto file = rows_.picture(row_of(index)); file && index.column() == 0) return small_picture(*file);
+      return {};
     case Qt::ForegroundRole:
       if (rows_.faded(row_of(index))) return QGuiApplication::palette().color(QPalette::Disabled, QPalette::Text);
       return {};

@@ -31,7 +31,8 @@ constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
 constexpr std::array<Id, 2> kFigures{"chart.columns", "chart.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
-constexpr std::array<Id, 4> kEvents{"event.trawl", "event.station", "event.noise", "event.other"};
+constexpr std::array<Id, 5> kEvents{"event.trawl", "event.station", "event.noise", "event.other", "event.bookmark"};
+constexpr std::array<Id, 1> kBookmark{"event.bookmark"};
 constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
 constexpr std::array<Id, 1> kMark{"mark.remove"};
 constexpr std::array<Id, 2> kNextEvent{"event.previous", "event.next"};
@@ -58,6 +59,7 @@ constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
 constexpr std::array<ActionGroup, 2> kRefusedRows{kEcho, kRows};
+constexpr std::array<ActionGroup, 3> kMarkRows{kMark, kBookmark, kRows};
 constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
@@ -94,7 +96,7 @@ struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 19> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 20> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"range_slice", kSlice},
                                        {"plane_slice", kPlaneSlice},
@@ -110,6 +112,7 @@ constexpr std::array<Menu, 19> kMenus{{{"top_slice", kSlice},
                                        {"review", kSchoolRows},
                                        {"school_pings", kPingRows},
                                        {"refused", kRefusedRows},
+                                       {"marks", kMarkRows},
                                        {"journal", kJournal},
                                        {"diagnostics", kNotes},
                                        {"chart", kCharts}}};

@@ -7,6 +7,7 @@
 
 #include "session/app_model.h"
 #include "session/listening.h"
+#include "session/thumbnails.h"
 
 namespace sonar {
 
@@ -17,7 +18,6 @@ struct RecentSurvey {
   std::filesystem::path thumbnail;  ///< a PNG of kThumbnail; empty = none
   bool there = true;                ///< it can be opened: its disk is here
 };
-inline constexpr PixelSize kThumbnail{192, 120};
 
 /// In the order of Preferences::recent.
 [[nodiscard]] std::vector<RecentSurvey> recent_surveys(const AppModel& app);
@@ -39,8 +39,5 @@ class KeptThumbnails {
   std::vector<std::filesystem::path> of_;  ///< the survey on show, as it was named; empty = none
   Listening listening_;
 };
-
-/// The middle of a picture in so many pixels, each the mean of those that it stands for.
-[[nodiscard]] Image reduced(const Image& image, PixelSize size);
 
 }  // namespace sonar

@@ -12,6 +12,7 @@
 #include "session/app_parts.h"
 #include "session/lists/diagnostics_list.h"
 #include "session/lists/journal_list.h"
+#include "session/lists/mark_table.h"
 #include "session/lists/refused_table.h"
 #include "session/lists/school_ping_table.h"
 #include "session/lists/school_table.h"
@@ -138,6 +139,7 @@ void add_lists(AppModel& app) {
   Review& review = *queue;
   app.lists.push_back({"review", "Review", DockPlace::bottom, std::move(queue)});
   app.lists.push_back({"refused", "Refused echoes", DockPlace::bottom, std::make_unique<RefusedTable>(workspace)});
+  app.lists.push_back({"marks", "Marks", DockPlace::bottom, std::make_unique<MarkTable>(app)});
   app.lists.push_back({"journal", "Journal", DockPlace::bottom, std::make_unique<JournalList>(workspace)});
   app.lists.push_back({"diagnostics", "Diagnostics", DockPlace::bottom, std::make_unique<DiagnosticsList>(workspace)});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ class Rows {
   [[nodiscard]] virtual int level(std::size_t /*row*/) const { return 0; }
   /// Whether the rows stand here only until those come that are meant.
   [[nodiscard]] virtual bool for_now() const { return false; }
+  /// Of a list whose rows have small pictures before them: where a row's is, or an empty path; nullopt = a list of texts.
+  [[nodiscard]] virtual std::optional<std::filesystem::path> picture(std::size_t /*row*/) const { return std::nullopt; }
   /// Shown in grey: undone, rejected.
   [[nodiscard]] virtual bool faded(std::size_t /*row*/) const { return false; }
   /// A limit that makes sense here, "depth>80", to show how one is written; empty = words alone.

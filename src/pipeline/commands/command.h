@@ -101,13 +101,14 @@ struct DecideCommand {
   std::string rule;  ///< of bulk_decide, for people; empty = a human selected them
 };
 
-inline constexpr std::array<std::string_view, 4> kEventKindNames{"trawl", "station", "noise", "other"};
+inline constexpr std::array<std::string_view, 5> kEventKindNames{"trawl", "station", "noise", "other", "bookmark"};
 
 /// `event`: a mark on the timeline.
 struct EventCommand {
   std::string kind = "other";
   TimeNs time = 0;  ///< datagram clock
   std::string text;
+  std::string view = {};  ///< of a bookmark: what was looked at, a JSON object; empty = no more than the ping
   friend bool operator==(const EventCommand&, const EventCommand&) = default;
 };
 

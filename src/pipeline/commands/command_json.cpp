@@ -163,7 +163,12 @@ Result<EventCommand> read_event(const json& args) {
   if (!time) return pass_on(time);
   auto text = read_text(args, "text");
   if (!text) return pass_on(text);
-  return EventCommand{std::string(kEventKindNames[*kind]), *time, std::move(*text)};
+  EventCommand event{std::string(kEventKindNames[*kind]), *time, std::move(*text)};
+  if (const auto view = args.find("view"); view != args.end()) {
+    if (!view->is_object()) return fail(ErrorCode::format, "view: expected an object");
+    event.view = view->dump();
+  }
+  return event;
 }
 
 Result<Command> read_detect(const json& args) {
@@ -189,7 +194,9 @@ Result<Command> read_interval(std::string_view name, const json& args, TimeNs pi
 }
 
 json from_event(const EventCommand& event) {
-  return {{"kind", event.kind}, {"time", event.time}, {"text", event.text}};
+  json args{{"kind", event.kind}, {"time", event.time}, {"text", event.text}};
+  if (!event.view.empty()) args["view"] = json::parse(event.view);
+  return args;
 }
 
 std::string decide_name(const DecideCommand& command) {

@@ -40,6 +40,7 @@ TEST(Commands, HostileLinesAreRefusedByTheNameOfTheMember) {
       {"species", R"({"school":{"channel":1,"sample":2},"species":"her\u0000ring"})", "control characters"},
       {"bulk_decide", R"({"rule":"x","decisions":[3]})", "decisions[0]"},
       {"event", R"({"kind":"party","time":1,"text":""})", "kind: expected"},
+      {"event", R"({"kind":"bookmark","time":1,"text":"","view":[1]})", "view: expected"},
       {"bad_interval", R"({"first":5,"last":4})", "last: lies before"},
       {"good_interval", R"({"first":5})", "last: expected"},
       {"calibrate", R"({"beam_calibration":[{}],"file":""})", "expected a channel"},

@@ -63,6 +63,7 @@ inline std::vector<std::pair<int, Command>> every_command() {
           {3, DecideCommand{{renaming(key_a(), "north wall")}, ""}},
           {3, DecideCommand{{decision(key_a(), "accepted"), decision(key_b(), "rejected")}, "5 pings or more"}},
           {3, EventCommand{"trawl", ping_time(2), "haul 12"}},
+          {3, EventCommand{"bookmark", ping_time(3), "", R"({"fan":3})"}},
           {3, BadPingsCommand{ping_time(3), ping_time(3)}},
           {3, BadPingsCommand{ping_time(5), ping_time(6)}}};
 }

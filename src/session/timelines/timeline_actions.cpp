@@ -9,6 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include "session/marks/bookmarked_view.h"
+#include "session/marks/marks.h"
+
 namespace sonar {
 namespace {
 
@@ -22,7 +25,11 @@ void mark_event(AppModel& app, const std::string& kind) {
   if (!document.shown()) return;
   std::string text;
   if (app.dialogs.text) {
-    text = app.dialogs.text(fmt::format("Mark {}", kind), "What happened here", kind).value_or("");
+    const bool bookmark = kind == kBookmark;
+    text = app.dialogs
+               .text(bookmark ? "Bookmark" : fmt::format("Mark {}", kind),
+                     bookmark ? "What is to be seen here" : "What happened here", kind)
+               .value_or("");
     // Without a word it is a human who thought better of it.
     if (text.empty()) return;
   }
@@ -30,6 +37,10 @@ void mark_event(AppModel& app, const std::string& kind) {
   event.kind = kind;
   event.time = document.shown()->context().times[static_cast<std::size_t>(document.ping())];
   event.text = text == kind ? std::string{} : text;
+  if (kind == kBookmark) {
+    event.view = text_of(view_now(app.workspace));
+    keep_thumbnail(app, event);
+  }
   document.act(std::move(event));
 }
 
@@ -70,9 +81,12 @@ std::optional<std::int64_t> next_event(const Document& document, int step) {
 void add_event(AppModel& app, const std::string& kind, const std::string& key) {
   app.actions.add({.id = "event." + kind,
                    .menu = kMenu,
-                   .text = fmt::format("Mark {}…", kind == "other" ? "an event" : kind),
+                   .text = kind == kBookmark ? "Bookmark what is seen…"
+                                             : fmt::format("Mark {}…", kind == "other" ? "an event" : kind),
                    .keys = {key},
-                   .tip = "Mark the current ping on the timeline",
+                   .tip = kind == kBookmark
+                              ? "Ping, slices, volume's side and selected school: the list Marks leads back to them"
+                              : "Mark the current ping on the timeline",
                    .run = [&app, kind] { mark_event(app, kind); },
                    .enabled = [&app] { return any_ping(app); }});
 }
@@ -143,6 +157,7 @@ void add_timeline_actions(AppModel& app) {
   add_event(app, "station", "Ctrl+T");
   add_event(app, "noise", "Shift+T");
   add_event(app, "other", "Ctrl+Shift+T");
+  add_event(app, std::string(kBookmark), "Ctrl+M");
   add_step(app, "event.previous", "Previous event", "Ctrl+[", -1);
   add_step(app, "event.next", "Next event", "Ctrl+]", 1);
   app.actions.add({.id = "bad.ping",

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "session/lists/document_rows.h"
+#include "session/marks/marks.h"
+
+namespace sonar {
+
+/// What was marked in the time of the survey, bookmarks with a small picture. A click on one goes to it.
+class MarkTable : public DocumentRows {
+ public:
+  explicit MarkTable(AppModel& app);
+  ~MarkTable() override;
+  MarkTable(const MarkTable&) = delete;
+  MarkTable& operator=(const MarkTable&) = delete;
+
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return titles_; }
+  [[nodiscard]] std::size_t rows() const override { return marks_.size(); }
+  [[nodiscard]] Cell cell(std::size_t row, std::size_t column) const override;
+  [[nodiscard]] std::optional<std::filesystem::path> picture(std::size_t row) const override;
+  void select(std::size_t row) override;
+  void open(std::size_t row) override { select(row); }
+  [[nodiscard]] std::optional<std::size_t> selected() const override;
+
+ protected:
+  void make() override;
+  void school_selected() override {}
+
+ private:
+  std::vector<ListColumn> titles_;
+  std::vector<SurveyMark> marks_;
+  bool pictures_ = false;  ///< a bookmark is among them
+  int listening_ = 0;
+};
+
+}  // namespace sonar
