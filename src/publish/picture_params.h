@@ -152,6 +152,10 @@ struct VolumeParams {
   bool seabed = true;
   bool slice_planes = true;
   VolumeClip clip = VolumeClip::none;
+  bool earth_fixed = false;
+  bool ship_track = false;
+  bool school_tracks = false;
+  int trail_pings = 0;
   double ship_length_m = 60.0;
   double moving_budget_ms = 50.0;
   int frames = 16;
@@ -188,6 +192,20 @@ void describe(Visitor& v, VolumeParams& p) {
           {.text = "show where the slices from above and from the side lie", .tier = Tier::basic});
   v.choice("clip", p.clip, kVolumeClipNames,
            {"leave out the echoes on the viewer's side of a slice; schools stay whole", Tier::basic});
+  v.field("earth_fixed", p.earth_fixed,
+          {.text = "while pings pass the eye stands still on the earth; off = it sails with the ship",
+           .tier = Tier::basic});
+  v.field(
+      "ship_track", p.ship_track,
+      {.text = "show the ship's track on the sea surface, paler where it has still to be sailed", .tier = Tier::basic});
+  v.field("school_tracks", p.school_tracks,
+          {.text = "show the track of each school: a line through its middles in all its pings", .tier = Tier::basic});
+  v.field("trail_pings", p.trail_pings,
+          {.unit = "pings",
+           .min = 0,
+           .max = 200,
+           .text = "show where schools were on the earth in so many pings before, paler with age; 0 = not",
+           .tier = Tier::basic});
   v.field("ship_length_m", p.ship_length_m, {.unit = "m", .min = 1, .max = 500, .text = "length of the drawn ship"});
   v.field(
       "moving_budget_ms", p.moving_budget_ms,
@@ -246,6 +264,7 @@ void describe(Visitor& v, PlaneSliceParams& p) {
 struct CameraParams {
   std::string eye;
   std::string target;
+  int eye_ping = -1;
   double orbit_deg = 0.0;
   double rise_deg = 0.0;
   double zoom = 1.0;
@@ -256,6 +275,13 @@ template <class Visitor>
 void describe(Visitor& v, CameraParams& p) {
   v.field("eye", p.eye, {.text = "camera's place X,Y,Z, m towards bow, starboard and down; empty = an overview"});
   v.field("target", p.target, {.text = "place that the camera looks at, X,Y,Z; goes with the eye"});
+  v.field(
+      "eye_ping", p.eye_ping,
+      {.unit = "1",
+       .min = -1,
+       .max = 1e9,
+       .text = "earth-fixed: ping in which the camera stands so; -1 = the ping that is shown, and of a movie the one "
+               "in its middle"});
   v.field("orbit_deg", p.orbit_deg,
           {.unit = "deg", .min = -360, .max = 360, .text = "turn the camera about its target"});
   v.field("rise_deg", p.rise_deg, {.unit = "deg", .min = -180, .max = 180, .text = "lift the camera about its target"});

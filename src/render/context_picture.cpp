@@ -259,6 +259,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
   const DepthCue cue(scene.lines, screen, background);
   const std::vector<Piece> lines = pieces(scene.lines, screen, cue, 1.0);
   const std::vector<Piece> faint = pieces(scene.lines, screen, cue, kFaintLine);
+  const std::vector<Piece> under = pieces(scene.under, screen, cue, 1.0);
   ContextPicture out{Image(size), Image(size, {0, 0, 0, 0}), nullptr};
   const Premultiplied filled = premultiplied(background);
   std::vector<float> metres(opaque.empty() ? 0 : size.count());
@@ -271,6 +272,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
     Band front(behind.first_row, behind.rows, behind.width);
     draw_over(ground, behind, behind);
     draw_over(translucent, behind, above ? front : behind);
+    draw_over(under, behind, behind);
     draw_over(lines, behind, behind);
     draw_over(faint, behind, front);
     for (int y = first; y < first + rows; ++y) {
