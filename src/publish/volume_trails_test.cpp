@@ -71,6 +71,7 @@ TEST_F(VolumeTrails, AreDrawnWhereTheyAreAskedForAndNowhereElse) {
 
 TEST_F(VolumeTrails, AreThoseOfTheSchoolsThatAreShown) {
   const DrawnObservation& observation = source_->observations().front();
+  options_.display.rejected = false;
   TrailSubject subject = trail_subject(observation, options_);
   ASSERT_EQ(subject.schools.size(), 1U) << "rejected ones are not shown";
   EXPECT_EQ(subject.schools[0].pings.size(), 8U);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/check.h"
@@ -182,8 +183,16 @@ void fill(const Corner& a, const Corner& b, const Corner& c, const Band& band, c
   }
 }
 
+/// Most pieces reach few bands.
+bool reaches(const Piece& piece, const Band& band) {
+  const auto corners = std::span(piece.corners).first(static_cast<std::size_t>(piece.count));
+  const auto [top, low] = std::ranges::minmax(corners, {}, &Corner::y);
+  return low.y >= band.first_row && top.y <= band.first_row + band.rows;
+}
+
 template <class Visit>
 void fill(const Piece& piece, const Band& band, const Visit& visit) {
+  if (!reaches(piece, band)) return;
   for (int i = 1; i + 1 < piece.count; ++i) {
     const auto at = [&](int k) -> const Corner& { return piece.corners[static_cast<std::size_t>(k)]; };
     fill(at(0), at(i), at(i + 1), band, visit);

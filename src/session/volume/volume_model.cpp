@@ -109,10 +109,8 @@ void VolumeModel::stand_still() {
     return standing_still(camera, pings[static_cast<std::size_t>(then)], pings[static_cast<std::size_t>(now)]);
   };
   // An overview stands where it was seen from.
-  const auto stood = workspace_.camera() ? workspace_.camera()
-                     : shown_            ? std::optional(shown_->view.camera)
-                                         : std::nullopt;
-  const auto stands = stood ? moved(*stood) : std::nullopt;
+  const PixelSize rays = shown_ ? shown_->view.size : units();
+  const auto stands = moved(workspace_.camera() ? *workspace_.camera() : overview(shown->sector(), rays));
   if (!stands) return;
   workspace_.camera.set(stands);
   if (drag_) drag_->camera = moved(drag_->camera).value_or(drag_->camera);
