@@ -90,7 +90,7 @@ TEST_F(VolumeOnEarth, ADragGoesOnWhereItWas) {
 TEST_F(VolumeOnEarth, TrailsOfNoPingChangeNoPixel) {
   look_at(6);
   const Image plain = model_->image();
-  ASSERT_TRUE(workspace_.volume.set("trail_pings", std::int64_t{0}));
+  ASSERT_TRUE(workspace_.volume.set("trail_pings", 0));
   settle();
   EXPECT_EQ(model_->image(), plain);
   ASSERT_TRUE(workspace_.volume.set("ship_track", true));
