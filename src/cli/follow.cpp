@@ -264,7 +264,7 @@ int follow_survey(const FollowArguments& arguments) {
   if (!recipe) return report(recipe.error());
   Following following(arguments, std::move(*recipe), std::move(alarms), std::move(bridge));
   if (auto done = following.run(); !done) return report(done.error());
-  if (!interrupted()) return run_survey(arguments.run);  // all is there: what is right already stays
+  if (!interrupted()) return run_verb(arguments.run);  // all is there: what is right already stays
   if (auto done = following.end(); !done) return report(done.error());
   return kExitDone;
 }

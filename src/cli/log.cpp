@@ -31,14 +31,26 @@ void print(const char* colour, std::string_view word, std::string_view line) {
 void set_log_level(LogLevel level) { chosen = level; }
 LogLevel log_level() { return chosen; }
 
-void print_error(std::string_view line) { print("31", "sonarx: ", line); }
+void print_error(std::string_view line) { print("31", head_of(RunLine::Kind::failure), line); }
 
 void print_note(std::string_view line) {
-  if (log_level() != LogLevel::quiet) print("33", "note ", line);
+  if (log_level() != LogLevel::quiet) print("33", head_of(RunLine::Kind::note), line);
 }
 
 void print_detail(std::string_view line) {
   if (log_level() == LogLevel::verbose) print("2", "", line);
+}
+
+void print_line(const RunLine& line) {
+  switch (line.kind) {
+    case RunLine::Kind::note:
+      return print_note(line.text);
+    case RunLine::Kind::failure:
+      return print_error(line.text);
+    case RunLine::Kind::result:
+    case RunLine::Kind::refused:
+      fmt::print("{}\n", line.text);
+  }
 }
 
 }  // namespace sonar

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "pipeline/tasks/run_survey.h"
+
 namespace sonar {
 
 /// What is told on standard error beside errors: notes and progress, nothing of it, or each step too.
@@ -15,5 +17,7 @@ void set_log_level(LogLevel level);
 void print_error(std::string_view line);   ///< "sonarx: LINE"
 void print_note(std::string_view line);    ///< "note LINE"; not when quiet
 void print_detail(std::string_view line);  ///< only when verbose
+/// Each kind where it belongs: results on standard output, the others as above.
+void print_line(const RunLine& line);
 
 }  // namespace sonar

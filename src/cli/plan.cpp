@@ -8,12 +8,14 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/numbers.h"
-#include "cli/open_for_run.h"
 #include "cli/progress.h"
+#include "cli/run_survey.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
+#include "pipeline/tasks/run_survey.h"
 
 namespace sonar {
 
@@ -35,16 +37,17 @@ void add_plan(CLI::App& app, VerbRunner& run) {
       Work work(arguments->jobs);
       const CancelOnInterrupt watch(work);
       show_progress(work);
-      auto opened = open_for_run(*arguments, work);
+      const RunSources sources = sources_of(*arguments);
+      auto opened = open_for_run(sources, work);
       clear_progress();
       if (!opened) return report(opened.error());
       RunOptions options;
       options.out = arguments->out;
       options.program_version = SONAR_VERSION;
       if (auto outside = require_outside_raw(opened->survey, options.out); !outside) return report(outside.error());
-      if (auto written = write_plan(*opened, *arguments, options); !written) return report(written.error());
+      if (auto written = write_plan(*opened, sources, options); !written) return report(written.error());
       const std::vector<RunFailure> failed = failed_files(opened->survey);
-      print_failures(opened->survey, {{}, {}, failed});
+      for (const RunLine& line : failure_lines(opened->survey, failed)) print_line(line);
       if (arguments->json) {
         fmt::print("{}", plan_text(opened->plan));
       } else if (opened->plan.tasks.empty()) {

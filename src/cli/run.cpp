@@ -3,16 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
@@ -20,18 +15,9 @@
 #include "cli/merged_text.h"
 #include "cli/named_path.h"
 #include "cli/numbers.h"
-#include "cli/open_for_run.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
-#include "io/atomic_file.h"
-#include "io/product_file.h"
-#include "pipeline/journal/earlier.h"
-#include "pipeline/journal/journals.h"
-#include "pipeline/journal/manual.h"
-#include "pipeline/stages/refused_echoes.h"
-#include "pipeline/tasks/merge.h"
-#include "pipeline/tasks/run.h"
-#include "pipeline/tasks/task_record.h"
+#include "pipeline/tasks/run_survey.h"
 
 namespace sonar {
 namespace {
@@ -49,83 +35,25 @@ Result<std::optional<PingSelection>> parse_pings(const std::string& text) {
   return std::optional<PingSelection>{PingSelection{(*numbers)[0], (*numbers)[1]}};
 }
 
-/// Whether a run could find any school at all: by itself, or by a choice of the session.
-bool looks_for_schools(const Opened& opened) {
-  if (opened.plan.recipe.automatic) return true;
-  constexpr std::array<std::string_view, 4> kSelects{"propagate", "grow", "brush", "detect"};
-  return std::any_of(opened.journal.begin(), opened.journal.end(), [&](const JournalLine& line) {
-    return std::find(kSelects.begin(), kSelects.end(), line.command) != kSelects.end();
-  });
-}
-
-/// What the products of these observations refused, a line each.
-Result<void> print_refusals(const std::filesystem::path& out, const RunReport& report) {
-  std::vector<std::string> names = report.done;
-  names.insert(names.end(), report.skipped.begin(), report.skipped.end());
-  std::ranges::sort(names);
-  for (const std::string& observation : names) {
-    const auto product = read_product(product_path(out, observation));
-    if (!product) return pass_on(product);
-    for (const std::string& line : refusal_lines(*product)) fmt::print("{}\n", line);
-  }
-  return {};
-}
-
-int finish(const Opened& opened, const RunOptions& options, RunReport report, bool json, Work& work) {
-  if (options.task) {
-    clear_progress();
-    print_failures(opened.survey, report);
-    return report.failures.empty() ? kExitDone : kExitFailed;
-  }
-  const std::vector<RunFailure> files = failed_files(opened.survey);
-  report.failures.insert(report.failures.end(), files.begin(), files.end());
-  const auto merged = merge_after(options.out, report, work, options.only);
-  clear_progress();
-  print_failures(opened.survey, report);
-  if (!merged) return sonar::report(merged.error());
-  for (const std::string& line : note_lines(*merged)) print_note(line);
-  if (auto told = print_merge(*merged, options.out, json); !told) return sonar::report(told.error());
-  if (opened.plan.tasks.empty()) print_note("no-observation: no file holds a ping");
-  if (!looks_for_schools(opened)) {
-    print_note(
-        "no-detection: schools were not detected: the recipe says \"automatic\": false, and no session selects one");
-  }
-  if (report.failures.empty()) return kExitDone;
-  return report.done.empty() && report.skipped.empty() ? kExitFailed : kExitPartly;
-}
-
-/// The observation of the one task that is asked for; empty where all are.
-std::string task_name(const Opened& opened, const RunOptions& options) {
-  return options.task && *options.task < opened.plan.tasks.size() ? opened.plan.tasks[*options.task].observation : "";
-}
-
-TimeNs utc_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-/// For `sonarx status`: that it cannot be noted hinders no task.
-void begin_task(const Opened& opened, const RunOptions& options) {
-  const std::string name = task_name(opened, options);
-  if (!name.empty()) (void)write_record(options.out, name, record_of_this_process(utc_now()));
-}
-
-void end_task(const Opened& opened, const RunOptions& options, const Result<RunReport>& done) {
-  const std::string name = task_name(opened, options);
-  if (name.empty()) return;
-  TaskRecord record = record_of_this_process(utc_now());
-  if (!done) record.error = to_line(done.error());
-  if (done && !done->failures.empty()) record.error = to_line(done->failures.front().error);
-  if (record.error.empty()) {
-    remove_record(options.out, name);
-  } else {
-    (void)write_record(options.out, name, record);
-  }
-}
-
 }  // namespace
 
-int run_survey(const RunArguments& arguments) {
+Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
+  if (!arguments.recipe.empty() || journal.recipe.empty()) {
+    return chosen_recipe(arguments.recipe, arguments.measured);
+  }
+  auto recipe = recipe_from_text(journal.recipe);
+  if (!recipe) return fail(ErrorCode::format, "its recipe: " + recipe.error().text, {arguments.session});
+  return with_measured(std::move(*recipe), arguments.measured);
+}
+
+RunSources sources_of(const RunArguments& arguments) {
+  return {{arguments.survey.begin(), arguments.survey.end()},
+          arguments.session,
+          [&arguments](const Journal& journal) { return recipe_for(arguments, journal); },
+          arguments.plan};
+}
+
+int run_verb(const RunArguments& arguments) {
   if (arguments.plan.empty() == arguments.survey.empty()) {
     return report({ErrorCode::usage, "run needs a SURVEY, or --plan with --task", {}});
   }
@@ -142,25 +70,18 @@ int run_survey(const RunArguments& arguments) {
   options.pings = *pings;
   options.remeasure = arguments.remeasure;
   options.program_version = SONAR_VERSION;
-  auto opened = open_for_run(arguments, work);
-  if (!opened) return report(opened.error());
-  if (auto outside = require_outside_raw(opened->survey, options.out); !outside) return report(outside.error());
-  if (!arguments.plan.empty()) options.pings = opened->plan.pings;
-  if (arguments.plan.empty()) {
-    if (auto written = write_plan(*opened, arguments, options); !written) return report(written.error());
-  }
-  begin_task(*opened, options);
-  const auto done = run_plan(opened->plan, opened->survey, opened->journal, options, work);
-  end_task(*opened, options, done);
-  if (!done) {
+  const auto print = [&arguments](const RunLine& line) {
     clear_progress();
-    return report(done.error());
+    if (!arguments.json || line.kind != RunLine::Kind::result) print_line(line);
+  };
+  const auto done = run_survey(sources_of(arguments), options, {print, {}, arguments.why}, work);
+  clear_progress();
+  if (!done) return report(done.error());
+  if (arguments.json && done->merged) {
+    if (auto told = print_merge(*done->merged, options.out, true); !told) return report(told.error());
   }
-  if (arguments.why) {
-    clear_progress();
-    if (auto told = print_refusals(options.out, *done); !told) return report(told.error());
-  }
-  return finish(*opened, options, *done, arguments.json, work);
+  if (done->whole()) return kExitDone;
+  return arguments.has_task || done->nothing() ? kExitFailed : kExitPartly;
 }
 
 void add_run(CLI::App& app, VerbRunner& run) {
@@ -195,7 +116,7 @@ void add_run(CLI::App& app, VerbRunner& run) {
   verb->callback([arguments, task, &run, out, plan] {
     if (out->count() == 0 && plan->count() == 0) throw CLI::RequiredError("--out");
     arguments->has_task = task->count() > 0;
-    run = [arguments] { return run_survey(*arguments); };
+    run = [arguments] { return run_verb(*arguments); };
   });
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "cli/chosen_recipe.h"
 #include "pipeline/journal/journal.h"
 #include "pipeline/recipe/recipe.h"
+#include "pipeline/tasks/open_for_run.h"
 
 namespace sonar {
 
@@ -32,12 +32,10 @@ struct RunArguments {
 
 /// A recipe that was asked for; else the one that the session's choices were made under; else the default.
 [[nodiscard]] Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal);
-
-/// What a newer program planned here is not ours to replace.
-/// errors  newer_version
-[[nodiscard]] Result<void> require_no_newer_plan(const std::filesystem::path& out);
+/// The arguments outlive what comes back.
+[[nodiscard]] RunSources sources_of(const RunArguments& arguments);
 
 /// The verb `run`. Products that are right stay.
-[[nodiscard]] int run_survey(const RunArguments& arguments);
+[[nodiscard]] int run_verb(const RunArguments& arguments);
 
 }  // namespace sonar

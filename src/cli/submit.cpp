@@ -17,15 +17,17 @@
 
 #include "cli/chosen_recipe.h"
 #include "cli/exit_codes.h"
+#include "cli/log.h"
 #include "cli/named_path.h"
 #include "cli/numbers.h"
-#include "cli/open_for_run.h"
 #include "cli/progress.h"
+#include "cli/run_survey.h"
 #include "cli/slurm_template.h"
 #include "cli/verb.h"
 #include "io/atomic_file.h"
 #include "io/external_command.h"
 #include "pipeline/recipe/json_file.h"
+#include "pipeline/tasks/run_survey.h"
 #include "pipeline/tasks/task_cost.h"
 #include "pipeline/tasks/task_states.h"
 
@@ -230,15 +232,16 @@ int run_submit(const SubmitOptions& options) {
   Work work(options.run.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  auto opened = open_for_run(options.run, work);
+  const RunSources sources = sources_of(options.run);
+  auto opened = open_for_run(sources, work);
   clear_progress();
   if (!opened) return report(opened.error());
   RunOptions plan;
   plan.out = out;
   plan.program_version = SONAR_VERSION;
   if (auto outside = require_outside_raw(opened->survey, out); !outside) return report(outside.error());
-  if (auto written = write_plan(*opened, options.run, plan); !written) return report(written.error());
-  print_failures(opened->survey, {{}, {}, failed_files(opened->survey)});
+  if (auto written = write_plan(*opened, sources, plan); !written) return report(written.error());
+  for (const RunLine& line : failure_lines(opened->survey, failed_files(opened->survey))) print_line(line);
   std::vector<std::size_t> tasks;
   for (const TaskStatus& task : task_states(opened->plan, out, is_alive)) {
     if (task.state != TaskState::done && task.state != TaskState::running) tasks.push_back(task.task);

@@ -17,6 +17,7 @@
 #include "base/manual.h"
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
+#include "session/batch/batch.h"
 #include "session/live_watch.h"
 #include "session/open_demo.h"
 
@@ -101,12 +102,13 @@ void end_without_display(QtMsgType type, const QMessageLogContext& /*where*/, co
 }
 
 /// As a user would.
-void close_when_asked(QWidget& window) {
+void close_when_asked(QWidget& window, AppModel& app) {
   const int asked = asked_to_end();
   if (asked < 0) return;
   auto* notifier = new QSocketNotifier(asked, QSocketNotifier::Read, &window);
-  QObject::connect(notifier, &QSocketNotifier::activated, &window, [notifier, &window] {
+  QObject::connect(notifier, &QSocketNotifier::activated, &window, [notifier, &window, &app] {
     notifier->setEnabled(false);
+    app.batch->stop();  // nobody is there to be asked
     window.close();
   });
 }
@@ -153,7 +155,7 @@ int run_program(int argc, char** argv) {
   MainWindow window(app);
   window.take_layout(app.preferences.window_layout);
   window.show();
-  close_when_asked(window);
+  close_when_asked(window, app);
   if (!loaded.notice.empty()) app.workspace.document.tell(loaded.notice);
   std::vector<std::filesystem::path> paths;
   for (const QString& path : parser.positionalArguments()) paths.emplace_back(path.toStdString());

@@ -13,13 +13,14 @@
 #include <QMimeData>
 #include <QPointer>
 #include <QScreen>
-#include <QUrl>
 
 #include "gui/about.h"
 #include "gui/action_menus.h"
 #include "gui/animation_timer.h"
+#include "gui/batch_window.h"
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
+#include "gui/dropped_paths.h"
 #include "gui/key_sheet.h"
 #include "gui/palette.h"
 #include "gui/picture_view.h"
@@ -167,6 +168,10 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
 
 void MainWindow::answer() {
   app_.dialogs.preferences = [this] { return ask_preferences(*this, app_); };
+  app_.dialogs.show_batch = [this] {
+    if (!batch_) batch_ = std::make_unique<BatchWindow>(app_, *this);
+    batch_->come_to_front();
+  };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
   app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };
@@ -206,6 +211,8 @@ void MainWindow::take_layout(const std::string& layout) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!batch_may_end(app_)) return event->ignore();
+  if (batch_) batch_->close();
   app_.preferences.window_layout = layout();
   keep_preferences(app_);
   QMainWindow::closeEvent(event);
@@ -216,10 +223,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  std::vector<std::filesystem::path> paths;
-  for (const QUrl& url : event->mimeData()->urls()) {
-    if (url.isLocalFile()) paths.emplace_back(url.toLocalFile().toStdString());
-  }
+  auto paths = dropped_paths(*event->mimeData());
   if (!paths.empty()) app_.workspace.document.open(std::move(paths));
 }
 

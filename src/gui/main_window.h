@@ -3,6 +3,7 @@
 
 #include <QMainWindow>
 #include <QSize>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,8 @@
 #include "session/app_model.h"
 
 namespace sonar {
+
+class BatchWindow;
 
 /// Of a window at its first start: nine tenths of what the screen has to give, within 1280 x 800 and 3840 x 2160, and no more
 /// than there is.
@@ -40,6 +43,7 @@ class MainWindow : public QMainWindow {
 
   AppModel& app_;
   AnimationTimer animations_;
+  std::unique_ptr<BatchWindow> batch_;  ///< null until it is asked for
 };
 
 }  // namespace sonar

@@ -32,6 +32,12 @@ std::string dock_of(const QWidget* widget) {
   return {};
 }
 
+/// A question stands over the window that it is asked from.
+QWidget* asking(QWidget& window) {
+  QWidget* active = QApplication::activeWindow();
+  return active != nullptr ? active : &window;
+}
+
 /// Lets a human change the parameters of a section; they follow at once. False where the human declined.
 bool change_parameters(QWidget& window, const std::string& title, const PanelSection& section) {
   QDialog dialog(&window);
@@ -58,16 +64,19 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
     return files;
   };
   dialogs.file_to_open = [&window](const std::string& title, const std::string& pattern) {
-    return QFileDialog::getOpenFileName(&window, text(title), {}, text(pattern)).toStdString();
+    return QFileDialog::getOpenFileName(asking(window), text(title), {}, text(pattern)).toStdString();
   };
   dialogs.folder_to_open = [&window] {
     return QFileDialog::getExistingDirectory(&window, "Open a survey").toStdString();
   };
   dialogs.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
-    return QFileDialog::getSaveFileName(&window, text(title), text(name), text(pattern)).toStdString();
+    return QFileDialog::getSaveFileName(asking(window), text(title), text(name), text(pattern)).toStdString();
   };
   dialogs.folder_to_save = [&window](const std::string& title, const std::string& start) {
-    return QFileDialog::getExistingDirectory(&window, text(title), text(start)).toStdString();
+    return QFileDialog::getExistingDirectory(asking(window), text(title), text(start)).toStdString();
+  };
+  dialogs.folder_to_run = [&window] {
+    return QFileDialog::getExistingDirectory(asking(window), "A survey, or a folder of surveys").toStdString();
   };
   dialogs.show_page = [](const std::filesystem::path& page) {
     return QDesktopServices::openUrl(QUrl::fromLocalFile(text(page.string())));
@@ -79,7 +88,7 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
     return given ? std::optional(answer.toStdString()) : std::nullopt;
   };
   dialogs.yes = [&window](const std::string& question) {
-    return QMessageBox::question(&window, "Sonar Explorer", text(question)) == QMessageBox::Yes;
+    return QMessageBox::question(asking(window), "Sonar Explorer", text(question)) == QMessageBox::Yes;
   };
   dialogs.parameters = [&window](const std::string& title, const PanelSection& section) {
     return change_parameters(window, title, section);

@@ -53,6 +53,10 @@ void RowsModel::reset() {
   endResetModel();
 }
 
+void RowsModel::refresh() {
+  if (!top_.empty()) Q_EMIT dataChanged(index(0, 0), index(static_cast<int>(top_.size()) - 1, columnCount() - 1));
+}
+
 const std::vector<std::size_t>& RowsModel::below(const QModelIndex& parent) const {
   return parent.isValid() ? children_[row_of(parent)] : top_;
 }
@@ -89,6 +93,11 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
     }
     case Qt::ToolTipRole:
       return QString::fromStdString(rows_.cell(row_of(index), column).text);
+    case kKeyRole: {
+      const Cell cell = rows_.cell(row_of(index), column);
+      const auto* key = std::get_if<double>(&cell.key);
+      return key != nullptr ? QVariant(*key) : QVariant();
+    }
     case Qt::TextAlignmentRole:
       return QVariant(rows_.columns()[column].number ? Qt::AlignRight | Qt::AlignVCenter
                                                      : Qt::AlignLeft | Qt::AlignVCenter);

@@ -14,8 +14,13 @@ class RowsModel : public QAbstractItemModel {
   /// The rows outlive the model.
   explicit RowsModel(const Rows& rows, QObject* parent = nullptr);
 
+  /// What a cell is sorted by, where that is a number.
+  static constexpr int kKeyRole = Qt::UserRole;
+
   /// Asks the rows anew.
   void reset();
+  /// Asks for the cells anew; there are as many rows as before.
+  void refresh();
   [[nodiscard]] static std::size_t row_of(const QModelIndex& index) {
     return static_cast<std::size_t>(index.internalId());
   }

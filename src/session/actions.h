@@ -83,6 +83,7 @@ struct Dialogs {
       file_to_save;
   /// start  a folder that is there; empty = whichever
   std::function<std::string(const std::string& title, const std::string& start)> folder_to_save;
+  std::function<std::string()> folder_to_run;  ///< a survey, or a folder of surveys
   std::function<std::optional<std::string>(const std::string& title, const std::string& label, const std::string& text)>
       text;
   std::function<bool(const std::string& question)> yes;
@@ -93,6 +94,7 @@ struct Dialogs {
   std::function<bool(RecipeEditor& editor)> recipe;                ///< lets a human change a recipe; false = declined
   std::function<void(const std::string& title, Rows& rows)> rows;  ///< shows a table to look at
   std::function<void(const std::string& text)> copy;
+  std::function<void()> show_batch;                                  ///< the window of surveys to be run
   std::function<void()> show_keys;                                   ///< the sheet of keys
   std::function<bool(const std::filesystem::path& page)> show_page;  ///< outside the program; false = nothing shows it
   std::function<void()> show_about;

@@ -17,6 +17,7 @@
 
 namespace sonar {
 
+class Batch;
 class BrushTool;
 class FirstSight;
 class KeptThumbnails;
@@ -71,6 +72,7 @@ class AppModel {
   std::shared_ptr<FirstSight> first_sight;
   std::shared_ptr<LiveWatch> live;
   std::shared_ptr<MergeOffer> merge_offer;
+  std::shared_ptr<Batch> batch;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
   std::shared_ptr<KeptThumbnails> thumbnails;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/result.h"
 #include "session/app_model.h"
 
 namespace sonar {
@@ -21,6 +22,7 @@ void add_school_acts(AppModel& app);         ///< what is done to the selected s
 void add_window_acts(AppModel& app);         ///< views on and off, light and dark, help
 void add_window_preferences(AppModel& app);  ///< theme, playback, memory, keys
 void add_exports(AppModel& app);             ///< opening; files, pictures and movies out of the program
+void add_batch(AppModel& app);               ///< whole surveys run behind the window
 
 void add_pictures(AppModel& app);  ///< the part of them that makes pictures and movies
 
@@ -37,6 +39,14 @@ template <class P>
   parameters.assign(before);
   return false;
 }
+
+/// Runs the surveys of the batch. A human is asked before results under another recipe are replaced.
+/// errors  as Batch::start()
+Result<void> start_batch(AppModel& app);
+/// Shows the survey with what its run found; without that where it has not begun.
+void open_run_survey(AppModel& app, std::size_t at);
+/// Asks whether surveys that run are to be stopped, and stops them; false = the human declined.
+[[nodiscard]] bool batch_may_end(AppModel& app);
 
 /// Asks for a folder to write into, and proposes one beside the survey; empty = the human declined.
 /// ending  of its name: "-out"

@@ -64,8 +64,9 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 27> kBegin{"edit.undo",
+constexpr std::array<Id, 28> kBegin{"edit.undo",
                                     "file.calibration",
+                                    "file.run_surveys",
                                     "file.save_view",
                                     "file.quit",
                                     "export.movie",

@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "pipeline/exports/export.h"
 #include "pipeline/survey/calibration_json.h"
+#include "pipeline/tasks/named_surveys.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
 #include "session/lists/calibration_table.h"
@@ -42,9 +43,7 @@ void open_files(AppModel& app) {
 
 std::string recent_text(const AppModel& app, std::size_t at) {
   if (at >= app.preferences.recent.size()) return {};
-  const auto& paths = app.preferences.recent[at];
-  const std::string first = paths.front().string();
-  return paths.size() == 1 ? first : fmt::format("{} and {} more", first, paths.size() - 1);
+  return text_of(app.preferences.recent[at]);
 }
 
 void add_opening(AppModel& app) {
@@ -156,12 +155,10 @@ void add_calibration(AppModel& app) {
 /// SURVEY-out, or SURVEY-out-2 and so on where a run has its results there; empty where nothing may be written.
 fs::path proposed_folder(const Document& document, const std::string& ending) {
   if (document.paths().empty()) return {};
-  std::error_code absent;
-  fs::path folder = folder_beside(document.paths().front(), ending);
-  for (int i = 2; !folder.empty() && fs::exists(folder / "plan.json", absent); ++i) {
-    folder = folder_beside(document.paths().front(), fmt::format("{}-{}", ending, i));
-  }
-  return !folder.empty() && require_not_beneath_raw(folder) ? folder : fs::path{};
+  return free_folder_beside(document.paths().front(), ending, [](const fs::path& folder) {
+    std::error_code absent;
+    return fs::exists(folder / "plan.json", absent);
+  });
 }
 
 /// Asks for a folder and hands it on.
@@ -227,6 +224,7 @@ std::string asked_folder(AppModel& app, const std::string& title, const std::str
 void add_exports(AppModel& app) {
   add_opening(app);
   add_calibration(app);
+  add_batch(app);
   add_formats(app);
   add_pictures(app);
   app.actions.add({.id = "file.quit",

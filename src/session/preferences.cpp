@@ -25,6 +25,7 @@ constexpr std::size_t kMostPlaces = 100;  ///< that surveys were left at
 constexpr std::size_t kMostFiles = 10000;
 constexpr std::size_t kMostKeys = 1000;
 constexpr std::size_t kMostKeysOfOne = 4;
+constexpr int kMostFoldersBeside = 1000;  ///< of one survey
 
 /// Visitor: takes from JSON what fits and passes over the rest; what was called otherwise before is noted.
 class LenientReader {
@@ -316,6 +317,17 @@ void Preferences::remember(std::vector<fs::path> opened) {
 fs::path folder_beside(const fs::path& survey, const std::string& ending) {
   const fs::path folder = raw_folder(survey);
   return folder.has_filename() ? folder.parent_path() / (folder.filename().string() + ending) : fs::path{};
+}
+
+fs::path free_folder_beside(const fs::path& survey, const std::string& ending,
+                            const std::function<bool(const fs::path&)>& taken) {
+  fs::path folder = folder_beside(survey, ending);
+  if (folder.empty() || !require_not_beneath_raw(folder)) return {};
+  for (int i = 2; taken(folder); ++i) {
+    if (i > kMostFoldersBeside) return {};
+    folder = folder_beside(survey, fmt::format("{}-{}", ending, i));
+  }
+  return folder;
 }
 
 std::vector<fs::path> journal_folders_for(const fs::path& survey) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -80,6 +81,10 @@ struct LoadedPreferences {
 /// survey  a folder of raw files, or a raw file
 /// ending  "-out"
 [[nodiscard]] std::filesystem::path folder_beside(const std::filesystem::path& survey, const std::string& ending);
+
+/// The same, or SURVEY-out-2 and so on: the first that is not taken. Empty where there is none, as beneath raw files.
+[[nodiscard]] std::filesystem::path free_folder_beside(const std::filesystem::path& survey, const std::string& ending,
+                                                       const std::function<bool(const std::filesystem::path&)>& taken);
 
 /// Where the journal of a survey goes: SURVEY-work beside the survey, else a folder of the user's own. Never where raw
 /// files lie.

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -103,6 +102,33 @@ Result<void> take_work_folder(const fs::path& out, bool stands_alone, NamedToOpe
 }
 
 }  // namespace
+
+std::set<fs::path> places_of(std::span<const fs::path> paths) {
+  std::set<fs::path> places;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    const fs::path followed = fs::weakly_canonical(path, error);
+    const fs::path place = error ? path.lexically_normal() : followed;
+    places.insert(place.has_filename() ? place : place.parent_path());
+  }
+  return places;
+}
+
+Result<void> require_results_of(const fs::path& out, std::span<const fs::path> survey) {
+  const auto holds = [&](const std::string& what) {
+    return fail(ErrorCode::usage, "holds " + what + "; choose another folder", {out.string()});
+  };
+  if (!has_plan(out)) {
+    const auto products = product_files(out);
+    return products && !products->empty() ? Result<void>(holds("results of no run, of an export say")) : Result<void>();
+  }
+  const auto plan = read_plan(out / kPlan);
+  if (!plan) return pass_on(plan);
+  if (!plan->session.empty()) return holds("results with the decisions of " + plan->session);
+  const std::vector<fs::path> planned(plan->survey.begin(), plan->survey.end());
+  if (places_of(planned) == places_of(survey)) return {};
+  return holds(fmt::format("results of another survey, {}", fmt::join(plan->survey, ", ")));
+}
 
 Result<NamedToOpen> told_apart(std::span<const fs::path> paths) {
   NamedToOpen named;

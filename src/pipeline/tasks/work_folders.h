@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,15 @@ struct NamedToOpen {
 /// A work folder stands for the raw files that its plan names, unless others are named beside it.
 /// errors  not_found: those are gone; usage: it has no plan, and nothing is named beside it; as read_plan()
 [[nodiscard]] Result<NamedToOpen> told_apart(std::span<const std::filesystem::path> paths);
+
+/// Where paths lead, links followed: one name for one place.
+[[nodiscard]] std::set<std::filesystem::path> places_of(std::span<const std::filesystem::path> paths);
+
+/// Refuses a folder for a run's results that holds others: of another survey, of a session's decisions, or of no run at all.
+/// survey  folders of raw files, or raw files
+/// errors  usage; as read_plan()
+[[nodiscard]] Result<void> require_results_of(const std::filesystem::path& out,
+                                              std::span<const std::filesystem::path> survey);
 
 /// The product of an observation that was made from the same pings in the same way; empty where no folder has it.
 /// key  observation_key() of them

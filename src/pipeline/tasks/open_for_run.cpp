@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/open_for_run.h"
+#include "pipeline/tasks/open_for_run.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "cli/log.h"
 #include "io/atomic_file.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/journal/journals.h"
@@ -44,25 +43,25 @@ std::string why_nothing_came_of(const RawIndex& index) {
 
 }  // namespace
 
-Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
+Result<Opened> open_for_run(const RunSources& sources, Work& work) {
   Opened opened;
-  std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
-  opened.plan.session = arguments.session;
-  if (!arguments.plan.empty()) {
-    auto plan = read_plan(arguments.plan);
+  std::vector<std::filesystem::path> paths = sources.survey;
+  opened.plan.session = sources.session;
+  if (!sources.plan.empty()) {
+    auto plan = read_plan(sources.plan);
     if (!plan) return pass_on(plan);
     opened.plan = std::move(*plan);
     paths.assign(opened.plan.survey.begin(), opened.plan.survey.end());
   }
   auto journal = opened.plan.session.empty() ? Result<Journal>(Journal{}) : read_session(opened.plan.session);
   if (!journal) return pass_on(journal);
-  if (arguments.plan.empty()) {
-    auto recipe = recipe_for(arguments, *journal);
+  if (sources.plan.empty()) {
+    auto recipe = sources.recipe(*journal);
     if (!recipe) return pass_on(recipe);
     opened.plan.recipe = std::move(*recipe);
   }
   const Recipe& recipe = opened.plan.recipe;
-  auto survey = open_survey(paths, recipe.survey, recipe.navigation, IndexCache::of_user(), work);
+  auto survey = open_survey(paths, recipe.survey, recipe.navigation, sources.cache, work);
   if (!survey) return pass_on(survey);
   if (auto some = require_files(*survey, paths); !some) return pass_on(some);
   opened.survey = std::move(*survey);
@@ -73,10 +72,9 @@ Result<Opened> open_for_run(const RunArguments& arguments, Work& work) {
   return opened;
 }
 
-Result<void> write_plan(Opened& opened, const RunArguments& arguments, const RunOptions& options) {
+Result<void> write_plan(Opened& opened, const RunSources& sources, const RunOptions& options) {
   if (auto ours = require_no_newer_plan(options.out); !ours) return ours;
-  const std::vector<std::filesystem::path> paths(arguments.survey.begin(), arguments.survey.end());
-  opened.plan = make_plan(opened.survey, paths, arguments.session, opened.plan.recipe,
+  opened.plan = make_plan(opened.survey, sources.survey, sources.session, opened.plan.recipe,
                           {options.pings, opened.journal, options.program_version});
   if (auto possible = require_possible(opened.plan, options); !possible) return possible;
   if (auto held = set_aside(options.out, opened.plan); !held) return held;
@@ -96,38 +94,12 @@ std::vector<RunFailure> failed_files(const SurveyFiles& survey) {
   return failures;
 }
 
-void print_failures(const SurveyFiles& survey, const RunReport& report) {
-  const auto told_below = [&](const Diagnostic& note) {
-    return note.code == DiagnosticCode::unreadable &&
-           std::any_of(report.failures.begin(), report.failures.end(),
-                       [&](const RunFailure& failure) { return failure.error.where.file == note.file; });
-  };
-  for (const Diagnostic& note : survey.diagnostics) {
-    if (told_below(note)) continue;
-    print_note(fmt::format("{}: {}", name(note.code),
-                           to_line({ErrorCode::format, note.text, {note.file, note.offset, note.ping_index}})));
-  }
-  for (const RunFailure& failure : report.failures) {
-    const std::string of = failure.observation ? printable(*failure.observation) + ": " : "";
-    print_error(of + to_line(failure.error));
-  }
-}
-
 Result<void> require_no_newer_plan(const std::filesystem::path& out) {
   std::error_code absent;
   if (!std::filesystem::exists(out / "plan.json", absent)) return {};
   const auto plan = read_plan(out / "plan.json");
   if (!plan && plan.error().code == ErrorCode::newer_version) return pass_on(plan);
   return {};
-}
-
-Result<Recipe> recipe_for(const RunArguments& arguments, const Journal& journal) {
-  if (!arguments.recipe.empty() || journal.recipe.empty()) {
-    return chosen_recipe(arguments.recipe, arguments.measured);
-  }
-  auto recipe = recipe_from_text(journal.recipe);
-  if (!recipe) return fail(ErrorCode::format, "its recipe: " + recipe.error().text, {arguments.session});
-  return with_measured(std::move(*recipe), arguments.measured);
 }
 
 }  // namespace sonar

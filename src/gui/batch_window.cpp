@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/batch_window.h"
+
+#include <QBoxLayout>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFontDatabase>
+#include <QKeyEvent>
+#include <QScreen>
+#include <QShortcut>
+#include <QSplitter>
+#include <cmath>
+#include <utility>
+
+#include "gui/dropped_paths.h"
+#include "session/app_parts.h"
+
+namespace sonar {
+namespace {
+
+constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
+constexpr const char* kTexts = "Texts (*.txt *.log);;All files (*)";
+constexpr QSize kUsualSize{1180, 680};
+constexpr int kMostJobs = 1024;
+constexpr int kPermille = 1000;
+
+QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
+
+}  // namespace
+
+BatchWindow::BatchWindow(AppModel& app, QWidget& main)
+    : app_(app), batch_(*app.batch), main_(main), table_(new BatchTable(batch_, this)) {
+  setObjectName("batch");
+  setWindowTitle("Run surveys");
+  resize(kUsualSize.boundedTo(screen()->availableSize()));
+  setAcceptDrops(true);
+  setAttribute(Qt::WA_QuitOnClose, false);
+  auto* halves = new QSplitter(Qt::Vertical, this);
+  halves->setChildrenCollapsible(false);
+  halves->addWidget(upper_half());
+  halves->addWidget(lower_half());
+  halves->setStretchFactor(0, 3);
+  halves->setStretchFactor(1, 2);
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(halves);
+  table_->installEventFilter(this);
+  connect(table_, &QTreeView::doubleClicked, this, [this] { open_current(); });
+  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] { show_state(); });
+  connect(new QShortcut(QKeySequence::Close, this), &QShortcut::activated, this, [this] { close(); });
+  listening_ = batch_.changed().add([this](BatchChange change) { follow(change); });
+  following_document_ = app.workspace.document.changes().add([this](DocumentChange change) {
+    if (change == DocumentChange::survey) follow(BatchChange::surveys);
+  });
+  follow(BatchChange::surveys);
+  show_log();
+}
+
+BatchWindow::~BatchWindow() {
+  batch_.changed().remove(listening_);
+  app_.workspace.document.changes().remove(following_document_);
+}
+
+void BatchWindow::come_to_front() {
+  show();
+  setWindowState(windowState() & ~Qt::WindowMinimized);
+  raise();
+  activateWindow();
+}
+
+QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const QString& text, const char* tip,
+                                     std::function<void()> pressed) {
+  auto* button = new QPushButton(text, this);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  connect(button, &QPushButton::clicked, this, std::move(pressed));
+  row.addWidget(button);
+  return button;
+}
+
+QWidget* BatchWindow::upper_half() {
+  auto* half = new QWidget(this);
+  auto* column = new QVBoxLayout(half);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout();
+  add_button(*row, "add", "&Add folder...",
+             "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
+             "dropped here as well",
+             [this] {
+               const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
+               if (!folder.empty()) add_paths({folder});
+             });
+  open_window_ = add_button(*row, "add_open", "Add the open survey", "The one that the main window shows",
+                            [this] { add_paths(app_.workspace.document.paths()); });
+  remove_ = add_button(*row, "remove", "Remove", "Takes the marked survey out of the list (Del); no file is touched",
+                       [this] { remove(); });
+  earlier_ = add_button(*row, "earlier", "Earlier", "Runs the marked survey earlier (Alt+Up)", [this] { move(false); });
+  later_ = add_button(*row, "later", "Later", "Runs the marked survey later (Alt+Down)", [this] { move(true); });
+  row->addStretch(1);
+  out_ = add_button(*row, "out", "&Results folder...",
+                    "Where results of the marked survey go; beside its raw files, unless another is chosen",
+                    [this] { choose_out(); });
+  open_ = add_button(*row, "open", "&Open in the window",
+                     "Shows the marked survey in the main window, with the schools that its run found (double-click)",
+                     [this] { open_current(); });
+  column->addLayout(row);
+  column->addWidget(table_, 1);
+  add_recipe_row(*column);
+  add_run_row(*column);
+  told_->setObjectName("told");
+  told_->setTextFormat(Qt::PlainText);
+  told_->setWordWrap(true);
+  told_->hide();
+  column->addWidget(told_);
+  return half;
+}
+
+void BatchWindow::add_recipe_row(QBoxLayout& column) {
+  auto* row = new QHBoxLayout();
+  recipe_->setObjectName("recipe");
+  recipe_->addItem("of the open survey");
+  recipe_->addItem("default");
+  recipe_->addItem("of a file...");
+  recipe_->setToolTip(
+      "Parameters that all surveys are run under. That of the open survey has the calibration that was chosen in it");
+  connect(recipe_, &QComboBox::activated, this, [this](int choice) { choose_recipe(choice); });
+  auto* recipe_label = new QLabel("Re&cipe", this);
+  recipe_label->setBuddy(recipe_);
+  recipe_file_->setTextFormat(Qt::PlainText);
+  recipe_file_->setObjectName("recipe_file");
+  jobs_->setObjectName("jobs");
+  jobs_->setRange(0, kMostJobs);
+  jobs_->setSpecialValueText("all of the machine's");
+  jobs_->setToolTip("Threads of a run; fewer leave more of the machine to others");
+  connect(jobs_, &QSpinBox::valueChanged, this, [this](int jobs) { batch_.set_jobs(jobs); });
+  auto* jobs_label = new QLabel("&Threads", this);
+  jobs_label->setBuddy(jobs_);
+  row->addWidget(recipe_label);
+  row->addWidget(recipe_);
+  row->addWidget(recipe_file_, 1);
+  row->addWidget(jobs_label);
+  row->addWidget(jobs_);
+  column.addLayout(row);
+}
+
+void BatchWindow::add_run_row(QBoxLayout& column) {
+  auto* row = new QHBoxLayout();
+  total_->setObjectName("total");
+  total_->setRange(0, kPermille);
+  row->addWidget(total_, 1);
+  start_ = add_button(*row, "start", "&Start", "Runs the surveys one after another; what is done already stays",
+                      [this] { tell(start_batch(app_)); });
+  stop_ = add_button(*row, "stop", "S&top", "Finished observations stay, and the next start goes on from there",
+                     [this] { batch_.stop(); });
+  column.addLayout(row);
+}
+
+QWidget* BatchWindow::lower_half() {
+  auto* half = new QWidget(this);
+  auto* column = new QVBoxLayout(half);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout();
+  auto* label = new QLabel("&Log", this);
+  label->setBuddy(log_);
+  row->addWidget(label);
+  row->addStretch(1);
+  add_button(*row, "copy_log", "Copy log", "All lines, to the clipboard", [this] {
+    if (app_.dialogs.copy) app_.dialogs.copy(log_->toPlainText().toStdString());
+  });
+  add_button(*row, "save_log", "Save log...", "All lines, as a text file", [this] { save_log(); });
+  column->addLayout(row);
+  log_->setObjectName("log");
+  log_->setReadOnly(true);
+  log_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  log_->setPlaceholderText("What the runs tell stands here, as sonarx run tells it.");
+  column->addWidget(log_, 1);
+  return half;
+}
+
+void BatchWindow::tell(const Result<void>& done) {
+  told_->setText(done ? QString() : text(to_line(done.error())));
+  told_->setVisible(!done);
+}
+
+void BatchWindow::add_paths(const std::vector<std::filesystem::path>& paths) {
+  if (paths.empty()) return;
+  tell(batch_.add(paths));
+}
+
+void BatchWindow::choose_out() {
+  const auto at = table_->current();
+  if (!at || !app_.dialogs.folder_to_save) return;
+  const BatchSurvey& survey = batch_.surveys()[*at];
+  const std::filesystem::path beside = survey.out.empty() ? survey.paths.front() : survey.out;
+  const std::string folder = app_.dialogs.folder_to_save("Folder for the results", beside.parent_path().string());
+  if (!folder.empty()) tell(batch_.set_out(*at, folder));
+}
+
+void BatchWindow::choose_recipe(int choice) {
+  const auto chosen = static_cast<BatchRecipe>(choice);
+  std::string file;
+  if (chosen == BatchRecipe::of_file) {
+    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open("Recipe", kRecipes) : std::string();
+    if (file.empty()) return show_recipe();
+  }
+  tell(batch_.set_recipe(chosen, file));
+  show_recipe();
+}
+
+void BatchWindow::move(bool later) {
+  const auto at = table_->current();
+  if (!at || (later ? *at + 1 == batch_.surveys().size() : *at == 0)) return;
+  batch_.move(*at, later);
+  table_->set_current(later ? *at + 1 : *at - 1);
+}
+
+void BatchWindow::remove() {
+  if (const auto at = table_->current()) tell(batch_.remove(*at));
+}
+
+void BatchWindow::open_current() {
+  const auto at = table_->current();
+  if (!at) return;
+  open_run_survey(app_, *at);
+  main_.raise();
+  main_.activateWindow();
+}
+
+void BatchWindow::save_log() {
+  const std::string file =
+      app_.dialogs.file_to_save ? app_.dialogs.file_to_save("Save log", kTexts, "runs.txt") : std::string();
+  if (!file.empty()) tell(batch_.save_log(file));
+}
+
+void BatchWindow::follow(BatchChange change) {
+  if (change == BatchChange::log) return show_log();
+  if (change == BatchChange::surveys) show_recipe();
+  show_state();
+}
+
+void BatchWindow::show_recipe() {
+  const BatchRecipe choice = batch_.recipe_choice();
+  recipe_->setCurrentIndex(static_cast<int>(choice));
+  // That of a survey that is not there cannot be taken.
+  recipe_->setItemData(static_cast<int>(BatchRecipe::of_window),
+                       app_.workspace.document.survey() != nullptr ? QVariant() : QVariant(0), Qt::UserRole - 1);
+  const QString file = choice == BatchRecipe::of_file ? text(printable(batch_.recipe_file().string())) : QString();
+  recipe_file_->setToolTip(file);
+  recipe_file_->setText(recipe_file_->fontMetrics().elidedText(file, Qt::ElideMiddle, width() / 3));
+}
+
+void BatchWindow::show_state() {
+  const bool running = batch_.running();
+  const auto at = table_->current();
+  const bool marked = at && *at < batch_.surveys().size();
+  const bool at_work = marked && batch_.surveys()[*at].state == BatchState::running;
+  open_window_->setEnabled(app_.workspace.document.survey() != nullptr);
+  remove_->setEnabled(marked && !at_work);
+  earlier_->setEnabled(marked && *at > 0);
+  later_->setEnabled(marked && *at + 1 < batch_.surveys().size());
+  out_->setEnabled(marked && !at_work);
+  open_->setEnabled(marked);
+  recipe_->setEnabled(!running);
+  jobs_->setEnabled(!running);
+  start_->setEnabled(!running && !batch_.surveys().empty());
+  stop_->setEnabled(running && !batch_.stopping());
+  const std::string now = total_text(batch_);
+  total_->setValue(static_cast<int>(std::lround(kPermille * (running ? batch_.share() : 0.0))));
+  total_->setFormat(text(now));
+  setWindowTitle(running ? "Run surveys: " + text(now) : QString("Run surveys"));
+}
+
+void BatchWindow::show_log() {
+  for (; lines_shown_ < batch_.log().size(); ++lines_shown_) log_->appendPlainText(text(batch_.log()[lines_shown_]));
+}
+
+void BatchWindow::closeEvent(QCloseEvent* event) {
+  if (!batch_may_end(app_)) return event->ignore();
+  QWidget::closeEvent(event);
+}
+
+void BatchWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void BatchWindow::dropEvent(QDropEvent* event) { add_paths(dropped_paths(*event->mimeData())); }
+
+bool BatchWindow::eventFilter(QObject* watched, QEvent* event) {
+  const auto* key = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event) : nullptr;
+  if (watched != table_ || key == nullptr) return QWidget::eventFilter(watched, event);
+  const bool alt = key->modifiers() == Qt::AltModifier;
+  if (key->key() == Qt::Key_Delete) return remove(), true;
+  if (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) return open_current(), true;
+  if (alt && key->key() == Qt::Key_Up) return move(false), true;
+  if (alt && key->key() == Qt::Key_Down) return move(true), true;
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace sonar

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QWidget>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "gui/batch_table.h"
+#include "session/app_model.h"
+
+class QBoxLayout;
+
+namespace sonar {
+
+/// Surveys that are run one after another, in a window of its own beside the main one: work goes on there meanwhile.
+class BatchWindow : public QWidget {
+ public:
+  /// Both outlive the window. main  comes to the front when a survey is opened
+  BatchWindow(AppModel& app, QWidget& main);
+  ~BatchWindow() override;
+  void come_to_front();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  [[nodiscard]] QWidget* upper_half();
+  [[nodiscard]] QWidget* lower_half();
+  QPushButton* add_button(QBoxLayout& row, const char* name, const QString& text, const char* tip,
+                          std::function<void()> pressed);
+  void add_recipe_row(QBoxLayout& column);
+  void add_run_row(QBoxLayout& column);
+
+  void add_paths(const std::vector<std::filesystem::path>& paths);
+  void choose_out();
+  void choose_recipe(int choice);
+  void move(bool later);
+  void remove();
+  void open_current();
+  void save_log();
+  /// What was asked for, or why it cannot be done.
+  void tell(const Result<void>& done);
+  void follow(BatchChange change);
+  void show_recipe();
+  void show_state();
+  void show_log();
+
+  AppModel& app_;
+  Batch& batch_;
+  QWidget& main_;
+  BatchTable* table_;
+  QComboBox* recipe_ = new QComboBox(this);
+  QLabel* recipe_file_ = new QLabel(this);
+  QSpinBox* jobs_ = new QSpinBox(this);
+  QProgressBar* total_ = new QProgressBar(this);
+  QLabel* told_ = new QLabel(this);
+  QPlainTextEdit* log_ = new QPlainTextEdit(this);
+  QPushButton* open_window_ = nullptr;
+  QPushButton* remove_ = nullptr;
+  QPushButton* earlier_ = nullptr;
+  QPushButton* later_ = nullptr;
+  QPushButton* out_ = nullptr;
+  QPushButton* open_ = nullptr;
+  QPushButton* start_ = nullptr;
+  QPushButton* stop_ = nullptr;
+  std::size_t lines_shown_ = 0;
+  int listening_ = 0;
+  int following_document_ = 0;
+};
+
+}  // namespace sonar
