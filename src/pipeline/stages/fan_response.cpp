@@ -71,8 +71,8 @@ void add_free(int row, int first, int end, const Taken& taken, std::span<const s
 
 }  // namespace
 
-std::vector<FanEcho> fan_echoes(const PingMask& mask, const StagedPing& ping, const Sector& sector) {
-  std::vector<FanEcho> out;
+std::vector<HeardFan> heard_fans(const PingMask& mask, const StagedPing& ping, const Sector& sector) {
+  std::vector<HeardFan> out;
   for (const auto& [fan, in_fan] : by_fan(mask, sector.beams())) {
     const EchoStatistics echo = echo_of(in_fan, ping, sector);
     if (echo.heard == 0) continue;
@@ -112,10 +112,10 @@ PingMask water_round(const PingMask& school, std::span<const PingMask* const> sc
   return out;
 }
 
-std::vector<FanResponse> fan_response(std::span<const std::vector<FanEcho>> pings) {
-  std::map<int, std::vector<FanEcho>> fans;
+std::vector<FanResponse> fan_response(std::span<const std::vector<HeardFan>> pings) {
+  std::map<int, std::vector<HeardFan>> fans;
   for (const auto& ping : pings) {
-    for (const FanEcho& echo : ping) fans[echo.fan].push_back(echo);
+    for (const HeardFan& echo : ping) fans[echo.fan].push_back(echo);
   }
   std::vector<FanResponse> out;
   for (const auto& [fan, echoes] : fans) {
@@ -123,7 +123,7 @@ std::vector<FanResponse> fan_response(std::span<const std::vector<FanEcho>> ping
     one.fan = fan;
     double sum = 0.0;
     std::vector<double> means;
-    for (const FanEcho& echo : echoes) {
+    for (const HeardFan& echo : echoes) {
       ++one.pings;
       one.samples += echo.samples;
       one.volume_m3 += echo.volume_m3;

@@ -16,18 +16,18 @@ namespace sonar {
 // response. Fans differ in tilt too, so that they see fish from other sides and other parts of the school.
 
 /// What some voxels of one fan of one ping echo, the expected background taken off.
-struct FanEcho {
+struct HeardFan {
   int fan = 0;
   std::int64_t samples = 0;         ///< heard: neither faulty nor without data
   double volume_m3 = 0.0;           ///< of these
   double mean_sv_per_m = kUnknown;  ///< linear, weighted by volume, m^-1; may be below 0
-  friend bool operator==(const FanEcho&, const FanEcho&) = default;
+  friend bool operator==(const HeardFan&, const HeardFan&) = default;
 };
 
 /// Of every fan in which the mask has a heard voxel, by fan: the sums of the school's tables, fan by fan.
 /// threads  pure
 /// cost     linear in the mask's voxels
-[[nodiscard]] std::vector<FanEcho> fan_echoes(const PingMask& mask, const StagedPing& ping, const Sector& sector);
+[[nodiscard]] std::vector<HeardFan> heard_fans(const PingMask& mask, const StagedPing& ping, const Sector& sector);
 
 /// How far the water round a school reaches.
 struct WaterRound {
@@ -55,8 +55,8 @@ struct FanResponse {
   friend bool operator==(const FanResponse&, const FanResponse&) = default;
 };
 
-/// pings  fan_echoes() of each
+/// pings  heard_fans() of each
 /// out    by fan, those that were heard
-[[nodiscard]] std::vector<FanResponse> fan_response(std::span<const std::vector<FanEcho>> pings);
+[[nodiscard]] std::vector<FanResponse> fan_response(std::span<const std::vector<HeardFan>> pings);
 
 }  // namespace sonar

@@ -49,7 +49,8 @@ std::shared_ptr<StagedPing> uneven() {
 
 PingMask mask_of(std::vector<Run> runs) {
   PingMask mask;
-  for (const sonar::Run& run : runs) mask.confidence.insert(mask.confidence.end(), static_cast<std::size_t>(run.count), 200);
+  for (const sonar::Run& run : runs)
+    mask.confidence.insert(mask.confidence.end(), static_cast<std::size_t>(run.count), 200);
   mask.runs = std::move(runs);
   return mask;
 }
@@ -69,7 +70,7 @@ struct Case {
 
 // The sum anew, voxel by voxel: 10^(Sv/10) less 10^(noise/10), times the cell's volume (r2^3 - r1^3)/3 (sin e2 - sin e1)
 // (a2 - a1).
-TEST(FanEchoes, AreSumsOverTheVoxelsOfEachFan) {
+TEST(HeardFans, AreSumsOverTheVoxelsOfEachFan) {
   const Case one;
   const Sector sonar = sector();
   std::array<double, 3> echo{};
@@ -95,7 +96,7 @@ TEST(FanEchoes, AreSumsOverTheVoxelsOfEachFan) {
       ++samples[static_cast<std::size_t>(fan)];
     }
   }
-  const auto told = fan_echoes(one.mask, *one.ping, sonar);
+  const auto told = heard_fans(one.mask, *one.ping, sonar);
   ASSERT_EQ(told.size(), 2U) << "nothing of it lies in the upper fan";
   for (std::size_t i = 0; i < told.size(); ++i) {
     const auto fan = static_cast<std::size_t>(told[i].fan);
@@ -140,7 +141,7 @@ TEST(WaterRound, IsNextToTheSchoolInItsFansAndNothingElse) {
 
 // By hand: two pings of 1e-4 in 10 m3 and 4e-4 in 30 m3 are 3.25e-4 per metre together.
 TEST(FanResponses, AreLinearMeansWeightedByVolumeWithQuartilesOfPings) {
-  const std::vector<std::vector<FanEcho>> two{{{2, 5, 10.0, 1e-4}}, {{2, 7, 30.0, 4e-4}, {4, 1, 1.0, -1e-9}}};
+  const std::vector<std::vector<HeardFan>> two{{{2, 5, 10.0, 1e-4}}, {{2, 7, 30.0, 4e-4}, {4, 1, 1.0, -1e-9}}};
   const auto told = fan_response(two);
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[0].fan, 2);
@@ -150,7 +151,7 @@ TEST(FanResponses, AreLinearMeansWeightedByVolumeWithQuartilesOfPings) {
   EXPECT_NEAR(told[0].sv_mean_db, 10.0 * std::log10(3.25e-4), 1e-9);
   EXPECT_TRUE(std::isnan(told[0].sv_p25_db)) << "of two pings there are no quartiles";
   EXPECT_TRUE(std::isnan(told[1].sv_mean_db)) << "not above the background";
-  std::vector<std::vector<FanEcho>> eight;
+  std::vector<std::vector<HeardFan>> eight;
   for (int i = 8; i > 0; --i) eight.push_back({{0, 1, 1.0, i * 1e-5}});
   const auto quartiles = fan_response(eight);
   EXPECT_NEAR(quartiles[0].sv_p25_db, 10.0 * std::log10(2e-5), 1e-9) << "the second of eight";

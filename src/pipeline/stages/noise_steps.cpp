@@ -81,8 +81,6 @@ class Counting {
 
 std::string_view noise_step_words(NoiseStep step) { return facts_of(step).words; }
 
-SampleFlags reason_of(NoiseStep step) { return facts_of(step).reason; }
-
 bool is_on(NoiseStep step, const Recipe& recipe) {
   switch (step) {
     case NoiseStep::unfiltered:

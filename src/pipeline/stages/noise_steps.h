@@ -20,8 +20,6 @@ namespace sonar {
 [[nodiscard]] std::string_view noise_step_words(NoiseStep step);
 /// Whether the recipe takes the step; unfiltered Sv is always there.
 [[nodiscard]] bool is_on(NoiseStep step, const Recipe& recipe);
-/// The reason for which a step takes samples out; none of unfiltered Sv and the median.
-[[nodiscard]] SampleFlags reason_of(NoiseStep step);
 
 /// What a step did to some of a ping's samples. A sample is there where it has a value and no step took it out.
 struct NoiseEffect {

@@ -28,6 +28,8 @@ class ThreeSteps : public testing::Test {
     filtered_(kLit.fan, kLit.beam, kLit.sample) = counts(-46.0);
     filtered_(kLit.fan, kLit.beam, kLit.sample + 4) = counts(-52.0);
     flags_(kLit.fan, kLit.beam, kLit.sample) = SampleFlags::interference;
+    ping_.observation = "obs-0001";
+    ping_.ping_index = 7;
     data_.flags = std::as_const(flags_).view();
     const auto add = [&](const char* name, const Array3<std::int16_t>& sv, SampleFlags out) {
       SliceStep step;
@@ -69,7 +71,7 @@ class ThreeSteps : public testing::Test {
   Array3<std::int16_t> filtered_{{8, 7, 41}, counts(-40.0)};
   Array3<SampleFlags> flags_{{8, 7, 41}};
   SliceStepsData data_;
-  SlicePing ping_{"obs-0001", 7};
+  SlicePing ping_;
   SliceStepsStyle style_;
 };
 
