@@ -147,7 +147,8 @@ int render_verb(const RenderArguments& arguments) {
 void add_render(CLI::App& app, VerbRunner& run) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* verb = app.add_subcommand(
-      "render", "Draw slices, volumes, maps, echograms, charts, movies and a report; needs no display");
+      "render",
+      "Draw slices, volumes, maps, echograms, charts, frequencies, noise steps, movies and a report; needs no display");
   add_render_options(*verb, *arguments);
   verb->callback([arguments, verb, &run] {
     if (arguments->out.empty() && arguments->reference.empty()) throw CLI::RequiredError("--out or --reference");

@@ -15,7 +15,7 @@
 namespace sonar {
 namespace {
 
-constexpr const char* kOfPing = "slice- volume propagation observation-map echogram";
+constexpr const char* kOfPing = "slice- volume propagation observation-map echogram frequency noise-steps";
 constexpr const char* kOfSv = "slice- volume timeline echogram";
 
 std::vector<std::string> kind_names() {
@@ -49,7 +49,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--observation", a.observation,
                         "Observation to draw, e.g. obs-0001; default: the first, and of a chart all")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline echogram chart movie");
+        "slice- volume propagation observation-map timeline echogram chart frequency noise-steps movie");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
@@ -65,13 +65,13 @@ void add_common(CLI::App& verb, RenderArguments& a) {
       ->check(within(0.25, 8.0));
   verb.add_flag("--dark", a.picture.dark, "Light on dark");
   suits(verb.add_option("--fan", a.picture.fan, "Fan from 0, the deepest; default: through the largest school"),
-        "slice-top echogram volume");
+        "slice-top echogram volume noise-steps");
   suits(verb.add_option("--beam", a.picture.beam,
                         "Beam from 0, clockwise (looking to port: from aft); default: through the largest school"),
-        "slice-side echogram volume");
+        "slice-side echogram volume noise-steps");
   suits(verb.add_option("--transfer-function", a.transfer, "View curve TF.json: colours and opacity instead of --map")
             ->check(named_file()),
-        kOfSv);
+        "slice- volume timeline echogram noise-steps");
   suits(verb.add_option("--depth-raster", a.picture.depth_raster,
                         "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed")
             ->check(named_file()),

@@ -60,10 +60,10 @@ void lay_out_small(QMainWindow& window) {
   beside(window, top, side, Qt::Horizontal);
   behind(window, right, {"survey_tree", "diagnostics", "journal"});
   behind(window, top, {"observation_map", "survey_map"});
-  behind(window, side, {"volume", "range_slice", "plane_slice"});
-  behind(
-      window, time,
-      {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "marks", "chart"});
+  behind(window, side, {"volume", "range_slice", "plane_slice", "noise_steps"});
+  behind(window, time,
+         {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "marks",
+          "chart", "frequency"});
   const int width = window.width();
   const int height = window.height();
   share(window, Qt::Horizontal, {{top, width * 33 / 100}, {side, width * 33 / 100}, {right, width * 34 / 100}});
@@ -81,7 +81,8 @@ void lay_out_docks(QMainWindow& window) {
   QDockWidget* left = put(window, Qt::LeftDockWidgetArea, "survey_tree");
   QDockWidget* notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
   QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");
-  behind(window, right, {"range_slice", "plane_slice"});  // out of the way: a row of all six would widen the window
+  behind(window, right,
+         {"range_slice", "plane_slice", "noise_steps"});  // out of the way: a row of all seven would widen the window
   QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
   QDockWidget* side = put(window, Qt::TopDockWidgetArea, "side_slice");
   QDockWidget* maps = put(window, Qt::TopDockWidgetArea, "observation_map");
@@ -93,11 +94,11 @@ void lay_out_docks(QMainWindow& window) {
   beside(window, top, maps, Qt::Vertical);
   beside(window, side, volume, Qt::Vertical);
   beside(window, time, tables, Qt::Horizontal);
-  behind(window, side, {"range_slice", "plane_slice"});
+  behind(window, side, {"range_slice", "plane_slice", "noise_steps"});
   behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation"});
-  behind(window, tables, {"school_pings", "review", "refused", "marks", "chart"});
+  behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency"});
   const int width = window.width();
   const int height = window.height();
   // The tree's name, time, pings and schools are seen where the views can spare the room.

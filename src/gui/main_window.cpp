@@ -38,7 +38,7 @@ namespace {
 
 constexpr QSize kLeastSize{1280, 800};
 constexpr QSize kMostSize{3840, 2160};
-constexpr int kLayoutVersion = 3;  // raised when docks come or go
+constexpr int kLayoutVersion = 4;  // raised when docks come or go
 
 QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
   auto* dock = new QDockWidget(QString::fromStdString(title), &window);

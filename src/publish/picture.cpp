@@ -10,7 +10,9 @@
 #include "pipeline/recipe/recipe.h"
 #include "publish/chart_picture.h"
 #include "publish/echogram_picture.h"
+#include "publish/frequency_picture.h"
 #include "publish/map_pictures.h"
+#include "publish/noise_steps_picture.h"
 #include "publish/report_page.h"
 #include "publish/slice_pictures.h"
 #include "publish/volume_picture.h"
@@ -27,6 +29,10 @@ Result<FrameDescription> observation_frame(PictureKind kind, DrawnObservation& o
       return propagation_frame(observation, options);
     case PictureKind::observation_map:
       return observation_map_frame(observation, options);
+    case PictureKind::frequency:
+      return frequency_frame(observation, options, work);
+    case PictureKind::noise_steps:
+      return noise_steps_frame(observation, options, work);
     default:
       return slice_frame(kind, observation, options, work);
   }

@@ -22,6 +22,8 @@ enum class PictureKind : std::uint8_t {
   timeline,
   echogram,
   chart,
+  frequency,
+  noise_steps,
   movie,
   report,
 };

@@ -3,13 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "base/describe.h"
 #include "publish/movie_params.h"
+#include "publish/picture_kind_params.h"
 #include "publish/volume_params.h"
-#include "view/charts/chart_columns.h"
 #include "view/sv_scale.h"
 
 namespace sonar {
@@ -104,7 +103,7 @@ void describe(Visitor& v, DisplayParams& p) {
            .max = 1,
            .text = "confidence from which a voxel is core",
            .flag = "core",
-           .suits = "slice- volume propagation observation-map"});
+           .suits = "slice- volume propagation observation-map noise-steps"});
   v.field("fuzzy_above", p.fuzzy_above,
           {.unit = "1",
            .min = 0,
@@ -119,151 +118,8 @@ void describe(Visitor& v, DisplayParams& p) {
            .suits = "slice- volume observation-map timeline echogram"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices", .flag = "grid", .suits = "slice-"});
   v.field("north_up", p.north_up,
-          {.text = "north points up in slices from above; off = the bow does", .suits = "slice-top slice-plane"});
-}
-
-// What is asked for one kind of picture alone. Their groups in PictureParams are named as the kinds are.
-
-struct RangeSliceParams {
-  double range_m = 0.0;
-};
-
-template <class Visitor>
-void describe(Visitor& v, RangeSliceParams& p) {
-  v.field(
-      "range_m", p.range_m,
-      {.unit = "m", .min = 0, .max = 1e6, .text = "slant range; 0 = through the largest school, else half way out"});
-}
-
-enum class PlaneLies : std::uint8_t { through_school, horizontal, along_bearing, through_places, oblique };
-inline constexpr std::array<std::string_view, 5> kPlaneLiesNames{"through_school", "horizontal", "along_bearing",
-                                                                 "through_places", "oblique"};
-
-struct PlaneSliceParams {
-  PlaneLies plane = PlaneLies::through_school;
-  double depth_m = 50.0;
-  double bearing_deg = 0.0;
-  std::string through = "0,0,0,300";
-  std::string point = "0,0,0";
-  std::string normal = "1,0,0.5";
-};
-
-template <class Visitor>
-void describe(Visitor& v, PlaneSliceParams& p) {
-  v.choice("plane", p.plane, kPlaneLiesNames,
-           "how the plane lies; through school = horizontal through the largest, else half way out");
-  v.field("depth_m", p.depth_m,
-          {.unit = "m", .min = -1e6, .max = 1e6, .text = "horizontal plane: depth below the sea surface"});
-  v.field("bearing_deg", p.bearing_deg,
-          {.unit = "deg", .min = -1e6, .max = 1e6, .text = "vertical plane through the sonar along this true bearing"});
-  v.field("through", p.through, {.text = "vertical plane through two places X,Y,X,Y, m towards bow and starboard"});
-  v.field("point", p.point,
-          {.text = "oblique plane through X,Y,Z, m from the transducer towards bow, starboard and down"});
-  v.field("normal", p.normal, {.text = "oblique plane: its normal X,Y,Z, towards the viewer"});
-}
-
-struct CameraParams {
-  std::string eye;
-  std::string target;
-  int eye_ping = -1;
-  double orbit_deg = 0.0;
-  double rise_deg = 0.0;
-  double zoom = 1.0;
-  double seconds = 0.0;
-};
-
-template <class Visitor>
-void describe(Visitor& v, CameraParams& p) {
-  v.field("eye", p.eye, {.text = "camera's place X,Y,Z, m towards bow, starboard and down; empty = an overview"});
-  v.field("target", p.target, {.text = "place that the camera looks at, X,Y,Z; goes with the eye"});
-  v.field(
-      "eye_ping", p.eye_ping,
-      {.unit = "1",
-       .min = -1,
-       .max = 1e9,
-       .text = "earth-fixed: ping in which the camera stands so; -1 = the ping that is shown, and of a movie the one "
-               "in its middle"});
-  v.field("orbit_deg", p.orbit_deg,
-          {.unit = "deg", .min = -360, .max = 360, .text = "turn the camera about its target"});
-  v.field("rise_deg", p.rise_deg, {.unit = "deg", .min = -180, .max = 180, .text = "lift the camera about its target"});
-  v.field("zoom", p.zoom, {.unit = "1", .min = 0.01, .max = 100, .text = "above 1: nearer"});
-  v.field("seconds", p.seconds,
-          {.unit = "s", .min = 0, .max = 1e6, .text = "no further frame is begun after this time; 0 = no limit"});
-}
-
-struct PropagationParams {
-  int neighbours = 2;
-  bool side_view = false;
-};
-
-template <class Visitor>
-void describe(Visitor& v, PropagationParams& p) {
-  v.field("neighbours", p.neighbours, {.unit = "pings", .min = 0, .max = 100, .text = "pings before and after"});
-  v.field("side_view", p.side_view, {.text = "masks from the side instead of from above", .flag = "side"});
-}
-
-struct TimelineParams {
-  bool whole_survey = false;
-  bool along_log = false;
-  bool maximum = false;
-};
-
-template <class Visitor>
-void describe(Visitor& v, TimelineParams& p) {
-  v.field("whole_survey", p.whole_survey, {.text = "all observations, not one alone"});
-  v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time", .suits = "timeline echogram"});
-  v.field("maximum", p.maximum, {.text = "the maximum over beams instead of the mean"});
-}
-
-struct EchogramParams {
-  bool of_fan = false;
-  std::string channel;
-  bool depth = false;
-  bool along_log = false;
-  int from_ping = 0;
-  int to_ping = -1;
-  std::string below;
-};
-
-template <class Visitor>
-void describe(Visitor& v, EchogramParams& p) {
-  v.field("of_fan", p.of_fan, {.text = "all beams of the fan as one, their linear mean weighted by volume"});
-  v.field("channel", p.channel,
-          {.text = "of a sounder without fans: the channel, by its number from 1 or its frequency in kHz; empty = the "
-                   "first"});
-  v.field("depth", p.depth, {.text = "against depth below the sea surface instead of range"});
-  v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time", .flag = kNoFlag});
-  v.field("from_ping", p.from_ping, {.unit = "1", .min = 0, .max = 1e9, .text = "first ping that is shown"});
-  v.field("to_ping", p.to_ping,
-          {.unit = "1", .min = -1, .max = 1e9, .text = "last ping that is shown; -1 = the observation's last"});
-  v.field("below", p.below,
-          {.text = "a second echogram under the same time axis, of this other observation of the survey; auto = of an "
-                   "EK60 that ran at the same time"});
-}
-
-struct ChartParams {
-  ChartTable table = ChartTable::school_pings;
-  std::string x = "time_utc";
-  std::string y = "sv_mean_db";
-  int bins = 0;
-  friend bool operator==(const ChartParams&, const ChartParams&) = default;
-};
-
-template <class Visitor>
-void describe(Visitor& v, ChartParams& p) {
-  v.choice("table", p.table, kChartTableNames, "whose figures: of schools in each of their pings, or of whole schools");
-  v.field(
-      "x", p.x,
-      {.text = "column of the table along the horizontal axis; time_utc of a whole school is that of its first ping"});
-  v.field("y", p.y,
-          {.text = "column of the table along the vertical axis; empty = a histogram of the horizontal one's"});
-  v.field(
-      "bins", p.bins,
-      {.unit = "1",
-       .min = 0,
-       .max = 200,
-       .text = "about how many bins a histogram has, whose edges are round numbers; 0 = as the spread of the values "
-               "has it (Freedman and Diaconis)"});
+          {.text = "north points up in slices from above; off = the bow does",
+           .suits = "slice-top slice-plane noise-steps"});
 }
 
 struct PictureParams {
@@ -274,6 +130,8 @@ struct PictureParams {
   TimelineParams timeline;
   EchogramParams echogram;
   ChartParams chart;
+  FrequencyParams frequency;
+  NoiseStepsParams noise_steps;
   MovieParams movie;
 };
 
@@ -286,6 +144,8 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("timeline", p.timeline, "an echogram over time");
   v.group("echogram", p.echogram, "one beam, fan or channel over time");
   v.group("chart", p.chart, "figures of schools");
+  v.group("frequency", p.frequency, "schools over the frequencies of the fans");
+  v.group("noise-steps", p.noise_steps, "a slice at each step of noise removal");
   v.group("movie", p.movie, "what moves in a movie, and how fast");
 }
 

@@ -16,15 +16,17 @@
 namespace sonar {
 namespace {
 
+double known_heading_rad(const PingNavigation& navigation) {
+  return std::isnan(navigation.heading_deg) ? 0.0 : rad_from_deg(navigation.heading_deg);
+}
+
 struct Chosen {
   const Sector& sector;
   const PingNavigation& navigation;
   std::optional<MaskMiddle> school;
   const PictureOptions& options;
 
-  [[nodiscard]] double heading_rad() const {
-    return std::isnan(navigation.heading_deg) ? 0.0 : rad_from_deg(navigation.heading_deg);
-  }
+  [[nodiscard]] double heading_rad() const { return known_heading_rad(navigation); }
 };
 
 /// What of the picture is not as recorded, and the schools in it.
@@ -85,6 +87,19 @@ Result<Slice> plane_slice(const Chosen& chosen) {
   return plane_of_school(chosen);
 }
 
+PictureKind kind_of_steps(StepsSlice slice) {
+  switch (slice) {
+    case StepsSlice::side:
+      return PictureKind::slice_side;
+    case StepsSlice::range:
+      return PictureKind::slice_range;
+    case StepsSlice::plane:
+      return PictureKind::slice_plane;
+    default:
+      return PictureKind::slice_top;
+  }
+}
+
 Result<Slice> slice_of(PictureKind kind, const Chosen& chosen) {
   const auto& o = chosen.options;
   switch (kind) {
@@ -101,6 +116,28 @@ Result<Slice> slice_of(PictureKind kind, const Chosen& chosen) {
 
 }  // namespace
 
+Result<Slice> chosen_slice(PictureKind kind, const DrawnPing& ping, const Sector& sector,
+                           const PictureOptions& options) {
+  if (kind == PictureKind::noise_steps) kind = kind_of_steps(options.kind.noise_steps.slice);
+  return slice_of(kind,
+                  {sector, ping.navigation, middle_of_largest(chosen_layers(ping, options), sector.beams()), options});
+}
+
+SlicePing titled_ping(const DrawnObservation& observation, const DrawnPing& ping) {
+  SlicePing titled;
+  titled.observation = observation.title() + (ping.staged ? "" : " (masks alone: no raw files)");
+  titled.ping_index = ping.ping_index;
+  titled.time = ping.navigation.time;
+  titled.heading_rad = rad_from_deg(ping.navigation.heading_deg);
+  titled.transducer_depth_m = ping.navigation.transducer_depth_m;
+  titled.frequency_hz = observation.frequency_hz();
+  return titled;
+}
+
+SliceView drawn_view(const Slice& slice, const DrawnPing& ping, const PictureOptions& options) {
+  return {slice, options.display.north_up ? -known_heading_rad(ping.navigation) : 0.0, std::nullopt};
+}
+
 Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observation, const PictureOptions& options,
                                      Work& work) {
   if (auto known = require_schools(observation, options); !known) return pass_on(known);
@@ -111,9 +148,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   const auto ping = drawn_ping(observation, *index, options, work);
   if (!ping) return pass_on(ping);
   const std::vector<MaskLayer> masks = mask_layers(*ping, options);
-  const Chosen chosen{*sector, ping->navigation, middle_of_largest(chosen_layers(*ping, options), sector->beams()),
-                      options};
-  const auto slice = slice_of(kind, chosen);
+  const auto slice = chosen_slice(kind, *ping, *sector, options);
   if (!slice) return pass_on(slice);
   const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
   const Array3<std::int16_t> nothing(ping->staged ? Shape3{} : shape, kNoData);
@@ -138,17 +173,10 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   }
   data.masks = masks;
   data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
-  SlicePing titled;
-  titled.observation = observation.title() + (ping->staged ? "" : " (masks alone: no raw files)");
-  titled.ping_index = ping->ping_index;
-  titled.time = ping->navigation.time;
-  titled.heading_rad = rad_from_deg(ping->navigation.heading_deg);
-  titled.transducer_depth_m = ping->navigation.transducer_depth_m;
-  titled.frequency_hz = observation.frequency_hz();
-  SliceView view{*slice, options.display.north_up ? -chosen.heading_rad() : 0.0, std::nullopt};
   SliceStyle style = slice_style(options.display, colours_of(options));
   style.key = slice_key_of(*ping, options);
-  auto picture = slice_picture(*sector, data, titled, view, style, theme_of(options), options.size);
+  auto picture = slice_picture(*sector, data, titled_ping(observation, *ping), drawn_view(*slice, *ping, options),
+                               style, theme_of(options), options.size);
   if (!picture) return pass_on(picture);
   picture->frame.title = observation.title() + ": " + picture->frame.title;
   return std::move(picture->frame);

@@ -30,6 +30,7 @@ AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
   add_volume(*this);
   add_maps(*this);
   add_charts(*this);
+  add_noise_steps(*this);
   add_lists(*this);
   add_school_acts(*this);
   add_exports(*this);
@@ -54,6 +55,9 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
   const Document& document = app.workspace.document;
   if (document.survey() != nullptr && dock == "chart" && document.nothing_shown().empty()) {
     return "A chart of schools' figures stands here as soon as schools are measured.";
+  }
+  if (document.survey() != nullptr && dock == "frequency" && document.nothing_shown().empty()) {
+    return "Select a school: its mean Sv stands here, fan by fan, over the fans' frequencies.";
   }
   if (document.survey() != nullptr) return document.nothing_shown();
   const Progress& now = document.progress();

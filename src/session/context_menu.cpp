@@ -30,6 +30,8 @@ constexpr std::array<Id, 3> kReadOut{"tool.measure", "measure.copy", "cursor.cop
 constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
 constexpr std::array<Id, 2> kFigures{"chart.columns", "chart.all"};
+constexpr std::array<Id, 1> kOverFrequency{"frequency.choose"};
+constexpr std::array<Id, 4> kNoiseSteps{"noise.choose", "noise.next", "noise.previous", "noise.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
 constexpr std::array<Id, 5> kEvents{"event.trawl", "event.station", "event.noise", "event.other", "event.bookmark"};
 constexpr std::array<Id, 1> kBookmark{"event.bookmark"};
@@ -55,6 +57,8 @@ constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPict
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
 constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
+constexpr std::array<ActionGroup, 3> kFrequency{kDecide, kOverFrequency, kPicture};
+constexpr std::array<ActionGroup, 2> kNoise{kNoiseSteps, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
 constexpr std::array<ActionGroup, 4> kPingRows{kDecide, kShape, kAllPings, kRows};
@@ -64,7 +68,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 28> kBegin{"edit.undo",
+constexpr std::array<Id, 30> kBegin{"edit.undo",
                                     "file.calibration",
                                     "file.run_surveys",
                                     "file.save_view",
@@ -72,6 +76,7 @@ constexpr std::array<Id, 28> kBegin{"edit.undo",
                                     "export.movie",
                                     "volume.above",
                                     "map.all",
+                                    "chart.columns",
                                     "view.top_slice",
                                     "view.dark",
                                     "ping.play",
@@ -91,13 +96,14 @@ constexpr std::array<Id, 28> kBegin{"edit.undo",
                                     "slice.range_out",
                                     "view.volume",
                                     "view.observation_map",
+                                    "view.timeline",
                                     "list.pings_of_all"};
 
 struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 20> kMenus{{{"top_slice", kSlice},
+constexpr std::array<Menu, 22> kMenus{{{"top_slice", kSlice},
                                        {"side_slice", kSlice},
                                        {"range_slice", kSlice},
                                        {"plane_slice", kPlaneSlice},
@@ -116,7 +122,9 @@ constexpr std::array<Menu, 20> kMenus{{{"top_slice", kSlice},
                                        {"marks", kMarkRows},
                                        {"journal", kJournal},
                                        {"diagnostics", kNotes},
-                                       {"chart", kCharts}}};
+                                       {"chart", kCharts},
+                                       {"noise_steps", kNoise},
+                                       {"frequency", kFrequency}}};
 
 }  // namespace
 

@@ -62,6 +62,11 @@ std::vector<PanelSection::Words> picture_words() {
   return {std::move(x), {"chart.y", std::move(names)}};
 }
 
+std::vector<std::string> noise_steps_settings() {
+  return {"noise-steps.slice", "noise-steps.before",  "noise-steps.after",
+          "noise-steps.mark",  "noise-steps.mark_db", "noise-steps.difference_db"};
+}
+
 PanelSection colours_section(Workspace& workspace) {
   PanelSection colours =
       first_section("Colours", std::make_shared<SourceOf<DisplayParams>>(workspace.display), kColours);
@@ -120,6 +125,11 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
        .names = {"chart.table", "chart.x", "chart.y", "chart.bins"},
        .open = false,
        .words = picture_words()},
+      {.title = "Schools over frequency",
+       .source = pictures,
+       .names = {"frequency.one_ping", "frequency.water"},
+       .open = false},
+      {.title = "Noise steps", .source = pictures, .names = noise_steps_settings(), .open = false},
       {"Views", views, {}, {}, false},
   };
 }

@@ -18,6 +18,9 @@ namespace sonar {
 /// Texts of the parameters of pictures that are one of a list: columns of tables.
 [[nodiscard]] std::vector<PanelSection::Words> picture_words();
 
+/// What a user sets of the picture of noise steps, in order.
+[[nodiscard]] std::vector<std::string> noise_steps_settings();
+
 /// How far below a growth's reference a confidence lies, dB: f = 1 - (d / tolerance)^2.
 [[nodiscard]] double db_below_reference(double confidence, double tolerance_db);
 

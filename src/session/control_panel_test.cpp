@@ -37,8 +37,11 @@ TEST(ControlPanel, EverySettingIsThereOnce) {
   std::set<std::string> there;
   for (const PanelSection& section : control_panel(workspace)) {
     for (const Property& one : section.source->properties()) {
-      // Of what pictures are asked for, a chart's part alone is a view's.
-      if (section.title != "Charts" || one.name.starts_with("chart.")) there.insert(one.name);
+      // Of what pictures are asked for, the parts of a chart and of noise steps alone are views'.
+      const bool of_pictures = section.source->value("width_px").has_value();
+      const bool of_view =
+          one.name.starts_with("chart.") || one.name.starts_with("frequency.") || one.name.starts_with("noise-steps.");
+      if (!of_pictures || of_view) there.insert(one.name);
     }
     if (section.names.empty()) {
       for (const Property& one : section.source->properties()) shown.insert(one.name);

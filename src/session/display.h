@@ -51,6 +51,8 @@ struct ViewSwitches {
   bool range_slice = false;
   bool plane_slice = false;
   bool chart = true;
+  bool noise_steps = false;
+  bool frequency = false;
 };
 
 template <class Visitor>
@@ -66,6 +68,8 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("range_slice", p.range_slice, {.text = "the slice at one range"});
   v.field("plane_slice", p.plane_slice, {.text = "the slice along any plane"});
   v.field("chart", p.chart, {.text = "the chart of schools' figures"});
+  v.field("frequency", p.frequency, {.text = "the chart of schools over the frequencies of the fans"});
+  v.field("noise_steps", p.noise_steps, {.text = "the slice at each step of noise removal"});
 }
 
 }  // namespace sonar

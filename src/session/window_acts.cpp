@@ -32,7 +32,7 @@ struct ViewName {
   const char* text;
   const char* key;
 };
-constexpr std::array<ViewName, 11> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+constexpr std::array<ViewName, 13> kViews{{{"top_slice", "Slice from above", "Alt+1"},
                                            {"side_slice", "Slice from the side", "Alt+2"},
                                            {"range_slice", "Range slice", "Alt+9"},
                                            {"plane_slice", "Plane slice", "Alt+0"},
@@ -42,7 +42,9 @@ constexpr std::array<ViewName, 11> kViews{{{"top_slice", "Slice from above", "Al
                                            {"survey_map", "Survey map", "Alt+6"},
                                            {"timeline", "Timeline", "Alt+7"},
                                            {"echogram", "Echogram", "Alt+8"},
-                                           {"chart", "Charts", "Alt+Shift+1"}}};
+                                           {"chart", "Charts", "Alt+Shift+1"},
+                                           {"noise_steps", "Noise steps", "Alt+Shift+2"},
+                                           {"frequency", "Schools over frequency", "Alt+Shift+3"}}};
 
 void add_view_switches(AppModel& app) {
   for (const ViewName& view : kViews) {

@@ -95,6 +95,13 @@ struct SlicePlaces {
   friend bool operator==(const SlicePlaces&, const SlicePlaces&) = default;
 };
 
+/// The slice that a hand was on last: other views are about it. And what part of it is shown; empty = all.
+struct SliceInUse {
+  SliceKind kind = SliceKind::top;
+  std::optional<SliceExtent> extent;
+  friend bool operator==(const SliceInUse&, const SliceInUse&) = default;
+};
+
 /// Everything that the views of one window share: the document, the parameters, and what is pointed at.
 /// threads  the window's
 struct Workspace {
@@ -120,8 +127,9 @@ struct Workspace {
   /// The view curve is the scale's (display.scale) until a human changes it.
   Shared<bool> curve_follows_scale{true};
 
-  Shared<std::optional<Voxel>> cursor;       ///< the voxel pointed at, in the ping looked at
-  Shared<SlicePlaces> slices;                ///< where the slices lie
+  Shared<std::optional<Voxel>> cursor;  ///< the voxel pointed at, in the ping looked at
+  Shared<SlicePlaces> slices;           ///< where the slices lie
+  Shared<SliceInUse> slice_in_use;
   Shared<bool> slices_locked{false};         ///< they stay where they are, whatever is selected
   Shared<std::optional<SchoolName>> school;  ///< the selected school
   /// All that are selected, where a table has several; else empty. A school that is none of them ends it.

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/check.h"
 #include "base/units.h"
 #include "signal/beam_overlap.h"
 #include "signal/block_levels.h"
+#include "signal/flag_steps.h"
 
 namespace sonar {
 
@@ -108,19 +110,54 @@ void flag_surface(const PingGeometry& geometry, const SurfaceParams& params, Vie
   }
 }
 
+namespace {
+
+/// The steps of flag_ping(); two of them look at the same levels, which are worked out where the first needs them.
+class FlagSteps {
+ public:
+  FlagSteps(View3<const std::int16_t> power, const PingGeometry& geometry, const FlagParams& params,
+            const NeighbourPings& neighbours, View3<SampleFlags> flags)
+      : power_(power), geometry_(geometry), params_(params), neighbours_(neighbours), flags_(flags) {}
+
+  void take(SampleFlags reason) {
+    switch (reason) {
+      case SampleFlags::near_field:
+        return flag_near_field(geometry_, params_.near_field, flags_);
+      case SampleFlags::surface:
+        return flag_surface(geometry_, params_.surface, flags_);
+      case SampleFlags::dropout:
+        return flag_dropouts(power_, params_.dropouts, flags_);
+      case SampleFlags::corrupted:
+        if (params_.corrupted_packets.enabled || params_.interference.enabled) {
+          levels_.emplace(power_, flags_, params_.corrupted_packets);
+          flag_corrupted_packets(power_, *levels_, params_.corrupted_packets,
+                                 fan_losses_db(geometry_.elevation_deg, geometry_.vertical_width_deg), flags_);
+        }
+        return;
+      case SampleFlags::interference:
+        if (levels_) flag_interference(power_, *levels_, params_.interference, flags_);
+        return;
+      default:
+        return flag_impulses(power_, neighbours_, params_.impulse_noise, flags_);
+    }
+  }
+
+ private:
+  View3<const std::int16_t> power_;
+  const PingGeometry& geometry_;
+  const FlagParams& params_;
+  const NeighbourPings& neighbours_;
+  View3<SampleFlags> flags_;
+  std::optional<BlockLevels> levels_;
+};
+
+}  // namespace
+
 void flag_ping(View3<const std::int16_t> power, const PingGeometry& geometry, const FlagParams& params,
                const NeighbourPings& neighbours, View3<SampleFlags> flags) {
   SONAR_CHECK(power.shape() == flags.shape());
-  flag_near_field(geometry, params.near_field, flags);
-  flag_surface(geometry, params.surface, flags);
-  flag_dropouts(power, params.dropouts, flags);
-  if (params.corrupted_packets.enabled || params.interference.enabled) {
-    const BlockLevels levels(power, flags, params.corrupted_packets);
-    flag_corrupted_packets(power, levels, params.corrupted_packets,
-                           fan_losses_db(geometry.elevation_deg, geometry.vertical_width_deg), flags);
-    flag_interference(power, levels, params.interference, flags);
-  }
-  flag_impulses(power, neighbours, params.impulse_noise, flags);
+  FlagSteps steps(power, geometry, params, neighbours, flags);
+  for (const SampleFlags reason : kFlagSteps) steps.take(reason);
 }
 
 }  // namespace sonar

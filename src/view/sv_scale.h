@@ -33,8 +33,8 @@ struct SvScale {
 
 template <class Visitor>
 void describe(Visitor& v, SvScale& p) {
-  constexpr std::string_view kOfSv = "slice- volume timeline echogram";
-  constexpr std::string_view kScaled = "slice- volume timeline survey-map echogram";
+  constexpr std::string_view kOfSv = "slice- volume timeline echogram noise-steps";
+  constexpr std::string_view kScaled = "slice- volume timeline survey-map echogram noise-steps";
   v.choice("map", p.map, colour_map_names(), {"colours that Sv is drawn in", Tier::expert, kOfSv});
   v.field("low_db", p.low_db,
           {.unit = "dB",

@@ -203,6 +203,8 @@ class BadInput(unittest.TestCase):
             (["--maximum"], "volume", "timeline"),
             (["--whole-survey"], "survey-map", "timeline"),
             (["--y", "depth_m"], "survey-map", "chart"),
+            (["--after", "median"], "slice-top", "noise-steps"),
+            (["--no-water"], "chart", "frequency"),
         ]
         for option, kind, suits in unsuited:
             with self.subTest(option=option[0], kind=kind):
@@ -228,6 +230,10 @@ class BadInput(unittest.TestCase):
                               ("slice-top", ["--unfiltered", "--map", "grey", "--core", "0.5", "--north-up", "--grid"]),
                               ("chart", ["--observation", "obs-0001", "--schools", "1", "--table", "school_pings",
                                          "--x", "range_m", "--y", "", "--bins", "9"]),
+                              ("noise-steps", ["--slice", "side", "--beam", "12", "--before", "unfiltered", "--after",
+                                               "impulse-noise", "--map", "grey", "--low-db", "-70", "--no-mark"]),
+                              ("noise-steps", ["--slice", "range", "--range-m", "150", "--mark-db", "3", "--no-masks"]),
+                              ("frequency", ["--observation", "obs-0001", "--schools", "1", "--no-water"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):
                 code, out, error = render(kind, *BOTH, *options, *picture)

@@ -4,6 +4,7 @@
 
 #include "session/app_parts.h"
 #include "session/charts/chart_model.h"
+#include "session/charts/frequency_model.h"
 
 namespace sonar {
 
@@ -28,6 +29,17 @@ void add_charts(AppModel& app) {
                    .run = [chart = chart.get()] { chart->show_all(); },
                    .enabled = [chart = chart.get()] { return chart->zoomed(); }});
   app.pictures.push_back({"chart", "Charts", DockPlace::bottom, "chart", std::move(chart)});
+  app.actions.add({.id = "frequency.choose",
+                   .menu = kMenu,
+                   .text = "Schools over frequency...",
+                   .keys = {},
+                   .tip = "Of which pings the chart over frequency is, and whether it shows the water round schools",
+                   .run = [&app] {
+                     (void)asked(app, "Schools over frequency", app.workspace.picture_file,
+                                 {"frequency.one_ping", "frequency.water"});
+                   }});
+  app.pictures.push_back(
+      {"frequency", "Frequency", DockPlace::bottom, "frequency", std::make_unique<FrequencyModel>(workspace)});
 }
 
 }  // namespace sonar

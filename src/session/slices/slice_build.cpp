@@ -40,19 +40,6 @@ View3<const SampleFlags> marked_flags(const SliceWish& wish, double below_db) {
   return View3<const SampleFlags>(room.flags.view());
 }
 
-SlicePing titled(const SliceWish& wish) {
-  const OpenObservation& observation = *wish.observation;
-  const PingNavigation& navigation = observation.files().navigation[static_cast<std::size_t>(wish.ping->ping_index)];
-  SlicePing ping;
-  ping.observation = observation.title();
-  ping.ping_index = wish.ping->ping_index;
-  ping.time = navigation.time;
-  ping.heading_rad = rad_from_deg(navigation.heading_deg);
-  ping.transducer_depth_m = navigation.transducer_depth_m;
-  ping.frequency_hz = observation.grid().frequency_hz;
-  return ping;
-}
-
 /// The selected school's name beside its first voxel of the slice.
 void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
   const Sector& sector = wish.observation->sector();
@@ -79,6 +66,18 @@ void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& th
 }
 
 }  // namespace
+
+SlicePing slice_ping(const OpenObservation& observation, std::int64_t ping_index) {
+  const PingNavigation& navigation = observation.files().navigation[static_cast<std::size_t>(ping_index)];
+  SlicePing ping;
+  ping.observation = observation.title();
+  ping.ping_index = ping_index;
+  ping.time = navigation.time;
+  ping.heading_rad = rad_from_deg(navigation.heading_deg);
+  ping.transducer_depth_m = navigation.transducer_depth_m;
+  ping.frequency_hz = observation.grid().frequency_hz;
+  return ping;
+}
 
 SvColours slice_colours(const Workspace& workspace) {
   const SvScale& scale = workspace.display.values().scale;
@@ -108,8 +107,8 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;
   const Theme theme = screen_theme(size, wish.scale, wish.dark);
-  auto picture =
-      slice_picture(wish.observation->sector(), data, titled(wish), wish.view, style, theme, size, wish.earlier);
+  auto picture = slice_picture(wish.observation->sector(), data, slice_ping(*wish.observation, wish.ping->ping_index),
+                               wish.view, style, theme, size, wish.earlier);
   if (picture) name_selected(*picture, wish, theme);
   return picture;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct SliceWish {
   std::shared_ptr<const SliceMap> earlier;
   std::shared_ptr<FlagRoom> room;  ///< of this slice; one picture at a time uses it
 };
+
+/// The ping that a slice's title names.
+[[nodiscard]] SlicePing slice_ping(const OpenObservation& observation, std::int64_t ping_index);
 
 /// Colours of the display scale, or of the view curve where a human has changed that.
 [[nodiscard]] SvColours slice_colours(const Workspace& workspace);

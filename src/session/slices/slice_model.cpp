@@ -99,6 +99,7 @@ LivePicture::Build SliceModel::build() {
   const Slice slice = live_slice(workspace_, kind_, wish.ping->ping_index);
   if (picture_ && seen_from_above(picture_->map->view().slice) != seen_from_above(slice)) extent_.reset();
   wish.north_up = seen_from_above(slice) && wish.display.north_up && !std::isnan(heading_deg);
+  if (workspace_.slice_in_use().kind == kind_) workspace_.slice_in_use.set({kind_, extent_});
   wish.view = {slice, wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
   if (!colours_) colours_ = std::make_shared<const SvColours>(slice_colours(workspace_));
   wish.colours = colours_;

@@ -61,6 +61,7 @@ void SliceModel::move(const PointerEvent& event) {
 }
 
 void SliceModel::press(const PointerEvent& event, bool double_press) {
+  workspace_.slice_in_use.set({kind_, extent_});
   if (event.button == PointerButton::middle) {
     panned_ = event.at;
     return;
@@ -103,6 +104,7 @@ void SliceModel::leave() {
 }
 
 void SliceModel::turn_wheel(const PointerEvent& event) {
+  workspace_.slice_in_use.set({kind_, extent_});
   if (event.control) return zoom(event.at, std::pow(kZoomPerStep, -event.wheel_steps));
   wheel_ += event.wheel_steps;
   const double whole = std::trunc(wheel_);

@@ -25,22 +25,6 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   return plot;
 }
 
-struct MappedPlot {
-  PlotFrame plot;
-  std::shared_ptr<const SliceMap> map;
-};
-
-/// The slice in a rectangle of the picture; empty where it does not meet the sector.
-std::optional<MappedPlot> whole_slice(const Sector& sector, const SliceView& view, const PixelRect& place) {
-  const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
-  if (!extent) return std::nullopt;
-  MappedPlot out{slice_axes(place, *extent), nullptr};
-  const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
-  const PixelSize pixels{static_cast<int>(place.width), static_cast<int>(place.height)};
-  out.map = std::make_shared<const SliceMap>(sector, view, shown, pixels);
-  return out;
-}
-
 void label_from_above(PlotFrame& plot, bool north_up, double up_rad) {
   const char* upwards = north_up ? "north (m)" : up_rad == 0.0 ? "ahead (m)" : "up (m)";
   plot.y = {-plot.y.first, -plot.y.last, upwards, false};
@@ -115,7 +99,7 @@ std::vector<KeyEntry> key_of(const Sector& sector, const SliceData& data, const 
   bool refused = false;
   if (!style.key->schools.empty() || !data.refused.empty()) {
     // Of the slice without a key: how much room the key leaves depends on what the slice cuts.
-    if (const auto bare = whole_slice(sector, view, lay_out(size, theme).plot)) {
+    if (const auto bare = mapped_slice(sector, view, lay_out(size, theme).plot)) {
       cut = cut_masks(*bare->map, data.masks);
       refused = std::ranges::any_of(data.refused,
                                     [&](const RefusedMark& mark) { return place_of(*bare->map, mark).has_value(); });
@@ -127,6 +111,16 @@ std::vector<KeyEntry> key_of(const Sector& sector, const SliceData& data, const 
 }
 
 }  // namespace
+
+std::optional<MappedSlice> mapped_slice(const Sector& sector, const SliceView& view, const PixelRect& place) {
+  const std::optional<SliceExtent> extent = view.extent ? view.extent : whole_extent(sector, view);
+  if (!extent) return std::nullopt;
+  MappedSlice out{slice_axes(place, *extent), nullptr};
+  const SliceExtent shown{out.plot.x.first, out.plot.y.first, out.plot.x.last, out.plot.y.last};
+  const PixelSize pixels{static_cast<int>(place.width), static_cast<int>(place.height)};
+  out.map = std::make_shared<const SliceMap>(sector, view, shown, pixels);
+  return out;
+}
 
 std::optional<Voxel> SlicePicture::voxel_at(PixelPoint pixel) const {
   return map->voxel_at({pixel.x - plot.place.x, pixel.y - plot.place.y});
@@ -170,7 +164,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     out.plot = {layout.plot, {e.x0, e.x1, "", false}, {e.y0, e.y1, "", false}};
     out.map = std::move(earlier);
   } else {
-    auto whole = whole_slice(sector, view, layout.plot);
+    auto whole = mapped_slice(sector, view, layout.plot);
     if (!whole) return fail(ErrorCode::bad_parameter, "the slice does not meet the sonar's sector");
     out.plot = std::move(whole->plot);
     out.map = std::move(whole->map);

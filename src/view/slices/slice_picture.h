@@ -92,6 +92,16 @@ struct SliceStyle {
   std::optional<SliceKey> key{};  ///< below the slice: what is not drawn as recorded, and whose the outlines are
 };
 
+/// A slice laid into a place of a picture: its axes in its own coordinates, grown to fill the place with square metres or
+/// degrees, and which voxel each of its pixels shows.
+struct MappedSlice {
+  PlotFrame plot;
+  std::shared_ptr<const SliceMap> map;
+};
+/// view  checked; empty where it does not meet the sector
+[[nodiscard]] std::optional<MappedSlice> mapped_slice(const Sector& sector, const SliceView& view,
+                                                      const PixelRect& place);
+
 /// A slice ready to be drawn, with what a pointer needs.
 struct SlicePicture {
   FrameDescription frame;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "publish/frequency_picture.h"
+#include "session/listening.h"
+#include "session/live_picture.h"
+#include "session/workspace.h"
+#include "view/charts/frequency_chart.h"
+
+namespace sonar {
+
+/// What the chart shows, and where.
+struct FrequencySight {
+  FrequencyChartData data;
+  FrequencyChart chart;
+};
+
+/// What was heard of schools already, while they and those beside them stay as they are; by observation.
+struct HeardInObservation {
+  OpenObservationPtr observation;
+  std::vector<std::shared_ptr<const StateSchool>> beside;
+  std::map<std::pair<std::int64_t, std::int64_t>, SchoolFans> pings;  ///< of a school in a ping
+};
+using HeardSchools = std::map<std::size_t, HeardInObservation>;
+
+/// The selected schools over the frequencies of their fans, of all their pings or of the ping on show
+/// (picture_file.kind.frequency), and the water round them. Pings are looked at behind the window, one after the other: the
+/// chart is there after the first few, and becomes that of all.
+class FrequencyModel : public LivePicture {
+ public:
+  explicit FrequencyModel(Workspace& workspace);
+
+  [[nodiscard]] std::string hint(PixelPoint at) const override;
+  /// Of the picture on show; null without one.
+  [[nodiscard]] const std::shared_ptr<const FrequencySight>& sight() const { return sight_; }
+
+ protected:
+  [[nodiscard]] Build build() override;
+  void take(const std::shared_ptr<const void>& detail) override;
+
+ private:
+  void hear(DocumentChange change);
+  [[nodiscard]] const FrequencyParams& params() const { return workspace_.picture_file.values().kind.frequency; }
+
+  Workspace& workspace_;
+  FrequencyParams asked_;
+  std::shared_ptr<HeardSchools> heard_ = std::make_shared<HeardSchools>();  ///< of builds
+  std::shared_ptr<const FrequencySight> sight_;
+  Listening listening_;  // the last member: it ends first
+};
+
+}  // namespace sonar
