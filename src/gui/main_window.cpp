@@ -20,6 +20,7 @@
 #include "gui/animation_timer.h"
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
+#include "gui/figure_dialog.h"
 #include "gui/key_sheet.h"
 #include "gui/palette.h"
 #include "gui/picture_view.h"
@@ -167,6 +168,7 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
 
 void MainWindow::answer() {
   app_.dialogs.preferences = [this] { return ask_preferences(*this, app_); };
+  app_.dialogs.figure = [this](FigureModel& figure) { compose_figure(*this, app_, figure); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
   app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };
