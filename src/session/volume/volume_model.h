@@ -91,9 +91,9 @@ class VolumeModel : public LivePicture {
   LiveVolume::MakeRenderer make_;  ///< of panels' back-ends; empty = those of this machine
   std::shared_ptr<LiveVolume> live_;
   std::shared_ptr<const LiveVolumeShown> shown_;
-  std::shared_ptr<Work> better_;  ///< draws what may be given up
+  std::shared_ptr<Work> better_;      ///< draws what may be given up
   std::shared_ptr<Work> panel_work_;  ///< draws the panel of a page
-  std::string told_;              ///< the last notice
+  std::string told_;                  ///< the last notice
   std::vector<std::function<void()>> stop_listening_;
   std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
 };
