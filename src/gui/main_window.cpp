@@ -21,6 +21,7 @@
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
 #include "gui/dropped_paths.h"
+#include "gui/figure_dialog.h"
 #include "gui/key_sheet.h"
 #include "gui/palette.h"
 #include "gui/picture_view.h"
@@ -172,6 +173,7 @@ void MainWindow::answer() {
     if (!batch_) batch_ = std::make_unique<BatchWindow>(app_, *this);
     batch_->come_to_front();
   };
+  app_.dialogs.figure = [this](FigureModel& figure) { compose_figure(*this, app_, figure); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
   app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };

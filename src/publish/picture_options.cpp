@@ -93,6 +93,7 @@ Result<std::optional<Camera>> named_camera(const CameraParams& params) {
 }
 
 Theme theme_of(const PictureOptions& options) {
+  if (options.panel) return panel_theme(*options.panel, options.dark);
   return with_text(options.dark ? dark_theme(options.size) : light_theme(options.size), options.least_text_px);
 }
 

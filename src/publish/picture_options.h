@@ -29,7 +29,8 @@ namespace sonar {
 struct PictureOptions {
   PixelSize size{1200, 900};
   double scale = 1.0;  ///< pixels of the file per pixel of the size: text and lines grow, rays are as many as pixels
-  double least_text_px = 0.0;  ///< of a pixel of the size
+  double least_text_px = 0.0;      ///< of a pixel of the size
+  std::optional<PanelLook> panel;  ///< of a page: text and lines have these sizes, colour bars are left to the page
   bool dark = false;
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too

@@ -83,9 +83,10 @@ void add_colour_bars(FrameDescription& frame, const VolumeFigure& figure, const 
     below.y = above.y + above.height + gap;
     below.height = std::max(8.0, below.height - above.height - gap);
   }
-  if (data_too) add_colour_bar(frame, above, colours_of(options), theme);
+  if (data_too) add_colour_bar(frame, above, colour_bar(colours_of(options)), theme);
   if (depths)
-    add_colour_bar(frame, below, seabed_colours(), depths->first, depths->second, theme, "seabed depth (m)", true);
+    add_colour_bar(frame, below, colour_bar(seabed_colours(), depths->first, depths->second, "seabed depth (m)", true),
+                   theme);
 }
 
 /// Of the refused marks that are seen, in the picture; as many as `figure.refused`, NaN = not seen.

@@ -21,9 +21,9 @@
 namespace sonar {
 namespace {
 
-constexpr int kMostPixels = 16384;     ///< a side
-constexpr double kDotsPerInch = 96.0;  ///< of a pixel of the description, as on the web and in SVG
-constexpr double kPointsPerPixel = 72.0 / kDotsPerInch;
+constexpr int kMostPixels = 16384;        ///< a side
+constexpr double kWebDotsPerInch = 96.0;  ///< of a pixel of SVG
+constexpr double kPointsPerInch = 72.0;
 
 Result<PixelSize> scaled_size(const FrameDescription& frame, double scale) {
   const double width = std::round(frame.size.width * scale);
@@ -74,9 +74,22 @@ std::string origin_sentence(const PictureOrigin& origin) {
   return fmt::format("Made by {}; recipe {}; data {}", origin.program, origin.recipe_hash, origin.data_time);
 }
 
-Result<std::string> svg_of(const FrameDescription& frame, PixelSize size, double scale) {
+/// Of a file whose unit is so many to the inch: where the description has another, its size need not be whole.
+struct VectorSize {
+  double scale = 1.0;
+  double width = 0.0;
+  double height = 0.0;
+};
+VectorSize vector_size(const FrameDescription& frame, double units_per_inch, double scale) {
+  const double times = scale * units_per_inch / frame.dots_per_inch;
+  const auto pixels = [&](int side) { return std::round(side * scale) * units_per_inch / frame.dots_per_inch; };
+  return {times, pixels(frame.size.width), pixels(frame.size.height)};
+}
+
+Result<std::string> svg_of(const FrameDescription& frame, double wanted_scale) {
   std::string bytes;
-  CairoSurface surface(cairo_svg_surface_create_for_stream(append, &bytes, size.width, size.height));
+  const auto [scale, width, height] = vector_size(frame, kWebDotsPerInch, wanted_scale);
+  CairoSurface surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   auto svg = drawn(std::move(surface), frame, scale, bytes);
   if (!svg) return svg;
@@ -85,14 +98,14 @@ Result<std::string> svg_of(const FrameDescription& frame, PixelSize size, double
   return any_smooth(frame) ? named : pixelated_svg(named);
 }
 
-Result<std::string> pdf_of(const FrameDescription& frame, PixelSize size, double scale) {
+Result<std::string> pdf_of(const FrameDescription& frame, double wanted_scale) {
   std::string bytes;
-  CairoSurface surface(
-      cairo_pdf_surface_create_for_stream(append, &bytes, size.width * kPointsPerPixel, size.height * kPointsPerPixel));
+  const auto [scale, width, height] = vector_size(frame, kPointsPerInch, wanted_scale);
+  CairoSurface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, frame.title.c_str());
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, frame.origin.program.c_str());
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, origin_sentence(frame.origin).c_str());
-  auto pdf = drawn(std::move(surface), frame, scale * kPointsPerPixel, bytes);
+  auto pdf = drawn(std::move(surface), frame, scale, bytes);
   if (!pdf) return pdf;
   return undated_pdf(std::move(*pdf));
 }
@@ -136,13 +149,13 @@ Result<std::string> picture_bytes(const FrameDescription& frame, const std::file
     if (!image) return pass_on(image);
     auto png = png_bytes(*image);
     if (!png) return png;
-    return described_png(*png, kDotsPerInch * scale,
+    return described_png(*png, frame.dots_per_inch * scale,
                          {{"Title", frame.title},
                           {"Software", frame.origin.program},
                           {"Recipe", frame.origin.recipe_hash},
                           {"Data Time", frame.origin.data_time}});
   }
-  return ending == ".svg" ? svg_of(frame, *size, scale) : pdf_of(frame, *size, scale);
+  return ending == ".svg" ? svg_of(frame, scale) : pdf_of(frame, scale);
 }
 
 }  // namespace sonar

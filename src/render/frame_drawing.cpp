@@ -11,6 +11,7 @@ namespace sonar {
 namespace {
 
 constexpr double kFar = 1e5;              ///< beyond it coordinates are cut: Cairo's are 24 bits
+constexpr double kReduced = 0.75;         ///< of an image's own size
 constexpr std::size_t kFewPixels = 1024;  ///< drawn as rectangles in vector formats
 
 void set_source(cairo_t* context, Rgba8 c) {
@@ -123,7 +124,10 @@ void draw(cairo_t* context, const ImageItem& item, const FrameTarget& target) {
   cairo_translate(context, item.place.x, item.place.y);
   cairo_scale(context, item.place.width / item.image->size.width, item.place.height / item.image->size.height);
   const CairoPattern pattern(cairo_pattern_create_for_surface(surface.get()));
-  cairo_pattern_set_filter(pattern.get(), item.smooth ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
+  // Drawn much smaller than it is, each pixel is the mean of those that it stands for, not one of them.
+  const bool reduced = !target.vector && target.scale * item.place.width < kReduced * item.image->size.width &&
+                       target.scale * item.place.height < kReduced * item.image->size.height;
+  cairo_pattern_set_filter(pattern.get(), item.smooth || reduced ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
   // Without it a smooth image fades to nothing at its rim.
   cairo_pattern_set_extend(pattern.get(), target.vector ? CAIRO_EXTEND_NONE : CAIRO_EXTEND_PAD);
   cairo_set_source(context, pattern.get());

@@ -15,6 +15,7 @@
 
 namespace sonar {
 
+class FigureModel;
 class RecipeEditor;
 class Rows;
 struct PanelSection;
@@ -92,6 +93,7 @@ struct Dialogs {
   std::function<bool()> preferences;     ///< lets a human change them, and they follow at once; false = declined
   std::function<bool()> system_is_dark;  ///< whether the desktop is in dark colours; empty = not known
   std::function<bool(RecipeEditor& editor)> recipe;                ///< lets a human change a recipe; false = declined
+  std::function<void(FigureModel& figure)> figure;                 ///< lets a human compose a page and write it
   std::function<void(const std::string& title, Rows& rows)> rows;  ///< shows a table to look at
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_batch;                                  ///< the window of surveys to be run

@@ -9,6 +9,7 @@
 
 #include "base/within_memory.h"
 #include "publish/picture_output.h"
+#include "session/workspace.h"
 
 namespace sonar {
 namespace {
@@ -19,7 +20,7 @@ double seconds_now() {
 
 }  // namespace
 
-LivePicture::LivePicture(ChangeQueue& queue) : queue_(queue) {}
+LivePicture::LivePicture(Workspace& workspace) : queue_(workspace.queue), dark_(workspace.dark) {}
 
 LivePicture::~LivePicture() {
   if (wish_) wish_->cancel();
@@ -45,6 +46,10 @@ void LivePicture::set_seen(bool seen) {
   if (seen_ && stale_) update();
 }
 
+void LivePicture::set_on_page(bool on) {
+  if (std::exchange(on_page_, on) && !on) left_page();
+}
+
 void LivePicture::behind(std::function<void()> job) {
   background_.post([job = std::move(job)](const CancelToken& /*token*/) { job(); });
 }
@@ -56,9 +61,11 @@ void LivePicture::end_behind(const std::function<void()>& last) {
 
 void LivePicture::update() {
   stale_ = true;
+  ++version_;
+  outdated_.tell();
   if (!seen_ || size_.width < 1 || size_.height < 1) return;
   stale_ = false;
-  Build build_now = build();
+  Build build_now = build({size_, scale_, dark_(), {}});
   if (!build_now) {
     if (wish_) wish_->cancel();
     image_ = {};
@@ -87,6 +94,16 @@ void LivePicture::update() {
       post([this, line = to_line(done.error())] { fail_with(line); });
     }
   });
+}
+
+LivePicture::Panel LivePicture::panel(const PictureLook& look) {
+  Build build_now = build(look);
+  if (!build_now) return {};
+  return [build_now = std::move(build_now), size = look.size](const CancelToken& token,
+                                                              const ShowPanel& show) -> Result<void> {
+    return within_memory(
+        [&] { return build_now(size, token, [&show](Built built) { show(std::move(built.frame), built.scale); }); });
+  };
 }
 
 void LivePicture::put(const Built& built, Image image, double asked_s) {

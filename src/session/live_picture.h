@@ -13,11 +13,16 @@
 #include "base/work.h"
 #include "session/change_queue.h"
 #include "session/listeners.h"
+#include "session/picture_look.h"
 #include "view/frame_description.h"
 #include "view/image.h"
 #include "view/pointer_event.h"
 
 namespace sonar {
+
+template <class T>
+class Shared;
+struct Workspace;
 
 /// Something light that a widget lays over a picture at once: the linked cursor, a rubber band, a brush.
 struct Overlay {
@@ -41,7 +46,8 @@ enum class PointerShape : std::uint8_t { arrow, cross };
 /// threads  the window's, but for what build() returns
 class LivePicture {
  public:
-  explicit LivePicture(ChangeQueue& queue);
+  /// The workspace outlives the picture.
+  explicit LivePicture(Workspace& workspace);
   virtual ~LivePicture();
   LivePicture(const LivePicture&) = delete;
   LivePicture& operator=(const LivePicture&) = delete;
@@ -70,6 +76,24 @@ class LivePicture {
   /// Called when image() or overlays() have changed.
   [[nodiscard]] Listeners<>& changed() { return changed_; }
 
+  /// What this picture would show now, drawn elsewhere: each one that is shown is better than the one before.
+  /// threads  any one
+  using ShowPanel = std::function<void(FrameDescription frame, double scale)>;
+  using Panel = std::function<Result<void>(const CancelToken& token, const ShowPanel& show)>;
+  /// The picture as a panel of a page, with what the view shows now: zoomed, turned and chosen as there. Empty = there is
+  /// nothing to show.
+  [[nodiscard]] Panel panel(const PictureLook& look);
+  /// A page shows the picture, whether its view is seen or not: what it needs is read.
+  void set_on_page(bool on);
+  [[nodiscard]] bool on_page() const { return on_page_; }
+  /// Rises whenever the picture would show something else, whether anybody sees it or not.
+  [[nodiscard]] std::int64_t version() const { return version_; }
+  [[nodiscard]] Listeners<>& outdated() { return outdated_; }
+  /// What is still being read for it, "the timeline is still being read"; empty = it has all.
+  [[nodiscard]] virtual std::string incomplete() const { return {}; }
+  /// Whether better pictures follow the first.
+  [[nodiscard]] virtual bool refines() const { return false; }
+
   virtual void pointer(const PointerEvent& /*event*/) {}
   /// A menu opens at a place: what lies there becomes what its acts are about.
   /// out  false where acts on the selected school are not meant: it lies elsewhere
@@ -97,9 +121,13 @@ class LivePicture {
   using Build = std::function<Result<void>(PixelSize size, const CancelToken& token, const Show& show)>;
 
   /// What is to be built now; empty = there is nothing to show. Called in the window's thread.
-  [[nodiscard]] virtual Build build() = 0;
+  /// look  of the view, or of a panel of a page; a panel's is built while the view's own may be
+  [[nodiscard]] virtual Build build(const PictureLook& look) = 0;
   /// A picture is put on show.
   virtual void take(const std::shared_ptr<const void>& /*detail*/) {}
+
+  /// No page shows the picture any more: what is drawn for one may end.
+  virtual void left_page() {}
 
   /// The picture is not seen any more: what only pictures need may be let go.
   virtual void hidden() {}
@@ -117,6 +145,7 @@ class LivePicture {
   void fail_with(std::string line);
 
   ChangeQueue& queue_;
+  const Shared<bool>& dark_;  ///< the window's
   PixelSize units_;
   double scale_ = 1.0;
   PixelSize size_;
@@ -126,7 +155,10 @@ class LivePicture {
   std::string problem_;
   double latency_ms_ = 0.0;
   std::int64_t pictures_ = 0;
+  std::int64_t version_ = 0;
+  bool on_page_ = false;
   Listeners<> changed_;
+  Listeners<> outdated_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   std::optional<CancelToken> wish_;
   TaskThread background_;  // the last member: it ends first

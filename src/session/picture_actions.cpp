@@ -9,6 +9,7 @@
 #include "publish/picture_output.h"
 #include "session/app_parts.h"
 #include "session/exports.h"
+#include "session/figures/figure_model.h"
 
 namespace sonar {
 namespace {
@@ -133,6 +134,24 @@ void copy_view(AppModel& app) {
   app.workspace.document.tell("the picture is in the clipboard");
 }
 
+void compose_figure(AppModel& app) {
+  if (!app.dialogs.figure) return;
+  FigureModel figure(app);
+  app.dialogs.figure(figure);
+  keep_preferences(app);
+}
+
+/// Words of one survey's figure are not another's.
+void forget_words_of_figures(AppModel& app) {
+  app.workspace.document.changes().add([&app](DocumentChange change) {
+    if (change != DocumentChange::survey) return;
+    FigureParams params = app.workspace.figure.values();
+    params.title.clear();
+    params.caption.clear();
+    app.workspace.figure.assign(params);
+  });
+}
+
 }  // namespace
 
 void add_pictures(AppModel& app) {
@@ -152,6 +171,14 @@ void add_pictures(AppModel& app) {
                    .keys = {"Ctrl+Alt+C"},
                    .tip = "The view in use into the clipboard",
                    .run = [&app] { copy_view(app); },
+                   .enabled = with_survey(app)});
+  forget_words_of_figures(app);
+  app.actions.add({.id = "file.figure",
+                   .menu = kFile,
+                   .text = "Figure for print...",
+                   .keys = {"Ctrl+Shift+F"},
+                   .tip = "Several views on a page, in millimetres and dpi, with one colour bar: PNG, SVG or PDF",
+                   .run = [&app] { compose_figure(app); },
                    .enabled = with_survey(app)});
 }
 

@@ -92,6 +92,7 @@ void describe(Visitor& v, Preferences& p) {
   v.group("views", p.views, {});
   v.group("picture_file", p.picture_file, {});
   v.group("reduce", p.reduce, {});
+  v.group("figure", p.figure, {});
   v.field("curves_linked", p.curves_linked, {});
   v.field("operator", p.operator_name, {});
   v.field("advance", p.advance, {});
@@ -246,6 +247,7 @@ void Preferences::apply(Workspace& workspace) const {
   workspace.picture_file.assign(picture_file);
   workspace.reduce.assign(reduce);
   workspace.window.assign(window);
+  workspace.figure.assign(figure);
   if (window.theme != ThemeName::system) workspace.dark.set(dark);
   if (growth_curve) workspace.growth_curve.set(*growth_curve);
   if (view_curve) {
@@ -264,6 +266,9 @@ void Preferences::take(const Workspace& workspace) {
   reduce = workspace.reduce.values();
   dark = workspace.dark();
   window = workspace.window.values();
+  figure = workspace.figure.values();
+  figure.title.clear();
+  figure.caption.clear();
   growth_curve = workspace.growth_curve();
   view_curve.reset();
   if (!workspace.curve_follows_scale()) view_curve = workspace.view_curve();

@@ -44,7 +44,8 @@ struct Preferences {
   std::map<std::string, std::pair<std::string, std::int64_t>> left_at;
   std::string operator_name;
   WindowParams window;
-  Actions::Keys keys;  ///< of actions that have not their usual ones
+  FigureParams figure;  ///< without its words, which are of one survey
+  Actions::Keys keys;   ///< of actions that have not their usual ones
   std::vector<std::string> species{"herring", "mackerel", "capelin", "blue whiting", "sprat",
                                    "cod",     "saithe",   "krill",   "other"};  ///< digits 1 to 9
   bool advance = true;  ///< review goes on to the next school after a decision

@@ -30,4 +30,12 @@ Theme dock_theme(PixelSize pixels, double scale, bool dark) {
   return theme;
 }
 
+Theme screen_theme(PixelSize pixels, const PictureLook& look) {
+  return look.panel ? panel_theme(*look.panel, look.dark) : screen_theme(pixels, look.scale, look.dark);
+}
+
+Theme dock_theme(PixelSize pixels, const PictureLook& look) {
+  return look.panel ? panel_theme(*look.panel, look.dark) : dock_theme(pixels, look.scale, look.dark);
+}
+
 }  // namespace sonar

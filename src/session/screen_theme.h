@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "session/picture_look.h"
 #include "view/theme.h"
 
 namespace sonar {
@@ -16,6 +17,10 @@ namespace sonar {
 
 /// The theme of a picture in a dock: text stays readable however small the dock is.
 [[nodiscard]] Theme dock_theme(PixelSize pixels, double scale, bool dark);
+
+/// The same of a picture wherever it is drawn: a panel's is the page's.
+[[nodiscard]] Theme screen_theme(PixelSize pixels, const PictureLook& look);
+[[nodiscard]] Theme dock_theme(PixelSize pixels, const PictureLook& look);
 
 /// A theme with its sizes of text and lines times a factor.
 [[nodiscard]] Theme scaled(Theme theme, double factor);

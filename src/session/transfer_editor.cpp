@@ -123,7 +123,7 @@ std::vector<double> sv_histogram(const Volume& volume, double first_db, int bins
   return counted;
 }
 
-TransferEditor::TransferEditor(Workspace& workspace) : LivePicture(workspace.queue), workspace_(workspace) {
+TransferEditor::TransferEditor(Workspace& workspace) : LivePicture(workspace), workspace_(workspace) {
   const auto again = [this] { update(); };
   workspace.view_curve.changed().add(again);
   workspace.growth_curve.changed().add(again);
@@ -161,7 +161,7 @@ OpacityPoint TransferEditor::point_at(PixelPoint at) const {
   return {std::clamp(frame.x_at(at.x), kFirst_db, kLast_db), std::clamp(frame.y_at(at.y), 0.0, 1.0)};
 }
 
-LivePicture::Build TransferEditor::build() {
+LivePicture::Build TransferEditor::build(const PictureLook& /*look*/) {
   Drawn what{plot(),
              bar(),
              workspace_.display.values().scale,

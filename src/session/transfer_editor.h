@@ -31,7 +31,7 @@ class TransferEditor : public LivePicture {
   [[nodiscard]] PlotFrame plot() const;
 
  protected:
-  Build build() override;
+  Build build(const PictureLook& look) override;
 
  private:
   enum class Grip : std::uint8_t { none, corner, low_limit, high_limit };

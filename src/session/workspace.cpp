@@ -89,6 +89,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       reduce(changes),
       plane(changes),
       window(changes),
+      figure(changes),
       view_curve(first_view_curve()) {
   document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;

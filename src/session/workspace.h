@@ -22,6 +22,7 @@
 #include "session/slices/plane_place.h"
 #include "session/tools/measurement.h"
 #include "session/window_params.h"
+#include "view/figures/figure_params.h"
 #include "view/slices/slice.h"
 #include "view/volume/camera.h"
 
@@ -118,6 +119,7 @@ struct Workspace {
   Parameters<ReduceParams> reduce;
   Parameters<PlanePlace> plane;  ///< where the plane slice lies; of the observation, not a preference
   Parameters<WindowParams> window;
+  Parameters<FigureParams> figure;  ///< several views on a page
 
   /// View curve: colours and opacity of the volume; growth curve: what mode paper grows on. Linked, both have
   /// the same opacity.

@@ -81,6 +81,9 @@ struct Layout {
 };
 [[nodiscard]] Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs = {});
 
+/// Where a map begins, below its title where it has one.
+[[nodiscard]] double map_top_px(const Theme& theme);
+
 /// First line large, the others muted below it; the right-hand text (may be empty) stands at the right of the first.
 /// Nothing leaves the picture: a first line without room becomes smaller, then lines are shortened; SYNTHETIC is never
 /// shortened away.

@@ -120,7 +120,7 @@ TEST(ColourBar, NamesBothLimitsTheUnitAndTheThreshold) {
   scale.threshold_db = -51.5;
   FrameDescription frame;
   frame.size = {200, 600};
-  add_colour_bar(frame, {20, 20, 20, 500}, sv_colours(scale), light_theme({800, 600}));
+  add_colour_bar(frame, {20, 20, 20, 500}, colour_bar(sv_colours(scale)), light_theme({800, 600}));
   EXPECT_THAT(texts(frame), ::testing::IsSupersetOf({"\u221260", "\u221224", "Sv (dB re 1 m\u207B\u00B9)", "threshold",
                                                      "\u221251.5 dB", "\u221257", "\u221227"}));
 }
@@ -128,7 +128,7 @@ TEST(ColourBar, NamesBothLimitsTheUnitAndTheThreshold) {
 TEST(ColourBar, DepthReadsDownwards) {
   FrameDescription frame;
   const ColourMap& deep = colour_map(ColourMapName::deep);
-  add_colour_bar(frame, {0, 0, 10, 100}, deep, 0.0, 400.0, light_theme({800, 600}), "depth (m)", true);
+  add_colour_bar(frame, {0, 0, 10, 100}, colour_bar(deep, 0.0, 400.0, "depth (m)", true), light_theme({800, 600}));
   const auto* blocks = std::get_if<ImageItem>(&frame.items.at(1));
   ASSERT_NE(blocks, nullptr);
   EXPECT_GT(lightness(blocks->image->pixels.front()), lightness(blocks->image->pixels.back()));

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "view/shapes.h"
 
@@ -90,33 +92,96 @@ int most_ticks(const PixelRect& place, const Theme& theme) {
   return std::max(2, static_cast<int>(place.height / (1.7 * theme.text_px)));
 }
 
-}  // namespace
-
-void add_colour_bar(FrameDescription& frame, const PixelRect& place, const SvColours& colours, const Theme& theme,
-                    const std::string& label) {
-  const BarAxis axis{place, colours.low_db, colours.high_db};
-  add_blocks(frame, place, colours.bar, theme);
-  const int most = most_ticks(place, theme);
-  add_ticks(frame, axis,
-            colours.step_db > 0.0 ? step_ticks(colours.low_db, colours.high_db, colours.low_db, colours.step_db, most)
-                                  : nice_ticks(colours.low_db, colours.high_db, std::min(most, 9)),
-            theme);
-  add_label(frame, place, theme, label);
-  if (colours.threshold_db > kNoThreshold_db) add_threshold(frame, axis, colours.threshold_db, theme);
+Ticks ticks_of(const ColourBar& bar, int most) {
+  return bar.step > 0.0 ? step_ticks(bar.low, bar.high, bar.low, bar.step, most)
+                        : nice_ticks(bar.low, bar.high, std::min(most, 9));
 }
 
-void add_colour_bar(FrameDescription& frame, const PixelRect& place, const ColourMap& map, double low, double high,
-                    const Theme& theme, const std::string& label, bool rising_down) {
+void draw_upright(FrameDescription& frame, const PixelRect& place, const ColourBar& bar, const Theme& theme) {
+  std::vector<Rgba8> upwards = bar.colours;
+  if (bar.rising_down) std::reverse(upwards.begin(), upwards.end());
+  const BarAxis axis = bar.rising_down ? BarAxis{place, bar.high, bar.low} : BarAxis{place, bar.low, bar.high};
+  add_blocks(frame, place, upwards, theme);
+  add_ticks(frame, axis, ticks_of(bar, most_ticks(place, theme)), theme);
+  add_label(frame, place, theme, bar.label);
+  if (bar.threshold_db) add_threshold(frame, axis, *bar.threshold_db, theme);
+}
+
+// --- lying --------------------------------------------------------------------------------------------------------
+
+void add_tick_below(FrameDescription& frame, const PixelRect& place, double x, const std::string& words, bool bold,
+                    const Theme& theme) {
+  const double em = theme.text_px;
+  const double bottom = place.y + place.height;
+  frame.items.emplace_back(line_item({x, bottom}, {x, bottom + (bold ? 0.55 : 0.35) * em}, theme.axis, theme.line_px));
+  TextItem text = text_item({x, bottom + 1.15 * em}, words, em, theme.text, TextAnchor::centre);
+  text.bold = bold;
+  frame.items.emplace_back(std::move(text));
+}
+
+void add_level_threshold(FrameDescription& frame, const PixelRect& r, double x, const Theme& theme) {
+  const double em = theme.text_px;
+  frame.items.emplace_back(rectangle_item({r.x, r.y, x - r.x, r.height}, with_alpha(theme.water, 215)));
+  frame.items.emplace_back(line_item({x, r.y}, {x, r.y + r.height}, theme.accent, 1.5 * theme.line_px));
+  frame.items.emplace_back(
+      polyline_item({{x, r.y - 0.1 * em}, {x - 0.4 * em, r.y - 0.75 * em}, {x + 0.4 * em, r.y - 0.75 * em}}, true,
+                    {0, 0, 0, 0}, 0.0, theme.accent));
+}
+
+}  // namespace
+
+ColourBar colour_bar(const SvColours& colours, std::string label) {
+  ColourBar bar{colours.bar, colours.low_db, colours.high_db, colours.step_db, {}, false, std::move(label)};
+  if (colours.threshold_db > kNoThreshold_db) bar.threshold_db = colours.threshold_db;
+  return bar;
+}
+
+ColourBar colour_bar(const ColourMap& map, double low, double high, std::string label, bool rising_down) {
+  ColourBar bar{{}, low, high, 0.0, {}, rising_down, std::move(label)};
   const int blocks = map.stepped ? static_cast<int>(map.knots.size()) : 192;
-  std::vector<Rgba8> colours;
-  for (int i = 0; i < blocks; ++i) {
-    const double t = (i + 0.5) / blocks;
-    colours.push_back(map.at(rising_down ? 1.0 - t : t));
+  for (int i = 0; i < blocks; ++i) bar.colours.push_back(map.at((i + 0.5) / blocks));
+  return bar;
+}
+
+void add_colour_bar(FrameDescription& frame, const PixelRect& place, ColourBar bar, const Theme& theme) {
+  if (theme.bars) return draw_upright(frame, place, bar, theme);
+  frame.bars.push_back(std::move(bar));
+}
+
+void add_level_colour_bar(FrameDescription& frame, const PixelRect& place, const ColourBar& bar, const Theme& theme) {
+  const double em = theme.text_px;
+  auto image = std::make_shared<Image>(PixelSize{static_cast<int>(bar.colours.size()), 1});
+  std::copy(bar.colours.begin(), bar.colours.end(), image->pixels.begin());
+  frame.items.emplace_back(rectangle_item(place, theme.water));
+  frame.items.emplace_back(ImageItem{place, std::move(image), false});
+  frame.items.emplace_back(rectangle_item(place, {0, 0, 0, 0}, theme.axis, theme.line_px));
+  const auto x_of = [&](double value) { return place.x + place.width * (value - bar.low) / (bar.high - bar.low); };
+  const Ticks ticks = ticks_of(bar, std::max(2, static_cast<int>(place.width / (3.6 * em))));
+  int end_decimals = 0;
+  for (const double end : {bar.low, bar.high}) {
+    if (std::abs(end - std::round(end)) > 1e-6) end_decimals = std::max(1, ticks.decimals);
   }
-  const BarAxis axis = rising_down ? BarAxis{place, high, low} : BarAxis{place, low, high};
-  add_blocks(frame, place, colours, theme);
-  add_ticks(frame, axis, nice_ticks(low, high, std::min(most_ticks(place, theme), 9)), theme);
-  add_label(frame, place, theme, label);
+  const auto half = [&](const std::string& words) { return 0.55 * text_width_px(words.c_str(), em); };
+  const std::string low = tick_text(bar.low, end_decimals);
+  const std::string high = tick_text(bar.high, end_decimals);
+  for (const double value : ticks.major) {
+    const std::string words = tick_text(value, ticks.decimals);
+    const double x = x_of(value);
+    const bool room = x - half(words) > place.x + half(low) + 0.4 * em &&
+                      x + half(words) < place.x + place.width - half(high) - 0.4 * em;
+    if (room) add_tick_below(frame, place, x, words, false, theme);
+  }
+  add_tick_below(frame, place, place.x, low, true, theme);
+  add_tick_below(frame, place, place.x + place.width, high, true, theme);
+  std::string label = bar.label;
+  if (bar.threshold_db) {
+    if (*bar.threshold_db > bar.low && *bar.threshold_db < bar.high) {
+      add_level_threshold(frame, place, x_of(*bar.threshold_db), theme);
+    }
+    label += "; threshold " + tick_text(*bar.threshold_db, 1) + " dB";
+  }
+  frame.items.emplace_back(text_item({place.x + place.width / 2.0, place.y + place.height + 2.55 * em}, label, em,
+                                     theme.muted, TextAnchor::centre));
 }
 
 }  // namespace sonar

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -71,6 +72,18 @@ struct ClipItem {
   PixelRect place;
 };
 
+/// A colour bar: what it shows, and how it is read.
+struct ColourBar {
+  std::vector<Rgba8> colours;  ///< of even parts from `low` to `high`
+  double low = 0.0;
+  double high = 1.0;
+  double step = 0.0;                   ///< between colours that are told apart; 0 = smooth
+  std::optional<double> threshold_db;  ///< analysis threshold that is marked in it
+  bool rising_down = false;            ///< low at the top, as depth is read
+  std::string label;                   ///< quantity and unit: "depth (m)"
+  friend bool operator==(const ColourBar&, const ColourBar&) = default;
+};
+
 /// Where a picture is from, for whoever finds its file later.
 struct PictureOrigin {
   std::string program;      ///< "Sonar Explorer 0.2.0"
@@ -85,6 +98,9 @@ struct FrameDescription {
   std::string title;  ///< of the document; what is seen stands in a TextItem
   std::vector<std::variant<ImageItem, PathItem, TextItem, ClipItem>> items;
   PictureOrigin origin{};  ///< what a file says of where it is from; empty = nothing
+  /// Colour bars that its colours need and that do not stand in it: the page does that draws one for many pictures.
+  std::vector<ColourBar> bars{};
+  double dots_per_inch = 96.0;  ///< pixels of the size an inch of paper
 };
 
 }  // namespace sonar

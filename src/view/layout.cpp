@@ -12,7 +12,10 @@
 
 namespace sonar {
 
-Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
+Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& wanted) {
+  LayoutNeeds needs = wanted;
+  if (!theme.titles) needs.title_lines = 0;
+  needs.colour_bar = needs.colour_bar && theme.bars;
   const double em = theme.text_px;
   const double pad = 0.9 * em;
   const double title_height = needs.title_lines > 0 ? 1.5 * theme.title_px + 1.45 * em * (needs.title_lines - 1) : 0.0;
@@ -34,6 +37,10 @@ Layout lay_out(PixelSize size, const Theme& theme, const LayoutNeeds& needs) {
                       std::round(1.3 * em), std::max(8.0, height)};
   }
   return out;
+}
+
+double map_top_px(const Theme& theme) {
+  return theme.titles ? 1.6 * theme.text_px + 1.5 * theme.title_px + 1.1 * theme.text_px : theme.text_px;
 }
 
 namespace {
@@ -75,6 +82,7 @@ std::string right_text(const Layout& layout, const Theme& theme, const std::vect
 
 void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
                const std::string& whole_right) {
+  if (!theme.titles) return;
   const std::string right = right_text(layout, theme, lines, whole_right);
   // The plot's width is no limit, the picture's is.
   const double width = std::max(layout.title.width, frame.size.width - layout.title.x - 0.5 * theme.text_px);

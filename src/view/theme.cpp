@@ -74,6 +74,15 @@ Theme dark_theme(PixelSize size) {
   return t;
 }
 
+Theme panel_theme(const PanelLook& look, bool dark) {
+  Theme theme = dark ? dark_theme({640, 480}) : light_theme({640, 480});
+  theme.text_px = theme.title_px = look.text_px;
+  theme.line_px = look.line_px;
+  theme.titles = look.titles;
+  theme.bars = false;
+  return theme;
+}
+
 Theme with_text(Theme theme, double least_px) {
   constexpr double kTitle = 1.15;
   theme.text_px = std::max(theme.text_px, least_px);

@@ -29,6 +29,8 @@ struct Theme {
   double text_px = 12.0;
   double title_px = 14.0;
   double line_px = 1.0;
+  bool titles = true;  ///< false: pictures leave out the lines above their plot
+  bool bars = true;    ///< false: colour bars are left to the page, in FrameDescription::bars
   friend bool operator==(const Theme&, const Theme&) = default;
 };
 
@@ -37,6 +39,15 @@ struct Theme {
 /// Text as large as this at least.
 [[nodiscard]] Theme with_text(Theme theme, double least_px);
 [[nodiscard]] Theme dark_theme(PixelSize size);
+
+/// A picture as a panel of a page: text is as large in every panel, however large it is, and colour bars are the page's.
+struct PanelLook {
+  double text_px = 12.0;
+  double line_px = 1.0;
+  bool titles = false;
+  friend bool operator==(const PanelLook&, const PanelLook&) = default;
+};
+[[nodiscard]] Theme panel_theme(const PanelLook& look, bool dark);
 
 /// Colours of schools, one after another, told apart on both themes and by colour-blind eyes (from Okabe and Ito 2008).
 inline constexpr int kSchoolColours = 24;

@@ -28,8 +28,7 @@ struct ChartWish {
   bool all_measured = false;
   ChartQuestion question;
   ChartStyle style;
-  bool dark = false;
-  double scale = 1.0;
+  PictureLook look;
 };
 
 /// The products' tables alone, with the numbers in the survey that results would have.
@@ -74,7 +73,7 @@ SchoolName ChartSight::name_of(std::size_t row) const {
 }
 
 ChartModel::ChartModel(Workspace& workspace)
-    : LivePicture(workspace.queue), workspace_(workspace), asked_(workspace.picture_file.values().kind.chart) {
+    : LivePicture(workspace), workspace_(workspace), asked_(workspace.picture_file.values().kind.chart) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), [this] {
     drag_.reset();  // whatever selects something else, Esc among it, ends what is being drawn
@@ -125,7 +124,7 @@ std::set<SchoolName> ChartModel::selection() const {
   return names;
 }
 
-LivePicture::Build ChartModel::build() {
+LivePicture::Build ChartModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   ChartWish wish;
   bool any = false;
@@ -152,13 +151,12 @@ LivePicture::Build ChartModel::build() {
   wish.style.bins = asked_.bins;
   wish.style.shown = shown_;
   wish.style.brief = true;
-  wish.style.reach_px = kReach_px * scale();
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
+  wish.style.reach_px = kReach_px * look.scale;
+  wish.look = look;
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto data = chart_data(tables_of(wish), wish.question);
     if (!data) return pass_on(data);
-    auto made = chart(*data, wish.style, size, dock_theme(size, wish.scale, wish.dark));
+    auto made = chart(*data, wish.style, size, dock_theme(size, wish.look));
     if (!made) return pass_on(made);
     auto sight = std::make_shared<ChartSight>(
         ChartSight{std::move(*data), std::move(made->places), made->whole, wish.observations});

@@ -43,7 +43,7 @@ class ChartModel : public LivePicture {
   [[nodiscard]] bool zoomed() const { return shown_.has_value(); }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

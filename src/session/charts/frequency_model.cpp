@@ -39,8 +39,7 @@ struct FrequencyWish {
   FrequencyParams params;
   std::int64_t ping = -1;  ///< on show
   RightOfWay way;
-  bool dark = false;
-  double scale = 1.0;
+  PictureLook look;
 };
 
 const PingMask* mask_in(const StateSchool& school, std::int64_t ping_index) {
@@ -109,7 +108,7 @@ class Hearing {
 
   /// What was heard in the first looks.
   Result<std::shared_ptr<const FrequencySight>> drawn(std::size_t looks) const {
-    const Theme theme = dock_theme(size_, wish_.scale, wish_.dark);
+    const Theme theme = dock_theme(size_, wish_.look);
     auto sight = std::make_shared<FrequencySight>();
     sight->data.title = "Schools over frequency";
     sight->data.pings = words(looks);
@@ -163,8 +162,7 @@ Result<void> require_frequencies(const FrequencyWish& wish) {
 
 }  // namespace
 
-FrequencyModel::FrequencyModel(Workspace& workspace)
-    : LivePicture(workspace.queue), workspace_(workspace), asked_(params()) {
+FrequencyModel::FrequencyModel(Workspace& workspace) : LivePicture(workspace), workspace_(workspace), asked_(params()) {
   const auto anew = [this] { update(); };
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), anew);
@@ -194,17 +192,16 @@ void FrequencyModel::hear(DocumentChange change) {
   }
 }
 
-LivePicture::Build FrequencyModel::build() {
+LivePicture::Build FrequencyModel::build(const PictureLook& look) {
   std::vector<SurveySchool> schools = selected_schools(workspace_);
   FrequencyWish wish;
   wish.params = params();
   wish.ping = workspace_.document.ping();
   wish.way = workspace_.document.right_of_way();
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
+  wish.look = look;
   if (schools.size() > kMostSchools) wish.left_out = schools.size() - kMostSchools;
   schools.resize(std::min(schools.size(), kMostSchools));
-  const Theme theme = dock_theme(size(), wish.scale, wish.dark);
+  const Theme theme = dock_theme(look.size, look);
   for (const SurveySchool& school : schools) {
     WishedObservation& of = wish.observations[school.name.observation];
     of.observation = workspace_.document.open_observation(school.name.observation);
@@ -214,11 +211,11 @@ LivePicture::Build FrequencyModel::build() {
   }
   std::erase_if(wish.observations, [](const auto& one) { return !one.second.observation; });
   if (wish.observations.empty()) {
-    sight_.reset();
+    if (!look.panel) sight_.reset();
     return {};
   }
-  return [wish = std::move(wish), heard = heard_](PixelSize size, const CancelToken& token,
-                                                  const Show& show) -> Result<void> {
+  const auto heard = look.panel ? std::make_shared<HeardSchools>() : heard_;  // one picture at a time uses it
+  return [wish = std::move(wish), heard](PixelSize size, const CancelToken& token, const Show& show) -> Result<void> {
     if (auto known = require_frequencies(wish); !known) return known;
     Hearing hearing(wish, *heard, size);
     const auto draw = [&](std::size_t looks) -> Result<void> {

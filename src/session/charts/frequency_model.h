@@ -40,7 +40,7 @@ class FrequencyModel : public LivePicture {
   [[nodiscard]] const std::shared_ptr<const FrequencySight>& sight() const { return sight_; }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

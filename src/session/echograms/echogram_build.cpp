@@ -91,7 +91,7 @@ std::string echogram_text(const SurveyFiles& survey, const EchogramName& name, c
 }
 
 Result<BuiltEchogram> built_echogram(const EchogramWish& wish, PixelSize size) {
-  const Theme theme = dock_theme(size, wish.scale, wish.dark);
+  const Theme theme = dock_theme(size, wish.look);
   const bool of_beams = wish.of.name.channel < 0;
   const Drawn drawn = of_beams ? drawn_beams(wish) : drawn_channel(*wish.survey, wish.of);
   TimelinePanel panel = panel_of(drawn, wish.of, wish, echogram_text(*wish.survey, wish.of.name, wish.open));

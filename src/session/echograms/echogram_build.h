@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "session/document.h"
+#include "session/picture_look.h"
 #include "session/timelines/echograms.h"
 #include "session/timelines/timeline_model.h"
 #include "view/frame_description.h"
@@ -33,8 +34,7 @@ struct EchogramWish {
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   std::optional<TimelineHeights> heights;
   DisplayParams display;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window
+  PictureLook look;
 };
 
 /// Where one of the plots shows what.

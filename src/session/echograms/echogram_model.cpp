@@ -9,7 +9,7 @@
 namespace sonar {
 
 EchogramModel::EchogramModel(Workspace& workspace, std::shared_ptr<Echograms> echograms)
-    : LivePicture(workspace.queue), workspace_(workspace), echograms_(std::move(echograms)) {
+    : LivePicture(workspace), workspace_(workspace), echograms_(std::move(echograms)) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.slices.changed(), [this] {
     if (!held_) update();
@@ -21,7 +21,7 @@ EchogramModel::EchogramModel(Workspace& workspace, std::shared_ptr<Echograms> ec
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
   listening_.to(echograms_->changed(), [this] {
     // Nobody looks: what is being filled may rest.
-    if (!seen()) echograms_->want(this, {});
+    if (!seen() && !on_page()) echograms_->want(this, {});
     update();
   });
 }
@@ -102,7 +102,7 @@ std::optional<EchogramName> EchogramModel::below() const {
 
 bool EchogramModel::has_channels() const { return channel_at(nullptr).has_value(); }
 
-LivePicture::Build EchogramModel::build() {
+LivePicture::Build EchogramModel::build(const PictureLook& look) {
   const auto of = name();
   if (!of) return {};
   const Document& document = workspace_.document;
@@ -127,16 +127,20 @@ LivePicture::Build EchogramModel::build() {
   }
   echograms_->want(this, std::move(fill));
   wish.display = workspace_.display.values();
-  wish.dark = workspace_.dark();
   wish.shown = shown_;
   wish.heights = heights_;
-  wish.scale = scale();
+  wish.look = look;
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto built = built_echogram(wish, size);
     if (!built) return pass_on(built);
     show({std::move(built->frame), std::nullopt, std::move(built->places)});
     return {};
   };
+}
+
+std::string EchogramModel::incomplete() const {
+  const auto of = name();
+  return !of || echograms_->complete(*of) ? std::string() : "the echogram is still being read";
 }
 
 void EchogramModel::take(const std::shared_ptr<const void>& detail) {

@@ -35,6 +35,7 @@ class EchogramModel : public LivePicture {
   }
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
+  [[nodiscard]] std::string incomplete() const override;
   /// Of the picture on show; null before the first.
   [[nodiscard]] const std::shared_ptr<const EchogramPlaces>& places() const { return places_; }
   /// What the echogram is of now; empty where there is nothing to show.
@@ -60,7 +61,7 @@ class EchogramModel : public LivePicture {
   [[nodiscard]] bool zoomed() const { return shown_ || heights_; }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

@@ -76,7 +76,7 @@ std::optional<std::int64_t> ObservationMapPlaces::ping_at(PixelPoint at, double 
 }
 
 ObservationMapModel::ObservationMapModel(Workspace& workspace)
-    : LivePicture(workspace.queue), workspace_(workspace), painter_(std::make_shared<ObservationMapPainter>()) {
+    : LivePicture(workspace), workspace_(workspace), painter_(std::make_shared<ObservationMapPainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
   listening_.to(workspace.tool.changed(), [this] { changed().tell(); });
@@ -112,7 +112,7 @@ void ObservationMapModel::hear(DocumentChange change) {
   }
 }
 
-LivePicture::Build ObservationMapModel::build() {
+LivePicture::Build ObservationMapModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   if (!document.shown()) return {};
   ObservationMapWish wish;
@@ -133,11 +133,10 @@ LivePicture::Build ObservationMapModel::build() {
   wish.palette.core_at = display.core_at;
   wish.palette.fuzzy_above = display.fuzzy_above;
   if (wish.state) wish.palette.rejected = rejected_schools(*wish.state);
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
+  wish.look = look;
   wish.zoom = gesture_.zoom();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken&,
-                                                      const Show& show) -> Result<void> {
+  return [painter = look.panel ? std::make_shared<ObservationMapPainter>() : painter_, wish = std::move(wish)](
+             PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
     show({std::move(painted->frame), std::nullopt, std::move(painted->places)});

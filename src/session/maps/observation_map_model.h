@@ -57,7 +57,7 @@ class ObservationMapModel : public LivePicture {
   void show_all();
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

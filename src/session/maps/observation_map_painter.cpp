@@ -17,16 +17,14 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, PixelSize size) {
   const bool other = observation_ != wish.observation;
-  if (!other && base_ && base_->size == size && scale_ == wish.scale && dark_ == wish.dark && zoom_ == wish.zoom)
-    return {};
+  if (!other && base_ && base_->size == size && look_ == wish.look && zoom_ == wish.zoom) return {};
   if (other) head_ = observation_head(wish.observation->files());
   base_.reset();
   observation_ = wish.observation;
-  auto base = observation_map_base(head_, size, dock_theme(size, wish.scale, wish.dark), wish.zoom);
+  auto base = observation_map_base(head_, size, dock_theme(size, wish.look), wish.zoom);
   if (!base) return pass_on(base);
   base_ = std::move(*base);
-  dark_ = wish.dark;
-  scale_ = wish.scale;
+  look_ = wish.look;
   zoom_ = wish.zoom;
   map_ = std::make_shared<const MapFrame>(base_->map);
   std::vector<PixelPoint> track;
@@ -62,7 +60,7 @@ Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const Observ
   places->refused = add_map_refused(painted.frame, *base_, *wish.refused, wish.chosen_echo);
   places->observation = observation_->index();
   places->map = map_;
-  places->scale = wish.scale;
+  places->scale = wish.look.scale;
   places->whole_metres_per_px = map_->metres_per_px * wish.zoom.factor;
   places->track = track_;
   places->cell_px = mosaic.cell_px();

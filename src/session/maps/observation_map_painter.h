@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "session/maps/observation_map_model.h"
+#include "session/picture_look.h"
 #include "view/maps/observation_map.h"
 
 namespace sonar {
@@ -22,8 +23,7 @@ struct ObservationMapWish {
   RefusedPtr refused;  ///< that are marked; never null
   std::int64_t chosen_echo = 0;
   MaskPalette palette;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window
+  PictureLook look;
   MapZoom zoom;
 };
 
@@ -42,8 +42,7 @@ class ObservationMapPainter {
   Result<void> lay_out(const ObservationMapWish& wish, PixelSize size);
 
   OpenObservationPtr observation_;
-  bool dark_ = false;
-  double scale_ = 1.0;
+  PictureLook look_;
   MapZoom zoom_;
   ObservationProduct head_;
   std::optional<ObservationMapBase> base_;

@@ -21,9 +21,10 @@ constexpr double kRows_em = 13.4;  ///< title, labels, scale and the lowest pane
 constexpr double kLeastText_px = 8.0;
 
 /// A low strip has smaller words, rather than none.
-Theme strip_theme(PixelSize size, double scale, bool dark) {
-  const Theme theme = dock_theme(size, scale, dark);
-  const double fits = std::clamp(size.height / kRows_em, kLeastText_px * scale, theme.text_px);
+Theme strip_theme(PixelSize size, const PictureLook& look) {
+  const Theme theme = dock_theme(size, look);
+  if (look.panel) return theme;
+  const double fits = std::clamp(size.height / kRows_em, kLeastText_px * look.scale, theme.text_px);
   return scaled(theme, fits / theme.text_px);
 }
 
@@ -36,7 +37,7 @@ const StripPlaces::Pane* StripPlaces::pane_at(PixelPoint at) const {
   return found == panes.end() ? nullptr : &*found;
 }
 
-StripModel::StripModel(Workspace& workspace) : LivePicture(workspace.queue), workspace_(workspace) {
+StripModel::StripModel(Workspace& workspace) : LivePicture(workspace), workspace_(workspace) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), [this] { update(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
@@ -68,13 +69,21 @@ void StripModel::hear(DocumentChange change) {
   }
 }
 
-int StripModel::panes() const {
-  const double em = strip_theme(size(), scale(), false).text_px;
-  const double wide = size().width - 2.0 * em;
-  const double high = std::max(kNarrowest_em * em, size().height - kAround_em * em);
+int StripModel::panes() const { return panes_in({size(), scale(), false, {}}); }
+
+int StripModel::panes_in(const PictureLook& look) const {
+  const double em = strip_theme(look.size, look).text_px;
+  const double wide = look.size.width - 2.0 * em;
+  const double high = std::max(kNarrowest_em * em, look.size.height - kAround_em * em);
   const int most = std::max(1, static_cast<int>(wide / (kNarrowest_em * em)));
   const int suggested = std::clamp(static_cast<int>(wide / std::min(high, 2.0 * kNarrowest_em * em)), 1, most);
   return std::clamp(std::max(suggested, std::min(kLeastPanes, most)) + more_panes_, 1, most);
+}
+
+std::int64_t StripModel::first_of(int panes) const {
+  const auto& shown = workspace_.document.shown();
+  const std::int64_t last = shown ? std::max<std::int64_t>(0, shown->pings() - panes) : 0;
+  return std::clamp<std::int64_t>(centre_ - panes / 2, 0, last);
 }
 
 std::int64_t StripModel::last_first() const {
@@ -82,7 +91,7 @@ std::int64_t StripModel::last_first() const {
   return shown ? std::max<std::int64_t>(0, shown->pings() - panes()) : 0;
 }
 
-std::int64_t StripModel::first() const { return std::clamp<std::int64_t>(centre_ - panes() / 2, 0, last_first()); }
+std::int64_t StripModel::first() const { return first_of(panes()); }
 
 /// A ping that was clicked in the strip stays where it is; every other comes to the middle.
 void StripModel::follow() {
@@ -99,7 +108,7 @@ void StripModel::scroll_to(std::int64_t first) {
   update();
 }
 
-LivePicture::Build StripModel::build() {
+LivePicture::Build StripModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   if (!document.shown()) return {};
   StripWish wish;
@@ -109,8 +118,8 @@ LivePicture::Build StripModel::build() {
     wish.state = found->second;
   }
   wish.running = running_;
-  wish.first = first();
-  wish.panes = panes();
+  wish.panes = panes_in(look);
+  wish.first = first_of(wish.panes);
   wish.ping = document.ping();
   if (workspace_.school() && workspace_.school()->observation == index) wish.selected = workspace_.school()->number;
   const DisplayParams& display = workspace_.display.values();
@@ -127,12 +136,11 @@ LivePicture::Build StripModel::build() {
   } else if (wish.selected > 0) {
     wish.style.focus = static_cast<int>(wish.selected);
   }
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
+  wish.look = look;
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
     const auto panels = strip_panels(wish, masks);
-    const Theme theme = strip_theme(size, wish.scale, wish.dark);
+    const Theme theme = strip_theme(size, wish.look);
     const Sector& sector = wish.observation->sector();
     auto frame = propagation_view(sector, panels, wish.style, size, theme, strip_title(wish));
     if (!frame) return pass_on(frame);

@@ -46,7 +46,7 @@ class StripModel : public LivePicture {
   [[nodiscard]] const std::shared_ptr<const StripPlaces>& places() const { return places_; }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:
@@ -59,6 +59,9 @@ class StripModel : public LivePicture {
   void follow();
   void scroll_to(std::int64_t first);
   [[nodiscard]] std::int64_t last_first() const;
+  [[nodiscard]] int panes_in(const PictureLook& look) const;
+  /// Of so many panes.
+  [[nodiscard]] std::int64_t first_of(int panes) const;
 
   Workspace& workspace_;
   MaskAspect aspect_ = MaskAspect::above;

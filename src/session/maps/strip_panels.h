@@ -6,6 +6,7 @@
 
 #include "session/maps/masked_pings.h"
 #include "session/maps/strip_model.h"
+#include "session/picture_look.h"
 
 namespace sonar {
 
@@ -21,8 +22,7 @@ struct StripWish {
   std::int64_t selected = 0;  ///< school number; 0 = none
   bool rejected = true;
   PropagationStyle style;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window
+  PictureLook look;
 };
 
 /// masks  own what the panels point to

@@ -61,7 +61,7 @@ std::optional<SurveyMapPlaces::Ping> SurveyMapPlaces::ping_at(PixelPoint at) con
 }
 
 SurveyMapModel::SurveyMapModel(Workspace& workspace)
-    : LivePicture(workspace.queue), workspace_(workspace), painter_(std::make_shared<SurveyMapPainter>()) {
+    : LivePicture(workspace), workspace_(workspace), painter_(std::make_shared<SurveyMapPainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
   listening_.to(workspace.tool.changed(), [this] { changed().tell(); });
@@ -85,7 +85,7 @@ void SurveyMapModel::hear(DocumentChange change) {
   }
 }
 
-LivePicture::Build SurveyMapModel::build() {
+LivePicture::Build SurveyMapModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   // Where no observation can be looked at, or not yet, their tracks are what there is to see.
   if (!document.shown() && !document.glance() && document.nothing_shown().empty()) return {};
@@ -98,9 +98,9 @@ LivePicture::Build SurveyMapModel::build() {
   wish.depth_raster = workspace_.depth_raster();
   wish.style.zoom = gesture_.zoom();
   wish.style.rejected = workspace_.display.values().rejected;
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken& token, const Show& show) {
+  wish.look = look;
+  return [painter = look.panel ? std::make_shared<SurveyMapPainter>() : painter_, wish = std::move(wish)](
+             PixelSize size, const CancelToken& token, const Show& show) {
     return painter->paint(wish, size, token, [&show](SurveyMapPainter::Painted painted) {
       show({std::move(painted.frame), std::nullopt, std::move(painted.places)});
     });

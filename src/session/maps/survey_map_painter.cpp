@@ -111,7 +111,7 @@ const DepthGrid* SurveyMapPainter::depths(const SurveyMapWish& wish, const MapFr
 }
 
 Result<SurveyMapPainter::Painted> SurveyMapPainter::painted(const SurveyMapWish& wish, PixelSize size) {
-  const Theme theme = dock_theme(size, wish.scale, wish.dark);
+  const Theme theme = dock_theme(size, wish.look);
   SurveyMapStyle style = wish.style;
   style.legend = size.width > kLegendFrom_em * theme.text_px;
   if (!style.legend) style.margin = kSmallMargin;
@@ -122,7 +122,7 @@ Result<SurveyMapPainter::Painted> SurveyMapPainter::painted(const SurveyMapWish&
   auto frame = survey_map(light_, outlines_, grid, style, size, theme, note);
   if (!frame) return pass_on(frame);
   auto places = std::make_shared<SurveyMapPlaces>();
-  places->scale = wish.scale;
+  places->scale = wish.look.scale;
   places->whole_metres_per_px = map->metres_per_px * style.zoom.factor;
   const SchoolLook look(light_, style, theme);
   for (std::size_t i = 0; i < light_.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "model/map_outlines.h"
 #include "session/document.h"
 #include "session/maps/survey_map_model.h"
+#include "session/picture_look.h"
 #include "view/maps/survey_map.h"
 
 namespace sonar {
@@ -24,8 +25,7 @@ struct SurveyMapWish {
   bool all_measured = false;
   std::filesystem::path depth_raster;
   SurveyMapStyle style;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window
+  PictureLook look;
 };
 
 /// Draws survey maps one after another, and keeps what stays the same between them.

@@ -27,8 +27,7 @@ struct StepsWish {
   bool north_up = false;
   SliceStepsStyle style;
   std::vector<MaskLayer> masks;
-  bool dark = false;
-  double scale = 1.0;
+  PictureLook look;
 };
 
 std::string value_text(std::int16_t count) {
@@ -38,7 +37,7 @@ std::string value_text(std::int16_t count) {
 }  // namespace
 
 NoiseStepsModel::NoiseStepsModel(Workspace& workspace)
-    : LivePicture(workspace.queue), workspace_(workspace), asked_(params()) {
+    : LivePicture(workspace), workspace_(workspace), asked_(params()) {
   const auto anew = [this] { update(); };
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.slices.changed(), anew);
@@ -80,7 +79,7 @@ SliceKind NoiseStepsModel::kind() const {
   return static_cast<SliceKind>(static_cast<int>(slice) - 1);
 }
 
-LivePicture::Build NoiseStepsModel::build() {
+LivePicture::Build NoiseStepsModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   if (!document.shown() || !document.staged()) return {};
   StepsWish wish;
@@ -96,13 +95,12 @@ LivePicture::Build NoiseStepsModel::build() {
                in_use.kind == kind() ? in_use.extent : std::nullopt};
   wish.style = noise_steps_style(params(), display, slice_colours(workspace_));
   wish.style.north_up = wish.north_up;
-  wish.dark = workspace_.dark();
-  wish.scale = scale();
-  for (const SchoolLayer& school :
-       school_layers(workspace_, wish.ping->ping_index, dock_theme(size(), wish.scale, wish.dark))) {
+  wish.look = look;
+  for (const SchoolLayer& school : school_layers(workspace_, wish.ping->ping_index, dock_theme(look.size, look))) {
     wish.masks.push_back(school.layer);
   }
-  return [wish = std::move(wish), room = room_](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
+  const auto room = look.panel ? std::make_shared<Room>() : room_;  // one picture at a time uses it
+  return [wish = std::move(wish), room](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     if (!room->steps || &room->steps->ping() != wish.ping.get()) {
       room->steps = std::make_shared<const NoiseSteps>(wish.ping);
     }
@@ -113,7 +111,7 @@ LivePicture::Build NoiseStepsModel::build() {
         noise_steps_data(*room->steps, observation.engine().recipe(), observation.sector(), wish.view.slice);
     data.masks = wish.masks;
     auto picture = slice_steps(observation.sector(), data, slice_ping(observation, wish.ping->ping_index), wish.view,
-                               wish.style, dock_theme(size, wish.scale, wish.dark), size);
+                               wish.style, dock_theme(size, wish.look), size);
     if (!picture) return pass_on(picture);
     sight->picture = std::move(*picture);
     show({sight->picture.frame, std::nullopt, sight});

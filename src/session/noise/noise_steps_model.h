@@ -42,7 +42,7 @@ class NoiseStepsModel : public LivePicture {
   void show_all();
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

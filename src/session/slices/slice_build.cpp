@@ -106,7 +106,7 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   data.refused = wish.refused;
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;
-  const Theme theme = screen_theme(size, wish.scale, wish.dark);
+  const Theme theme = screen_theme(size, wish.look);
   auto picture = slice_picture(wish.observation->sector(), data, slice_ping(*wish.observation, wish.ping->ping_index),
                                wish.view, style, theme, size, wish.earlier);
   if (picture) name_selected(*picture, wish, theme);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "session/picture_look.h"
 #include "session/slices/school_layers.h"
 #include "session/workspace.h"
 #include "view/slices/slice_picture.h"
@@ -28,8 +29,7 @@ struct SliceWish {
   std::vector<SchoolLayer> layers;
   std::vector<RefusedMark> refused;
   bool north_up = false;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window: for text and lines
+  PictureLook look;
   std::shared_ptr<const SliceMap> earlier;
   std::shared_ptr<FlagRoom> room;  ///< of this slice; one picture at a time uses it
 };

@@ -25,7 +25,7 @@ std::function<void()> listen(S& to, std::function<void()> what) {
 }  // namespace
 
 SliceModel::SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush)
-    : LivePicture(workspace.queue), kind_(kind), workspace_(workspace), seed_(seed), brush_(brush) {
+    : LivePicture(workspace), kind_(kind), workspace_(workspace), seed_(seed), brush_(brush) {
   const int document = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
   listening_.push_back([this, document] { workspace_.document.changes().remove(document); });
   const auto anew = [this] { update(); };
@@ -86,14 +86,13 @@ void SliceModel::forget_colours() {
   update();
 }
 
-LivePicture::Build SliceModel::build() {
+LivePicture::Build SliceModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   if (!document.shown() || !document.staged()) return {};
   SliceWish wish;
   wish.observation = document.shown();
   wish.ping = document.staged();
   wish.display = workspace_.display.values();
-  wish.dark = workspace_.dark();
   const auto ping = static_cast<std::size_t>(wish.ping->ping_index);
   const double heading_deg = wish.observation->files().navigation[ping].heading_deg;
   const Slice slice = live_slice(workspace_, kind_, wish.ping->ping_index);
@@ -103,12 +102,12 @@ LivePicture::Build SliceModel::build() {
   wish.view = {slice, wish.north_up ? -rad_from_deg(heading_deg) : 0.0, extent_};
   if (!colours_) colours_ = std::make_shared<const SvColours>(slice_colours(workspace_));
   wish.colours = colours_;
-  wish.scale = scale();
-  const Theme theme = screen_theme(size(), wish.scale, wish.dark);
+  wish.look = look;
+  const Theme theme = screen_theme(look.size, look);
   wish.layers = school_layers(workspace_, wish.ping->ping_index, theme);
   wish.refused = refused_layer_in(workspace_, wish.ping->ping_index);
-  if (picture_) wish.earlier = picture_->map;
-  wish.room = room_;
+  if (picture_ && !look.panel) wish.earlier = picture_->map;
+  wish.room = look.panel ? std::make_shared<FlagRoom>() : room_;  // one picture at a time uses it
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto picture = slice_of(wish, size);
     if (!picture) return pass_on(picture);

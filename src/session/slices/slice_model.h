@@ -42,7 +42,7 @@ class SliceModel : public LivePicture {
   [[nodiscard]] const std::shared_ptr<const SlicePicture>& picture() const { return picture_; }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

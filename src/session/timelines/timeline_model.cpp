@@ -32,7 +32,7 @@ TimeNs TimelinePlaces::time_at(double x_px) const {
 }
 
 TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> echograms, TimelineOf of)
-    : LivePicture(workspace.queue),
+    : LivePicture(workspace),
       workspace_(workspace),
       echograms_(std::move(echograms)),
       of_(of),
@@ -46,7 +46,7 @@ TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> ec
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(echograms_->changed(), [this] {
     // Nobody looks: what is being filled may rest.
-    if (!seen()) echograms_->want(this, {});
+    if (!seen() && !on_page()) echograms_->want(this, {});
     update();
   });
 }
@@ -106,7 +106,7 @@ std::vector<std::size_t> TimelineModel::observations() const {
   return all;
 }
 
-LivePicture::Build TimelineModel::build() {
+LivePicture::Build TimelineModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   const auto& shown = document.shown();
   if (!shown) return {};
@@ -129,16 +129,22 @@ LivePicture::Build TimelineModel::build() {
   }
   echograms_->want_all_beams(this, fill);
   wish.sv = workspace_.display.values().scale;
-  wish.dark = workspace_.dark();
   wish.shown = shown_;
-  wish.scale = scale();
-  return [painter = painter_, wish = std::move(wish)](PixelSize size, const CancelToken&,
-                                                      const Show& show) -> Result<void> {
+  wish.look = look;
+  return [painter = look.panel ? std::make_shared<TimelinePainter>() : painter_, wish = std::move(wish)](
+             PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     auto painted = painter->paint(wish, size);
     if (!painted) return pass_on(painted);
     show({std::move(painted->frame), std::nullopt, std::move(painted->places)});
     return {};
   };
+}
+
+std::string TimelineModel::incomplete() const {
+  const auto all = observations();
+  const bool complete =
+      std::all_of(all.begin(), all.end(), [this](std::size_t index) { return echograms_->complete(index); });
+  return complete ? std::string() : "the timeline is still being read";
 }
 
 void TimelineModel::take(const std::shared_ptr<const void>& detail) {

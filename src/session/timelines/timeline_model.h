@@ -54,6 +54,7 @@ class TimelineModel : public LivePicture {
   }
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;
+  [[nodiscard]] std::string incomplete() const override;
   /// Of the picture on show; null before the first.
   [[nodiscard]] const std::shared_ptr<const TimelinePlaces>& places() const { return places_; }
   /// The ping whose time lies nearest to a place of the picture.
@@ -67,7 +68,7 @@ class TimelineModel : public LivePicture {
   [[nodiscard]] bool zoomed() const { return shown_.has_value(); }
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
 
  private:

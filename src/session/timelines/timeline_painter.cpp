@@ -68,7 +68,7 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
     }
     observations.push_back(drawn(one, *product));
   }
-  const Theme theme = dock_theme(size, wish.scale, wish.dark);
+  const Theme theme = dock_theme(size, wish.look);
   TimelineStyle style;
   style.value = EchogramValue::maximum;
   style.scale = wish.sv;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "session/document.h"
+#include "session/picture_look.h"
 #include "session/timelines/timeline_model.h"
 
 namespace sonar {
@@ -28,8 +29,7 @@ struct TimelineWish {
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   SvScale sv;                             ///< of a beam's own Sv, as in slices
   bool rejected = true;
-  bool dark = false;
-  double scale = 1.0;  ///< pixels a unit of the window
+  PictureLook look;
 };
 
 /// Draws timelines one after another.

@@ -58,7 +58,7 @@ TrailSubject trail_subject(const Workspace& workspace, const OpenObservationPtr&
 }  // namespace
 
 std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const std::optional<Camera>& camera,
-                                            PixelSize size, double scale) {
+                                            const PictureLook& look) {
   const Document& document = workspace.document;
   if (!document.shown() || !document.staged()) return std::nullopt;
   const OpenObservationPtr& shown = document.shown();
@@ -70,9 +70,10 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.title_line = fmt::format("{}   ping {}", input.title, input.staged->ping_index);
   input.options.display = workspace.display.values();
   input.options.volume = workspace.volume.values();
-  input.options.size = size;
-  input.options.least_text_px = least_text_px(size);
-  input.options.dark = workspace.dark();
+  input.options.size = look.size;
+  input.options.least_text_px = least_text_px(look.size);
+  input.options.panel = look.panel;
+  input.options.dark = look.dark;
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
   input.refused = refused_layer_in(workspace, input.staged->ping_index);
@@ -81,7 +82,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.fan = std::clamp(workspace.slices().fan, 0, shown->sector().fans() - 1);
   input.beam = std::clamp(workspace.slices().beam, 0, shown->sector().beams() - 1);
   input.scale_bar = workspace.curve_follows_scale();
-  input.scale = scale;
+  input.scale = look.scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
   if (trail_params(input.options.volume).any()) {
     input.trails = trail_subject(workspace, shown, theme_of(input.options));

@@ -21,6 +21,11 @@ constexpr double kNearest_m = 0.5;
 constexpr double kMarkReach_px = 7.0;
 constexpr double kFarthest = 20.0;  ///< in ranges of the sonar
 
+/// What of a panel is whole units.
+PixelSize whole_units(const PictureLook& look) {
+  return {static_cast<int>(look.size.width / look.scale), static_cast<int>(look.size.height / look.scale)};
+}
+
 /// A drag over the volume's height is half a turn.
 Camera turned(const Camera& camera, double right_px, double down_px, double height_px) {
   const double rad_per_px = std::numbers::pi / height_px;
@@ -38,7 +43,7 @@ Point<Sonar> at_target_depth(const Camera& camera, const CameraBasis& b, const R
 }  // namespace
 
 VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
-    : LivePicture(workspace.queue), workspace_(workspace), live_(std::make_shared<LiveVolume>(std::move(make))) {
+    : LivePicture(workspace), workspace_(workspace), make_(make), live_(std::make_shared<LiveVolume>(std::move(make))) {
   const auto listen = [this](auto& listeners, auto what) {
     stop_listening_.push_back([&listeners, id = listeners.add(std::move(what))] { listeners.remove(id); });
   };
@@ -67,6 +72,7 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
 VolumeModel::~VolumeModel() {
   for (const auto& stop : stop_listening_) stop();
   if (better_) better_->cancel();
+  VolumeModel::left_page();
   // Where a back-end was made it must end, and that is not the window's thread.
   end_behind([this] { live_->let_go(); });
 }
@@ -116,10 +122,13 @@ void VolumeModel::stand_still() {
   if (drag_) drag_->camera = moved(drag_->camera).value_or(drag_->camera);
 }
 
-LivePicture::Build VolumeModel::build() {
-  if (better_) better_->cancel();  // what is under way shows something that is past
+LivePicture::Build VolumeModel::build(const PictureLook& look) {
+  PictureLook in_units = look;
+  in_units.size = look.panel ? whole_units(look) : units();
   stand_still();
-  auto input = volume_input(workspace_, workspace_.camera(), units(), scale());
+  if (look.panel) return panel_build(in_units);
+  if (better_) better_->cancel();  // what is under way shows something that is past
+  auto input = volume_input(workspace_, workspace_.camera(), in_units);
   if (!input) return {};
   better_ = std::make_shared<Work>(workspace_.document.options().threads);
   const auto way = std::make_shared<std::shared_ptr<const void>>(workspace_.document.right_of_way().take());
@@ -130,6 +139,28 @@ LivePicture::Build VolumeModel::build() {
       show({std::move(picture.frame), std::nullopt, std::move(picture.shown), scale});
     });
   };
+}
+
+/// With a back-end of its own, which ends on the thread where it began.
+LivePicture::Build VolumeModel::panel_build(const PictureLook& in_units) {
+  PictureLook look = in_units;
+  look.panel->text_px /= look.scale;
+  look.panel->line_px /= look.scale;
+  left_page();  // what is under way shows something that is past
+  auto input = volume_input(workspace_, workspace_.camera(), look);
+  if (!input) return {};
+  panel_work_ = std::make_shared<Work>(workspace_.document.options().threads);
+  return [make = make_, work = panel_work_, input = std::move(*input)](PixelSize /*size*/, const CancelToken& token,
+                                                                       const Show& show) {
+    LiveVolume live(make);
+    return live.draw(input, token, *work, [&](LiveVolume::Picture picture) {
+      show({std::move(picture.frame), std::nullopt, std::move(picture.shown), input.scale});
+    });
+  };
+}
+
+void VolumeModel::left_page() {
+  if (panel_work_) panel_work_->cancel();
 }
 
 void VolumeModel::take(const std::shared_ptr<const void>& detail) {

@@ -42,6 +42,7 @@ class VolumeModel : public LivePicture {
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] PointerShape pointer_shape() const override;
+  [[nodiscard]] bool refines() const override { return true; }
   [[nodiscard]] std::string hint(PixelPoint at) const override;
 
   /// What a pointer does upon voxels; each may be empty.
@@ -57,8 +58,9 @@ class VolumeModel : public LivePicture {
   static constexpr double kDragBegins_px = 4.0;
 
  protected:
-  [[nodiscard]] Build build() override;
+  [[nodiscard]] Build build(const PictureLook& look) override;
   void take(const std::shared_ptr<const void>& detail) override;
+  void left_page() override;
   void hidden() override;
 
  private:
@@ -70,6 +72,7 @@ class VolumeModel : public LivePicture {
   };
   void hear(DocumentChange change);
   void stand_still();
+  [[nodiscard]] Build panel_build(const PictureLook& in_units);
   /// Places in the frame, which is in the window's units: the back-end has a scale of its own.
   [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
   void press(const PointerEvent& event);
@@ -88,10 +91,12 @@ class VolumeModel : public LivePicture {
   std::weak_ptr<const int> of_;              ///< identity of the observation on show
   std::optional<std::int64_t> camera_ping_;  ///< in whose frame the camera is
   std::optional<Drag> drag_;
+  LiveVolume::MakeRenderer make_;  ///< of panels' back-ends; empty = those of this machine
   std::shared_ptr<LiveVolume> live_;
   std::shared_ptr<const LiveVolumeShown> shown_;
-  std::shared_ptr<Work> better_;  ///< draws what may be given up
-  std::string told_;              ///< the last notice
+  std::shared_ptr<Work> better_;      ///< draws what may be given up
+  std::shared_ptr<Work> panel_work_;  ///< draws the panel of a page
+  std::string told_;                  ///< the last notice
   std::vector<std::function<void()>> stop_listening_;
   std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
 };

@@ -66,6 +66,7 @@ Result<FrameDescription> stacked_timelines(const TimelinePanel& above, const Tim
   frame->size = size;
   frame->items.insert(frame->items.end(), std::make_move_iterator(lower->items.begin()),
                       std::make_move_iterator(lower->items.end()));
+  frame->bars.insert(frame->bars.end(), lower->bars.begin(), lower->bars.end());
   return frame;
 }
 

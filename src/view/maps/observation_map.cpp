@@ -47,7 +47,7 @@ std::vector<PlanePoint> on_map(const MapProjection& projection, const Geographic
 PixelRect map_place(PixelSize size, const Theme& theme, double key_px) {
   const double em = theme.text_px;
   const double left = 7.6 * em;
-  const double top = 1.6 * em + 1.5 * theme.title_px + 1.1 * em;
+  const double top = map_top_px(theme);
   return {left, top, size.width - left - 1.4 * em, size.height - top - 2.6 * em - key_px};
 }
 

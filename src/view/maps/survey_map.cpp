@@ -40,7 +40,7 @@ struct Places {
 Places places(PixelSize size, const Theme& theme, double left_em, bool legend) {
   const double em = theme.text_px;
   const double legend_em = legend ? kLegend_em : 0.0;
-  const double top = 1.6 * em + 1.5 * theme.title_px + 1.1 * em;
+  const double top = map_top_px(theme);
   Places p;
   p.map = {left_em * em, top, size.width - (left_em + legend_em + 2.2) * em, size.height - top - 2.6 * em};
   p.title = {p.map.x, 0.9 * em, size.width - p.map.x - em, top - em};
@@ -261,6 +261,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   if (style.legend)
     add_survey_legend(d, p.legend, bands, style, depths, schools,
                       {left_out_text(left_out), left_out_text(names.left_out, "names"), note});
+  if (!theme.bars) frame.bars = survey_bars(d, bands, style, schools);
   Layout layout;
   layout.title = p.title;
   add_title(frame, layout, theme, {frame.title, second_line(observations, look, style)});

@@ -92,6 +92,18 @@ void add_symbols(const SurveyMapDrawing& d, Legend& legend, const SurveyMapStyle
 
 }  // namespace
 
+std::vector<ColourBar> survey_bars(const SurveyMapDrawing& d, const DepthBands& bands, const SurveyMapStyle& style,
+                                   bool schools) {
+  std::vector<ColourBar> bars;
+  if (schools && style.colouring == SchoolColouring::mean_sv) {
+    bars.push_back(colour_bar(d.look.map(), style.sv_low_db, style.sv_high_db, "mean Sv (dB)"));
+  }
+  if (bands.levels_m.size() > 1) {
+    bars.push_back(colour_bar(bands.map, bands.levels_m.front(), bands.levels_m.back(), "depth (m)", true));
+  }
+  return bars;
+}
+
 void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const DepthBands& bands,
                        const SurveyMapStyle& style, const DepthGrid* depths, bool schools,
                        const std::vector<std::string>& notes) {
@@ -99,19 +111,12 @@ void add_survey_legend(const SurveyMapDrawing& d, const PixelRect& place, const 
   const double height = std::clamp(0.3 * place.height, 6.0 * em, 15.0 * em);
   double x = place.x + 0.4 * em;
   const double y = place.y + 1.8 * em;
-  bool bars = false;
-  if (schools && style.colouring == SchoolColouring::mean_sv) {
-    add_colour_bar(d.frame, {x, y, 1.3 * em, height}, d.look.map(), style.sv_low_db, style.sv_high_db, d.theme,
-                   "mean Sv (dB)");
+  const std::vector<ColourBar> bars = survey_bars(d, bands, style, schools);
+  for (const ColourBar& bar : bars) {
+    if (d.theme.bars) add_colour_bar(d.frame, {x, y, 1.3 * em, height}, bar, d.theme);
     x += 8.4 * em;
-    bars = true;
   }
-  if (bands.levels_m.size() > 1) {
-    add_colour_bar(d.frame, {x, y, 1.3 * em, height}, bands.map, bands.levels_m.front(), bands.levels_m.back(), d.theme,
-                   "depth (m)", true);
-    bars = true;
-  }
-  Legend legend(d, place, bars ? y + height + 2.2 * em : place.y + em);
+  Legend legend(d, place, d.theme.bars && !bars.empty() ? y + height + 2.2 * em : place.y + em);
   add_symbols(d, legend, style);
   if (bands.land) {
     d.frame.items.emplace_back(

@@ -23,6 +23,10 @@ struct SurveyMapDrawing {
 
 inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
 
+/// What its colours mean; drawn with the legend, or left to the page.
+[[nodiscard]] std::vector<ColourBar> survey_bars(const SurveyMapDrawing& d, const DepthBands& bands,
+                                                 const SurveyMapStyle& style, bool schools);
+
 /// Colour bars, symbols, circles and notes beside the map, as far as there is room for them.
 /// schools  there are some
 /// notes    more lines; empty ones are passed over

@@ -64,7 +64,7 @@ void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, c
   if (ping.ping_index >= 0) first += fmt::format("{}ping {}", first.empty() ? "" : "   ", ping.ping_index);
   add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping, style)},
             ping.time != 0 ? time_text(ping.time) : "");
-  add_colour_bar(out.frame, layout.colour_bar, style.colours, theme);
+  add_colour_bar(out.frame, layout.colour_bar, colour_bar(style.colours), theme);
 }
 
 /// A ping that was recorded, and not one sample of what is shown.

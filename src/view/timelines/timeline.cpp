@@ -242,7 +242,8 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
                          const Theme& theme) {
   if (auto ok = validate(style); !ok) return pass_on(ok);
   const double em = theme.text_px;
-  if (size.width < 30.0 * em || size.height < (style.brief ? 10.0 : 14.0) * em) {
+  const double least_em = theme.bars ? 30.0 : 21.0;  // without room for a colour bar
+  if (size.width < least_em * em || size.height < (style.brief ? 10.0 : 14.0) * em) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a timeline", size.width, size.height));
   }
@@ -263,7 +264,7 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
   out.title = heads.size() == 1 ? observation_title(heads.front()) : survey_title(heads);
   out.any_echogram = std::any_of(out.strips.begin(), out.strips.end(),
                                  [](const Strip& s) { return s.observation->echogram != nullptr; });
-  out.colour_bar = out.any_echogram && (!style.brief || size.width >= kBarFrom_em * em);
+  out.colour_bar = out.any_echogram && (!style.brief || !theme.bars || size.width >= kBarFrom_em * em);
   const int title_lines = style.of.empty() ? 3 : 4;
   LayoutNeeds needs{
       .title_lines = style.brief ? 0 : title_lines, .colour_bar = out.colour_bar, .y_label_characters = 4};
@@ -357,8 +358,8 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   add_y_axis(frame, plot, theme);
   add_x_axis(frame, plot, style.axis, laid->zero, theme);
   if (laid->colour_bar)
-    add_colour_bar(frame, laid->layout.colour_bar, colours, theme,
-                   value_label(style.value, style.brief, !style.of.empty()));
+    add_colour_bar(frame, laid->layout.colour_bar,
+                   colour_bar(colours, value_label(style.value, style.brief && theme.bars, !style.of.empty())), theme);
   if (style.brief) return frame;
   add_key(frame, laid->layout.foot, laid->key, theme);
   std::string line = time_span_text(laid->zero, laid->last);

@@ -129,7 +129,7 @@ Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Win
   Panels p;
   p.gap_px = 0.7 * em;
   p.label_px = (style.dates ? 4.2 : 3.0) * em;
-  const double top = 1.6 * em + 1.5 * theme.title_px;
+  const double top = theme.titles ? 1.6 * em + 1.5 * theme.title_px : 0.6 * em;
   p.area = {em, top, size.width - 2.0 * em, size.height - top - 3.2 * em};
   const double shape = (window.right - window.left) / (window.high - window.low);
   double best = 0.0;
