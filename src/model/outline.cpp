@@ -126,4 +126,9 @@ PlanePoint PlaneShift::apply(const PlanePoint& p) const {
   return {shift_.x + p.x * cosine_ + p.y * sine_, shift_.y - p.x * sine_ + p.y * cosine_};
 }
 
+PlanePoint PlaneShift::back(const PlanePoint& p) const {
+  const PlanePoint d{p.x - shift_.x, p.y - shift_.y};
+  return {d.x * cosine_ - d.y * sine_, d.x * sine_ + d.y * cosine_};
+}
+
 }  // namespace sonar

@@ -30,6 +30,8 @@ class PlaneShift {
  public:
   PlaneShift(const Geographic& ping, const Geographic& origin);
   [[nodiscard]] PlanePoint apply(const PlanePoint& p) const;
+  /// The other way.
+  [[nodiscard]] PlanePoint back(const PlanePoint& p) const;
 
  private:
   PlanePoint shift_;

@@ -47,8 +47,17 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
 
 namespace {
 
+Rgba8 colour_of(std::int64_t school_id, std::string_view status, const PictureOptions& options) {
+  return status == "rejected" ? theme_of(options).muted : school_colour(static_cast<int>(school_id));
+}
 Rgba8 colour_of(const DrawnMask& drawn, const PictureOptions& options) {
-  return drawn.status == "rejected" ? theme_of(options).muted : school_colour(static_cast<int>(drawn.school_id));
+  return colour_of(drawn.school_id, drawn.status, options);
+}
+
+/// Of something that outlives every picture of it.
+template <class T>
+std::shared_ptr<const T> borrowed(const T& owned) {
+  return std::shared_ptr<const T>(std::shared_ptr<void>(), &owned);
 }
 
 }  // namespace
@@ -78,6 +87,22 @@ std::vector<MaskLayer> chosen_layers(const DrawnPing& ping, const PictureOptions
     layers.push_back({drawn.mask, {share(colour.r), share(colour.g), share(colour.b)}, status_line(drawn.status)});
   }
   return layers;
+}
+
+TrailSubject trail_subject(const DrawnObservation& observation, const PictureOptions& options) {
+  const ObservationProduct& product = observation.product();
+  TrailSubject out{borrowed(product.pings), observation.recipe().navigation.beams_stabilised, {}};
+  if (!options.display.masks) return out;
+  for (const SchoolRow& row : product.schools) {
+    if (!wanted(row.school_id, row.status, options)) continue;
+    TrailSchool school{
+        borrowed(row), colour_of(row.school_id, row.status, options), options.selected_school == row.school_id, {}};
+    // Sorted by school, then by ping.
+    const auto found = std::ranges::equal_range(product.masks, row.school_id, {}, &SchoolMask::school_id);
+    for (const SchoolMask& mask : found) school.pings.push_back({mask.ping_index, &mask.mask});
+    out.schools.push_back(std::move(school));
+  }
+  return out;
 }
 
 std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,

@@ -36,6 +36,9 @@ struct DrawnSchoolKey {
 /// Of the masks that the options ask for, in their order.
 [[nodiscard]] std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
+/// The schools that the options ask for through all their pings, for tracks and trails; none where schools are not shown.
+[[nodiscard]] TrailSubject trail_subject(const DrawnObservation& observation, const PictureOptions& options);
+
 /// What of a ping was refused, where the options ask for it.
 [[nodiscard]] std::vector<RefusedMark> drawn_refused(const DrawnObservation& observation, const Sector& sector,
                                                      std::int64_t ping_index, const PictureOptions& options);

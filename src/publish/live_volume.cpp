@@ -87,6 +87,8 @@ struct LiveVolume::State {
   VolumeCut cut;                ///< of `volume`
   std::optional<ContextKey> context_key;
   ContextPicture context;
+  SchoolTrails trails;
+  std::shared_ptr<const std::vector<SceneLine>> trail_lines;  ///< as drawn last
   ChartSeabed chart{kChartSpare, kChartNodes};
   std::string chart_notice;
 
@@ -100,12 +102,15 @@ struct LiveVolume::State {
     masks_set = false;
     context_key.reset();
     context = {};
+    trails = {};
+    trail_lines.reset();
     chart = ChartSeabed{kChartSpare, kChartNodes};
   }
 
   Result<void> begin(RendererChoice asked_for);
   Result<void> set(const LiveVolumeInput& input, const VolumeCut& wanted_cut, bool outlined);
   VolumeFigure figure_of(const LiveVolumeInput& input);
+  void take_trails(VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place);
   Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token, Work& better,
                     const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
@@ -199,11 +204,30 @@ VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
   return figure;
 }
 
+/// The same lines stay the same object, so that what stands round the volume is not drawn again.
+void LiveVolume::State::take_trails(VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place) {
+  const TrailParams params = trail_params(input.options.volume);
+  if (!params.any()) {
+    trail_lines.reset();
+    return;
+  }
+  std::vector<SceneLine> lines = trails.lines(*input.sector, input.trails, input.staged->ping_index, input.navigation,
+                                              params, scaled_theme(place));
+  if (!trail_lines || *trail_lines != lines) {
+    trail_lines = std::make_shared<const std::vector<SceneLine>>(std::move(lines));
+  }
+  figure.trails = trail_lines;
+}
+
 Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,
                                      Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
-  if (other_sector) context_key.reset();
+  if (other_sector) {
+    context_key.reset();
+    trails = {};
+  }
   VolumeFigure figure = figure_of(input);
+  take_trails(figure, input, place);
   const auto camera = volume_camera(*input.sector, input.options, place.rays);
   if (!camera) return pass_on(camera);
   const VolumeCut wanted_cut = volume_cut(*input.sector, input.options, *camera, input.fan, input.beam);

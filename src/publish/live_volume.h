@@ -36,6 +36,7 @@ struct LiveVolumeInput {
   std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   std::vector<RefusedMark> refused;
+  TrailSubject trails;            ///< of options.volume that are shown
   int fan = 0;                    ///< of the slice from above
   int beam = 0;                   ///< of the slice from the side
   bool scale_bar = true;          ///< the colour bar shows the scale, else the transfer function

@@ -106,7 +106,8 @@ double Movie::caption_px() const { return std::ceil(kCaption_em * theme_of(optio
 /// One camera for the whole movie: what follows from the ship's frame is added for each picture.
 Result<void> Movie::prepare_camera() {
   const MovieParams& params = options_.kind.movie;
-  if (params.of != MovieOf::volume || params.motion == MovieMotion::pings) return {};
+  const bool standing = params.motion == MovieMotion::pings && options_.volume.earth_fixed;
+  if (params.of != MovieOf::volume || (params.motion == MovieMotion::pings && !standing)) return {};
   const auto sector = observation_->sector();
   if (!sector) return pass_on(sector);
   PictureOptions still = options_;
@@ -119,15 +120,21 @@ Result<void> Movie::prepare_camera() {
   if (!by_user) still.kind.volume.zoom = 1.0;
   auto camera = volume_camera(*sector, still, place->rays);
   if (!camera) return pass_on(camera);
-  if (params.motion == MovieMotion::along_track) {
+  if (standing || params.motion == MovieMotion::along_track) {
     const RangeAxis& range = sector->range();
     const std::span pings =
         std::span(observation_->product().pings)
             .subspan(static_cast<std::size_t>(pings_.first), static_cast<std::size_t>(pings_.last - pings_.first + 1));
-    auto track = TrackCamera::along(pings, *camera, range.range_m(range.count - 1));
+    const Result<std::int64_t> eye = standing ? eye_ping() : Result<std::int64_t>(pings_.first);
+    if (!eye) return pass_on(eye);
+    auto track =
+        standing ? TrackCamera::standing(pings, *camera, observation_->product().pings[static_cast<std::size_t>(*eye)])
+                 : TrackCamera::along(pings, *camera, range.range_m(range.count - 1));
     if (!track) return pass_on(track);
-    // A window's camera stood there for a picture; one that is named in figures is meant for the movie.
-    if (named.eye.empty()) track = past_all_pings(*sector, std::move(*track), pings, place->rays);
+    // A window's camera stood there for a picture; one that is named in figures is meant for the movie, and one that
+    // stands still in the window stands there in the movie too.
+    if (named.eye.empty() && !(standing && options_.camera))
+      track = past_all_pings(*sector, std::move(*track), pings, place->rays);
     track_ = by_user ? *track : track->from_farther(1.0 / zoom);
   } else if (!by_user) {
     camera = zoomed(from_all_sides(*sector, *camera, place->rays), 1.0 / zoom);
@@ -137,6 +144,21 @@ Result<void> Movie::prepare_camera() {
   named = CameraParams{};
   named.seconds = seconds;
   return {};
+}
+
+/// In whose frame the camera is that stands still on the earth.
+Result<std::int64_t> Movie::eye_ping() const {
+  const std::int64_t named = options_.kind.volume.eye_ping;
+  if (named >= observation_->pings()) {
+    return fail(ErrorCode::usage, fmt::format("no ping {} for the eye in {}: it has pings 0 to {}", named,
+                                              observation_->name(), observation_->pings() - 1));
+  }
+  if (named >= 0) return named;
+  // A window's camera is that of its ping.
+  if (options_.camera && options_.ping && *options_.ping >= 0 && *options_.ping < observation_->pings()) {
+    return std::int64_t{*options_.ping};
+  }
+  return (pings_.first + pings_.last + 1) / 2;
 }
 
 PictureOptions Movie::options_of(const MovieStep& step) const {

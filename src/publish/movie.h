@@ -37,6 +37,7 @@ class Movie {
   Movie(PictureSource& source, DrawnObservation& observation, PictureOptions options)
       : source_(&source), observation_(&observation), options_(std::move(options)) {}
   [[nodiscard]] Result<void> prepare_camera();
+  [[nodiscard]] Result<std::int64_t> eye_ping() const;
   [[nodiscard]] PictureOptions options_of(const MovieStep& step) const;
   [[nodiscard]] double caption_px() const;
   void add_caption(FrameDescription& page, std::size_t index) const;

@@ -109,6 +109,11 @@ SvColours colours_of(const PictureOptions& options) {
   return sv_colours(scale);
 }
 
+TrailParams trail_params(const VolumeParams& volume) {
+  if (!volume.context) return {};
+  return {volume.ship_track, volume.school_tracks, volume.trail_pings};
+}
+
 MaskStyle mask_style(const DisplayParams& display, const VolumeParams& volume) {
   MaskStyle style;
   style.fuzzy_above = static_cast<float>(display.fuzzy_above);

@@ -13,6 +13,7 @@
 #include "publish/picture_params.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
+#include "view/volume/school_trails.h"
 
 namespace sonar {
 
@@ -59,6 +60,9 @@ struct PictureOptions {
 [[nodiscard]] SvColours colours_of(const PictureOptions& options);
 /// How schools look in volumes.
 [[nodiscard]] MaskStyle mask_style(const DisplayParams& display, const VolumeParams& volume);
+
+/// Which tracks and trails stand round a volume; none where nothing does.
+[[nodiscard]] TrailParams trail_params(const VolumeParams& volume);
 
 /// A plane through the water, m (bow, starboard, down).
 struct PlanePlaces {

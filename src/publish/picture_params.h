@@ -8,9 +8,9 @@
 
 #include "base/describe.h"
 #include "publish/movie_params.h"
+#include "publish/volume_params.h"
 #include "view/charts/chart_columns.h"
 #include "view/sv_scale.h"
-#include "view/volume/volume_scene.h"
 
 namespace sonar {
 
@@ -122,87 +122,6 @@ void describe(Visitor& v, DisplayParams& p) {
           {.text = "north points up in slices from above; off = the bow does", .suits = "slice-top slice-plane"});
 }
 
-inline constexpr std::array<std::string_view, 3> kRayModeNames{"accumulate", "first_hit", "maximum"};
-
-/// Which back-end draws volumes.
-enum class RendererChoice : std::uint8_t {
-  automatic,  ///< OpenGL where it is a real GPU's, else the processor
-  cpu,
-  gl,
-};
-inline constexpr std::array<std::string_view, 3> kRendererNames{"auto", "cpu", "gl"};
-
-/// Which schools have a line straight up to the sea surface and down to the seabed.
-enum class DropLines : std::uint8_t { none, selected, all };
-inline constexpr std::array<std::string_view, 3> kDropLinesNames{"none", "selected", "all"};
-
-/// What of a volume is cut away, so that one looks into it.
-enum class VolumeClip : std::uint8_t { none, top_slice, side_slice, both_slices };
-inline constexpr std::array<std::string_view, 4> kVolumeClipNames{"none", "top_slice", "side_slice", "both_slices"};
-
-/// How volumes are drawn.
-struct VolumeParams {
-  RayMode mode = RayMode::accumulate;
-  double first_hit_db = -50.0;
-  bool lighting = true;
-  bool data = true;
-  bool filtered = true;
-  bool context = true;
-  DropLines drop_lines = DropLines::selected;
-  bool seabed = true;
-  bool slice_planes = true;
-  VolumeClip clip = VolumeClip::none;
-  double ship_length_m = 60.0;
-  double moving_budget_ms = 50.0;
-  int frames = 16;
-  int table_entries = kMostTableEntries;
-  RendererChoice renderer = RendererChoice::automatic;
-};
-
-template <class Visitor>
-void describe(Visitor& v, VolumeParams& p) {
-  v.choice("mode", p.mode, kRayModeNames, {"how the samples along a ray become a colour", Tier::basic});
-  v.field("first_hit_db", p.first_hit_db,
-          {.unit = "dB",
-           .min = -200,
-           .max = 100,
-           .text = "mode first hit: the surface lies where Sv reaches this",
-           .tier = Tier::basic});
-  v.field("lighting", p.lighting, {.text = "light surfaces by the gradient of Sv in metres", .tier = Tier::basic});
-  v.field("data", p.data, {.text = "show the data round the schools", .tier = Tier::basic, .flag = "masks-alone"});
-  v.field("filtered", p.filtered,
-          {.text = "show Sv after the median filter, without speckle; off = as recorded",
-           .tier = Tier::basic,
-           .flag = kNoFlag});
-  v.field("context", p.context,
-          {.text = "show the sector's frame, range rings, sea surface, ship, axes, scale bar and numbers of schools",
-           .tier = Tier::basic});
-  v.choice(
-      "drop_lines", p.drop_lines, kDropLinesNames,
-      {"schools with a line straight up to the sea surface and down to the seabed, where that is known", Tier::basic});
-  v.field(
-      "seabed", p.seabed,
-      {.text = "show the seabed: of the depth chart where one is chosen, else the plane fitted to the ping's echoes",
-       .tier = Tier::basic});
-  v.field("slice_planes", p.slice_planes,
-          {.text = "show where the slices from above and from the side lie", .tier = Tier::basic});
-  v.choice("clip", p.clip, kVolumeClipNames,
-           {"leave out the echoes on the viewer's side of a slice; schools stay whole", Tier::basic});
-  v.field("ship_length_m", p.ship_length_m, {.unit = "m", .min = 1, .max = 500, .text = "length of the drawn ship"});
-  v.field(
-      "moving_budget_ms", p.moving_budget_ms,
-      {.unit = "ms", .min = 5, .max = 2000, .text = "what a picture may take while something moves", .flag = kNoFlag});
-  v.field("frames", p.frames,
-          {.unit = "1",
-           .min = 0,
-           .max = 1024,
-           .text = "jittered pictures that are averaged: sampling quality; 0 = one plain picture"});
-  v.field("table_entries", p.table_entries,
-          {.unit = "1", .min = 2, .max = kMostTableEntries, .text = "steps of the transfer function's table"});
-  v.choice("renderer", p.renderer, kRendererNames,
-           "what draws: the graphics card (gl), the processor (cpu), or whichever is quicker (auto)");
-}
-
 // What is asked for one kind of picture alone. Their groups in PictureParams are named as the kinds are.
 
 struct RangeSliceParams {
@@ -246,6 +165,7 @@ void describe(Visitor& v, PlaneSliceParams& p) {
 struct CameraParams {
   std::string eye;
   std::string target;
+  int eye_ping = -1;
   double orbit_deg = 0.0;
   double rise_deg = 0.0;
   double zoom = 1.0;
@@ -256,6 +176,13 @@ template <class Visitor>
 void describe(Visitor& v, CameraParams& p) {
   v.field("eye", p.eye, {.text = "camera's place X,Y,Z, m towards bow, starboard and down; empty = an overview"});
   v.field("target", p.target, {.text = "place that the camera looks at, X,Y,Z; goes with the eye"});
+  v.field(
+      "eye_ping", p.eye_ping,
+      {.unit = "1",
+       .min = -1,
+       .max = 1e9,
+       .text = "earth-fixed: ping in which the camera stands so; -1 = the ping that is shown, and of a movie the one "
+               "in its middle"});
   v.field("orbit_deg", p.orbit_deg,
           {.unit = "deg", .min = -360, .max = 360, .text = "turn the camera about its target"});
   v.field("rise_deg", p.rise_deg, {.unit = "deg", .min = -180, .max = 180, .text = "lift the camera about its target"});

@@ -20,6 +20,7 @@
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/engine.h"
 #include "pipeline/survey/survey.h"
+#include "view/volume/school_trails.h"
 
 namespace sonar {
 
@@ -66,6 +67,8 @@ class DrawnObservation {
   [[nodiscard]] const SurveyFiles* survey() const { return survey_; }
   [[nodiscard]] const ObservationFiles* files() const { return files_; }
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
+  /// Keeps what one picture has made of the schools' masks for the next.
+  [[nodiscard]] SchoolTrails& trails() { return *trails_; }
 
  private:
   const SurveyFiles* survey_;
@@ -74,6 +77,7 @@ class DrawnObservation {
   std::unique_ptr<const ObservationProduct> made_;
   const ObservationProduct* product_;
   std::unique_ptr<Engine> engine_;
+  std::unique_ptr<SchoolTrails> trails_ = std::make_unique<SchoolTrails>();
 };
 
 /// Everything that pictures are made from: a raw survey, a work folder of `run`, or both.

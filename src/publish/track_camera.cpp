@@ -5,25 +5,30 @@
 
 #include <cmath>
 
-#include "base/units.h"
 #include "geo/geodesic.h"
 
 namespace sonar {
 
-Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, const Camera& camera, double reach_m) {
-  if (pings.size() < 2) return fail(ErrorCode::usage, "a movie along the track needs two pings or more");
+namespace {
+
+Result<void> require_on_earth(std::span<const PingNavigation> pings) {
   for (const PingNavigation& ping : pings) {
-    if (ping.has_position() && !std::isnan(ping.heading_deg)) continue;
+    if (on_earth(ping)) continue;
     return fail(
         ErrorCode::mismatch,
-        fmt::format("a movie along the track needs the position and heading of each ping; the ping at {} has no {}",
+        fmt::format("a movie past which the ship sails needs the position and heading of each ping; the ping at "
+                    "{} has no {}",
                     time_text(ping.time), ping.has_position() ? "heading" : "position"));
   }
-  TrackCamera out;
-  const PingNavigation& reference = pings[pings.size() / 2];
-  out.origin_ = reference.transducer;
-  out.heading_rad_ = rad_from_deg(reference.heading_deg);
-  out.transducer_depth_m_ = reference.transducer_depth_m;
+  return {};
+}
+
+}  // namespace
+
+Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, const Camera& camera, double reach_m) {
+  if (pings.size() < 2) return fail(ErrorCode::usage, "a movie along the track needs two pings or more");
+  if (auto known = require_on_earth(pings); !known) return pass_on(known);
+  TrackCamera out(pings[pings.size() / 2], camera);
   out.steps_ = static_cast<double>(pings.size() - 1);
   const Point<Enu> first = to_enu(pings.front().transducer, out.origin_);
   const Point<Enu> last = to_enu(pings.back().transducer, out.origin_);
@@ -31,8 +36,15 @@ Result<TrackCamera> TrackCamera::along(std::span<const PingNavigation> pings, co
   const double length = norm(way);
   out.halfway_ = (first + last) * 0.5;
   out.travel_ = way * (length > 2.0 * reach_m ? 1.0 - 2.0 * reach_m / length : 0.0);
-  out.camera_ = camera;
   return out;
+}
+
+Result<TrackCamera> TrackCamera::standing(std::span<const PingNavigation> pings, const Camera& camera,
+                                          const PingNavigation& at) {
+  for (const auto needed : {pings, std::span(&at, 1)}) {
+    if (auto known = require_on_earth(needed); !known) return pass_on(known);
+  }
+  return TrackCamera(at, camera);
 }
 
 TrackCamera TrackCamera::from_farther(double factor) const {
@@ -43,19 +55,8 @@ TrackCamera TrackCamera::from_farther(double factor) const {
 
 Point<Enu> TrackCamera::middle(double at) const { return halfway_ + travel_ * (at / steps_ - 0.5); }
 
-Point<Sonar> TrackCamera::moved(const Point<Sonar>& place, const PingNavigation& ship, double at) const {
-  const Point<Enu> on_earth = to_enu(place, heading_rad_) + middle(at);
-  Point<Sonar> out = to_sonar(on_earth - to_enu(ship.transducer, origin_), rad_from_deg(ship.heading_deg));
-  // Depths are below the transducer, which may heave; the camera does not.
-  out.z += transducer_depth_m_ - ship.transducer_depth_m;
-  return out;
-}
-
 Camera TrackCamera::seen_from(const PingNavigation& ship, double at) const {
-  Camera out = camera_;
-  out.eye = moved(camera_.eye, ship, at);
-  out.target = moved(camera_.target, ship, at);
-  return out;
+  return in_frame_of(camera_, pose_, EarthPose(ship.placement(), origin_), middle(at));
 }
 
 }  // namespace sonar

@@ -9,11 +9,12 @@
 #include "geo/frames.h"
 #include "model/navigation.h"
 #include "view/volume/camera.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 
-/// A camera that the ship sails past. Where the track is no longer than twice the sonar's reach it stays where it is on the
-/// earth; along a longer one it moves evenly from one end towards the other, so that the ship passes it as slowly.
+/// A camera that the ship sails past. It stays where it is on the earth; along a track that is longer than twice the
+/// sonar's reach it may move evenly from one end towards the other, so that the ship passes it as slowly.
 class TrackCamera {
  public:
   /// pings    of the movie, two or more
@@ -22,22 +23,27 @@ class TrackCamera {
   /// errors   mismatch: a ping without position or heading; usage: fewer than two pings
   [[nodiscard]] static Result<TrackCamera> along(std::span<const PingNavigation> pings, const Camera& camera,
                                                  double reach_m);
+  /// One that stands still, however long the track is.
+  /// at      the ping, of `pings`, in whose sonar frame the camera is
+  /// errors  as along(); one ping is enough
+  [[nodiscard]] static Result<TrackCamera> standing(std::span<const PingNavigation> pings, const Camera& camera,
+                                                    const PingNavigation& at);
 
   /// The same from `factor` times as far from what it looks at.
   [[nodiscard]] TrackCamera from_farther(double factor) const;
   /// In the sonar frame of the ship.
   /// at  how far the movie is, pings from its first; with a fraction
   [[nodiscard]] Camera seen_from(const PingNavigation& ship, double at) const;
-  /// Where the camera's middle lies, m east and north of the middle ping.
+  /// Where what was at the camera's own ping is now, m east and north of it.
   [[nodiscard]] Point<Enu> middle(double at) const;
 
  private:
-  [[nodiscard]] Point<Sonar> moved(const Point<Sonar>& place, const PingNavigation& ship, double at) const;
+  TrackCamera(const PingNavigation& reference, const Camera& camera)
+      : origin_(reference.transducer), pose_(reference.placement(), origin_), camera_(camera) {}
 
-  Camera camera_;
   Geographic origin_;
-  double heading_rad_ = 0.0;
-  double transducer_depth_m_ = 0.0;
+  EarthPose pose_;  ///< of the camera's own ping
+  Camera camera_;
   Point<Enu> halfway_;  ///< between the ends of the track
   Point<Enu> travel_;   ///< of the camera in the whole movie
   double steps_ = 1.0;

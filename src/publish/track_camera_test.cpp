@@ -27,8 +27,9 @@ std::vector<PingNavigation> track(int count, double bearing_deg, double heading_
 const Camera kCamera{{400.0, -700.0, -300.0}, {0.0, -200.0, 50.0}, {0.0, 0.0, -1.0}, 0.6};
 
 /// Where on the earth a place of the sonar frame is: m east, north, and depth below the sea's surface.
-Point<Enu> on_earth(const Point<Sonar>& place, const PingNavigation& ship) {
-  Point<Enu> out = to_enu(place, rad_from_deg(ship.heading_deg)) + to_enu(ship.transducer, {60.0, 5.0});
+Point<Enu> earth_place(const Point<Sonar>& place, const PingNavigation& ship) {
+  const Geographic there = to_geographic(to_enu(place, rad_from_deg(ship.heading_deg)), ship.transducer);
+  Point<Enu> out = to_enu(there, {60.0, 5.0});
   out.z = place.z + ship.transducer_depth_m;
   return out;
 }
@@ -37,12 +38,12 @@ TEST(TrackCamera, OfAShortTrackStaysWhereItIsOnTheEarth) {
   const auto pings = track(11, 40.0, 40.0);
   const auto camera = TrackCamera::along(pings, kCamera, 500.0);
   ASSERT_TRUE(camera);
-  const Point<Enu> eye = on_earth(camera->seen_from(pings[0], 0.0).eye, pings[0]);
-  const Point<Enu> target = on_earth(camera->seen_from(pings[0], 0.0).target, pings[0]);
+  const Point<Enu> eye = earth_place(camera->seen_from(pings[0], 0.0).eye, pings[0]);
+  const Point<Enu> target = earth_place(camera->seen_from(pings[0], 0.0).target, pings[0]);
   for (std::size_t i = 1; i < pings.size(); ++i) {
     const Camera now = camera->seen_from(pings[i], static_cast<double>(i));
-    EXPECT_LT(norm(on_earth(now.eye, pings[i]) - eye), 0.05) << i;
-    EXPECT_LT(norm(on_earth(now.target, pings[i]) - target), 0.05) << i;
+    EXPECT_LT(norm(earth_place(now.eye, pings[i]) - eye), 0.05) << i;
+    EXPECT_LT(norm(earth_place(now.target, pings[i]) - target), 0.05) << i;
   }
 }
 
@@ -56,6 +57,18 @@ TEST(TrackCamera, OfALongTrackMovesEvenlyAndKeepsTheShipWithinItsReach) {
     const auto at = static_cast<double>(i);
     EXPECT_NEAR(norm(camera->middle(at + 1.0) - camera->middle(at)), step, 1e-6);
     EXPECT_LT(norm(to_enu(pings[i].transducer, pings[50].transducer) - camera->middle(at)), 505.0);
+  }
+}
+
+TEST(TrackCamera, OneThatStandsStaysHoweverLongTheTrackIs) {
+  const auto pings = track(101, 200.0, 200.0);  // 3000 m
+  const auto camera = TrackCamera::standing(pings, kCamera, pings[20]);
+  ASSERT_TRUE(camera);
+  EXPECT_LT(norm(camera->seen_from(pings[20], 20.0).eye - kCamera.eye), 1e-6);
+  const Point<Enu> eye = earth_place(kCamera.eye, pings[20]);
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    const Camera now = camera->seen_from(pings[i], static_cast<double>(i));
+    EXPECT_LT(norm(earth_place(now.eye, pings[i]) - eye), 0.05) << i;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "publish/volume_legend.h"
 #include "view/colour_bar.h"
 #include "view/volume/distance_bar.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 namespace {
@@ -57,6 +58,9 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
   }
   if (options.volume.context) {
     line += std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings";
+  }
+  if (options.volume.earth_fixed) {
+    line += on_earth(figure.navigation) ? "; earth-fixed" : "; not earth-fixed: no position or heading";
   }
   if (figure.seabed) {
     const double text_px = place.theme.text_px;
@@ -194,6 +198,13 @@ Result<VolumePlace> volume_place(const PictureOptions& options, double scale) {
   out.rect = {out.layout.plot.x, out.layout.plot.y, static_cast<double>(size.width), static_cast<double>(size.height)};
   out.rays = {static_cast<int>(std::lround(size.width * scale)), static_cast<int>(std::lround(size.height * scale))};
   return out;
+}
+
+Theme scaled_theme(const VolumePlace& place) {
+  Theme theme = place.theme;
+  theme.line_px *= place.scale;
+  theme.text_px *= place.scale;
+  return theme;
 }
 
 Result<Camera> volume_camera(const Sector& sector, const PictureOptions& options, PixelSize size) {

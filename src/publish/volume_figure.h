@@ -29,15 +29,16 @@ struct VolumeFigure {
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   PingNavigation navigation;
   std::string title;
-  std::string title_line;                       ///< of the picture; the title with the ping
-  bool samples = true;                          ///< false: the masks alone are known
-  std::shared_ptr<const SeabedPatch> seabed{};  ///< drawn where it is given, with a scale of its depths
-  std::optional<FittedSeabed> fitted{};         ///< of this ping's echoes; drawn where `seabed` is not given
-  int fan = 0;                                  ///< of the slice from above
-  int beam = 0;                                 ///< of the slice from the side
-  bool outlined = false;                        ///< masks are lines over the data, not a tint
-  bool searched = true;                         ///< schools were looked for
-  std::vector<RefusedMark> refused{};           ///< marked, whatever stands before them
+  std::string title_line;                                  ///< of the picture; the title with the ping
+  bool samples = true;                                     ///< false: the masks alone are known
+  std::shared_ptr<const SeabedPatch> seabed{};             ///< drawn where it is given, with a scale of its depths
+  std::shared_ptr<const std::vector<SceneLine>> trails{};  ///< of ship and schools; null = none
+  std::optional<FittedSeabed> fitted{};                    ///< of this ping's echoes; drawn where `seabed` is not given
+  int fan = 0;                                             ///< of the slice from above
+  int beam = 0;                                            ///< of the slice from the side
+  bool outlined = false;                                   ///< masks are lines over the data, not a tint
+  bool searched = true;                                    ///< schools were looked for
+  std::vector<RefusedMark> refused{};                      ///< marked, whatever stands before them
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }
 };
@@ -69,6 +70,9 @@ struct VolumePlace {
 /// scale   device pixels a pixel of the picture
 /// errors  bad_parameter: no room for a volume
 [[nodiscard]] Result<VolumePlace> volume_place(const PictureOptions& options, double scale = 1.0);
+
+/// Text and lines as large as they are among the rays.
+[[nodiscard]] Theme scaled_theme(const VolumePlace& place);
 
 /// The camera asked for, else the overview; orbit, rise and zoom added.
 /// errors  as named_camera()

@@ -33,6 +33,21 @@ void add_surroundings(std::vector<LegendRow>& rows, const VolumeFigure& figure, 
   }
 }
 
+void add_trails(std::vector<LegendRow>& rows, const VolumeFigure& figure, const PictureOptions& options,
+                const Theme& theme) {
+  using enum LegendRow::Sign;
+  if (!figure.trails) return;
+  const TrailParams shown = trail_params(options.volume);
+  if (shown.ship_track) rows.push_back({whole_line, theme.track, "track of the ship"});
+  if (!options.display.masks) return;
+  if (shown.school_tracks) rows.push_back({whole_line, theme.text, "tracks of schools"});
+  if (shown.pings > 0) {
+    const std::string words =
+        shown.pings == 1 ? "schools of the ping before" : fmt::format("schools of the {} pings before", shown.pings);
+    rows.push_back({whole_line, with_alpha(theme.text, 120), words});
+  }
+}
+
 std::vector<LegendRow> of_schools(const VolumeFigure& figure, const PictureOptions& options, const Theme& theme) {
   using enum LegendRow::Sign;
   std::vector<LegendRow> rows;
@@ -55,6 +70,7 @@ std::vector<LegendRow> volume_legend(const VolumeFigure& figure, const PictureOp
                                      const Theme& theme) {
   std::vector<LegendRow> rows;
   add_surroundings(rows, figure, options, theme);
+  add_trails(rows, figure, options, theme);
   if (!options.display.masks || figure.legend.empty()) return rows;
   std::vector<LegendRow> schools = of_schools(figure, options, theme);
   const double height = line_of(theme) * static_cast<double>(rows.size() + schools.size());

@@ -16,6 +16,7 @@
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
 #include "view/slices/slice.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 namespace {
@@ -41,6 +42,46 @@ void take_masks(VolumeFigure& figure, const DrawnPing& ping, const PictureOption
   }
 }
 
+/// Tracks and trails as wide as the picture's lines.
+void take_trails(VolumeFigure& figure, DrawnObservation& observation, const Sector& sector, std::int64_t ping,
+                 const PictureOptions& options, const VolumePlace& place) {
+  const TrailParams params = trail_params(options.volume);
+  if (!params.any()) return;
+  figure.trails = std::make_shared<const std::vector<SceneLine>>(observation.trails().lines(
+      sector, trail_subject(observation, options), ping, figure.navigation, params, scaled_theme(place)));
+}
+
+/// The options with the camera where it stands in the ping that is drawn, if it was named for another.
+/// errors  usage: no such ping; mismatch: it is not known where one of them is on the earth
+Result<PictureOptions> with_standing_eye(const DrawnObservation& observation, const PictureOptions& options,
+                                         const VolumePlace& place) {
+  const std::int64_t of = options.kind.volume.eye_ping;
+  if (!options.volume.earth_fixed || of < 0) return options;
+  if (of >= observation.pings()) {
+    return fail(ErrorCode::usage, fmt::format("no ping {} for the eye in {}: it has pings 0 to {}", of,
+                                              observation.name(), observation.pings() - 1));
+  }
+  const auto index = chosen_ping(observation, options);
+  if (!index) return pass_on(index);
+  const auto sector = observation.sector();
+  if (!sector) return pass_on(sector);
+  const auto camera = volume_camera(*sector, options, place.rays);
+  if (!camera) return pass_on(camera);
+  const auto& pings = observation.product().pings;
+  const auto moved =
+      standing_still(*camera, pings[static_cast<std::size_t>(of)], pings[static_cast<std::size_t>(*index)]);
+  if (!moved) {
+    return fail(
+        ErrorCode::mismatch,
+        fmt::format("an earth-fixed eye needs position and heading: pings {} and {} have not both", of, *index));
+  }
+  PictureOptions out = options;
+  out.camera = *moved;
+  out.kind.volume = CameraParams{};
+  out.kind.volume.seconds = options.kind.volume.seconds;
+  return out;
+}
+
 /// The ping asked for, and its schools.
 /// place  of the volume in its picture: what is cut away depends on the camera
 Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions& options, const VolumePlace& place,
@@ -57,6 +98,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (auto placed = place_slices(out, *sector, *ping, options); !placed) return pass_on(placed);
   out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
+  take_trails(out, observation, *sector, ping->ping_index, options, place);
   out.samples = ping->staged != nullptr;
   out.searched = observation.has_product();
   out.title = observation.title();
@@ -132,9 +174,12 @@ Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, cons
 
 }  // namespace
 
-Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& options, Work& work) {
-  const auto place = volume_place(options, options.scale);
+Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& asked, Work& work) {
+  const auto place = volume_place(asked, asked.scale);
   if (!place) return pass_on(place);
+  const auto standing = with_standing_eye(observation, asked, *place);
+  if (!standing) return pass_on(standing);
+  const PictureOptions& options = *standing;
   auto figure = prepare(observation, options, *place, work);
   if (!figure) return pass_on(figure);
   auto patch = seabed(*figure, options);

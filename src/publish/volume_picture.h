@@ -14,7 +14,7 @@
 namespace sonar {
 
 /// A ping in three dimensions. Without raw files the masks alone are drawn, and the title says so.
-/// errors  as DrawnObservation::ping(); bad_parameter; what the renderer or the depth raster refuse
+/// errors  as DrawnObservation::ping(); usage, mismatch: of the ping in which an earth-fixed eye stands; bad_parameter; what the renderer or the depth raster refuse
 [[nodiscard]] Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& options,
                                                     Work& work);
 

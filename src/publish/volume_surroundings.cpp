@@ -77,15 +77,14 @@ ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptio
     params.side_beam = figure.beam;
   }
   params.schools = school_places(figure, options.volume.drop_lines);
+  params.trails = figure.trails;
   return params;
 }
 
 ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
                               const Camera& camera, Work& work) {
   const ContextParams params = volume_surroundings(figure, options);
-  Theme theme = place.theme;
-  theme.line_px *= place.scale;
-  theme.text_px *= place.scale;
+  const Theme theme = scaled_theme(place);
   const auto seabed = figure.seabed ? std::optional(*figure.seabed) : std::nullopt;
   return draw_context(context_scene(figure.sector(), params, theme, seabed), camera, place.rays, theme.plot,
                       -params.transducer_depth_m, work);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/check.h"
@@ -182,8 +183,16 @@ void fill(const Corner& a, const Corner& b, const Corner& c, const Band& band, c
   }
 }
 
+/// Most pieces reach few bands.
+bool reaches(const Piece& piece, const Band& band) {
+  const auto corners = std::span(piece.corners).first(static_cast<std::size_t>(piece.count));
+  const auto [top, low] = std::ranges::minmax(corners, {}, &Corner::y);
+  return low.y >= band.first_row && top.y <= band.first_row + band.rows;
+}
+
 template <class Visit>
 void fill(const Piece& piece, const Band& band, const Visit& visit) {
+  if (!reaches(piece, band)) return;
   for (int i = 1; i + 1 < piece.count; ++i) {
     const auto at = [&](int k) -> const Corner& { return piece.corners[static_cast<std::size_t>(k)]; };
     fill(at(0), at(i), at(i + 1), band, visit);
@@ -259,6 +268,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
   const DepthCue cue(scene.lines, screen, background);
   const std::vector<Piece> lines = pieces(scene.lines, screen, cue, 1.0);
   const std::vector<Piece> faint = pieces(scene.lines, screen, cue, kFaintLine);
+  const std::vector<Piece> under = pieces(scene.under, screen, cue, 1.0);
   ContextPicture out{Image(size), Image(size, {0, 0, 0, 0}), nullptr};
   const Premultiplied filled = premultiplied(background);
   std::vector<float> metres(opaque.empty() ? 0 : size.count());
@@ -271,6 +281,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
     Band front(behind.first_row, behind.rows, behind.width);
     draw_over(ground, behind, behind);
     draw_over(translucent, behind, above ? front : behind);
+    draw_over(under, behind, behind);
     draw_over(lines, behind, behind);
     draw_over(faint, behind, front);
     for (int y = first; y < first + rows; ++y) {

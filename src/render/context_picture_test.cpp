@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "base/units.h"
 #include "view/theme.h"
@@ -48,6 +50,29 @@ TEST(ContextPicture, TheNearerHidesTheFartherInAnyOrder) {
     const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
     EXPECT_EQ(picture.behind.at(100, 100), kRed);
   }
+}
+
+// Tracks and trails are hidden by echoes, and change no colour of other lines.
+TEST(ContextPicture, WhatLiesUnderChangesNoOpaqueEcho) {
+  ContextScene scene;
+  scene.lines.push_back({{0.0, -40.0, 10.0}, {0.0, 40.0, 10.0}, kGreen, 3.0});
+  Work work(1);
+  const ContextPicture without = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  scene.under.push_back({{0.0, -40.0, -10.0}, {500.0, 40.0, -10.0}, kRed, 3.0});
+  scene.under.push_back({{0.0, -40.0, 10.0}, {0.0, 40.0, 10.0}, kRed, 3.0});
+  const ContextPicture with = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  EXPECT_FALSE(with.behind.pixels == without.behind.pixels) << "it is there";
+  EXPECT_TRUE(with.front.pixels == without.front.pixels);
+  const std::vector<std::array<float, 4>> echoes(kSize.count(), {0.2F, 0.4F, 0.6F, 1.0F});
+  const RayImage rays{kSize, echoes, {}};
+  EXPECT_TRUE(between(with, rays, work).pixels == between(without, rays, work).pixels);
+  int green = 0;
+  for (std::size_t i = 0; i < kSize.count(); ++i) {
+    if (without.behind.pixels[i] != kGreen) continue;
+    ++green;
+    EXPECT_EQ(with.behind.pixels[i], kGreen) << "other lines lie over it";
+  }
+  EXPECT_GT(green, 50);
 }
 
 TEST(ContextPicture, TheSeaLiesOnTheEyesSide) {

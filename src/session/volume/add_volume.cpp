@@ -39,6 +39,40 @@ std::optional<Point<Sonar>> middle_of_selected(const Workspace& workspace) {
   return middle ? std::optional(sector.centre(middle->fan, middle->beam, middle->sample)) : std::nullopt;
 }
 
+/// A switch of what the volume shows.
+Action turn(AppModel& app, const VolumeModel* volume, const char* id, const char* text, const char* key,
+            const char* tip, std::function<bool(const VolumeParams&)> on,
+            std::function<void(VolumeParams&, bool)> set) {
+  Action action{id, "&View", text, {key}, tip, [&app, on, set = std::move(set)] {
+                  VolumeParams params = app.workspace.volume.values();
+                  set(params, !on(params));
+                  app.workspace.volume.assign(params);
+                }};
+  action.enabled = [volume] { return volume->seen(); };
+  action.checked = [&app, on = std::move(on)] { return on(app.workspace.volume.values()); };
+  return action;
+}
+
+constexpr int kTrailPings = 10;  ///< of a trail that was never longer or shorter
+
+void add_past(AppModel& app, const VolumeModel* volume) {
+  app.actions.add(turn(
+      app, volume, "volume.earth_fixed", "Volume: earth-fixed", "Ctrl+7",
+      "While pings pass the eye stands still on the earth, and the ship sails through the view",
+      [](const VolumeParams& params) { return params.earth_fixed; },
+      [](VolumeParams& params, bool on) { params.earth_fixed = on; }));
+  app.actions.add(turn(
+      app, volume, "volume.trails", "Volume: tracks and trails", "Ctrl+8",
+      "The ship's track, those of schools, and where schools were in the pings before",
+      [](const VolumeParams& params) { return trail_params(params).any(); },
+      [pings = kTrailPings](VolumeParams& params, bool on) mutable {
+        if (params.trail_pings > 0) pings = params.trail_pings;
+        params.ship_track = params.school_tracks = on;
+        params.trail_pings = on ? pings : 0;
+        if (on) params.context = true;
+      }));
+}
+
 }  // namespace
 
 void add_volume(AppModel& app) {
@@ -76,6 +110,7 @@ void add_volume(AppModel& app) {
                      [volume, side] { volume->look_from(side.side); },
                      [volume] { return volume->seen(); }});
   }
+  add_past(app, volume);
 }
 
 }  // namespace sonar

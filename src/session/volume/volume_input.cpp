@@ -36,6 +36,25 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
   }
 }
 
+/// The schools of the observation on show through all their pings.
+TrailSubject trail_subject(const Workspace& workspace, const OpenObservationPtr& shown, const Theme& theme) {
+  const Document& document = workspace.document;
+  TrailSubject out{std::shared_ptr<const std::vector<PingNavigation>>(shown, &shown->files().navigation),
+                   document.recipe().navigation.beams_stabilised,
+                   {}};
+  const DisplayParams& display = workspace.display.values();
+  const auto selected = workspace.selected();
+  const auto& schools = document.state().schools;
+  for (std::size_t i = 0; i < schools.size() && display.masks; ++i) {
+    const auto& school = schools[i];
+    if (school->masks.decided.status == "rejected" && !display.rejected) continue;
+    TrailSchool trail{school, drawn_colour(*school, theme), i == selected, {}};
+    for (const auto& there : school->masks.pings) trail.pings.push_back({there.ping_index, &there.mask});
+    out.schools.push_back(std::move(trail));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const std::optional<Camera>& camera,
@@ -65,6 +84,9 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.scale_bar = workspace.curve_follows_scale();
   input.scale = look.scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
+  if (trail_params(input.options.volume).any()) {
+    input.trails = trail_subject(workspace, shown, theme_of(input.options));
+  }
   add_masks(input, school_layers(workspace, input.staged->ping_index, theme_of(input.options)));
   return input;
 }

@@ -11,6 +11,7 @@
 #include "session/tools/growth.h"
 #include "session/tools/measure_tool.h"
 #include "session/volume/volume_input.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 namespace {
@@ -86,6 +87,7 @@ void VolumeModel::hear(DocumentChange change) {
       if (change == DocumentChange::observation && identity == of_.lock()) return update();
       of_ = identity;
       workspace_.camera.set(std::nullopt);
+      camera_ping_.reset();
       drag_.reset();
       shown_.reset();
       return update();
@@ -99,9 +101,31 @@ void VolumeModel::hear(DocumentChange change) {
   }
 }
 
+/// Puts the camera into the frame of the ping that is shown next, where it is where it was on the earth. What is not known
+/// there of position and heading leaves it with the ship.
+void VolumeModel::stand_still() {
+  const OpenObservationPtr& shown = workspace_.document.shown();
+  const StagedPingPtr& staged = workspace_.document.staged();
+  if (!shown || !staged) return;
+  const std::int64_t now = staged->ping_index;
+  const std::int64_t then = std::exchange(camera_ping_, now).value_or(now);
+  const auto& pings = shown->files().navigation;
+  if (!workspace_.volume.values().earth_fixed || then == now || then >= static_cast<std::int64_t>(pings.size())) return;
+  const auto moved = [&](const Camera& camera) {
+    return standing_still(camera, pings[static_cast<std::size_t>(then)], pings[static_cast<std::size_t>(now)]);
+  };
+  // An overview stands where it was seen from.
+  const PixelSize rays = shown_ ? shown_->view.size : units();
+  const auto stands = moved(workspace_.camera() ? *workspace_.camera() : overview(shown->sector(), rays));
+  if (!stands) return;
+  workspace_.camera.set(stands);
+  if (drag_) drag_->camera = moved(drag_->camera).value_or(drag_->camera);
+}
+
 LivePicture::Build VolumeModel::build(const PictureLook& look) {
   PictureLook in_units = look;
   in_units.size = look.panel ? whole_units(look) : units();
+  stand_still();
   if (look.panel) return panel_build(in_units);
   if (better_) better_->cancel();  // what is under way shows something that is past
   auto input = volume_input(workspace_, workspace_.camera(), in_units);

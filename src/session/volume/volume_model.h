@@ -20,7 +20,8 @@ enum class VolumeSide : std::uint8_t { overview, above, starboard, port, behind 
 ///
 /// Left drag turns it, middle drag moves it, the wheel comes nearer to what is under the pointer, a left click without a
 /// drag is a press upon the voxel that is seen there. The first picture after a change is coarse, better ones follow
-/// while nothing changes. Hidden, it gives back its volumes and the back-end that drew them.
+/// while nothing changes. Earth-fixed, the eye stays where it is on the earth while pings pass. Hidden, it gives back its
+/// volumes and the back-end that drew them.
 /// threads  the window's
 class VolumeModel : public LivePicture {
  public:
@@ -70,6 +71,7 @@ class VolumeModel : public LivePicture {
     bool moved = false;
   };
   void hear(DocumentChange change);
+  void stand_still();
   [[nodiscard]] Build panel_build(const PictureLook& in_units);
   /// Places in the frame, which is in the window's units: the back-end has a scale of its own.
   [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
@@ -86,7 +88,8 @@ class VolumeModel : public LivePicture {
   void press_voxel(const PointerEvent& event, bool double_press);
 
   Workspace& workspace_;
-  std::weak_ptr<const int> of_;  ///< identity of the observation on show
+  std::weak_ptr<const int> of_;              ///< identity of the observation on show
+  std::optional<std::int64_t> camera_ping_;  ///< in whose frame the camera is
   std::optional<Drag> drag_;
   LiveVolume::MakeRenderer make_;  ///< of panels' back-ends; empty = those of this machine
   std::shared_ptr<LiveVolume> live_;

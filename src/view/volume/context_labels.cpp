@@ -235,7 +235,9 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   lines.fitted_seabed.reset();
   ContextLabels labels(frame, camera, theme, opaque);
   for (const PixelRect& place : taken) labels.keep_off(place);
-  labels.keep_off(context_scene(sector, lines, theme).lines);
+  const ContextScene drawn = context_scene(sector, lines, theme);
+  labels.keep_off(drawn.lines);
+  labels.keep_off(drawn.under);
   label_schools(labels, params.schools, camera);
   const double z = -params.transducer_depth_m;
   const SurfaceGrid grid = surface_grid(sector, params);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,39 @@ std::vector<TextItem> labels_of(const Sector& sector, const ContextParams& param
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+// A number stands beside its school where no trail runs, though it would have stood elsewhere.
+TEST(ContextLabels, NumbersOfSchoolsKeepOffTrails) {
+  constexpr PixelSize kPicture{800, 600};
+  const Sector sector = slice_example::hand_sector();
+  const Camera camera = overview(sector, kPicture);
+  const CameraBasis eye = basis(camera, kPicture);
+  ContextParams params;
+  params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis = false;
+  SchoolPlace school;
+  school.middle = sector.centre(4, 3, 20);
+  school.name = "7";
+  for (const double d : {-8.0, 8.0}) school.edge.push_back(school.middle + Point<Sonar>{d, d, d});
+  params.schools = {school};
+  auto trails = std::make_shared<std::vector<SceneLine>>();
+  std::vector<PixelRect> stood;
+  // Whatever place it takes, the next trail runs there.
+  for (int i = 0; i < 6; ++i) {
+    params.trails = std::make_shared<const std::vector<SceneLine>>(*trails);
+    const std::vector<TextItem> labels = labels_of(sector, params, camera, kPicture);
+    ASSERT_EQ(labels.size(), 1U);
+    const PixelRect box = LabelRoom::box_of(labels[0]);
+    const PixelPoint middle{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+    for (const PixelRect& before : stood)
+      EXPECT_FALSE(inside(box, {before.x + 0.5 * before.width, before.y + 0.5 * before.height}));
+    stood.push_back(box);
+    const auto at = [&](double dy) {
+      const Ray ray = eye.ray({middle.x, middle.y + dy});
+      return ray.origin + ray.direction * 100.0;
+    };
+    trails->push_back({at(-1.0), at(1.0), {255, 0, 0, 255}});
+  }
 }
 
 // A text of ten pixels is 12 high; "ab" is as wide as the theme says.

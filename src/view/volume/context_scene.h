@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -27,6 +28,7 @@ struct SceneLine {
   Point<Sonar> to;
   Rgba8 colour;
   double width_px = 1.0;
+  friend bool operator==(const SceneLine&, const SceneLine&) = default;
 };
 
 /// What stands round a ping's volume, as geometry in the sonar frame. Opaque things end rays; translucent ones and lines
@@ -36,6 +38,8 @@ struct ContextScene {
   std::vector<SceneTriangle> translucent;
   std::vector<SceneTriangle> ground;  ///< translucent, always behind the volume
   std::vector<SceneLine> lines;
+  /// Behind the volume alone, and behind the others: what echoes hide does not shine through them.
+  std::vector<SceneLine> under;
 };
 
 /// Depth of the seabed round the ship on an even grid: node (ix, iy) lies at x = first_x_m + ix * spacing_m (bow),
@@ -77,6 +81,8 @@ struct ContextParams {
   std::optional<int> side_beam;       ///< the same of the slice from the side
   std::optional<FittedSeabed> fitted_seabed;
   std::vector<SchoolPlace> schools;  ///< have drop lines and names; labels keep off them
+  /// Tracks and trails (SchoolTrails), in the sonar frame; null = none. The same object = the same lines.
+  std::shared_ptr<const std::vector<SceneLine>> trails;
   friend bool operator==(const ContextParams&, const ContextParams&) = default;
 };
 
