@@ -136,11 +136,11 @@ TEST_F(WindowPreferences, TwoActionsMayExchangeTheirKeys) {
 TEST_F(WindowPreferences, TextsNameTheKeysThatAreInForce) {
   const std::string text = "[schools.detect_all] detects, [no.such] and [] do nothing, [review.next] goes on [";
   EXPECT_EQ(actions().with_keys(text), "Ctrl+D detects, [no.such] and [] do nothing, N goes on [");
-  actions().take_keys({{"schools.detect_all", {}}, {"review.next", {"M", "F7"}}});
+  actions().take_keys({{"schools.detect_all", {}}, {"review.next", {"F10"}}});
   EXPECT_EQ(actions().with_keys(text),
-            "Detect schools in the whole survey detects, [no.such] and [] do nothing, M goes on [");
+            "Detect schools in the whole survey detects, [no.such] and [] do nothing, F10 goes on [");
   app_->workspace.document.tell("press [review.next]");
-  EXPECT_EQ(app_->workspace.document.notices().back(), "press M");
+  EXPECT_EQ(app_->workspace.document.notices().back(), "press F10");
 }
 
 }  // namespace

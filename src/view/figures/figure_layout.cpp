@@ -28,7 +28,7 @@ constexpr double kTitle = 1.9;
 constexpr double kLegendWide = 8.6;  ///< an upright bar with its labels
 constexpr double kLegendHigh = 1.4 + 0.9 + kBelowLevelBar_em + 0.6;
 constexpr double kLeastWide = 14.0;  ///< of a panel
-constexpr double kLeastHigh = 9.0;
+constexpr double kLeastHigh = 8.0;
 constexpr double kNarrow_mm = 120.0;  ///< a page without room beside its panels
 
 double pixels(double mm, int dpi) { return mm * dpi / kMmPerInch; }

@@ -238,10 +238,11 @@ void add_bars(FrameDescription& frame, const PixelRect& place, const SliceStepsS
     upper.height = std::floor(0.5 * place.height - 1.2 * theme.text_px);
     PixelRect lower = upper;
     lower.y = place.y + place.height - lower.height;
-    add_colour_bar(frame, lower, difference_colours(theme), -style.difference_db, style.difference_db, theme,
-                   "difference (dB)");
+    add_colour_bar(frame, lower,
+                   colour_bar(difference_colours(theme), -style.difference_db, style.difference_db, "difference (dB)"),
+                   theme);
   }
-  add_colour_bar(frame, upper, style.colours, theme);
+  add_colour_bar(frame, upper, colour_bar(style.colours), theme);
 }
 
 Result<void> check(const Sector& sector, const SliceStepsData& data, const SliceView& view,
