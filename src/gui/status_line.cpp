@@ -42,7 +42,7 @@ QString text_at_cursor(const Workspace& workspace) {
 }
 
 /// The status bar's own background: a style sheet would keep the colours of the theme it was set under.
-void clear_seabed(QLineEdit& line) {
+void clear_background(QLineEdit& line) {
   QPalette palette;
   palette.setColor(QPalette::Base, QApplication::palette().color(QPalette::Window));
   palette.setColor(QPalette::Text, QApplication::palette().color(QPalette::WindowText));
@@ -97,7 +97,6 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   cursor->setReadOnly(true);
   cursor->setFrame(false);
   cursor->setFocusPolicy(Qt::ClickFocus);
-  clear_seabed(*cursor);
   auto* bar = new QProgressBar(status);
   bar->setFixedWidth(kProgressWidth_px);
   auto* cancel = new QPushButton("Cancel", status);
@@ -135,8 +134,10 @@ void add_status_line(QMainWindow& window, AppModel& app) {
     cursor->setToolTip(cut ? cursor->text() : QString());
   };
   workspace.cursor.changed().add(read);
-  // After the window has taken the theme.
-  workspace.dark.changed().add([cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_seabed(*cursor); }); });
+  // After the window has taken the theme, at first too.
+  const auto clear = [cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_background(*cursor); }); };
+  workspace.dark.changed().add(clear);
+  clear();
   workspace.preview.changed().add(read);
   workspace.measurement.changed().add(read);
   workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {

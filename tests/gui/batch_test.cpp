@@ -120,6 +120,8 @@ TEST_F(BatchInWindow, TwoSurveysAreRunWhileWorkGoesOnAndOneIsOpened) {
   press("copy_log");
   EXPECT_EQ(QApplication::clipboard()->text().toStdString(), log());
   runs_->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(runs_));
+  click_row(1);
   QTest::mouseDClick(table()->viewport(), Qt::LeftButton, {}, middle_of(1));
   settle();
   EXPECT_EQ(document().named(), std::vector{root_ / "leg-2-out"});
@@ -191,6 +193,8 @@ TEST_F(BatchInWindow, ClosingAWindowWhileSurveysAreRunAsksFirst) {
   EXPECT_EQ(batch().surveys()[0].state, BatchState::stopped);
   EXPECT_TRUE(runs_->close()) << "nothing runs any more";
   EXPECT_EQ(asked, 3);
+  window_->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
   key(Qt::Key_R, Qt::ControlModifier);
   EXPECT_TRUE(runs_->isVisible());
   EXPECT_EQ(cell(0, BatchRows::Column::state), "stopped");

@@ -37,14 +37,21 @@ class FigureOnPaper : public WindowAtWork {
   }
   /// Opens the dialog by its key, and closes it.
   void compose(const std::function<void(QDialog&)>& act) {
-    QTimer::singleShot(0, window_.get(), [act] {
+    QTimer looks;
+    looks.setInterval(20);
+    QObject::connect(&looks, &QTimer::timeout, window_.get(), [act, &looks] {
       auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
+      if (dialog == nullptr) return;  // not yet
+      looks.stop();
       EXPECT_EQ(dialog->objectName(), "figure");
       act(*dialog);
       QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Close), Qt::LeftButton);
     });
+    window_->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+    looks.start();
     key(Qt::Key_F, Qt::ControlModifier | Qt::ShiftModifier);
+    EXPECT_FALSE(looks.isActive()) << "the dialog did not open";
   }
   /// Turns the loop until something has come about.
   static void until(const std::function<bool()>& come) {

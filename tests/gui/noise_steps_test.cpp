@@ -52,6 +52,7 @@ TEST_F(NoiseStepsInTheWindow, AreOffUntilTheyAreAskedForAndComparedByAClick) {
   settle();
   dock("noise_steps")->setFloating(false);
   settle();
+  raise("noise_steps");
   click("noise_steps", middle_of(Shows::step, NoiseStep::median));
   EXPECT_TRUE(compares(NoiseStep::impulse_noise, NoiseStep::median));
   keep_picture("noise-steps-compared");

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "pipeline/survey/test_ek60.h"
 #include "pipeline/tasks/merge.h"
@@ -238,7 +240,11 @@ TEST_F(BatchRuns, RowsTellHowEachStands) {
     seen += text(BatchRows::Column::progress) + "\n" + total_text(batch_) + "\n";
   });
   const auto held = document_.right_of_way().take();  // slow enough to be seen
-  run();
+  ASSERT_TRUE(batch_.start());
+  while (batch_.running()) {
+    if (queue_.drain() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  batch_.settle();
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_THAT(seen, AllOf(HasSubstr("observation 1 of 2: "), HasSubstr(" of 24 pings"), HasSubstr("survey 1 of 1, ")));
   EXPECT_EQ(text(BatchRows::Column::state), "done");

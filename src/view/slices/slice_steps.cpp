@@ -17,10 +17,12 @@
 namespace sonar {
 namespace {
 
-constexpr double kName_em = 1.4;   ///< height of a line with a step's name
-constexpr double kWords_em = 1.2;  ///< of a line on what it did
-constexpr double kSmall = 0.9;     ///< its text, of the theme's
-constexpr double kGap_em = 0.7;    ///< between pictures
+constexpr double kName_em = 1.4;       ///< height of a line with a step's name
+constexpr double kWords_em = 1.2;      ///< of a line on what it did
+constexpr double kSmall = 0.9;         ///< its text, of the theme's
+constexpr double kGap_em = 0.7;        ///< between pictures
+constexpr double kSign = 0.1;          ///< size of signs in the picture of a step, of its height
+constexpr double kLeastPlot_em = 6.0;  ///< height of a picture, before lines of words are left out
 constexpr double kLeast_px = 12.0;
 constexpr double kRowShare = 0.24;  ///< of the height, for the row of all steps below two that are compared
 
@@ -65,6 +67,12 @@ class Page {
   Result<void> add_all(const PixelRect& area) {
     std::size_t lines = 0;
     for (const SliceStep& step : data_.steps) lines = std::max(lines, step.words.size());
+    // In a small panel the pictures come before the words.
+    const auto height = [&](std::size_t with) {
+      const double words = words_px(with);
+      return plot_of(cells(area, data_.steps.size(), aspect(), words, kGap_em * em()).front(), words).height;
+    };
+    while (lines > 0 && height(lines) < kLeastPlot_em * em()) --lines;
     return add_steps(area, lines);
   }
 
@@ -181,7 +189,10 @@ class Page {
     SlicePing ping = ping_;
     if (place.shows != Shows::before)
       ping.heading_rad = std::numeric_limits<double>::quiet_NaN();  // one arrow is enough
-    add_slice_context(frame, map, {place.plot.x, place.plot.y}, ping, style, theme_);
+    Theme theme = theme_;
+    if (place.shows == Shows::step)
+      theme.text_px = std::min(em(), kSign * place.plot.height);  // the ship hides no echo
+    add_slice_context(frame, map, {place.plot.x, place.plot.y}, ping, style, theme);
     frame.items.emplace_back(ClipItem{});
     const bool chosen = place.shows == Shows::step && style_.compared &&
                         (place.step == style_.compared->first || place.step == style_.compared->second);
