@@ -14,7 +14,7 @@ constexpr int kBarAlpha = 80;  ///< of 255: text stays legible over it
 constexpr int kBarMargin_px = 2;
 
 /// In letters of the font, by BatchRows::Column; the last takes what is left.
-constexpr std::array<int, 6> kColumnWidths{24, 16, 24, 11, 50, 12};
+constexpr std::array<int, 6> kColumnWidths{24, 20, 24, 11, 50, 12};
 
 /// A bar behind the text, while something is on its way.
 class ProgressDelegate : public QStyledItemDelegate {

@@ -90,7 +90,7 @@ QWidget* BatchWindow::upper_half() {
                if (!folder.empty()) add_paths({folder});
              });
   open_window_ = add_button(*row, "add_open", "Add the open survey", "The one that the main window shows",
-                            [this] { add_paths(app_.workspace.document.paths()); });
+                            [this] { tell(batch_.add_survey(app_.workspace.document.paths())); });
   remove_ = add_button(*row, "remove", "Remove", "Takes the marked survey out of the list (Del); no file is touched",
                        [this] { remove(); });
   earlier_ = add_button(*row, "earlier", "Earlier", "Runs the marked survey earlier (Alt+Up)", [this] { move(false); });

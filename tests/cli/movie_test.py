@@ -130,7 +130,7 @@ class Movies(sonarx.Case):
                      *QUICK, "--each-picture", "--out", str(folder / f"m.{ending}")], stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                     env={**os.environ, "XDG_CACHE_HOME": str(sonarx.WORK / "cache")})
-                while not (folder / "m-0001.png").exists() and process.poll() is None:
+                while not (folder / ".m-0001.png").exists() and process.poll() is None:
                     time.sleep(0.01)
                 process.send_signal(signal.SIGINT)
                 begun = time.monotonic()

@@ -157,7 +157,9 @@ TEST_F(Menus, RowsAndTheTreeHaveMenusToo) {
 }
 
 TEST_F(Menus, EveryViewAndListHasAMenu) {
-  for (const SliceKind kind : kSliceKinds) switch_on(workspace(), kind);
+  for (const PictureDock& one : app_->pictures) {
+    if (!one.view_switch.empty()) (void)workspace().views.set(one.view_switch, true);
+  }
   settle();
   for (const PictureDock& one : app_->pictures) {
     raise(one.id);

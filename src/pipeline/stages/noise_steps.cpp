@@ -54,7 +54,7 @@ class Counting {
     if (recorded != kNoData) ++effect_.recorded;
     if (before != kNoData && behind == kNoData) {
       ++effect_.taken_out;
-      if (filtered != kNoData) replaced_.push_back(filtered - recorded);
+      if (filtered != kNoData && recorded != kNoData) replaced_.push_back(filtered - recorded);
     } else if (before == kNoData && behind != kNoData) {
       ++effect_.filled_in;
     } else if (before != kNoData) {
@@ -145,7 +145,8 @@ NoiseEffect counted(const NoiseSteps& steps, NoiseStep step, std::size_t samples
   Counting counting;
   for (std::size_t i = 0; i < samples; ++i) {
     const std::size_t at = voxel(i);
-    counting.add(recorded[at], on_this_side(at), beyond(at), filtered(at));
+    // Behind the median filter nothing comes in the place of what is taken out.
+    counting.add(recorded[at], on_this_side(at), beyond(at), step < NoiseStep::median ? filtered(at) : kNoData);
   }
   return counting.done();
 }

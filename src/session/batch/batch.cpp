@@ -81,6 +81,14 @@ Result<void> Batch::add(const std::vector<fs::path>& paths) {
   return done;
 }
 
+Result<void> Batch::add_survey(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> whole;
+  for (const fs::path& path : paths) whole.push_back(whole_path(path));
+  const auto added = add_one(whole, {});
+  changed_.tell(BatchChange::surveys);
+  return added;
+}
+
 Result<void> Batch::add_one(const std::vector<fs::path>& paths, const fs::path& out) {
   const auto same = [&](const BatchSurvey& other) { return places_of(other.paths) == places_of(paths); };
   if (std::any_of(surveys_.begin(), surveys_.end(), same)) {
@@ -190,12 +198,17 @@ Result<std::vector<fs::path>> Batch::to_be_replaced() const {
   const std::string hash = recipe_hash(*recipe);
   std::vector<fs::path> folders;
   for (const BatchSurvey& survey : surveys_) {
-    std::error_code absent;
-    if (survey.out.empty() || !fs::exists(survey.out / "products", absent)) continue;
-    const auto plan = read_plan(survey.out / "plan.json");
-    if (plan && recipe_hash(plan->recipe) != hash) folders.push_back(survey.out);
+    if (has_others_results(survey, hash)) folders.push_back(survey.out);
   }
   return folders;
+}
+
+/// Of another recipe.
+bool Batch::has_others_results(const BatchSurvey& survey, const std::string& hash) {
+  std::error_code absent;
+  if (survey.out.empty() || !fs::exists(survey.out / "products", absent)) return false;
+  const auto plan = read_plan(survey.out / "plan.json");
+  return plan && recipe_hash(plan->recipe) != hash;
 }
 
 Result<void> Batch::start() {
@@ -216,6 +229,9 @@ Result<void> Batch::start() {
   for (const std::string& note : recipe_choice() == BatchRecipe::of_file ? recipe->notes : std::vector<std::string>{}) {
     tell(shown_line({RunLine::Kind::note, fmt::format("earlier-parameter: {}: {}", recipe_file_.string(), note)}));
   }
+  auto replaced = to_be_replaced();
+  if (!replaced) return pass_on(replaced);
+  may_replace_ = std::move(*replaced);
   running_recipe_ = std::make_shared<const Recipe>(std::move(*recipe));
   running_ = true;
   stopping_ = false;
@@ -231,6 +247,14 @@ void Batch::stop() {
 }
 
 void Batch::begin_next() {
+  // What came into the list meanwhile was not asked about.
+  const std::string hash = recipe_hash(*running_recipe_);
+  for (BatchSurvey& survey : surveys_) {
+    if (survey.state != BatchState::waiting || !has_others_results(survey, hash)) continue;
+    if (std::find(may_replace_.begin(), may_replace_.end(), survey.out) != may_replace_.end()) continue;
+    survey.state = BatchState::failed;
+    survey.why = "results under another recipe lie in its folder: the next start asks about them";
+  }
   const auto next =
       std::find_if(surveys_.begin(), surveys_.end(), [](const auto& one) { return one.state == BatchState::waiting; });
   if (stopping_ || next == surveys_.end()) return end_all();

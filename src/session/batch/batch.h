@@ -74,6 +74,9 @@ class Batch {
   /// What the paths stand for, see named_surveys().
   /// errors  usage: one is in the list already (the others are taken); as named_surveys()
   Result<void> add(const std::vector<std::filesystem::path>& paths);
+  /// One survey of all the paths, as a window has them open together.
+  /// errors  usage: it is in the list already; as set_out()
+  Result<void> add_survey(const std::vector<std::filesystem::path>& paths);
   /// errors  usage: it is running
   Result<void> remove(std::size_t at);
   /// Changes places with the one before or after it.
@@ -129,6 +132,7 @@ class Batch {
   void look_at_size(const BatchSurvey& survey);
   [[nodiscard]] Result<void> require_free(std::size_t at, const std::filesystem::path& folder) const;
   [[nodiscard]] Result<Recipe> chosen_recipe() const;
+  [[nodiscard]] static bool has_others_results(const BatchSurvey& survey, const std::string& recipe_hash);
   void begin_next();
   void begin(BatchSurvey& survey);
   void end(std::int64_t id, const Ended& ended);
@@ -146,6 +150,7 @@ class Batch {
   std::filesystem::path recipe_file_;
   int jobs_ = 0;
   std::shared_ptr<const Recipe> running_recipe_;
+  std::vector<std::filesystem::path> may_replace_;  ///< folders with results of another recipe when the run was started
   bool running_ = false;
   bool stopping_ = false;
   std::chrono::steady_clock::time_point begun_;

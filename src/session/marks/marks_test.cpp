@@ -100,6 +100,8 @@ TEST_F(Marks, ABookmarkLeadsBackToWhatWasSeen) {
   open_again();
   const SchoolMasks masks = longest_found();
   ASSERT_FALSE(masks.pings.empty());
+  ASSERT_TRUE(
+      workspace().volume.set("earth_fixed", true));  // the eye of a bookmark is where it was, in its ping's frame
   look_at(masks.pings.front().ping_index);
   const auto& schools = document().state().schools;
   select(schools.front()->number);
@@ -127,11 +129,16 @@ TEST_F(Marks, ABookmarkLeadsBackToWhatWasSeen) {
     workspace().camera.set(std::nullopt);
   };
   leave();
+  const LivePicture& volume = *app_->picture("volume");
   list().select(0);
   document().settle();
   EXPECT_EQ(document().ping(), ping);
   EXPECT_EQ(view_now(workspace()), seen);
   EXPECT_EQ(list().selected(), 0U) << "Delete is about it";
+  const std::int64_t version = volume.version();
+  workspace().camera.set(std::nullopt);
+  EXPECT_GT(volume.version(), version) << "a camera that others set is drawn";
+  workspace().camera.set(seen.camera);
   // Of another kind of plane alone, too.
   workspace().plane.assign({PlaneSlice::Kind::vertical, 20.0, 33.0, 25.0, 8.0});
   list().select(0);

@@ -57,6 +57,11 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
        {&workspace.cursor.changed(), &workspace.tool.changed(), &workspace.measurement.changed()}) {
     listen(*changed_over, [this] { changed().tell(); });
   }
+  listen(workspace.camera.changed(), [this] {
+    if (placing_) return;
+    camera_ping_ = workspace_.document.ping();
+    update();
+  });
   listen(workspace.slices.changed(), [this] {
     const VolumeParams& params = workspace_.volume.values();
     const bool shown = params.context && params.slice_planes;
@@ -86,19 +91,27 @@ void VolumeModel::hear(DocumentChange change) {
       // One more observation is open, or another calibration chosen: the camera stays.
       if (change == DocumentChange::observation && identity == of_.lock()) return update();
       of_ = identity;
-      workspace_.camera.set(std::nullopt);
+      place_camera(std::nullopt);
       camera_ping_.reset();
       drag_.reset();
       shown_.reset();
       return update();
     }
     case DocumentChange::ping:
+      if (!seen()) stand_still();  // pictures in files are looked at from there too
+      return update();
     case DocumentChange::propagating:
     case DocumentChange::state:
       return update();
     default:
       return;
   }
+}
+
+void VolumeModel::place_camera(const std::optional<Camera>& camera) {
+  placing_ = true;
+  workspace_.camera.set(camera);
+  placing_ = false;
 }
 
 /// Puts the camera into the frame of the ping that is shown next, where it is where it was on the earth. What is not known
@@ -116,9 +129,10 @@ void VolumeModel::stand_still() {
   };
   // An overview stands where it was seen from.
   const PixelSize rays = shown_ ? shown_->view.size : units();
+  if (!workspace_.camera() && (rays.width < 1 || rays.height < 1)) return;
   const auto stands = moved(workspace_.camera() ? *workspace_.camera() : overview(shown->sector(), rays));
   if (!stands) return;
-  workspace_.camera.set(stands);
+  place_camera(stands);
   if (drag_) drag_->camera = moved(drag_->camera).value_or(drag_->camera);
 }
 
@@ -184,13 +198,13 @@ void VolumeModel::set_camera(const Camera& camera) {
   const double distance_m = norm(camera.eye - camera.target);
   if (distance_m < kNearest_m || distance_m > kFarthest * far_m) return;
   if (workspace_.camera() == camera) return;
-  workspace_.camera.set(camera);
+  place_camera(camera);
   update();
 }
 
 void VolumeModel::look_from(VolumeSide side) {
   if (side == VolumeSide::overview) {
-    workspace_.camera.set(std::nullopt);
+    place_camera(std::nullopt);
     return update();
   }
   const auto& observation = workspace_.document.shown();

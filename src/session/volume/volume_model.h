@@ -72,6 +72,8 @@ class VolumeModel : public LivePicture {
   };
   void hear(DocumentChange change);
   void stand_still();
+  /// Unlike one that others set, it needs no new picture, and is not in the frame of the ping that is asked for.
+  void place_camera(const std::optional<Camera>& camera);
   [[nodiscard]] Build panel_build(const PictureLook& in_units);
   /// Places in the frame, which is in the window's units: the back-end has a scale of its own.
   [[nodiscard]] PixelPoint in_frame(PixelPoint pixel) const { return {pixel.x / scale(), pixel.y / scale()}; }
@@ -90,6 +92,7 @@ class VolumeModel : public LivePicture {
   Workspace& workspace_;
   std::weak_ptr<const int> of_;              ///< identity of the observation on show
   std::optional<std::int64_t> camera_ping_;  ///< in whose frame the camera is
+  bool placing_ = false;                     ///< the camera, by this model
   std::optional<Drag> drag_;
   LiveVolume::MakeRenderer make_;  ///< of panels' back-ends; empty = those of this machine
   std::shared_ptr<LiveVolume> live_;
