@@ -11,7 +11,6 @@
 #include <QTreeView>
 
 #include "gui/action_menus.h"
-#include "session/slices/slice_places.h"
 #include "session/timelines/timeline_model.h"
 #include "window_at_work.h"
 
