@@ -84,6 +84,8 @@ TEST(NoiseSteps, TellWhatEachDid) {
   EXPECT_NEAR(*interference.replaced_db, -10.0, 0.02);
   EXPECT_FALSE(steps.effect(NoiseStep::impulse_noise).replaced_db) << "behind the seabed";
   EXPECT_FALSE(interference.change_db);
+  EXPECT_EQ(steps.effect(NoiseStep::background).replaced, 0) << "nothing comes in the place of the last step's";
+  EXPECT_FALSE(steps.effect(NoiseStep::seabed).replaced_db);
   // Filled in: samples 1, 2 and 3. Changed: 4, 6 and 7 by -10 dB, the second beam's eight by -3 dB.
   const NoiseEffect& median = steps.effect(NoiseStep::median);
   EXPECT_EQ(median.filled_in, 3);

@@ -48,6 +48,15 @@ TEST_F(BatchFolders, FilesAreOneSurveyTogether) {
   EXPECT_EQ(out(1), root_ / "one-out-2");
 }
 
+// An observation may go over from one folder into the other.
+TEST_F(BatchFolders, WhatAWindowHasOpenTogetherIsOneSurvey) {
+  const std::vector<fs::path> both{survey("one"), survey("two")};
+  ASSERT_TRUE(batch_.add_survey(both));
+  ASSERT_EQ(batch_.surveys().size(), 1U);
+  EXPECT_EQ(batch_.surveys()[0].paths, both);
+  EXPECT_FALSE(batch_.add_survey(both)) << "it is in the list already";
+}
+
 TEST_F(BatchFolders, ASurveyIsTakenOnceByWhateverName) {
   const fs::path one = survey("one");
   ASSERT_TRUE(batch_.add({one}));

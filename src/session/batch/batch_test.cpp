@@ -195,6 +195,30 @@ TEST_F(BatchRuns, ADoneSurveyIsRunAgainUnderAnotherRecipeAlone) {
   EXPECT_EQ(bytes_in(out(0) / "products"), bytes_in(root_ / "expected" / "products"));
 }
 
+TEST_F(BatchRuns, ResultsOfAnotherRecipeThatComeMeanwhileAreNotReplacedUnasked) {
+  Recipe other;
+  other.detect.tolerance_db = 7.0;
+  ASSERT_TRUE(write_recipe((root_ / "R.json").string(), other));
+  ASSERT_TRUE(batch_.set_recipe(BatchRecipe::of_file, root_ / "R.json"));
+  ASSERT_TRUE(batch_.add({survey("one")}));
+  run();
+  const auto before = bytes_in(out(0));
+  ASSERT_TRUE(batch_.remove(0));
+  ASSERT_TRUE(batch_.set_recipe(BatchRecipe::preset));
+  ASSERT_TRUE(batch_.add({survey("two")}));
+  ASSERT_TRUE(batch_.start());
+  ASSERT_TRUE(batch_.add({root_ / "one"}));
+  ASSERT_TRUE(batch_.set_out(1, root_ / "one-out"));
+  batch_.settle();
+  EXPECT_EQ(state(0), BatchState::done);
+  EXPECT_EQ(state(1), BatchState::failed);
+  EXPECT_THAT(batch_.surveys()[1].why, HasSubstr("another recipe"));
+  EXPECT_EQ(bytes_in(root_ / "one-out"), before);
+  EXPECT_THAT(*batch_.to_be_replaced(), ElementsAre(root_ / "one-out")) << "now it is asked about";
+  run();
+  EXPECT_EQ(state(1), BatchState::done);
+}
+
 TEST_F(BatchRuns, TheRecipeOfTheWindowIsTheOneOfTheOpenSurvey) {
   EXPECT_EQ(batch_.recipe_choice(), BatchRecipe::preset) << "no survey is open";
   Recipe other;
