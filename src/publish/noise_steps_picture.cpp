@@ -14,28 +14,30 @@
 namespace sonar {
 namespace {
 
-/// "0.4 % of the ping, 1.2 % of the slice".
-std::string shares(std::int64_t NoiseEffect::*what, const NoiseEffect& ping, const NoiseEffect& slice) {
+/// "takes out 0.4 % of ping", "and 1.2 % of slice": short lines, for a fifth of a picture's width.
+void add_shares(std::vector<std::string>& words, const std::string& does, std::int64_t NoiseEffect::*what,
+                const NoiseEffect& ping, const NoiseEffect& slice) {
   const auto share = [&](const NoiseEffect& of) {
     if (of.*what == 0) return std::string("0 %");
     const double percent =
         100.0 * static_cast<double>(of.*what) / static_cast<double>(std::max<std::int64_t>(1, of.recorded));
     return percent < 0.01 ? std::string("< 0.01 %") : fmt::format("{:.{}f} %", percent, percent < 1.0 ? 2 : 1);
   };
-  return fmt::format("{} of the ping, {} of the slice", share(ping), share(slice));
+  words.push_back(fmt::format("{} {} of ping", does, share(ping)));
+  if (ping.*what != 0) words.push_back(fmt::format("and {} of slice", share(slice)));
 }
 
 std::string decibels(double db) { return (db > 0.0 ? "+" : "") + tick_text(db, 1) + " dB"; }
 
 std::vector<std::string> median_words(const NoiseEffect& ping, const NoiseEffect& slice) {
   std::vector<std::string> words;
-  words.push_back("changes " + shares(&NoiseEffect::changed, ping, slice));
+  add_shares(words, "changes", &NoiseEffect::changed, ping, slice);
   if (slice.change_db) {
-    words.push_back("by " + decibels(*slice.change_db) + " in the slice (median)");
+    words.push_back("by " + decibels(*slice.change_db) + " (median)");
   } else if (ping.change_db) {
     words.push_back("by " + decibels(*ping.change_db) + " in the ping (median)");
   }
-  words.push_back("fills in " + shares(&NoiseEffect::filled_in, ping, slice));
+  if (ping.filled_in > 0) add_shares(words, "fills in", &NoiseEffect::filled_in, ping, slice);
   return words;
 }
 
@@ -49,13 +51,13 @@ std::vector<std::string> noise_effect_words(NoiseStep step, bool on, const Noise
   if (step == NoiseStep::median) {
     if (on) return median_words(ping, slice);
     // Without the filter what was faulty stands in filtered Sv as it was recorded.
-    if (ping.filled_in > 0) words.push_back("puts back " + shares(&NoiseEffect::filled_in, ping, slice));
+    if (ping.filled_in > 0) add_shares(words, "puts back", &NoiseEffect::filled_in, ping, slice);
     return words;
   }
   if (!on && ping.taken_out == 0) return words;
-  words.push_back((on ? "takes out " : "even so out: ") + shares(&NoiseEffect::taken_out, ping, slice));
-  if (step == NoiseStep::background) words.emplace_back("below the noise; subtracted in measures");
-  if (ping.replaced_db) words.push_back("median filter: " + decibels(*ping.replaced_db) + " in their place");
+  add_shares(words, on ? "takes out" : "even so out:", &NoiseEffect::taken_out, ping, slice);
+  if (step == NoiseStep::background) words.emplace_back("below the noise");
+  if (ping.replaced_db) words.push_back("median filter: " + decibels(*ping.replaced_db) + " there");
   return words;
 }
 
