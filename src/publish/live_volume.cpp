@@ -217,6 +217,7 @@ void LiveVolume::State::take_trails(VolumeFigure& figure, const LiveVolumeInput&
     trail_lines = std::make_shared<const std::vector<SceneLine>>(std::move(lines));
   }
   figure.trails = trail_lines;
+  figure.schools_tracked = !input.trails.schools.empty();
 }
 
 Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,

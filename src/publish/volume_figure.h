@@ -32,6 +32,7 @@ struct VolumeFigure {
   std::string title_line;                                  ///< of the picture; the title with the ping
   bool samples = true;                                     ///< false: the masks alone are known
   std::shared_ptr<const SeabedPatch> seabed{};             ///< drawn where it is given, with a scale of its depths
+  bool schools_tracked = false;                            ///< some of `trails` may be schools'
   std::shared_ptr<const std::vector<SceneLine>> trails{};  ///< of ship and schools; null = none
   std::optional<FittedSeabed> fitted{};                    ///< of this ping's echoes; drawn where `seabed` is not given
   int fan = 0;                                             ///< of the slice from above

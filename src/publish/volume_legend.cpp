@@ -39,7 +39,7 @@ void add_trails(std::vector<LegendRow>& rows, const VolumeFigure& figure, const 
   if (!figure.trails) return;
   const TrailParams shown = trail_params(options.volume);
   if (shown.ship_track) rows.push_back({whole_line, theme.track, "track of the ship"});
-  if (!options.display.masks) return;
+  if (!figure.schools_tracked) return;
   if (shown.school_tracks) rows.push_back({whole_line, theme.text, "tracks of schools"});
   if (shown.pings > 0) {
     const std::string words =

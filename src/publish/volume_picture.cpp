@@ -47,8 +47,10 @@ void take_trails(VolumeFigure& figure, DrawnObservation& observation, const Sect
                  const PictureOptions& options, const VolumePlace& place) {
   const TrailParams params = trail_params(options.volume);
   if (!params.any()) return;
-  figure.trails = std::make_shared<const std::vector<SceneLine>>(observation.trails().lines(
-      sector, trail_subject(observation, options), ping, figure.navigation, params, scaled_theme(place)));
+  const TrailSubject subject = trail_subject(observation, options);
+  figure.trails = std::make_shared<const std::vector<SceneLine>>(
+      observation.trails().lines(sector, subject, ping, figure.navigation, params, scaled_theme(place)));
+  figure.schools_tracked = !subject.schools.empty();
 }
 
 /// The options with the camera where it stands in the ping that is drawn, if it was named for another.

@@ -96,6 +96,10 @@ TEST_F(VolumeTrails, TheLegendAndTheTitleSayWhatTheyAre) {
   }
   options_.volume.trail_pings = 1;
   EXPECT_THAT(words(), testing::HasSubstr("schools of the ping before"));
+  options_.display.masks = false;
+  EXPECT_THAT(words(), testing::HasSubstr("track of the ship"));
+  EXPECT_THAT(words(), testing::Not(testing::AnyOf(testing::HasSubstr("tracks of"), testing::HasSubstr("ping before"))))
+      << "of what is not there nothing is said";
 }
 
 TEST_F(VolumeTrails, AnEyeOfAnotherPingIsTheSameForThatPingAndAnotherForOthers) {
