@@ -3,7 +3,7 @@
 # Installs the Debian 12 packages that the project needs; does nothing, quickly, where they are there.
 #   tools/setup.sh [build | test | full | bench | readers | cluster | packages]...     (default: build)
 # build  to build and run sonarx      test   build + unit, data and command-line tests, format check
-# full   test + clang, clang-tidy, sanitizers, fuzzing      bench  build + the rivals that the benchmarks measure
+# full   test + clang, clang-tidy, sanitizers, fuzzing, Vulkan's tools      bench  build + the rivals that the benchmarks measure
 # readers  test + other people's programs that read our files: xarray, OGR, R, QGIS      cluster  test + Slurm
 # packages  build + what makes the Debian packages and the manual, and tries them in a bare root
 set -euo pipefail
@@ -19,7 +19,7 @@ readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-c
 cluster=(munge slurmctld slurmd slurm-client)
 packages=(pybind11-dev python3-dev dpkg-dev file gzip git mkdocs desktop-file-utils groff-base debootstrap
           patchelf squashfs-tools)
-full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16)
+full=(clang-16 clang-tidy-16 libclang-rt-16-dev lld-16 glslang-tools spirv-tools mesa-vulkan-drivers)
 bench=(libbenchmark-dev libinsighttoolkit5-dev python3-numpy python3-vtk9 xvfb)
 
 wanted=("${build[@]}")

@@ -4,7 +4,8 @@
 #   tools/test.sh           g++, format, layers, unit, data and command-line tests
 #   tools/test.sh --full    also the slow tests, other people's readers (R, QGIS), lone headers, the headless build,
 #                           clang 16 with address + undefined-behaviour and thread sanitizers, clang-tidy, some
-#                           seconds of each fuzz target, and the benchmarks' build where ITK is installed
+#                           seconds of each fuzz target, OpenGL on Vulkan, shaders by the standard's own compiler, and the
+#                           benchmarks' build where ITK is installed
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 exec </dev/null
@@ -22,7 +23,7 @@ full=false
 for argument in "$@"; do
   case "$argument" in
     --full) full=true ;;
-    -h | --help) sed -n '3,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -h | --help) sed -n '3,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     *) echo "test.sh: unknown argument '$argument' (there is --full)" >&2; exit 2 ;;
   esac
 done
@@ -94,6 +95,17 @@ same_bytes_of_both_compilers() {
   done
 }
 
+vulkan_tests() {
+  # Mesa's OpenGL on Vulkan on the processor: a second compiler of shaders, and one that is strict. Without a context the
+  # tests would skip themselves; that it is this driver is asked first.
+  local MESA_LOADER_DRIVER_OVERRIDE=zink LIBGL_ALWAYS_SOFTWARE=1 SONAR_GL_DRIVER=zink
+  local VK_ICD_FILENAMES
+  VK_ICD_FILENAMES=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json')
+  export MESA_LOADER_DRIVER_OVERRIDE LIBGL_ALWAYS_SOFTWARE SONAR_GL_DRIVER VK_ICD_FILENAMES
+  build/dev/src/render/sonar_render_gl_test --gtest_brief=1 --gtest_filter='*DrawsWithTheDriver*' |
+    tee /dev/stderr | grep 'PASSED.* 1 test' >/dev/null && run_ctest dev -L gl
+}
+
 headless() {
   build headless --target sonarx && build/headless/src/cli/sonarx --version || return 1
   # Neither the compiler nor the linker may have been told of Qt.
@@ -119,6 +131,7 @@ part "layers" tools/check_layers
 part "build with g++" build dev
 if $full; then
   part "tests, the slow ones too" run_ctest dev
+  part "OpenGL tests on Vulkan" vulkan_tests
   part "every header alone" tools/check_headers build/dev
   part "build with clang 16, address and undefined-behaviour sanitizers" build asan
   part "clang-tidy" tidy

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
 #include <initializer_list>
 
 #include "render/gl/capabilities.h"
 #include "render/gl/gl_renderer.h"
 #include "render/gl/gl_state.h"
 #include "render/gl/gl_test_scene.h"
+#include "render/gl/gl_test_variants.h"
 #include "render/gl/shader_source.h"
 #include "render/gl/volume_pass.h"
 
@@ -120,41 +122,26 @@ TEST_F(ContextGl, ObjectsMoveAndEmptyOnesAreHarmless) {
 
 TEST_F(ContextGl, AWrongShaderIsRefusedInTheDriversWords) {
   ASSERT_TRUE(context_.make_current());
-  const auto made = make_program("broken", "#version 410 core\nvoid main() { nonsense; }", "");
+  const auto made = make_program("broken", {"#version 410 core\nvoid main() { nonsense; }", ""});
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().text.find("'broken'"), std::string::npos);
   EXPECT_NE(made.error().text.find("nonsense"), std::string::npos) << made.error().text;
   EXPECT_EQ(made.error().text.find('\n'), std::string::npos);
 }
 
+TEST_F(ContextGl, DrawsWithTheDriverThatTheTestsAreRunFor) {
+  const char* wanted = std::getenv("SONAR_GL_DRIVER");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  if (wanted == nullptr) GTEST_SKIP() << "SONAR_GL_DRIVER names none";
+  ASSERT_TRUE(context_.make_current());
+  EXPECT_NE(current_driver().find(wanted), std::string::npos) << current_driver();
+}
+
 TEST_F(ContextGl, EveryVariantOfTheShaderCompiles) {
   ASSERT_TRUE(context_.make_current());
   VolumePass pass;
-  const auto good = [&](const RayVariant& variant) {
+  for (const RayVariant& variant : gl_test::every_variant()) {
     const auto ok = pass.prepare(variant);
     EXPECT_TRUE(ok) << (ok ? "" : ok.error().text);
-  };
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
-    for (int bits = 0; bits < 32; ++bits) {
-      RayVariant v{.mode = mode};
-      v.lit = (bits & 1) != 0;
-      v.data = (bits & 2) != 0;
-      v.gapped = (bits & 4) != 0;
-      v.folded = (bits & 8) != 0;
-      v.mask_words = (bits & 16) != 0 ? 8 : 0;
-      v.opaque = v.lit;
-      good(v);
-    }
-  }
-  for (int bits = 0; bits < 64; ++bits) {
-    RayVariant v;
-    v.inner = (bits & 1) != 0;
-    v.wide = (bits & 2) != 0;
-    v.low_hole = (bits & 4) != 0;
-    v.high_hole = (bits & 8) != 0;
-    v.even_beams = (bits & 16) != 0;
-    v.even_fans = (bits & 32) != 0;
-    good(v);
   }
 }
 

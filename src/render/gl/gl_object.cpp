@@ -138,11 +138,11 @@ void gl_detail::label(GlKind kind, unsigned id, std::string_view text) {
   }
 }
 
-Result<Program> make_program(std::string_view name, const std::string& vertex, const std::string& fragment) {
+Result<Program> make_program(std::string_view name, const ShaderTexts& shaders) {
   const Shader first(GL_VERTEX_SHADER);
   const Shader second(GL_FRAGMENT_SHADER);
   for (const auto& [shader, source, stage] :
-       {std::tuple{&first, &vertex, "vertex"}, std::tuple{&second, &fragment, "fragment"}}) {
+       {std::tuple{&first, &shaders.vertex, "vertex"}, std::tuple{&second, &shaders.fragment, "fragment"}}) {
     if (const std::string complaint = shader->compile(*source); !complaint.empty()) {
       return fail(ErrorCode::unsupported,
                   fmt::format("the driver does not take the {} shader '{}': {}", stage, name, complaint));

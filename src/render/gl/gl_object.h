@@ -61,9 +61,13 @@ using Framebuffer = GlObject<GlKind::framebuffer>;
 using VertexArray = GlObject<GlKind::vertex_array>;
 using Query = GlObject<GlKind::query>;
 
+struct ShaderTexts {
+  std::string vertex;
+  std::string fragment;
+};
+
 /// Compiles and links.
 /// errors  unsupported: the driver's own words, after `name`
-[[nodiscard]] Result<Program> make_program(std::string_view name, const std::string& vertex,
-                                           const std::string& fragment);
+[[nodiscard]] Result<Program> make_program(std::string_view name, const ShaderTexts& shaders);
 
 }  // namespace sonar

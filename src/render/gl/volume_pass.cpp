@@ -15,8 +15,10 @@ namespace {
 constexpr GLuint kBlockBinding = 0;
 constexpr const char* kVersion = "#version 410 core\n";
 
-std::string joined(std::initializer_list<std::string_view> files) {
-  std::string out;
+/// files  of render/gl/shaders, one after the other; an empty name adds nothing
+std::string shader_of(std::initializer_list<std::string_view> files, std::string_view defines = {}) {
+  std::string out = kVersion;
+  out += defines;
   for (const std::string_view file : files) {
     out += shader_source(file);
   }
@@ -60,20 +62,19 @@ RayVariant sector_variant(const GridAxes& axes) {
   return out;
 }
 
-std::string ray_shader(const RayVariant& variant) {
-  std::string out = kVersion + defines(variant) + joined({"block.glsl", "grid.glsl", "sector.glsl", "cells.glsl"});
-  if (variant.lit || variant.mask_words > 0) {
-    out += shader_source("light.glsl");
-  }
-  if (variant.mask_words > 0) {
-    out += shader_source("masks.glsl");
-  }
-  return out + joined({"volume.frag"});
+ShaderTexts hull_shaders() { return {shader_of({"block.glsl", "hull.vert"}), shader_of({"hull.frag"})}; }
+
+ShaderTexts ray_shaders(const RayVariant& variant) {
+  const bool masks = variant.mask_words > 0;
+  return {shader_of({"whole.vert"}),
+          shader_of({"block.glsl", "grid.glsl", "sector.glsl", "cells.glsl", variant.lit || masks ? "light.glsl" : "",
+                     masks ? "masks.glsl" : "", "volume.frag"},
+                    defines(variant))};
 }
 
 Result<void> VolumePass::prepare(const RayVariant& variant) {
   if (!hull_program_) {
-    auto made = make_program("hull", kVersion + joined({"block.glsl", "hull.vert"}), kVersion + joined({"hull.frag"}));
+    auto made = make_program("hull", hull_shaders());
     if (!made) {
       return pass_on(made);
     }
@@ -85,7 +86,7 @@ Result<void> VolumePass::prepare(const RayVariant& variant) {
   if (programs_.contains(variant)) {
     return {};
   }
-  auto made = make_program("volume", kVersion + joined({"whole.vert"}), ray_shader(variant));
+  auto made = make_program("volume", ray_shaders(variant));
   if (!made) {
     return pass_on(made);
   }

@@ -33,8 +33,9 @@ struct RayVariant {
 };
 
 [[nodiscard]] RayVariant sector_variant(const GridAxes& axes);
-/// Text of a whole shader: version, defines of the variant, the files it is made of.
-[[nodiscard]] std::string ray_shader(const RayVariant& variant);
+/// Texts of whole shaders: version, defines of the variant, the files they are made of.
+[[nodiscard]] ShaderTexts hull_shaders();
+[[nodiscard]] ShaderTexts ray_shaders(const RayVariant& variant);
 
 /// Rays through the volume into a framebuffer with colour and stencil: the hull marks the pixels, then each of them is
 /// traced once.
