@@ -61,18 +61,15 @@ sonar::PropagateCommand command_of(Observation::State& state, std::int64_t ping,
 Product selected(Observation::State& state, std::int64_t ping, const sonar::PropagateCommand& command) {
   sonar::Recipe recipe = state.recipe.own();
   recipe.automatic = false;
-  sonar::JournalLine line;
-  line.n = 1;
-  line.command = "propagate";
-  line.ping_time = state.survey->ping_time(*state.files, static_cast<std::size_t>(ping));
-  line.args = sonar::to_json(command);
+  const sonar::TimeNs time = state.survey->ping_time(*state.files, static_cast<std::size_t>(ping));
+  const std::vector<sonar::JournalLine> lines{sonar::line_of({1, 0, {}, time, command})};
   RunningWork running(state.threads);
   auto product =
-      value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, {&line, 1}, version()}, running.work()));
+      value_or_throw(sonar::observe(*state.survey, *state.files, recipe, {{}, lines, version()}, running.work()));
   for (const sonar::Diagnostic& note : product.diagnostics) {
     if (note.code != sonar::DiagnosticCode::decision_lost) continue;
     // That a selection is a line of a journal is no matter of the caller's.
-    const std::string said = sonar::said_of(line);
+    const std::string said = sonar::said_of(lines.front());
     const std::string why = note.text.starts_with(said) ? note.text.substr(said.size()) : note.text;
     raise({sonar::ErrorCode::bad_parameter, why, {"", -1, note.ping_index}});
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "io/atomic_file.h"
 #include "io/product_file.h"
 #include "model/school_totals.h"
+#include "pipeline/commands/command.h"
 #include "pipeline/journal/manual.h"
 #include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/tasks/merge.h"
@@ -226,8 +228,8 @@ Result<void> write_outcome(const Clicked& clicked, const JournalLine& line, cons
   head.files = input_files(clicked.survey, *clicked.observation);
   const std::string text = journal_head_text(head) + "\n" + journal_text(line) + "\n";
   if (auto written = write_file(options.out / "session.jsonl", text); !written) return written;
-  Plan plan =
-      make_plan(clicked.survey, clicked.paths, options.out / "session.jsonl", recipe, {{}, {&line, 1}, SONAR_VERSION});
+  Plan plan = make_plan(clicked.survey, clicked.paths, options.out / "session.jsonl", recipe,
+                        {{}, std::span(&line, 1), SONAR_VERSION});
   std::erase_if(plan.tasks, [&](const PlanTask& task) { return task.observation != product.observation; });
   return write_file(options.out / "plan.json", plan_text(plan));
 }
@@ -253,19 +255,16 @@ int propagate_verb(const PropagateArguments& arguments) {
   const auto clicked = click(arguments, *recipe, work);
   if (!clicked) return report(clicked.error());
   if (auto outside = require_outside_raw(clicked->survey, arguments.out); !outside) return report(outside.error());
-  JournalLine line;
-  line.n = 1;
-  line.decided =
+  const TimeNs now =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-  line.operator_name = arguments.operator_name;
-  line.command = "propagate";
-  line.ping_time = clicked->survey.ping_time(*clicked->observation, static_cast<std::size_t>(clicked->ping_index));
-  line.args = to_json(clicked->command);
+  const TimeNs ping_time =
+      clicked->survey.ping_time(*clicked->observation, static_cast<std::size_t>(clicked->ping_index));
+  const JournalLine line = line_of({1, now, arguments.operator_name, ping_time, clicked->command});
   if (auto own = require_own_folder(arguments.out, line); !own) return report(own.error());
   if (auto space = require_free_space(arguments.out, kLeastFreeBytes); !space) return report(space.error());
   RunOptions options;
   options.out = arguments.out;
-  const ObserveOptions observe_options{{}, {&line, 1}, SONAR_VERSION};
+  const ObserveOptions observe_options{{}, std::span(&line, 1), SONAR_VERSION};
   const auto product = observe(clicked->survey, *clicked->observation, *recipe, observe_options, work);
   clear_progress();
   if (!product) return report(product.error());

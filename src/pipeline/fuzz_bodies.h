@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "base/check.h"
 #include "io/csv_table.h"
+#include "pipeline/commands/command.h"
 #include "pipeline/journal/journal.h"
-#include "pipeline/journal/manual.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/recipe/transfer_function_json.h"
@@ -37,8 +38,15 @@ inline void journal(std::string_view text) {
   const auto again = parse_journal(written, "fuzz");
   SONAR_CHECK(again.has_value() && again->lines.size() == read->lines.size() && again->diagnostics.empty());
   for (const JournalLine& line : effective_lines(read->lines)) {
-    if (const auto command = propagate_from_json(line.args)) {
-      SONAR_CHECK(!command->seeds.empty() || command->school.has_value());
+    const auto act = act_of(line);
+    if (!act) continue;
+    const JournalLine said = line_of(*act);
+    const auto same = act_of(said);
+    SONAR_CHECK(same.has_value() && line_of(*same).command == said.command &&
+                line_of(*same).args.dump() == said.args.dump());
+    SONAR_CHECK(!sentence_of(act->command).words.empty());
+    if (const auto* propagate = std::get_if<PropagateCommand>(&act->command)) {
+      SONAR_CHECK(!propagate->seeds.empty() || propagate->school.has_value());
     }
   }
 }

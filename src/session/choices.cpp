@@ -61,16 +61,16 @@ TimeNs Choices::now() const {
   return time;
 }
 
-void Choices::run(std::function<Result<std::int64_t>()> job) {
+void Choices::run(std::function<Result<std::int64_t>()> job, ActTicket ticket) {
   ++waiting_;
-  thread_.post([this, job = std::move(job)](const CancelToken&) {
+  thread_.post([this, job = std::move(job), ticket](const CancelToken&) {
     const auto line = within_memory(job);
     let_go_but_looked_at();
-    publish(line ? std::string{} : to_line(line.error()), line ? *line : 0);
+    publish(line ? std::string{} : to_line(line.error()), line ? *line : 0, ticket);
   });
 }
 
-void Choices::publish(std::string failure, std::int64_t line) {
+void Choices::publish(std::string failure, std::int64_t line, ActTicket ticket) {
   ChoicesShown shown;
   for (const auto& [index, of] : open_) {
     shown.states[index] = of.state;
@@ -85,6 +85,7 @@ void Choices::publish(std::string failure, std::int64_t line) {
   shown.notices = std::exchange(notices_, {});
   shown.journal = place_.path;
   shown.done_line = line;
+  shown.ticket = ticket;
   queue_.post([this, alive = std::weak_ptr<bool>(alive_), shown = std::move(shown)] {
     if (alive.expired()) return;
     --waiting_;  // an act is at work until it is shown
@@ -117,16 +118,19 @@ void Choices::grow(OpenObservationPtr observation) {
   });
 }
 
-void Choices::act(std::size_t observation, std::int64_t ping_index, Command command,
-                  std::shared_ptr<JournalStep> step) {
+ActTicket Choices::act(std::size_t observation, std::int64_t ping_index, Command command,
+                       std::shared_ptr<JournalStep> step) {
   stopping_ = false;
-  run([this, observation, ping_index, command = std::move(command), step = std::move(step)]() mutable {
+  const ActTicket ticket = ++tickets_;
+  auto job = [this, observation, ping_index, command = std::move(command), step = std::move(step)]() mutable {
     if (step && step->broken) return Result<std::int64_t>(0);
     others_hold_ = false;
     auto line = carry_out(observation, ping_index, std::move(command), step.get());
     if (step && !line && !others_hold_) step->broken = true;  // what others hold is left out alone
     return line;
-  });
+  };
+  run(std::move(job), ticket);
+  return ticket;
 }
 
 /// What a step did is what its first line did.
@@ -165,6 +169,13 @@ void Choices::tell_replayed(std::size_t done, std::size_t total) {
   });
 }
 
+/// Lines stay what they are: each is parsed once.
+const ReadLine& Choices::read(const JournalLine& line) {
+  const std::pair key(line.n, line.decided);
+  const auto known = lines_read_.find(key);
+  return known != lines_read_.end() ? known->second : lines_read_.emplace(key, read_line(line)).first->second;
+}
+
 void Choices::rebuild() {
   done_.clear();
   undone_.clear();
@@ -173,18 +184,19 @@ void Choices::rebuild() {
   for (const JournalLine& line : lines) {
     tell_replayed(done_.size(), lines.size());
     Turn turn{line.n, line.step, line.command, {}, {}};
+    const ReadLine& act = read(line);
     for (auto& [index, of] : open_) {
       turn.before[index] = of.state;
-      of.state = std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.context()));
+      of.state = std::make_shared<const JournalState>(fold({&act, 1}, *of.state, of.context()));
       turn.after[index] = of.state;
     }
-    if (const auto act = act_of(line)) turn.name = name_of(*act, turn);
+    if (act.act) turn.name = name_of(*act.act, turn);
     names_[turn.n] = turn.name;
     done_.push_back(std::move(turn));
   }
   for (const JournalLine& line : place_.lines) {
     if (names_.contains(line.n)) continue;
-    if (const auto act = act_of(line)) names_[line.n] = act_name(*act, {}, nullptr, nullptr);
+    if (const ReadLine& act = read(line); act.act) names_[line.n] = act_name(*act.act, {}, nullptr, nullptr);
   }
 }
 
@@ -198,10 +210,11 @@ void Choices::rebuild(std::size_t index) {
   of.state = base_of(of, lines);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     tell_replayed(i, lines.size());
+    const ReadLine& act = read(lines[i]);
     done_[i].before[index] = of.state;
-    of.state = std::make_shared<const JournalState>(fold({&lines[i], 1}, *of.state, of.context()));
+    of.state = std::make_shared<const JournalState>(fold({&act, 1}, *of.state, of.context()));
     done_[i].after[index] = of.state;
-    if (const auto act = act_of(lines[i])) done_[i].name = name_of(*act, done_[i]);
+    if (act.act) done_[i].name = name_of(*act.act, done_[i]);
     names_[done_[i].n] = done_[i].name;
   }
   // What was undone, and what was replaced, is known no more.
@@ -249,9 +262,11 @@ Result<std::int64_t> Choices::carry_out(std::size_t observation, std::int64_t pi
   }
   if (auto held = hold(at->second.observation->survey(), observation); !held) return pass_on(held);
   std::vector<Turn> replaced;
-  if (step != nullptr && step->instead_of_last && step->first == 0) {
+  if (step != nullptr && step->instead_of != 0 && step->first == 0) {
     const std::vector<std::int64_t> last = history_.undoable();
-    if (last.empty() || !stand_last(done_, last)) return fail(ErrorCode::usage, "something else was done meanwhile");
+    if (last.empty() || last.front() != step->instead_of || !stand_last(done_, last)) {
+      return fail(ErrorCode::usage, "something else was done meanwhile");
+    }
     replaced = take_last(last.size());
   }
   auto line = carry_out_upon(replaced, observation, ping_index, std::move(command), step);
@@ -280,7 +295,8 @@ Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::s
   }
   JournalLine line = line_of(act);
   // What the next start could not read must not be shown as done.
-  if (const auto read = act_of(line); !read) return pass_on(read);
+  ReadLine again = read_line(line);
+  if (!again.act) return pass_on(again.act);
   if (!replaced.empty()) {
     turn.replaced = replaced;
     if (auto taken_back = write_replaced(replaced, *step); !taken_back) return pass_on(taken_back);
@@ -290,6 +306,7 @@ Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::s
     if (!turn.replaced.empty()) rebuild();
     return pass_on(written);
   }
+  lines_read_.emplace(std::pair(line.n, line.decided), std::move(again));
   if (step != nullptr) step->first = line.step;
   turn.step = line.step;
   if (asks_to_detect(act.n)) {

@@ -29,6 +29,9 @@ namespace sonar {
 using OpenObservationPtr = std::shared_ptr<OpenObservation>;
 using JournalStatePtr = std::shared_ptr<const JournalState>;
 
+/// Whoever asks for an act knows it again by this when it is shown; no other act on the survey has it. 0 = none.
+using ActTicket = std::int64_t;
+
 /// What humans have chosen so far, as it is shown. A value.
 struct ChoicesShown {
   std::map<std::size_t, JournalStatePtr> states;  ///< of the observations that are open
@@ -42,6 +45,7 @@ struct ChoicesShown {
   std::vector<std::string> notices;           ///< what a user must be told beside
   std::filesystem::path journal;              ///< ours
   std::int64_t done_line = 0;                 ///< n of the line that was just written; 0 = none
+  ActTicket ticket = 0;                       ///< of the act that was just tried; 0 = another change
 };
 
 /// The line that was just written; null where none was.
@@ -55,8 +59,9 @@ struct ChoicesShown {
 struct JournalStep {
   std::int64_t first = 0;  ///< n of its first line
   bool broken = false;
-  /// Its first act is done instead of what stands last, which is taken back within the step: undo brings that back.
-  bool instead_of_last = false;
+  /// n of the line that stands last, with its step: it is taken back within this one, whose undo brings it back. The first
+  /// act is refused where another has come meanwhile. 0 = nothing is replaced.
+  std::int64_t instead_of = 0;
 };
 
 /// Every human choice on a survey: carried out one after another behind the window, written into the journal and flushed,
@@ -91,8 +96,8 @@ class Choices {
   void grow(OpenObservationPtr observation);
   /// On a ping of an open observation.
   /// step  that the act is part of; null = it stands alone
-  void act(std::size_t observation, std::int64_t ping_index, Command command,
-           std::shared_ptr<JournalStep> step = nullptr);
+  ActTicket act(std::size_t observation, std::int64_t ping_index, Command command,
+                std::shared_ptr<JournalStep> step = nullptr);
   /// This one is looked at from now on; others that were held are let go. What others have chosen since is taken in.
   void look_at(std::size_t observation);
   void undo() { turn_back(true); }
@@ -125,8 +130,9 @@ class Choices {
   };
 
   // On the thread of the acts:
-  void run(std::function<Result<std::int64_t>()> job);
-  void publish(std::string failure, std::int64_t line);
+  void run(std::function<Result<std::int64_t>()> job, ActTicket ticket = 0);
+  void publish(std::string failure, std::int64_t line, ActTicket ticket = 0);
+  [[nodiscard]] const ReadLine& read(const JournalLine& line);
   [[nodiscard]] static JournalStatePtr base_of(const OnObservation& of, const std::vector<JournalLine>& lines);
   [[nodiscard]] bool asks_to_detect(std::int64_t n) const;
   void rebuild();
@@ -162,6 +168,7 @@ class Choices {
   Step step_;
   std::atomic<bool> stopping_{false};
   std::atomic<int> waiting_{0};
+  ActTicket tickets_ = 0;                                       ///< given so far
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
   // Touched by the thread of the acts alone:
   JournalPlace place_;
@@ -175,6 +182,7 @@ class Choices {
   std::vector<Turn> done_;
   std::vector<Turn> undone_;
   std::map<std::int64_t, std::string> names_;
+  std::map<std::pair<std::int64_t, TimeNs>, ReadLine> lines_read_;  ///< by n and time
   NamedLock lock_;                         ///< of our journal, taken with the first line that is written
   std::map<std::size_t, NamedLock> held_;  ///< observations
   std::size_t looked_at_ = 0;

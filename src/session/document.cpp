@@ -171,9 +171,9 @@ void Document::act(std::int64_t ping_index, Command command) {
   if (shown_) act(shown_->index(), ping_index, std::move(command));
 }
 
-void Document::act(std::size_t observation, std::int64_t ping_index, Command command,
-                   std::shared_ptr<JournalStep> step) {
-  if (!choices_thread_) return;
+ActTicket Document::act(std::size_t observation, std::int64_t ping_index, Command command,
+                        std::shared_ptr<JournalStep> step) {
+  if (!choices_thread_) return 0;
   replay_journal();
   if (const auto* propagate = std::get_if<PropagateCommand>(&command); propagate != nullptr && shown_) {
     const std::int64_t later = shown_->pings() - 1 - ping_index;
@@ -186,8 +186,9 @@ void Document::act(std::size_t observation, std::int64_t ping_index, Command com
                                                : std::optional<std::size_t>{};
     followed_ = known ? std::optional(state(observation).schools[*known]->number) : std::nullopt;
   }
-  choices_thread_->act(observation, ping_index, std::move(command), std::move(step));
+  const ActTicket ticket = choices_thread_->act(observation, ping_index, std::move(command), std::move(step));
   if (!following_.stage.empty()) changes_.tell(DocumentChange::progress);
+  return ticket;
 }
 
 Progress Document::activity() const {

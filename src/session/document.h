@@ -155,8 +155,8 @@ class Document {
   /// On the observation on show. What cannot be done is told as a notice and changes nothing.
   void act(std::int64_t ping_index, Command command);
   /// step  that the act is part of; null = it stands alone
-  void act(std::size_t observation, std::int64_t ping_index, Command command,
-           std::shared_ptr<JournalStep> step = nullptr);
+  ActTicket act(std::size_t observation, std::int64_t ping_index, Command command,
+                std::shared_ptr<JournalStep> step = nullptr);
   void undo();
   void redo();
   void stop_propagation();

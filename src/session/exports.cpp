@@ -68,23 +68,26 @@ Snapshot snapshot_of(const Workspace& workspace) {
 }
 
 /// What an observation's file holds: measured from the state on show, or, where it is not open, from the journal.
-Result<ObservationProduct> product_of(const Snapshot& snapshot, std::size_t index, Work& work) {
+/// journal  effective lines
+Result<ObservationProduct> product_of(const Snapshot& snapshot, const ReadJournal& journal, std::size_t index,
+                                      Work& work) {
   const ObservationFiles& observation = snapshot.survey->observations[index];
   if (observation.grid) {
     if (auto room = room_for(observation, snapshot.memory_bytes); !room) return pass_on(room);
   }
-  const std::vector<JournalLine> lines = effective_lines(*snapshot.lines);
   const auto state = snapshot.states.find(index);
   if (!observation.grid || state == snapshot.states.end() || !state->second) {
-    return observe(*snapshot.survey, observation, snapshot.recipe, {{}, lines, snapshot.program_version}, work);
+    return observe(*snapshot.survey, observation, snapshot.recipe, {{}, journal, snapshot.program_version}, work);
   }
   Engine engine(*snapshot.survey, observation, snapshot.measuring);
   return state_product(engine, *state->second,
-                       {lines, snapshot.program_version, true, nullptr, *snapshot.refused.at(index)}, work);
+                       {journal, snapshot.program_version, true, nullptr, *snapshot.refused.at(index)}, work);
 }
 
 ProductSource source_of_products(const Snapshot& snapshot, Work& work) {
-  return [&snapshot, &work](std::size_t index) { return product_of(snapshot, index, work); };
+  return [&snapshot, &work, journal = ReadJournal(effective_lines(*snapshot.lines))](std::size_t index) {
+    return product_of(snapshot, journal, index, work);
+  };
 }
 
 /// Products for the time of one export, in a hidden folder where the results go, so that the same disk is asked for room.

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/history.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <ranges>
-#include <variant>
-
-#include "base/number_text.h"
 
 namespace sonar {
 namespace {
@@ -40,24 +35,6 @@ std::string made_text(const JournalState* after, std::int64_t n) {
     if (school->made_by == n) return " " + school_title(*school);
   }
   return " school";
-}
-
-std::string verb_of(const Decision& one) {
-  if (one.status == "accepted") return "accept";
-  if (one.status == "rejected") return "reject";
-  if (one.status) return "mark as " + *one.status;
-  if (one.name) return "rename";
-  return one.species ? "set species of" : "comment on";
-}
-
-/// What is said of all schools; "review" where it is not the same.
-std::string decide_verb(const DecideCommand& command) {
-  std::string verb;
-  for (const Decision& one : command.decisions) {
-    if (!verb.empty() && verb != verb_of(one)) return "review";
-    verb = verb_of(one);
-  }
-  return verb.empty() ? "review" : verb;
 }
 
 }  // namespace
@@ -114,37 +91,11 @@ std::vector<std::int64_t> History::step_at_end(const std::vector<std::int64_t>& 
 
 std::string act_name(const JournalAct& act, const CommandContext& context, const JournalState* before,
                      const JournalState* after) {
-  const auto named = [&](const SchoolKey& key) { return school_text(before, context, key); };
-  const auto made_or = [&](const std::optional<SchoolKey>& key) { return key ? named(*key) : made_text(after, act.n); };
-  if (const auto* c = std::get_if<PropagateCommand>(&act.command)) return "propagate" + made_or(c->school);
-  if (const auto* c = std::get_if<GrowCommand>(&act.command)) {
-    if (c->to == GrowTo::take_away) return "take away from" + made_or(c->school);
-    if (c->to == GrowTo::replace) return "grow" + made_or(c->school) + " anew";
-    return (c->to == GrowTo::add ? "add to" : "grow") + made_or(c->school);
-  }
-  if (const auto* c = std::get_if<BrushCommand>(&act.command)) return "brush" + made_or(c->school);
-  if (const auto* c = std::get_if<EraseCommand>(&act.command)) return "erase" + (c->school ? named(*c->school) : "");
-  if (const auto* c = std::get_if<ReshapeCommand>(&act.command)) {
-    if (c->what == Reshaping::fill_holes) return "fill holes of" + named(c->school);
-    return (c->what == Reshaping::smooth ? "smooth" : "keep the largest part of") + named(c->school);
-  }
-  if (const auto* c = std::get_if<MergeCommand>(&act.command)) return "merge into" + named(c->schools.front());
-  if (const auto* c = std::get_if<SplitCommand>(&act.command)) return "split" + named(c->school);
-  if (const auto* c = std::get_if<DeleteCommand>(&act.command)) return "delete" + named(c->school);
-  if (const auto* c = std::get_if<EventCommand>(&act.command)) return "mark " + c->kind;
-  if (const auto* c = std::get_if<BadPingsCommand>(&act.command)) {
-    return c->first == c->last ? "mark bad ping" : "mark bad interval";
-  }
-  if (const auto* c = std::get_if<RemoveEventCommand>(&act.command)) return "remove mark " + c->event.kind;
-  if (const auto* c = std::get_if<GoodPingsCommand>(&act.command)) {
-    return c->first == c->last ? "mark good ping" : "mark good interval";
-  }
-  if (const auto* c = std::get_if<CalibrateCommand>(&act.command)) return "calibration " + c->file;
-  if (std::holds_alternative<DetectCommand>(act.command)) return "detect schools";
-  const auto& decide = std::get<DecideCommand>(act.command);
-  const std::string verb = decide_verb(decide);
-  if (decide.decisions.size() != 1) return verb + " " + count_of(decide.decisions.size(), "school");
-  return verb + named(decide.decisions.front().school);
+  const Sentence said = sentence_of(act.command);
+  std::string name = said.words;
+  if (said.school) name += school_text(before, context, *said.school);
+  if (said.makes_school) name += made_text(after, act.n);
+  return name + said.end;
 }
 
 }  // namespace sonar

@@ -13,7 +13,7 @@
 namespace sonar {
 
 /// What can be undone and redone, as a journal's lines say it. A new act ends what could be redone. An undo that is a line of a
-/// step (JournalStep::instead_of_last) is part of what that step did: to undo the step brings back what it replaced.
+/// step (JournalStep::instead_of) is part of what that step did: to undo the step brings back what it replaced.
 class History {
  public:
   /// first  number of the first line

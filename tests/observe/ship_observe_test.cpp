@@ -81,7 +81,7 @@ TEST_F(ObservedShip, SilentPingsAreNeitherMeasuredNorInTheWay) {
   for (std::size_t i = 0; i < listening.navigation.size(); ++i) {
     listening.navigation[i].bad = static_cast<std::int64_t>(i) == *clicked + 1;
   }
-  const auto carried = observe(*survey_, listening, by_hand, {{}, {&line, 1}, "test"}, work);
+  const auto carried = observe(*survey_, listening, by_hand, {{}, std::span(&line, 1), "test"}, work);
   ASSERT_TRUE(carried);
   const auto has = [&](std::int64_t ping_index) {
     return std::any_of(carried->masks.begin(), carried->masks.end(),

@@ -59,47 +59,17 @@ Result<PingMask> selection_of(const Edit& edit, const PropagateCommand& command,
   return grow_seeds(edit.context(), *ping, command.seeds, command.growth_curve, command.grow);
 }
 
-Result<void> apply_to_ping(Edit& edit, const Command& command) {
-  return std::visit(
-      [&](const auto& one) -> Result<void> {
-        using C = std::decay_t<decltype(one)>;
-        if constexpr (std::is_same_v<C, EventCommand> || std::is_same_v<C, BadPingsCommand> ||
-                      std::is_same_v<C, RemoveEventCommand> || std::is_same_v<C, GoodPingsCommand> ||
-                      std::is_same_v<C, CalibrateCommand>) {
-          return {};
-        } else {
-          return carry_out(edit, one);
-        }
-      },
-      command);
+bool meets(const CommandContext& context, const TimeSpan& span) {
+  return !context.times.empty() && span.first <= context.times.back() && span.last >= context.times.front();
 }
 
-/// Acts that say something about times, not about the ping that they were done on.
-bool about_times(const Command& command) {
-  return std::holds_alternative<EventCommand>(command) || std::holds_alternative<BadPingsCommand>(command) ||
-         std::holds_alternative<RemoveEventCommand>(command) || std::holds_alternative<GoodPingsCommand>(command) ||
-         std::holds_alternative<CalibrateCommand>(command) || std::holds_alternative<DecideCommand>(command);
-}
-
-bool overlaps(const CommandContext& context, TimeNs first, TimeNs last) {
-  return !context.times.empty() && first <= context.times.back() && last >= context.times.front();
-}
-
-/// What is no school's: marks and bad pings, where the observation has such times, and the calibration.
-Result<void> say_of_times(Edit& edit, const Command& command) {
-  const CommandContext& context = edit.context();
-  if (const auto* event = std::get_if<EventCommand>(&command)) {
-    if (overlaps(context, event->time, event->time)) edit.add_event(*event);
-  } else if (const auto* removed = std::get_if<RemoveEventCommand>(&command)) {
-    if (overlaps(context, removed->event.time, removed->event.time)) return edit.remove_event(removed->event);
-  } else if (const auto* bad = std::get_if<BadPingsCommand>(&command)) {
-    if (overlaps(context, bad->first, bad->last)) edit.take_bad(command);
-  } else if (const auto* good = std::get_if<GoodPingsCommand>(&command)) {
-    if (overlaps(context, good->first, good->last)) edit.take_bad(command);
-  } else if (const auto* calibrate = std::get_if<CalibrateCommand>(&command)) {
-    edit.calibrate(calibrate->calibration);
-  }
-  return {};
+/// Whether an act says something about these pings.
+bool holds_here(const JournalAct& act, const CommandContext& context) {
+  const About what = about(act.command);
+  if (what == About::ping) return ping_at(context, act.ping_time).has_value();
+  if (what == About::survey) return true;
+  const std::vector<TimeSpan> spans = spoken_times(act.command);
+  return std::ranges::any_of(spans, [&](const TimeSpan& span) { return meets(context, span); });
 }
 
 }  // namespace
@@ -158,14 +128,36 @@ Result<void> carry_out(Edit& edit, const DecideCommand& command) {
   return {};
 }
 
+Result<void> carry_out(Edit& edit, const EventCommand& command) {
+  edit.add_event(command);
+  return {};
+}
+
+Result<void> carry_out(Edit& edit, const RemoveEventCommand& command) { return edit.remove_event(command.event); }
+
+Result<void> carry_out(Edit& edit, const BadPingsCommand& command) {
+  edit.call_bad(command);
+  return {};
+}
+
+Result<void> carry_out(Edit& edit, const GoodPingsCommand& command) {
+  edit.call_good(command);
+  return {};
+}
+
+Result<void> carry_out(Edit& edit, const CalibrateCommand& command) {
+  edit.calibrate(command.calibration);
+  return {};
+}
+
 Result<Applied> apply_watched(const JournalAct& act, const JournalState& state, const CommandContext& context) {
-  const auto ping = ping_at(context, act.ping_time);
-  if (!ping && !about_times(act.command)) return Applied{act, state};
-  Edit edit(act, ping.value_or(-1), state, context);
-  if (auto said = say_of_times(edit, act.command); !said) return pass_on(said);
-  if (auto done = apply_to_ping(edit, act.command); !done) {
+  if (!holds_here(act, context)) return Applied{act, state};
+  const std::int64_t ping = ping_at(context, act.ping_time).value_or(-1);
+  Edit edit(act, ping, state, context);
+  const auto done = std::visit([&](const auto& command) { return carry_out(edit, command); }, act.command);
+  if (!done) {
     Error error = done.error();
-    if (error.where.ping < 0) error.where.ping = ping.value_or(-1);
+    if (error.where.ping < 0) error.where.ping = ping;
     return tl::unexpected<Error>(std::move(error));
   }
   Applied applied{act, {}};
@@ -180,23 +172,37 @@ Result<JournalState> apply(const JournalAct& act, const JournalState& state, con
   return std::move(applied->state);
 }
 
-JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandContext& whole_seabed) {
+JournalState fold(std::span<const ReadLine> lines, JournalState state, const CommandContext& whole_seabed) {
   CommandContext context = whole_seabed;
   context.on_step = {};  // what the lines say is not for anyone to stop
-  for (const JournalLine& line : lines) {
-    const auto spans = times_of(line);
-    const bool concerns = std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {
-      return span.first == span.last ? ping_at(context, span.first).has_value()
-                                     : overlaps(context, span.first, span.last);
-    });
-    const auto act = act_of(line);
-    auto next = act ? apply(*act, state, context) : Result<JournalState>(pass_on(act));
+  for (const ReadLine& read : lines) {
+    auto next = read.act ? apply(*read.act, state, context) : Result<JournalState>(pass_on(read.act));
     if (next) {
       state = std::move(*next);
-    } else if (concerns) {
-      state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(context, line.ping_time).value_or(-1),
-                             said_of(line) + next.error().text});
+      continue;
     }
+    const std::vector<TimeSpan> spans = times_of(read);
+    const bool concerns = std::ranges::any_of(spans, [&](const TimeSpan& span) {
+      return span.first == span.last ? ping_at(context, span.first).has_value() : meets(context, span);
+    });
+    if (!concerns) continue;
+    state.notes.push_back({DiagnosticCode::decision_lost, "", -1, ping_at(context, read.line.ping_time).value_or(-1),
+                           said_of(read.line) + next.error().text});
+  }
+  return state;
+}
+
+JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandContext& context) {
+  return fold(ReadJournal(lines).lines(), std::move(state), context);
+}
+
+JournalState fold_without_masks(std::span<const ReadLine> lines, std::span<const TimeNs> times) {
+  CommandContext context;
+  context.times.assign(times.begin(), times.end());
+  JournalState state;
+  for (const ReadLine& read : lines) {
+    if (!read.act || needs_masks(read.act->command)) continue;
+    if (auto next = apply(*read.act, state, context)) state = std::move(*next);
   }
   return state;
 }

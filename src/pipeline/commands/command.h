@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -157,6 +158,17 @@ struct JournalAct {
   Command command;
 };
 
+/// What an act is about, and so where it holds.
+enum class About {
+  ping,     ///< masks, from the line's ping on: of the observation that has it
+  schools,  ///< schools, each named by its own ping
+  times,    ///< times on the clock of the datagrams: whoever has them, without a mask
+  survey,   ///< all of it, without a mask
+};
+[[nodiscard]] About about(const Command& command);
+/// False: it can be carried out where no ping can be read.
+[[nodiscard]] bool needs_masks(const Command& command);
+
 /// Its name in the journal, "propagate" ...
 [[nodiscard]] std::string command_name(const Command& command);
 /// Whether a command of this name is a DecideCommand.
@@ -170,15 +182,51 @@ struct JournalAct {
 /// errors  as command_from_json()
 [[nodiscard]] Result<JournalAct> act_of(const JournalLine& line);
 
-/// Where on the clock of the datagrams a line says something: its ping, the schools that it names, its interval.
+/// What an act did, for people: words, then the name of a school where one is meant, then the end.
+struct Sentence {
+  std::string words;                ///< "take away from"
+  std::optional<SchoolKey> school;  ///< that is meant
+  bool makes_school = false;        ///< the one that it made is meant
+  std::string end;                  ///< " anew"
+};
+[[nodiscard]] Sentence sentence_of(const Command& command);
+
+/// Where on the clock of the datagrams an act says something.
 struct TimeSpan {
   TimeNs first = 0;
   TimeNs last = 0;
 };
-[[nodiscard]] std::vector<TimeSpan> times_of(const JournalLine& line);
+/// Of what it is about beside its ping: schools, times, the survey.
+[[nodiscard]] std::vector<TimeSpan> spoken_times(const Command& command);
+
+/// A line of a journal and what it asks for: whoever needs both reads it once.
+struct ReadLine {
+  JournalLine line;
+  Result<JournalAct> act;
+};
+[[nodiscard]] ReadLine read_line(const JournalLine& line);
+
+/// Effective lines, each read once. A value: copies share what was read.
+class ReadJournal {
+ public:
+  ReadJournal() = default;
+  ReadJournal(std::span<const JournalLine> lines);    // NOLINT(google-explicit-constructor): the same, read
+  ReadJournal(const std::vector<JournalLine>& lines)  // NOLINT(google-explicit-constructor)
+      : ReadJournal(std::span<const JournalLine>(lines)) {}
+  [[nodiscard]] std::span<const ReadLine> lines() const {
+    return lines_ ? std::span<const ReadLine>(*lines_) : std::span<const ReadLine>{};
+  }
+
+ private:
+  std::shared_ptr<const std::vector<ReadLine>> lines_;
+};
+
+/// Its ping, and the spoken times of its act.
+[[nodiscard]] std::vector<TimeSpan> times_of(const ReadLine& read);
 
 /// Whether effective lines ask for detection in the observation that has these pings.
 /// times  [ping_index], datagram times, rising
 [[nodiscard]] bool asks_for_detection(std::span<const JournalLine> lines, std::span<const TimeNs> times);
+[[nodiscard]] bool asks_for_detection(std::span<const ReadLine> lines, std::span<const TimeNs> times);
 
 }  // namespace sonar

@@ -1,334 +1,272 @@
 // SPDX-License-Identifier: Apache-2.0
+// Commands as lines of a journal: visitors of describe_commands.h that write and read them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 #include <utility>
 
 #include "pipeline/commands/command.h"
+#include "pipeline/commands/describe_commands.h"
 #include "pipeline/commands/json_members.h"
 #include "pipeline/recipe/json_file.h"
-#include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/survey/calibration_json.h"
 
 namespace sonar {
 namespace {
 
 using nlohmann::json;
-using namespace members;  // NOLINT(google-build-using-namespace): the readers of this room's commands
+using Names = std::span<const std::string_view>;
 
-template <class... Visitors>
-struct Overload : Visitors... {
-  using Visitors::operator()...;
+class NameOf : public PassesOver {
+ public:
+  template <class E>
+  void command(Names names, const E& which, About) {
+    name_ = names[static_cast<std::size_t>(which)];
+  }
+  [[nodiscard]] bool called(std::string_view name) const { return name_ == name; }
+  [[nodiscard]] std::string_view name() const { return name_; }
+
+ private:
+  std::string_view name_;
 };
-template <class... Visitors>
-Overload(Visitors...) -> Overload<Visitors...>;
 
-json with_school(json args, const std::optional<SchoolKey>& school) {
-  if (school) args["school"] = from_school(*school);
-  return args;
-}
-
-json from_decision(const Decision& decision) {
-  json args = {{"school", from_school(decision.school)}};
-  if (decision.status) args["status"] = *decision.status;
-  if (decision.species) args["species"] = *decision.species;
-  if (decision.comment) args["comment"] = *decision.comment;
-  if (decision.name) args["name"] = *decision.name;
-  return args;
-}
-
-Result<Decision> read_decision(const json& args, const std::string& place, TimeNs ping_time) {
-  const auto named = [&](const Error& error) { return fail(error.code, place + error.text); };
-  if (!args.is_object()) return fail(ErrorCode::format, place + "expected an object");
-  const auto school = read_school(args, ping_time);
-  if (!school) return named(school.error());
-  Decision decision{*school, {}, {}, {}};
-  if (args.contains("status")) {
-    const auto status = read_choice(args, "status", kStatusNames);
-    if (!status) return named(status.error());
-    decision.status = std::string(kStatusNames[*status]);
+class HasName : public PassesOver {
+ public:
+  explicit HasName(std::string_view name) : name_(name) {}
+  template <class E>
+  void command(Names names, const E&, About) {
+    found_ = std::ranges::find(names, name_) != names.end();
   }
-  for (const auto& [member, text] :
-       {std::pair("species", &decision.species), {"comment", &decision.comment}, {"name", &decision.name}}) {
-    if (!args.contains(member)) continue;
-    auto read = read_text(args, member);
-    if (!read) return named(read.error());
-    *text = std::move(*read);
-  }
-  if (!decision.status && !decision.species && !decision.comment && !decision.name) {
-    return fail(ErrorCode::format, place + "expected status, species, comment or name");
-  }
-  return decision;
-}
+  [[nodiscard]] bool found() const { return found_; }
 
-Result<Command> read_grow(const json& args, TimeNs ping_time) {
-  GrowCommand command;
-  const auto to = read_choice(args, "to", kGrowToNames);
-  if (!to) return pass_on(to);
-  command.to = static_cast<GrowTo>(*to);
-  auto grow = read_described<GrowParams>(args, "grow");
-  auto curve = read_growth_curve(args);
-  auto seeds = read_seeds(args);
-  const auto school = read_optional_school(args, ping_time);
-  if (!grow) return pass_on(grow);
-  if (!curve) return pass_on(curve);
-  if (!seeds) return pass_on(seeds);
-  if (!school) return pass_on(school);
-  if ((command.to == GrowTo::school) == school->has_value()) {
-    return fail(ErrorCode::format, "school: expected with add, take_away and replace, and only there");
+ private:
+  std::string_view name_;
+  bool found_ = false;
+};
+
+class ArgsWriter : public NameOf {
+ public:
+  template <class T>
+  void field(const char* name, const T& value) {
+    args_[name] = members::json_of(value);
   }
-  command.grow = *grow;
-  command.growth_curve = std::move(*curve);
-  command.seeds = std::move(*seeds);
-  command.school = *school;
-  return command;
-}
-
-template <class C>
-Result<Command> read_strokes(const json& args, TimeNs ping_time) {
-  auto runs = read_runs(args);
-  if (!runs) return pass_on(runs);
-  const auto school = read_optional_school(args, ping_time);
-  if (!school) return pass_on(school);
-  return C{std::move(*runs), *school};
-}
-
-Result<Command> read_reshape(Reshaping what, const json& args, TimeNs ping_time) {
-  const auto school = read_school(args, ping_time);
-  if (!school) return pass_on(school);
-  ReshapeCommand command{what, *school, false};
-  if (const auto all = args.find("all_pings"); all != args.end()) {
-    if (!all->is_boolean()) return fail(ErrorCode::format, "all_pings: expected true or false");
-    command.all_pings = all->get<bool>();
+  template <class T>
+  void field(const char* name, const std::optional<T>& value) {
+    if (value) field(name, *value);
   }
-  return command;
-}
-
-Result<Command> read_merge(const json& args, TimeNs ping_time) {
-  const auto list = args.find("schools");
-  if (list == args.end() || !list->is_array() || list->size() < 2) {
-    return fail(ErrorCode::format, "schools: expected an array of two or more voxels");
+  template <class E>
+  void choice(const char* name, const E& value, Names names, bool = false) {
+    if constexpr (std::is_enum_v<E>) {
+      args_[name] = names[static_cast<std::size_t>(value)];
+    } else {
+      field(name, value);
+    }
   }
-  MergeCommand command;
-  for (const json& school : *list) {
-    const auto key = read_school(school, fmt::format("schools[{}]", command.schools.size()), ping_time);
-    if (!key) return pass_on(key);
-    command.schools.push_back(*key);
+  void time(const char* name, const TimeNs& value) { field(name, value); }
+  void interval(const TimeNs& first, const TimeNs& last, std::string_view = {}) {
+    field("first", first);
+    field("last", last);
   }
-  return command;
-}
-
-Result<Command> read_split(const json& args, TimeNs ping_time) {
-  const auto school = read_school(args, ping_time);
-  if (!school) return pass_on(school);
-  SplitCommand command{*school, {}};
-  if (const auto seed = args.find("seed"); seed != args.end()) {
-    const auto read = read_seed(*seed, "seed");
-    if (!read) return pass_on(read);
-    command.seed = *read;
+  void count(const char* name, const std::int64_t& value) {
+    if (value > 0) field(name, value);
   }
-  return command;
-}
-
-Result<Command> read_decide(std::string_view name, const json& args, TimeNs ping_time) {
-  DecideCommand command;
-  if (name != "bulk_decide") {
-    auto decision = read_decision(args, "", ping_time);
-    if (!decision) return pass_on(decision);
-    command.decisions.push_back(std::move(*decision));
-    return command;
+  template <class T>
+  void pings(const char* name, const T& value) {
+    field(name, value);
   }
-  auto rule = read_text(args, "rule");
-  if (!rule) return pass_on(rule);
-  command.rule = std::move(*rule);
-  const auto list = args.find("decisions");
-  if (list == args.end() || !list->is_array()) return fail(ErrorCode::format, "decisions: expected an array");
-  for (const json& one : *list) {
-    auto decision = read_decision(one, fmt::format("decisions[{}]: ", command.decisions.size()), ping_time);
-    if (!decision) return pass_on(decision);
-    command.decisions.push_back(std::move(*decision));
+  void object(const char* name, const std::string& text) {
+    if (!text.empty()) args_[name] = json::parse(text);
   }
-  return command;
-}
-
-Result<EventCommand> read_event(const json& args) {
-  const auto kind = read_choice(args, "kind", kEventKindNames);
-  if (!kind) return pass_on(kind);
-  const auto time = read_time(args, "time");
-  if (!time) return pass_on(time);
-  auto text = read_text(args, "text");
-  if (!text) return pass_on(text);
-  EventCommand event{std::string(kEventKindNames[*kind]), *time, std::move(*text)};
-  if (const auto view = args.find("view"); view != args.end()) {
-    if (!view->is_object()) return fail(ErrorCode::format, "view: expected an object");
-    event.view = view->dump();
+  void inside(const CalibrationParams& calibration) { args_.update(to_json(calibration)); }
+  template <class D>
+  void list(const char* name, const std::vector<D>& all) {
+    json& array = args_[name] = json::array();
+    for (const D& one : all) {
+      ArgsWriter writer;
+      describe(writer, one);
+      array.push_back(std::move(writer.args_));
+    }
   }
-  return event;
-}
-
-Result<Command> read_detect(const json& args) {
-  constexpr std::int64_t kMostSchools = 1'000'000'000;
-  const auto found = args.find("schools");
-  if (found == args.end()) return DetectCommand{};
-  const auto schools = whole_number(*found);
-  if (!schools || *schools < 0 || *schools > kMostSchools) {
-    return fail(ErrorCode::format, fmt::format("schools: expected a whole number from 0 to {}", kMostSchools));
+  template <class D>
+  void alone(const std::vector<D>& all) {
+    describe(*this, all.front());
   }
-  return DetectCommand{*schools};
-}
+  [[nodiscard]] json& args() { return args_; }
 
-template <class C>
-Result<Command> read_interval(std::string_view name, const json& args, TimeNs ping_time) {
-  if (name == "bad_ping" && !args.contains("first")) return C{ping_time, ping_time};
-  const auto first = read_time(args, "first");
-  if (!first) return pass_on(first);
-  const auto last = read_time(args, "last");
-  if (!last) return pass_on(last);
-  if (*last < *first) return fail(ErrorCode::format, "last: lies before first");
-  return C{*first, *last};
-}
+ private:
+  json args_ = json::object();
+};
 
-json from_event(const EventCommand& event) {
-  json args{{"kind", event.kind}, {"time", event.time}, {"text", event.text}};
-  if (!event.view.empty()) args["view"] = json::parse(event.view);
-  return args;
-}
+/// Reads nothing of a line that has another name, and nothing after the first problem.
+class ArgsReader : public PassesOver {
+ public:
+  ArgsReader(std::string_view name, const json& args, TimeNs ping_time)
+      : name_(name), args_(args), ping_time_(ping_time) {}
 
-std::string decide_name(const DecideCommand& command) {
-  if (command.decisions.size() != 1 || !command.rule.empty()) return "bulk_decide";
-  const Decision& one = command.decisions.front();
-  if (one.status) return "decide";
-  if (one.species && !one.comment && !one.name) return "species";
-  if (one.comment && !one.species && !one.name) return "comment";
-  if (one.name && !one.species && !one.comment) return "rename";
-  return "decide";
+  template <class E>
+  void command(Names names, [[maybe_unused]] E&& which, About) {
+    const auto at = std::ranges::find(names, name_);
+    named_ = at != names.end();
+    if constexpr (std::is_enum_v<std::remove_reference_t<E>>) {
+      if (named_) which = static_cast<std::remove_reference_t<E>>(at - names.begin());
+    }
+  }
+  [[nodiscard]] bool called(std::string_view name) const { return name_ == name; }
+
+  template <class T>
+  void field(const char* name, T& value) {
+    if (reads()) take(members::read(member(name), value));
+  }
+  template <class T>
+  void field(const char* name, std::optional<T>& value) {
+    if (reads() && args_.contains(name)) field(name, value.emplace());
+  }
+  template <class E>
+  void choice(const char* name, E& value, Names names, bool or_default = false) {
+    if (!reads() || (or_default && !args_.contains(name))) return;
+    const auto index = members::read_choice(member(name), names);
+    if (!take(index)) return;
+    if constexpr (std::is_enum_v<E>) {
+      value = static_cast<E>(*index);
+    } else {
+      value = std::string(names[*index]);
+    }
+  }
+  template <class E>
+  void choice(const char* name, std::optional<E>& value, Names names) {
+    if (reads() && args_.contains(name)) choice(name, value.emplace(), names);
+  }
+  void time(const char* name, TimeNs& value) {
+    number(name, value, "a whole number of nanoseconds", std::numeric_limits<TimeNs>::min(),
+           std::numeric_limits<TimeNs>::max());
+  }
+  void interval(TimeNs& first, TimeNs& last, std::string_view or_ping = {}) {
+    if (!or_ping.empty() && called(or_ping) && !args_.contains("first")) {
+      first = last = ping_time_;
+      return;
+    }
+    time("first", first);
+    time("last", last);
+    require(first <= last, "last: lies before first");
+  }
+  void count(const char* name, std::int64_t& value) {
+    constexpr std::int64_t kMost = 1'000'000'000;
+    if (args_.contains(name)) number(name, value, fmt::format("a whole number from 0 to {}", kMost), 0, kMost);
+  }
+  void pings(const char* name, std::int64_t& value) {
+    constexpr std::int64_t kMost = 1'000'000;
+    if (!args_.contains(name)) return;
+    number(name, value, "a whole number", std::numeric_limits<std::int64_t>::min(),
+           std::numeric_limits<std::int64_t>::max());
+    value = std::clamp<std::int64_t>(value, -1, kMost);
+  }
+  void pings(const char* name, std::optional<std::int64_t>& value) {
+    if (reads() && args_.contains(name)) pings(name, value.emplace());
+  }
+  void object(const char* name, std::string& text) {
+    if (!reads() || !args_.contains(name)) return;
+    require(args_[name].is_object(), fmt::format("{}: expected an object", name));
+    if (reads()) text = args_[name].dump();
+  }
+  void inside(CalibrationParams& calibration) {
+    if (!reads()) return;
+    auto read = calibration_from_json(args_);
+    if (take(read)) calibration = std::move(*read);
+  }
+  template <class D>
+  void list(const char* name, std::vector<D>& all) {
+    const auto found = args_.find(name);
+    require(found != args_.end() && found->is_array(), fmt::format("{}: expected an array", name));
+    if (!reads()) return;
+    for (const json& one : *found) {
+      const std::string place = fmt::format("{}[{}]: ", name, all.size());
+      ArgsReader reader({}, one, ping_time_);
+      reader.named_ = true;
+      reader.require(one.is_object(), "expected an object");
+      describe(reader, all.emplace_back());
+      if (reader.problem_) problem_ = Error{reader.problem_->code, place + reader.problem_->text, {}};
+      if (problem_) return;
+    }
+  }
+  template <class D>
+  void alone(std::vector<D>& all) {
+    if (reads()) describe(*this, all.emplace_back());
+  }
+  void require(bool sound, const std::string& text) {
+    if (reads() && !sound) problem_ = Error{ErrorCode::format, text, {}};
+  }
+
+  [[nodiscard]] bool named() const { return named_; }
+  [[nodiscard]] const std::optional<Error>& problem() const { return problem_; }
+
+ private:
+  [[nodiscard]] bool reads() const { return named_ && !problem_; }
+  [[nodiscard]] members::Member member(const char* name) const {
+    const auto found = args_.find(name);
+    return {found == args_.end() ? nullptr : &*found, name, ping_time_};
+  }
+  template <class T>
+  bool take(const Result<T>& result) {
+    if (!result) problem_ = result.error();
+    return result.has_value();
+  }
+  void number(const char* name, std::int64_t& value, const std::string& expected, std::int64_t least,
+              std::int64_t most) {
+    if (!reads()) return;
+    const auto read = members::read_number(member(name), expected, least, most);
+    if (take(read)) value = *read;
+  }
+
+  std::string_view name_;
+  const json& args_;
+  TimeNs ping_time_;
+  bool named_ = false;
+  std::optional<Error> problem_;
+};
+
+/// As the first of the commands, from this one on, that has the name.
+template <std::size_t I = 0>
+Result<Command> read_as(std::string_view name, const json& args, TimeNs ping_time) {
+  if constexpr (I == std::variant_size_v<Command>) {
+    return fail(ErrorCode::unsupported, "this version does not know the command");
+  } else {
+    std::variant_alternative_t<I, Command> command;
+    ArgsReader reader(name, args, ping_time);
+    describe(reader, command);
+    if (!reader.named()) return read_as<I + 1>(name, args, ping_time);
+    if (reader.problem()) return tl::unexpected<Error>(*reader.problem());
+    return Command(std::move(command));
+  }
 }
 
 }  // namespace
 
 std::string command_name(const Command& command) {
-  const Overload names{
-      [](const PropagateCommand&) { return std::string("propagate"); },
-      [](const GrowCommand&) { return std::string("grow"); },
-      [](const BrushCommand&) { return std::string("brush"); },
-      [](const EraseCommand&) { return std::string("erase"); },
-      [](const ReshapeCommand& c) { return std::string(kReshapingNames[static_cast<std::size_t>(c.what)]); },
-      [](const MergeCommand&) { return std::string("merge"); },
-      [](const SplitCommand&) { return std::string("split"); },
-      [](const DeleteCommand&) { return std::string("delete"); },
-      [](const DecideCommand& c) { return decide_name(c); },
-      [](const EventCommand&) { return std::string("event"); },
-      [](const BadPingsCommand& c) { return std::string(c.first == c.last ? "bad_ping" : "bad_interval"); },
-      [](const RemoveEventCommand&) { return std::string("remove_event"); },
-      [](const GoodPingsCommand&) { return std::string("good_interval"); },
-      [](const CalibrateCommand&) { return std::string("calibrate"); },
-      [](const DetectCommand&) { return std::string("detect"); }};
-  return std::visit(names, command);
+  NameOf name;
+  describe_any(name, command);
+  return std::string(name.name());
 }
 
 bool is_decision(std::string_view name) {
-  return name == "decide" || name == "species" || name == "comment" || name == "rename" || name == "bulk_decide";
+  HasName has(name);
+  const DecideCommand any;
+  describe(has, any);
+  return has.found();
 }
 
 nlohmann::json to_json(const Command& command) {
-  const Overload args{[](const PropagateCommand& c) { return to_json(c); },
-                      [](const GrowCommand& c) {
-                        return with_school({{"to", kGrowToNames[static_cast<std::size_t>(c.to)]},
-                                            {"grow", described(c.grow)},
-                                            {"growth_curve", to_json(c.growth_curve)},
-                                            {"seeds", from_seeds(c.seeds)}},
-                                           c.school);
-                      },
-                      [](const BrushCommand& c) {
-                        return with_school({{"runs", from_runs(c.runs)}}, c.school);
-                      },
-                      [](const EraseCommand& c) {
-                        return with_school({{"runs", from_runs(c.runs)}}, c.school);
-                      },
-                      [](const ReshapeCommand& c) {
-                        return json{{"school", from_school(c.school)}, {"all_pings", c.all_pings}};
-                      },
-                      [](const MergeCommand& c) {
-                        json list = json::array();
-                        for (const SchoolKey& school : c.schools) list.push_back(from_school(school));
-                        return json{{"schools", std::move(list)}};
-                      },
-                      [](const SplitCommand& c) {
-                        json made = {{"school", from_school(c.school)}};
-                        if (c.seed) made["seed"] = from_seed(*c.seed);
-                        return made;
-                      },
-                      [](const DeleteCommand& c) {
-                        return json{{"school", from_school(c.school)}};
-                      },
-                      [](const DecideCommand& c) {
-                        if (decide_name(c) != "bulk_decide") return from_decision(c.decisions.front());
-                        json list = json::array();
-                        for (const Decision& decision : c.decisions) list.push_back(from_decision(decision));
-                        return json{{"rule", c.rule}, {"decisions", std::move(list)}};
-                      },
-                      [](const EventCommand& c) { return from_event(c); },
-                      [](const BadPingsCommand& c) {
-                        return json{{"first", c.first}, {"last", c.last}};
-                      },
-                      [](const RemoveEventCommand& c) { return from_event(c.event); },
-                      [](const GoodPingsCommand& c) {
-                        return json{{"first", c.first}, {"last", c.last}};
-                      },
-                      [](const CalibrateCommand& c) {
-                        json made = to_json(c.calibration);
-                        made["file"] = c.file;
-                        return made;
-                      },
-                      [](const DetectCommand& c) {
-                        return c.schools > 0 ? json{{"schools", c.schools}} : json::object();
-                      }};
-  return std::visit(args, command);
+  ArgsWriter writer;
+  describe_any(writer, command);
+  return std::move(writer.args());
 }
 
 Result<Command> command_from_json(std::string_view name, const nlohmann::json& args, TimeNs ping_time) {
   if (!args.is_object()) return fail(ErrorCode::format, "args: expected an object");
-  if (name == "propagate") {
-    auto command = propagate_from_json(args, ping_time);
-    if (!command) return pass_on(command);
-    return std::move(*command);
-  }
-  if (name == "grow") return read_grow(args, ping_time);
-  if (name == "brush") return read_strokes<BrushCommand>(args, ping_time);
-  if (name == "erase") return read_strokes<EraseCommand>(args, ping_time);
-  for (std::size_t i = 0; i < kReshapingNames.size(); ++i) {
-    if (name == kReshapingNames[i]) return read_reshape(static_cast<Reshaping>(i), args, ping_time);
-  }
-  if (name == "merge") return read_merge(args, ping_time);
-  if (name == "split") return read_split(args, ping_time);
-  if (name == "delete") {
-    const auto school = read_school(args, ping_time);
-    if (!school) return pass_on(school);
-    return DeleteCommand{*school};
-  }
-  if (is_decision(name)) return read_decide(name, args, ping_time);
-  if (name == "event" || name == "remove_event") {
-    auto event = read_event(args);
-    if (!event) return pass_on(event);
-    if (name == "remove_event") return RemoveEventCommand{std::move(*event)};
-    return std::move(*event);
-  }
-  if (name == "bad_ping" || name == "bad_interval") return read_interval<BadPingsCommand>(name, args, ping_time);
-  if (name == "good_interval") return read_interval<GoodPingsCommand>(name, args, ping_time);
-  if (name == "calibrate") {
-    auto calibration = calibration_from_json(args);
-    if (!calibration) return pass_on(calibration);
-    auto file = read_text(args, "file");
-    if (!file) return pass_on(file);
-    return CalibrateCommand{std::move(*calibration), std::move(*file)};
-  }
-  if (name == "detect") return read_detect(args);
-  return fail(ErrorCode::unsupported, "this version does not know the command");
+  return read_as(name, args, ping_time);
 }
 
 JournalLine line_of(const JournalAct& act) {
@@ -341,28 +279,13 @@ Result<JournalAct> act_of(const JournalLine& line) {
   return JournalAct{line.n, line.decided, line.operator_name, line.ping_time, std::move(*command)};
 }
 
-std::vector<TimeSpan> times_of(const JournalLine& line) {
-  std::vector<TimeSpan> times{{line.ping_time, line.ping_time}};
-  if (line.command == "propagate") return times;
-  const auto act = act_of(line);
-  if (!act) return times;
-  if (const auto* bad = std::get_if<BadPingsCommand>(&act->command)) times.push_back({bad->first, bad->last});
-  if (const auto* good = std::get_if<GoodPingsCommand>(&act->command)) times.push_back({good->first, good->last});
-  if (std::holds_alternative<CalibrateCommand>(act->command)) {
-    times.push_back({std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()});  // of the whole survey
-  }
-  if (const auto* decide = std::get_if<DecideCommand>(&act->command)) {
-    for (const Decision& decision : decide->decisions) {
-      times.push_back({decision.school.ping_time, decision.school.ping_time});
-    }
-  }
-  return times;
-}
+ReadLine read_line(const JournalLine& line) { return {line, act_of(line)}; }
 
-bool asks_for_detection(std::span<const JournalLine> lines, std::span<const TimeNs> times) {
-  return std::any_of(lines.begin(), lines.end(), [&](const JournalLine& line) {
-    return line.command == "detect" && std::binary_search(times.begin(), times.end(), line.ping_time);
-  });
+ReadJournal::ReadJournal(std::span<const JournalLine> lines) {
+  std::vector<ReadLine> read;
+  read.reserve(lines.size());
+  for (const JournalLine& line : lines) read.push_back(read_line(line));
+  lines_ = std::make_shared<const std::vector<ReadLine>>(std::move(read));
 }
 
 }  // namespace sonar

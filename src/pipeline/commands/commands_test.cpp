@@ -209,7 +209,7 @@ TEST(Commands, MarksAndBadPingsAreTakenBack) {
   ASSERT_FALSE(again.notes.empty());
   EXPECT_THAT(again.notes.back().text, testing::HasSubstr("there is no mark trawl"));
   // A good interval says something of every observation that it meets.
-  EXPECT_EQ(times_of(lines[4]).size(), 2U);
+  EXPECT_EQ(times_of(read_line(lines[4])).size(), 2U);
 }
 
 TEST(Commands, ANameIsKeptWithTheSchoolAndInItsRow) {

@@ -214,6 +214,19 @@ Result<void> Edit::remove_event(const EventCommand& event) {
   return {};
 }
 
+void Edit::call_good(const GoodPingsCommand& good) {
+  std::vector<BadPingsCommand> left;
+  for (const BadPingsCommand& bad : state_.bad_pings) {
+    if (good.last < bad.first || good.first > bad.last) {
+      left.push_back(bad);
+      continue;
+    }
+    if (bad.first < good.first) left.push_back({bad.first, good.first - 1});
+    if (bad.last > good.last) left.push_back({good.last + 1, bad.last});
+  }
+  state_.bad_pings = std::move(left);
+}
+
 JournalState Edit::done() {
   std::erase_if(state_.schools, [&](const std::shared_ptr<const StateSchool>& school) {
     const auto pings = static_cast<int>(school->masks.pings.size());

@@ -64,7 +64,8 @@ class Edit {
   void calibrate(const CalibrationParams& calibration) {
     state_.calibration = std::make_shared<const CalibrationParams>(calibration);
   }
-  void take_bad(const Command& command) { take_bad_pings(state_, command); }
+  void call_bad(const BadPingsCommand& bad) { state_.bad_pings.push_back(bad); }
+  void call_good(const GoodPingsCommand& good);
   void remove(std::size_t school) { set_pings(school, {}); }
 
   /// The state without the schools that have nothing left.
@@ -94,6 +95,11 @@ class Edit {
 [[nodiscard]] Result<void> carry_out(Edit& edit, const SplitCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DeleteCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DecideCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const EventCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const BadPingsCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const RemoveEventCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const GoodPingsCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const CalibrateCommand& command);
 /// Changes no mask: what is found lies under the first line.
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DetectCommand& command);
 

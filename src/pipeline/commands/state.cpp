@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <variant>
 
 #include "school/grow/mask_edit.h"
 
@@ -82,22 +81,6 @@ SchoolKey key_of(const SchoolMasks& school, const CommandContext& context) {
     left -= run.count;
   }
   return {};
-}
-
-void take_bad_pings(JournalState& state, const Command& command) {
-  if (const auto* bad = std::get_if<BadPingsCommand>(&command)) state.bad_pings.push_back(*bad);
-  const auto* good = std::get_if<GoodPingsCommand>(&command);
-  if (good == nullptr) return;
-  std::vector<BadPingsCommand> left;
-  for (const BadPingsCommand& bad : state.bad_pings) {
-    if (good->last < bad.first || good->first > bad.last) {
-      left.push_back(bad);
-      continue;
-    }
-    if (bad.first < good->first) left.push_back({bad.first, good->first - 1});
-    if (bad.last > good->last) left.push_back({good->last + 1, bad.last});
-  }
-  state.bad_pings = std::move(left);
 }
 
 bool is_bad(const JournalState& state, TimeNs ping_time) {

@@ -76,7 +76,11 @@ struct Applied {
 
 /// The state after all lines (undo and redo already worked in, see effective_lines()). A line that cannot be applied is a
 /// diagnostic decision_lost and changes nothing else.
+[[nodiscard]] JournalState fold(std::span<const ReadLine> lines, JournalState state, const CommandContext& context);
 [[nodiscard]] JournalState fold(std::span<const JournalLine> lines, JournalState state, const CommandContext& context);
+/// What the lines say that needs no mask: marks, bad pings, the calibration.
+/// times  [ping_index], datagram times, rising
+[[nodiscard]] JournalState fold_without_masks(std::span<const ReadLine> lines, std::span<const TimeNs> times);
 
 /// Index in state.schools of the school that has a voxel; empty where nobody has it.
 [[nodiscard]] std::optional<std::size_t> school_at(const JournalState& state, const CommandContext& context,
@@ -86,8 +90,6 @@ struct Applied {
 
 /// Index of the ping with this datagram time; empty where there is none within the context's limits.
 [[nodiscard]] std::optional<std::int64_t> ping_at(const CommandContext& context, TimeNs time);
-/// What an act says of bad pings; other acts change nothing.
-void take_bad_pings(JournalState& state, const Command& command);
 [[nodiscard]] bool is_bad(const JournalState& state, TimeNs ping_time);
 
 /// The recipe that Sv and measures follow: this one, under the calibration that a human has chosen.

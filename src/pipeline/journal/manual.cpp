@@ -5,33 +5,19 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/commands/json_members.h"
 #include "pipeline/commands/state.h"
-#include "pipeline/recipe/transfer_function_json.h"
 #include "school/grow/propagate_tracked.h"
 
 namespace sonar {
 namespace {
-
-constexpr std::int64_t kMaxReach = 1'000'000;
 
 PingReach reach_round(std::int64_t ping_index, const PropagateCommand& command, PingReach limits) {
   const std::int64_t back = command.reach_backward.value_or(command.reach);
   const std::int64_t forward = command.reach_forward.value_or(command.reach);
   return {back < 0 ? limits.first : std::max(limits.first, ping_index - back),
           forward < 0 ? limits.last : std::min(limits.last, ping_index + forward)};
-}
-
-Result<std::int64_t> read_reach(const nlohmann::json& args, const char* member, std::int64_t otherwise) {
-  const auto found = args.find(member);
-  if (found == args.end()) return otherwise;
-  const auto pings = whole_number(*found);
-  if (!pings) return fail(ErrorCode::format, fmt::format("{}: expected a whole number", member));
-  return std::clamp<std::int64_t>(*pings, -1, kMaxReach);
 }
 
 /// What carried out without an observer gives the same; a side that came to its own end keeps its reach.
@@ -71,63 +57,6 @@ Result<PropagateCommand> completed(PropagateCommand command) {
   for (const auto& valid : {validate(command.grow), validate(command.tracked), validate(command.paper)}) {
     if (!valid) return pass_on(valid);
   }
-  return command;
-}
-
-nlohmann::json to_json(const PropagateCommand& command) {
-  nlohmann::json args = {{"mode", kGrowModeNames[static_cast<std::size_t>(command.mode)]},
-                         {"grow", members::described(command.grow)},
-                         {"growth_curve", to_json(command.growth_curve)},
-                         {"propagate_paper", members::described(command.paper)},
-                         {"propagate_tracked", members::described(command.tracked)},
-                         {"reach", command.reach}};
-  if (command.reach_backward) args["reach_backward"] = *command.reach_backward;
-  if (command.reach_forward) args["reach_forward"] = *command.reach_forward;
-  if (command.school) {
-    args["school"] = members::from_school(*command.school);
-  } else {
-    args["seeds"] = members::from_seeds(command.seeds);
-  }
-  return args;
-}
-
-Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time) {
-  PropagateCommand command;
-  const auto school = members::read_optional_school(args, ping_time);
-  if (!school) return pass_on(school);
-  command.school = *school;
-  if (!command.school) {
-    auto seeds = members::read_seeds(args);
-    if (!seeds) return pass_on(seeds);
-    command.seeds = std::move(*seeds);
-  }
-  const auto grow = members::read_described<GrowParams>(args, "grow");
-  if (!grow) return pass_on(grow);
-  if (args.contains("mode")) {
-    const auto mode = members::read_choice(args, "mode", kGrowModeNames);
-    if (!mode) return pass_on(mode);
-    command.mode = static_cast<GrowMode>(*mode);
-  }
-  const auto paper = members::read_described<PaperPropagationParams>(args, "propagate_paper");
-  if (!paper) return pass_on(paper);
-  const auto tracked = members::read_described<TrackedPropagationParams>(args, "propagate_tracked");
-  if (!tracked) return pass_on(tracked);
-  auto curve = members::read_growth_curve(args);
-  if (!curve) return pass_on(curve);
-  const auto reach = read_reach(args, "reach", -1);
-  if (!reach) return pass_on(reach);
-  for (const auto& [member, side] :
-       {std::pair("reach_backward", &command.reach_backward), {"reach_forward", &command.reach_forward}}) {
-    if (!args.contains(member)) continue;
-    const auto pings = read_reach(args, member, -1);
-    if (!pings) return pass_on(pings);
-    *side = *pings;
-  }
-  command.grow = *grow;
-  command.paper = *paper;
-  command.tracked = *tracked;
-  command.growth_curve = std::move(*curve);
-  command.reach = *reach;
   return command;
 }
 

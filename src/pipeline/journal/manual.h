@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,11 +55,6 @@ struct PropagateCommand {
 /// What is selected with all 26 neighbours is followed with them; and whether all parameters are in their ranges.
 /// errors  bad_parameter
 [[nodiscard]] Result<PropagateCommand> completed(PropagateCommand command);
-
-[[nodiscard]] nlohmann::json to_json(const PropagateCommand& command);
-/// errors  format, bad_parameter: naming the member
-/// ping_time  of the line: that of `school` where it names none
-[[nodiscard]] Result<PropagateCommand> propagate_from_json(const nlohmann::json& args, TimeNs ping_time = 0);
 
 /// The command that ends so many pings before and after its own: what a stopped propagation is in the journal.
 [[nodiscard]] PropagateCommand as_far_as(PropagateCommand command, std::int64_t backward, std::int64_t forward);

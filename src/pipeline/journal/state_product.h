@@ -15,7 +15,7 @@
 namespace sonar {
 
 struct StateProductOptions {
-  std::span<const JournalLine> journal;  ///< effective lines of the whole survey
+  ReadJournal journal;  ///< effective lines of the whole survey
   std::string program_version;
   bool background = false;  ///< with the background levels of all pings: what a file must hold, a window need not
   MeasuredPings* before = nullptr;  ///< of the same engine; null = everything is measured

@@ -81,7 +81,7 @@ class Follow {
   FollowOptions options_;
   Recipe recipe_;
   LiveSurvey live_;
-  std::vector<JournalLine> journal_;
+  ReadJournal journal_;
   std::uintmax_t journal_size_ = 0;
   std::map<Which, AtWork> at_work_;
   std::vector<PlanTask> let_go_;  ///< of observations that are over and not looked at any more

@@ -173,17 +173,6 @@ Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& 
   return prepare(engine, reach, product, work);
 }
 
-/// The calibration that a session chose stands over the recipe's.
-Recipe with_calibration_of(std::span<const JournalLine> journal, const Recipe& recipe) {
-  JournalState said;
-  for (const JournalLine& line : journal) {
-    const auto act = line.command == "calibrate" ? act_of(line) : Result<JournalAct>(JournalAct{});
-    const auto* calibrate = act ? std::get_if<CalibrateCommand>(&act->command) : nullptr;
-    if (calibrate != nullptr) said.calibration = std::make_shared<const CalibrationParams>(calibrate->calibration);
-  }
-  return measuring_recipe(recipe, said);
-}
-
 /// New numbers from 1, or those that the schools had.
 void number(std::vector<SchoolMasks>& schools, const Engine& engine, const ObserveOptions& options,
             ObservationProduct& product) {
@@ -195,11 +184,11 @@ void number(std::vector<SchoolMasks>& schools, const Engine& engine, const Obser
 }
 
 /// Whether a line says something about pings of the observation.
-bool concerns(const JournalLine& line, const SurveyFiles& survey, const ObservationFiles& observation) {
+bool concerns(const ReadLine& read, const SurveyFiles& survey, const ObservationFiles& observation) {
   if (observation.pings.empty()) return false;
   const TimeNs begin = survey.entry(observation.pings.front()).time;
   const TimeNs end = survey.entry(observation.pings.back()).time;
-  const std::vector<TimeSpan> spans = times_of(line);
+  const std::vector<TimeSpan> spans = times_of(read);
   return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& span) {
     if (span.first == span.last) return ping_at(survey, observation, span.first).has_value();
     return span.first <= end && span.last >= begin;
@@ -207,12 +196,8 @@ bool concerns(const JournalLine& line, const SurveyFiles& survey, const Observat
 }
 
 /// Pings that a human called bad have no place in any table.
-void mark_bad_pings(std::span<const JournalLine> journal, std::span<const TimeNs> times, ObservationProduct& product) {
-  JournalState said;
-  for (const JournalLine& line : journal) {
-    const auto act = act_of(line);
-    if (act) take_bad_pings(said, act->command);
-  }
+void mark_bad_pings(const ReadJournal& journal, std::span<const TimeNs> times, ObservationProduct& product) {
+  const JournalState said = fold_without_masks(journal.lines(), times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (is_bad(said, times[i])) product.pings[i].bad = true;
   }
@@ -246,10 +231,10 @@ std::string observation_key(const SurveyFiles& survey, const ObservationFiles& o
   const PingReach reach = selected(observation, options);
   add_number(hasher, static_cast<double>(reach.first));
   add_number(hasher, static_cast<double>(reach.last));
-  for (const JournalLine& line : options.journal) {
-    if (!concerns(line, survey, observation)) continue;
-    JournalLine undated = line;
-    if (line.command == "propagate") undated.decided = 0;  // no column tells when
+  for (const ReadLine& read : options.journal.lines()) {
+    if (!concerns(read, survey, observation)) continue;
+    JournalLine undated = read.line;
+    if (undated.command == "propagate") undated.decided = 0;  // no column tells when
     hasher.add(journal_text(undated));
   }
   return to_hex(hasher.value());
@@ -296,7 +281,8 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   ObservationProduct product = empty_product(survey, observation, recipe, options);
   const PingReach reach = selected(observation, options);
   note_pings_left_out(reach, product);
-  const bool automatic = recipe.automatic || asks_for_detection(options.journal, datagram_times(survey, observation));
+  const bool automatic =
+      recipe.automatic || asks_for_detection(options.journal.lines(), datagram_times(survey, observation));
   if (automatic) note_narrow_grid(recipe.detect, product);
   if (!observation.grid || reach.last < reach.first) return product;
   ObserveMemory* memory = options.memory;
@@ -315,7 +301,7 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   }
   CommandContext context = context_of(engine, reach);
   context.earlier = options.earlier;
-  state = fold(options.journal, std::move(state), context);
+  state = fold(options.journal.lines(), std::move(state), context);
   product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
   product.rejected = still_refused(std::move(product.rejected), state, engine.grid());
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
@@ -340,10 +326,12 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
 Result<ObservationProduct> remeasure(const SurveyFiles& survey, const ObservationFiles& observation,
                                      const ObservationProduct& before, const Recipe& given,
                                      const ObserveOptions& options, Work& work) {
-  const Recipe recipe = with_calibration_of(options.journal, given);
+  // The calibration that a session chose stands over the recipe's.
+  const std::vector<TimeNs> times = datagram_times(survey, observation);
+  const Recipe recipe = measuring_recipe(given, fold_without_masks(options.journal.lines(), times));
   ObservationProduct product = empty_product(survey, observation, recipe, options);
-  const bool same_pings = has_pings(before, product.source, datagram_times(survey, observation)) &&
-                          before.grid.has_value() == product.grid.has_value();
+  const bool same_pings =
+      has_pings(before, product.source, times) && before.grid.has_value() == product.grid.has_value();
   if (!same_pings) {
     return fail(ErrorCode::mismatch,
                 fmt::format("{}: the pings are not those of the product: run again", product.observation));

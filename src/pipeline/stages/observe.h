@@ -11,7 +11,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "model/product.h"
-#include "pipeline/journal/journal.h"
+#include "pipeline/commands/command.h"
 #include "pipeline/journal/school_numbers.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
@@ -34,8 +34,8 @@ struct ObserveMemory;
 
 /// What an observation is processed with, beside its files.
 struct ObserveOptions {
-  std::optional<PingSelection> pings;    ///< empty = all
-  std::span<const JournalLine> journal;  ///< effective lines of the whole survey; those of other times are passed over
+  std::optional<PingSelection> pings;  ///< empty = all
+  ReadJournal journal;                 ///< effective lines of the whole survey; those of other times are passed over
   std::string program_version;
   const EarlierSchools* earlier = nullptr;  ///< what was known of schools of these pings; null = number from 1
   ObserveMemory* memory = nullptr;          ///< of the same observation with fewer pings; null = nothing is kept

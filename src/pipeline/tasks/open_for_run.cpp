@@ -17,7 +17,8 @@ namespace {
 
 /// Journal lines whose ping is in no observation: listed, never moved.
 void note_lost_choices(Opened& opened) {
-  for (const JournalLine& line : opened.journal) {
+  for (const ReadLine& read : opened.journal.lines()) {
+    const JournalLine& line = read.line;
     const bool found = std::any_of(opened.survey.observations.begin(), opened.survey.observations.end(),
                                    [&](const ObservationFiles& observation) {
                                      return ping_at(opened.survey, observation, line.ping_time).has_value();

@@ -29,7 +29,7 @@ struct RunSources {
 struct Opened {
   Plan plan;
   SurveyFiles survey;
-  std::vector<JournalLine> journal;
+  ReadJournal journal;
 };
 
 /// The survey that is to be run, indexed.

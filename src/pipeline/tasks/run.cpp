@@ -137,7 +137,7 @@ std::filesystem::path product_path(const std::filesystem::path& out, const std::
   return out / "products" / (observation + ".nc");
 }
 
-Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, std::span<const JournalLine> journal,
+Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, const ReadJournal& journal,
                            const RunOptions& options, Work& work) {
   const auto tasks = possible_tasks(plan, options);
   if (!tasks) return pass_on(tasks);

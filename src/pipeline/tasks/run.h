@@ -48,7 +48,7 @@ struct RunReport {
 /// A failed observation does not stop the others. Progress tells a stage kObservations as each one begins.
 /// survey   opened from plan.survey with plan.recipe
 /// errors   usage: no such observation or task; no_space; cancelled (what was finished stays)
-[[nodiscard]] Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey,
-                                         std::span<const JournalLine> journal, const RunOptions& options, Work& work);
+[[nodiscard]] Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, const ReadJournal& journal,
+                                         const RunOptions& options, Work& work);
 
 }  // namespace sonar

@@ -22,8 +22,8 @@ namespace {
 bool looks_for_schools(const Opened& opened) {
   if (opened.plan.recipe.automatic) return true;
   constexpr std::array<std::string_view, 4> kSelects{"propagate", "grow", "brush", "detect"};
-  return std::any_of(opened.journal.begin(), opened.journal.end(), [&](const JournalLine& line) {
-    return std::find(kSelects.begin(), kSelects.end(), line.command) != kSelects.end();
+  return std::ranges::any_of(opened.journal.lines(), [&](const ReadLine& read) {
+    return std::ranges::find(kSelects, read.line.command) != kSelects.end();
   });
 }
 

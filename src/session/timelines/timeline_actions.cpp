@@ -140,10 +140,11 @@ void remove_mark(Workspace& workspace) {
   workspace.mark.set(std::nullopt);
   // Done on any ping of the observation: the act says something about times.
   if (const auto* event = std::get_if<EventCommand>(&chosen->what)) {
-    return workspace.document.act(chosen->observation, 0, RemoveEventCommand{*event});
+    workspace.document.act(chosen->observation, 0, RemoveEventCommand{*event});
+  } else {
+    const auto& bad = std::get<BadPingsCommand>(chosen->what);
+    workspace.document.act(chosen->observation, 0, GoodPingsCommand{bad.first, bad.last});
   }
-  const auto& bad = std::get<BadPingsCommand>(chosen->what);
-  workspace.document.act(chosen->observation, 0, GoodPingsCommand{bad.first, bad.last});
 }
 
 std::string mark_text(const Workspace& workspace) {

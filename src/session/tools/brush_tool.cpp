@@ -138,9 +138,10 @@ void BrushTool::release() {
     if (!erase_ || there) school = key_of(masks, observation->context());
   }
   const auto keys = keys_of(stroke, observation->grid());
-  selects_ = !erase_ && !school;
+  const bool makes = !erase_ && !school;
   Command command = erase_ ? Command(EraseCommand{keys, school}) : Command(BrushCommand{keys, school});
-  workspace_.document.act(observation->index(), ping->ping_index, std::move(command));
+  const ActTicket ticket = workspace_.document.act(observation->index(), ping->ping_index, std::move(command));
+  selects_ = makes ? ticket : 0;
 }
 
 void BrushTool::cancel() {
@@ -153,15 +154,15 @@ void BrushTool::cancel() {
 
 void BrushTool::hear(DocumentChange change) {
   const Document& document = workspace_.document;
+  if (change == DocumentChange::survey) selects_ = 0;  // another act's there
   if (change == DocumentChange::observation || change == DocumentChange::survey) {
     if (!same_observation(observation_, document.shown())) cancel();
     return;
   }
-  if (change != DocumentChange::state || !selects_) return;
   const ChoicesShown& now = document.choices();
-  if (!now.failure.empty()) selects_ = false;
-  if (now.done_line == 0 || now.lines->back().command != "brush") return;
-  selects_ = false;
+  if (change != DocumentChange::state || selects_ == 0 || now.ticket != selects_) return;
+  selects_ = 0;
+  if (now.done_line == 0) return;
   for (const auto& school : document.state().schools) {
     if (school->made_by == now.done_line) workspace_.school.set(SchoolName{document.shown()->index(), school->number});
   }

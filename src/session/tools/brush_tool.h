@@ -50,7 +50,7 @@ class BrushTool {
   double scale_ = 1.0;
   PixelPoint last_;
   PingMask stroke_;
-  bool selects_ = false;  ///< the next state brings a school that was drawn
+  ActTicket selects_ = 0;  ///< of the act that makes a school
   int listening_;
 };
 

@@ -173,14 +173,17 @@ void SeedTool::select(const Voxel& voxel) {
 
 void SeedTool::act(Pending what) {
   made_.reset();
-  pending_ = what;
   std::shared_ptr<JournalStep> step;
-  if (what.instead_of_last || !what.followed.empty()) step = std::make_shared<JournalStep>();
-  if (what.instead_of_last) step->instead_of_last = true;
-  workspace_.document.act(what.observation, what.ping, std::move(what.command), step);
-  for (PropagateCommand& command : what.followed) {
-    workspace_.document.act(what.observation, what.ping, std::move(command), step);
+  if (what.instead_of != 0 || !what.followed.empty()) {
+    step = std::make_shared<JournalStep>();
+    step->instead_of = what.instead_of;
   }
+  const auto ask = [&](const auto& command) {
+    what.tickets.push_back(workspace_.document.act(what.observation, what.ping, command, step));
+  };
+  ask(what.command);
+  for (const PropagateCommand& command : what.followed) ask(command);
+  pending_ = std::move(what);
 }
 
 /// Of the school that has the seed in a ping, as far and both ways as is set; empty where it is to stay in its ping.
@@ -206,6 +209,7 @@ void SeedTool::carry_on(std::size_t observation, std::int64_t ping, const SeedKe
 void SeedTool::hear(DocumentChange change) {
   switch (change) {
     case DocumentChange::survey:
+      pending_.reset();  // its ticket is another's there
       return forget();
     case DocumentChange::observation:
       if (!same_observation(of_.lock(), workspace_.document.shown())) forget();
@@ -241,26 +245,24 @@ void SeedTool::take_state() {
   const Document& document = workspace_.document;
   if (!document.shown()) return;
   JournalStatePtr before = std::exchange(state_, state_of(document, document.shown()->index()));
-  const ChoicesShown& now = document.choices();
-  if (pending_ && !now.failure.empty()) {
-    pending_.reset();
-  } else if (pending_ && now.done_line > 0) {
-    const JournalLine& last = now.lines->back();
-    const bool first = pending_->done == 0 && last.command == command_name(pending_->command) &&
-                       last.args == to_json(Command(pending_->command));
-    if (first) {
-      if (!pending_->instead_of_last) pending_->before = std::move(before);
-      pending_->first_line = now.done_line;
-    }
-    if (first || (pending_->done > 0 && last.command == "propagate")) ++pending_->done;
-    if (pending_->done > pending_->followed.size()) take_made(*std::exchange(pending_, std::nullopt));
-  }
+  take_own_act(std::move(before));
   follow_undo();
   if (made_ && !stands_last()) made_.reset();
-  if (anew_ && (anew_->instead_of_last ? !made_ : anew_->before != state_)) anew_.reset();
+  if (anew_ && (anew_->instead_of != 0 ? !made_ : anew_->before != state_)) anew_.reset();
   if (workspace_.tool() != ToolName::seed) return;
   if (over_) return show_place();
   if (!anew_) drop_preview();
+}
+
+void SeedTool::take_own_act(JournalStatePtr before) {
+  const ChoicesShown& now = workspace_.document.choices();
+  if (!pending_ || now.ticket == 0 || now.ticket != pending_->tickets[pending_->done]) return;
+  if (now.done_line == 0) return pending_.reset();  // nor will be what was to follow
+  if (pending_->done++ == 0) {
+    if (pending_->instead_of == 0) pending_->before = std::move(before);
+    pending_->first_line = now.done_line;
+  }
+  if (pending_->done == pending_->tickets.size()) take_made(*std::exchange(pending_, std::nullopt));
 }
 
 void SeedTool::take_made(const Pending& done) {

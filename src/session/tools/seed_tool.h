@@ -86,11 +86,12 @@ class SeedTool {
     std::int64_t number = 0;  ///< of the school that is replaced; 0 = another growth
     std::int64_t ping = 0;
     std::vector<PropagateCommand> followed = {};  ///< of the same step
-    std::size_t done = 0;                         ///< lines of the step so far
+    std::vector<ActTicket> tickets = {};          ///< of the step's acts
+    std::size_t done = 0;                         ///< of these
     JournalStatePtr before = {};                  ///< known with the first line
     std::int64_t first_line = 0;                  ///< its n
     std::optional<GrowParams> was = {};           ///< of a growth anew: the parameters before
-    bool instead_of_last = false;
+    std::int64_t instead_of = 0;                  ///< JournalStep::instead_of
   };
   /// A growth that is looked at while its parameters move.
   struct Anew {
@@ -99,7 +100,7 @@ class SeedTool {
     JournalStatePtr before;  ///< the state it would be done upon
     GrowCommand command;
     std::int64_t number = 0;                      ///< of the school that it would give
-    bool instead_of_last = false;                 ///< of made_; else the next act
+    std::int64_t instead_of = 0;                  ///< made_'s line; 0 = the next act
     std::int64_t ping = 0;                        ///< of the seeds
     std::vector<PropagateCommand> followed = {};  ///< in the same step
     GrowParams was = {};                          ///< the parameters before the first change
@@ -115,6 +116,7 @@ class SeedTool {
   void hear(DocumentChange change);
   void forget();
   void take_state();
+  void take_own_act(JournalStatePtr before);
   void take_made(const Pending& done);
   void act(Pending what);
   void grow(GrowCommand command, std::vector<PropagateCommand> followed);

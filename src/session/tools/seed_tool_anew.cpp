@@ -20,7 +20,7 @@ void SeedTool::parameters_changed(bool tolerance, const GrowParams& was) {
   if (workspace_.document.busy()) return show_place();
   const bool here = staged && made_ && staged->ping_index == made_->staged->ping_index;
   if (here && stands_last()) {
-    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, true,
+    return grow_anew({made_->observation, made_->staged, made_->before, made_->command, made_->number, made_->line,
                       made_->ping, made_->followed, was});
   }
   if (!tolerance || !grow_selected_anew(was)) show_place();
@@ -41,7 +41,7 @@ bool SeedTool::grow_selected_anew(const GrowParams& was) {
   command.school = key_of(school.masks, document.shown()->context());
   if (school.grown && !rejected && in_ping(school.masks, school.grown->ping_index) != nullptr) {
     command.seeds = school.grown->grow.seeds;
-    grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, false,
+    grow_anew({document.shown()->index(), staged, state_, std::move(command), school.number, 0,
                school.grown->ping_index, school.grown->followed, was});
     return true;
   }
@@ -55,15 +55,8 @@ bool SeedTool::grow_selected_anew(const GrowParams& was) {
     return true;
   }
   command.seeds = {*seed};
-  grow_anew({document.shown()->index(),
-             staged,
-             state_,
-             std::move(command),
-             school.number,
-             false,
-             staged->ping_index,
-             {},
-             was});
+  grow_anew(
+      {document.shown()->index(), staged, state_, std::move(command), school.number, 0, staged->ping_index, {}, was});
   return true;
 }
 
@@ -113,7 +106,7 @@ void SeedTool::finish_growing_anew() {
   if (!anew_) return;
   animations_.stop("grow anew");
   const Anew anew = *std::exchange(anew_, std::nullopt);
-  if (workspace_.document.busy() || (anew.instead_of_last && !stands_last())) return;
+  if (workspace_.document.busy() || (anew.instead_of != 0 && !stands_last())) return;
   const auto of = workspace_.document.open_observation(anew.observation);
   if (!of) return;
   // What grows no more stays as it was.
@@ -121,8 +114,8 @@ void SeedTool::finish_growing_anew() {
   if (seeds && !try_growth({of, seeds, anew.before, anew.command})) return;
   Pending what{anew.observation, anew.staged, anew.command, false, anew.number, anew.ping, anew.followed};
   what.was = anew.was;
-  what.instead_of_last = anew.instead_of_last;
-  if (anew.instead_of_last) what.before = anew.before;
+  what.instead_of = anew.instead_of;
+  if (anew.instead_of != 0) what.before = anew.before;
   act(std::move(what));
 }
 

@@ -100,6 +100,43 @@ TEST_F(SeedToolAtWork, WhatIsStillOnItsWayIsNotShownAfterThePointerLeft) {
   EXPECT_EQ(workspace().preview(), Preview{});
 }
 
+// The same command by another hand comes first: the tool's own is refused, and what the other made is not the tool's.
+TEST_F(SeedToolAtWork, TheSameActByAnotherHandIsNotTakenForItsOwn) {
+  GrowCommand same;
+  same.grow = grow_params(workspace().select.values());
+  same.growth_curve = workspace().growth_curve();
+  same.seeds = {seed_key(*document().shown(), bright())};
+  document().act(same);
+  press();
+  app_.settle();
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow"}));
+  EXPECT_EQ(document().state().schools.size(), 1U);
+  EXPECT_FALSE(workspace().school());
+  EXPECT_THAT(document().notices().back(), testing::HasSubstr("belong to other schools"));
+}
+
+TEST_F(SeedToolAtWork, WhatIsDoneInsteadOfALineIsRefusedWhereAnotherHasComeSince) {
+  press();
+  app_.settle();
+  const std::int64_t grown = document().choices().done_line;
+  const PingMask before = mask_of(0);
+  Decision decision;
+  decision.school = key_of(document().state().schools[0]->masks, document().shown()->context());
+  decision.species = "herring";
+  document().act(DecideCommand{{decision}, {}});
+  const auto step = std::make_shared<JournalStep>();
+  step->instead_of = grown;
+  GrowCommand wider;
+  wider.seeds = {seed_key(*document().shown(), bright())};
+  const ActTicket ticket = document().act(0, document().ping(), wider, step);
+  app_.settle();
+  EXPECT_EQ(document().choices().ticket, ticket);
+  EXPECT_EQ(document().choices().done_line, 0);
+  EXPECT_THAT(document().choices().failure, testing::HasSubstr("something else was done meanwhile"));
+  EXPECT_EQ(journal(), (std::vector<std::string>{"grow", "species"}));
+  EXPECT_EQ(mask_of(0), before);
+}
+
 TEST_F(SeedToolAtWork, ADoublePressLeavesOneSchoolWithPingsBothWays) {
   ASSERT_TRUE(workspace().select.set("reach_pings", 2));
   press();
