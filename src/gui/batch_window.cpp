@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "gui/dropped_paths.h"
+#include "gui/translated.h"
 #include "session/app_parts.h"
 
 namespace sonar {
@@ -31,7 +32,7 @@ QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 BatchWindow::BatchWindow(AppModel& app, QWidget& main)
     : app_(app), batch_(*app.batch), main_(main), table_(new BatchTable(batch_, this)) {
   setObjectName("batch");
-  setWindowTitle("Run surveys");
+  setWindowTitle(translated("Run surveys"));
   resize(kUsualSize.boundedTo(screen()->availableSize()));
   setAcceptDrops(true);
   setAttribute(Qt::WA_QuitOnClose, false);
@@ -67,11 +68,11 @@ void BatchWindow::come_to_front() {
   activateWindow();
 }
 
-QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const QString& text, const char* tip,
+QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
                                      std::function<void()> pressed) {
-  auto* button = new QPushButton(text, this);
+  auto* button = new QPushButton(translated(text), this);
   button->setObjectName(name);
-  button->setToolTip(tip);
+  button->setToolTip(translated(tip));
   connect(button, &QPushButton::clicked, this, std::move(pressed));
   row.addWidget(button);
   return button;
@@ -103,6 +104,7 @@ QWidget* BatchWindow::upper_half() {
                      "Shows the marked survey in the main window, with the schools that its run found (double-click)",
                      [this] { open_current(); });
   column->addLayout(row);
+  table_->setAccessibleName(translated("Surveys to be run"));
   column->addWidget(table_, 1);
   add_recipe_row(*column);
   add_run_row(*column);
@@ -117,22 +119,22 @@ QWidget* BatchWindow::upper_half() {
 void BatchWindow::add_recipe_row(QBoxLayout& column) {
   auto* row = new QHBoxLayout();
   recipe_->setObjectName("recipe");
-  recipe_->addItem("of the open survey");
-  recipe_->addItem("default");
-  recipe_->addItem("of a file...");
+  recipe_->addItem(translated("of the open survey"));
+  recipe_->addItem(translated("default"));
+  recipe_->addItem(translated("of a file..."));
   recipe_->setToolTip(
       "Parameters that all surveys are run under. That of the open survey has the calibration that was chosen in it");
   connect(recipe_, &QComboBox::activated, this, [this](int choice) { choose_recipe(choice); });
-  auto* recipe_label = new QLabel("Re&cipe", this);
+  auto* recipe_label = new QLabel(translated("Re&cipe"), this);
   recipe_label->setBuddy(recipe_);
   recipe_file_->setTextFormat(Qt::PlainText);
   recipe_file_->setObjectName("recipe_file");
   jobs_->setObjectName("jobs");
   jobs_->setRange(0, kMostJobs);
-  jobs_->setSpecialValueText("all of the machine's");
-  jobs_->setToolTip("Threads of a run; fewer leave more of the machine to others");
+  jobs_->setSpecialValueText(translated("all of the machine's"));
+  jobs_->setToolTip(translated("Threads of a run; fewer leave more of the machine to others"));
   connect(jobs_, &QSpinBox::valueChanged, this, [this](int jobs) { batch_.set_jobs(jobs); });
-  auto* jobs_label = new QLabel("&Threads", this);
+  auto* jobs_label = new QLabel(translated("&Threads"), this);
   jobs_label->setBuddy(jobs_);
   row->addWidget(recipe_label);
   row->addWidget(recipe_);
@@ -145,6 +147,7 @@ void BatchWindow::add_recipe_row(QBoxLayout& column) {
 void BatchWindow::add_run_row(QBoxLayout& column) {
   auto* row = new QHBoxLayout();
   total_->setObjectName("total");
+  total_->setAccessibleName(translated("Progress of all surveys"));
   total_->setRange(0, kPermille);
   row->addWidget(total_, 1);
   start_ = add_button(*row, "start", "&Start", "Runs the surveys one after another; what is done already stays",
@@ -159,7 +162,7 @@ QWidget* BatchWindow::lower_half() {
   auto* column = new QVBoxLayout(half);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout();
-  auto* label = new QLabel("&Log", this);
+  auto* label = new QLabel(translated("&Log"), this);
   label->setBuddy(log_);
   row->addWidget(label);
   row->addStretch(1);
@@ -172,7 +175,7 @@ QWidget* BatchWindow::lower_half() {
   log_->setReadOnly(true);
   log_->setLineWrapMode(QPlainTextEdit::NoWrap);
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  log_->setPlaceholderText("What the runs tell stands here, as sonarx run tells it.");
+  log_->setPlaceholderText(translated("What the runs tell stands here, as sonarx run tells it."));
   column->addWidget(log_, 1);
   return half;
 }
@@ -267,7 +270,7 @@ void BatchWindow::show_state() {
   const std::string now = total_text(batch_);
   total_->setValue(static_cast<int>(std::lround(kPermille * (running ? batch_.share() : 0.0))));
   total_->setFormat(text(now));
-  setWindowTitle(running ? "Run surveys: " + text(now) : QString("Run surveys"));
+  setWindowTitle(translated("Run surveys") + (running ? ": " + text(now) : QString()));
 }
 
 void BatchWindow::show_log() {

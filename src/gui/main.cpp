@@ -17,6 +17,7 @@
 #include "base/manual.h"
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
+#include "gui/translated.h"
 #include "session/batch/batch.h"
 #include "session/live_watch.h"
 #include "session/open_demo.h"
@@ -135,6 +136,8 @@ int run_program(int argc, char** argv) {
   qInstallMessageHandler(end_without_display);
   const QApplication application(argc, argv);
   qInstallMessageHandler(nullptr);
+
+  load_language();
 
   const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());
   QueuePump pump;

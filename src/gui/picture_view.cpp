@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/picture_view.h"
 
+#include <QAccessible>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
 #include <QMetaObject>
@@ -10,8 +11,10 @@
 #include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "gui/accessible_picture.h"
 #include "gui/action_menus.h"
 
 namespace sonar {
@@ -19,6 +22,7 @@ namespace {
 
 constexpr double kWheelUnitsPerStep = 120.0;  // Qt's eighths of a degree, fifteen degrees a notch
 constexpr double kCrossArm_px = 7.0;
+constexpr double kFocus_px = 2.0;
 
 PointerButton button_of(Qt::MouseButtons buttons) {
   if ((buttons & Qt::LeftButton) != 0) return PointerButton::left;
@@ -149,8 +153,10 @@ PictureView::PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget*
       listening_(picture.changed().add([this] {
         show_shape();
         update();
+        tell_screen_reader();
       })),
       listening_latencies_(latencies.changed().add([this] { update(); })) {
+  tell_screen_readers_of_pictures();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -188,6 +194,23 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   if (latencies_()) {
     draw_on_seabed(painter, rect(), QString::fromStdString(picture_.timing()));
   }
+  draw_focus(painter);
+}
+
+/// Once a picture, not at each move of what is laid over it.
+void PictureView::tell_screen_reader() {
+  if (std::exchange(told_, picture_.pictures()) == picture_.pictures() || !QAccessible::isActive()) return;
+  QAccessibleEvent changed(this, QAccessible::DescriptionChanged);
+  QAccessible::updateAccessibility(&changed);
+}
+
+/// Where the keyboard is, once keys have brought it there: a click needs no frame.
+void PictureView::draw_focus(QPainter& painter) {
+  if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), kFocus_px));
+  painter.drawRect(QRectF(rect()).adjusted(kFocus_px / 2, kFocus_px / 2, -kFocus_px / 2, -kFocus_px / 2));
 }
 
 void PictureView::show_shape() {

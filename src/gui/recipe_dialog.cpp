@@ -14,6 +14,7 @@
 #include <string>
 
 #include "gui/panel_section.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -25,11 +26,12 @@ class RecipeDialog : public QDialog {
   RecipeDialog(QWidget& window, const Dialogs& dialogs, RecipeEditor& editor)
       : QDialog(&window), dialogs_(dialogs), editor_(editor) {
     setObjectName("recipe");
-    setWindowTitle("Recipe");
+    setWindowTitle(translated("Recipe"));
     resize(620, 640);
     auto* column = new QVBoxLayout(this);
     column->addLayout(search_row());
     list_->setWidgetResizable(true);
+    list_->setAccessibleName(translated("Parameters"));
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     column->addWidget(list_, 1);
     told_->setWordWrap(true);
@@ -48,7 +50,8 @@ class RecipeDialog : public QDialog {
  private:
   QHBoxLayout* search_row() {
     words_->setObjectName("words");
-    words_->setPlaceholderText("Find a parameter");
+    words_->setPlaceholderText(translated("Find a parameter"));
+    words_->setAccessibleName(words_->placeholderText());
     words_->setClearButtonEnabled(true);
     changed_->setObjectName("changed");
     QObject::connect(words_, &QLineEdit::textChanged, this, [this] { fill(); });
@@ -61,11 +64,11 @@ class RecipeDialog : public QDialog {
 
   QDialogButtonBox* buttons() {
     auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-    box->button(QDialogButtonBox::Ok)->setText("Use");
+    box->button(QDialogButtonBox::Ok)->setText(translated("Use"));
     box->button(QDialogButtonBox::Ok)
-        ->setToolTip("Opens the survey under this recipe; decisions are kept and laid upon what is found");
+        ->setToolTip(translated("Opens the survey under this recipe; decisions are kept and laid upon what is found"));
     const auto add = [&](const char* text, const char* name, auto pressed) {
-      auto* button = box->addButton(text, QDialogButtonBox::ActionRole);
+      auto* button = box->addButton(translated(text), QDialogButtonBox::ActionRole);
       button->setObjectName(name);
       button->setAutoDefault(false);
       QObject::connect(button, &QPushButton::clicked, this, pressed);
@@ -86,7 +89,7 @@ class RecipeDialog : public QDialog {
     auto* column = new QVBoxLayout(inside);
     const auto sections = editor_.sections(words_->text().toStdString(), changed_->isChecked());
     for (const PanelSection& section : sections) add_folding_section(*column, section, inside);
-    if (sections.empty()) column->addWidget(new QLabel("No parameter matches.", inside));
+    if (sections.empty()) column->addWidget(new QLabel(translated("No parameter matches."), inside));
     column->addStretch(1);
     list_->setWidget(inside);  // the one before goes
   }
@@ -101,7 +104,8 @@ class RecipeDialog : public QDialog {
     const std::string file = dialogs_.file_to_open ? dialogs_.file_to_open("Recipe", kRecipes) : std::string();
     if (file.empty()) return;
     const auto loaded = editor_.load(file);
-    std::string told = loaded ? "loaded: " + file : to_line(loaded.error());
+    std::string told =
+        loaded ? translated("loaded: %1").arg(QString::fromStdString(file)).toStdString() : to_line(loaded.error());
     if (loaded) {
       for (const std::string& note : editor_.recipe().notes) told += "\n" + note;
     }
@@ -114,13 +118,14 @@ class RecipeDialog : public QDialog {
         dialogs_.file_to_save ? dialogs_.file_to_save("Save recipe", kRecipes, "recipe.json") : std::string();
     if (file.empty()) return;
     const auto saved = editor_.save(file);
-    told_->setText(QString::fromStdString(saved ? "written: " + file : to_line(saved.error())));
+    told_->setText(saved ? translated("written: %1").arg(QString::fromStdString(file))
+                         : QString::fromStdString(to_line(saved.error())));
   }
 
   const Dialogs& dialogs_;
   RecipeEditor& editor_;
   QLineEdit* words_ = new QLineEdit(this);
-  QCheckBox* changed_ = new QCheckBox("Changed from default", this);
+  QCheckBox* changed_ = new QCheckBox(translated("Changed from default"), this);
   QScrollArea* list_ = new QScrollArea(this);
   QLabel* told_ = new QLabel(this);
 };

@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "gui/action_menus.h"
+#include "gui/translated.h"
 #include "session/recent_surveys.h"
 
 namespace sonar {
@@ -63,7 +64,7 @@ class StartPage : public QWidget {
     page->addLayout(beginnings(), 1, 0, Qt::AlignTop);
     recent_->setSpacing(6);
     page->addLayout(recent_, 1, 1, 2, 1, Qt::AlignTop);
-    page->addWidget(heading("Opened before", 1.3), 0, 1, Qt::AlignBottom);
+    page->addWidget(heading(translated("Opened before"), 1.3), 0, 1, Qt::AlignBottom);
     window.installEventFilter(this);
     app.workspace.document.changes().add([this](DocumentChange change) {
       if (change == DocumentChange::survey || change == DocumentChange::progress || change == DocumentChange::glance)
@@ -97,7 +98,7 @@ class StartPage : public QWidget {
   /// A text that names actions, with their keys now and after each change of them.
   void keep_keys(const char* text, std::function<void(const QString&)> show) {
     const auto tell = [this, text, show = std::move(show)] {
-      show(QString::fromStdString(app_.actions.with_keys(text)));
+      show(QString::fromStdString(app_.actions.with_keys(translated(text).toStdString())));
     };
     tell();
     app_.actions.keys_changed().add(tell);
@@ -107,20 +108,20 @@ class StartPage : public QWidget {
     auto* column = new QVBoxLayout;
     for (const auto& [id, text, more] : kBeginnings) {
       QAction* action = find_action(window_, id);
-      auto* button = new QCommandLinkButton(text, this);
+      auto* button = new QCommandLinkButton(translated(text), this);
       keep_keys(more, [button](const QString& now) { button->setDescription(now); });
       button->setObjectName(QString("start.") + id);
       QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
       column->addWidget(button);
     }
     column->addSpacing(16);
-    column->addWidget(heading("Three steps", 1.3));
+    column->addWidget(heading(translated("Three steps"), 1.3));
     column->addSpacing(8);
     QLabel* steps = words({}, "start.steps");
     keep_keys(kSteps, [steps](const QString& now) { steps->setText(now); });
     column->addWidget(steps);
     column->addSpacing(8);
-    column->addWidget(words(kInstruments, "start.instruments"));
+    column->addWidget(words(translated(kInstruments), "start.instruments"));
     return column;
   }
 
@@ -132,7 +133,7 @@ class StartPage : public QWidget {
     }
     const std::vector<RecentSurvey> surveys = recent_surveys(app_);
     for (std::size_t i = 0; i < surveys.size(); ++i) recent_->addWidget(recent_button(surveys[i], i));
-    if (surveys.empty()) recent_->addWidget(words("Nothing yet.", "start.nothing"));
+    if (surveys.empty()) recent_->addWidget(words(translated("Nothing yet."), "start.nothing"));
   }
 
   QToolButton* recent_button(const RecentSurvey& survey, std::size_t index) {
@@ -148,10 +149,10 @@ class StartPage : public QWidget {
     if (!survey.thumbnail.empty()) picture.load(QString::fromStdString(survey.thumbnail.string()));
     button->setIcon(picture);
     QString place = QString::fromStdString(survey.place);
-    if (!survey.there) place += " (not there now)";
+    if (!survey.there) place += " " + translated("(not there now)");
     button->setText(QString::fromStdString(survey.name) + "\n" + place);
     button->setEnabled(survey.there);
-    button->setAccessibleName("Open " + QString::fromStdString(survey.name) + " in " + place);
+    button->setAccessibleName(translated("Open %1 in %2").arg(QString::fromStdString(survey.name), place));
     QObject::connect(button, &QToolButton::clicked, button,
                      [this, index] { app_.workspace.document.open(app_.preferences.recent.at(index)); });
     return button;
