@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMenu>
+#include <QNativeGestureEvent>
 #include <QPainter>
 #include <QWidget>
 #include <functional>
@@ -50,6 +51,7 @@ class PictureView : public QWidget {
   void show_size();
   void show_shape();
   void draw_overlays(QPainter& painter);
+  void pinch(const QNativeGestureEvent& event);
   void draw_focus(QPainter& painter);
   void tell_screen_reader();
   /// A place of the view in the picture's pixels.

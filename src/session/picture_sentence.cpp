@@ -75,7 +75,10 @@ std::string picture_sentence(const AppModel& app, const std::string& id) {
   const LivePicture& picture = *dock->picture;
   if (!picture.problem().empty()) return picture.problem();
   const Document& document = app.workspace.document;
-  if (picture.image().pixels.empty() || document.survey() == nullptr) return idle_text(app, id);
+  if (picture.image().pixels.empty() || document.survey() == nullptr) {
+    const std::string why = idle_text(app, id);
+    return why.empty() ? dock->title + ": nothing is shown yet." : why;
+  }
   if (!document.shown()) {
     return fmt::format("{}, {}.", dock->title, count_of(document.survey()->observations.size(), "observation"));
   }

@@ -17,7 +17,7 @@ class PictureSentence : public testing::Test, protected TestApp {
   void SetUp() override {
     begin();
     for (PictureDock& dock : app_->pictures) {
-      dock.picture->resize({320, 240}, 1.0);
+      dock.picture->resize({480, 360}, 1.0);
       dock.picture->set_seen(true);
     }
     settle();
@@ -60,8 +60,9 @@ TEST_F(PictureSentence, OfAPlaneFollowsThePlane) {
 TEST_F(PictureSentence, EveryPictureHasOne) {
   for (const PictureDock& dock : app_->pictures) {
     const std::string sentence = of(dock.id.c_str());
-    EXPECT_THAT(sentence, testing::EndsWith(".")) << dock.id;
     EXPECT_GT(sentence.size(), 10U) << dock.id;
+    const bool shown = !dock.picture->image().pixels.empty();
+    EXPECT_TRUE(!shown || sentence.ends_with(".")) << dock.id << ": " << sentence;
   }
   EXPECT_EQ(of("no such dock"), "");
 }
