@@ -14,12 +14,15 @@
 #include <string>
 
 #include "gui/panel_section.h"
+#include "gui/picture_view.h"
 #include "gui/translated.h"
+#include "session/recipe_preview.h"
 
 namespace sonar {
 namespace {
 
-constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
+constexpr int kPreviewWidth_px = 300;
+constexpr const char* kRecipes = to_translate("Recipes (*.json *.JSON);;All files (*)");
 
 class RecipeDialog : public QDialog {
  public:
@@ -27,13 +30,16 @@ class RecipeDialog : public QDialog {
       : QDialog(&window), dialogs_(dialogs), editor_(editor) {
     setObjectName("recipe");
     setWindowTitle(translated("Recipe"));
-    resize(620, 640);
+    resize(window.size().boundedTo(QSize(1200, 760)) * 19 / 20);
     auto* column = new QVBoxLayout(this);
     column->addLayout(search_row());
     list_->setWidgetResizable(true);
     list_->setAccessibleName(translated("Parameters"));
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    column->addWidget(list_, 1);
+    auto* halves = new QHBoxLayout();
+    halves->addWidget(list_, 1);
+    if (RecipeComparison* both = editor.comparison()) halves->addLayout(previews(*both), 1);
+    column->addLayout(halves, 1);
     told_->setWordWrap(true);
     told_->setObjectName("told");
     column->addWidget(told_);
@@ -62,6 +68,23 @@ class RecipeDialog : public QDialog {
     return row;
   }
 
+  /// Above each other: a slice is wider than it is high.
+  QVBoxLayout* previews(RecipeComparison& both) {
+    auto* column = new QVBoxLayout();
+    const auto add = [&](RecipePreview& picture, const char* title, const char* name) {
+      auto* label = new QLabel(translated(title), this);
+      auto* view = new PictureView(picture, both.workspace.latencies, this);
+      view->setObjectName(name);
+      view->setAccessibleName(label->text());
+      view->setMinimumWidth(kPreviewWidth_px);
+      column->addWidget(label);
+      column->addWidget(view, 1);
+    };
+    add(both.in_force, to_translate("This ping under the recipe in force"), "preview_before");
+    add(both.edited, to_translate("Under the edited recipe"), "preview_after");
+    return column;
+  }
+
   QDialogButtonBox* buttons() {
     auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
     box->button(QDialogButtonBox::Ok)->setText(translated("Use"));
@@ -73,9 +96,9 @@ class RecipeDialog : public QDialog {
       button->setAutoDefault(false);
       QObject::connect(button, &QPushButton::clicked, this, pressed);
     };
-    add("Load...", "load", [this] { load(); });
-    add("Save as...", "save", [this] { save(); });
-    add("Defaults", "defaults", [this] {
+    add(to_translate("Load..."), "load", [this] { load(); });
+    add(to_translate("Save as..."), "save", [this] { save(); });
+    add(to_translate("Defaults"), "defaults", [this] {
       editor_.take_defaults();
       fill();
     });
@@ -101,7 +124,8 @@ class RecipeDialog : public QDialog {
   }
 
   void load() {
-    const std::string file = dialogs_.file_to_open ? dialogs_.file_to_open("Recipe", kRecipes) : std::string();
+    const std::string file =
+        dialogs_.file_to_open ? dialogs_.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
     if (file.empty()) return;
     const auto loaded = editor_.load(file);
     std::string told =
@@ -114,8 +138,9 @@ class RecipeDialog : public QDialog {
   }
 
   void save() {
-    const std::string file =
-        dialogs_.file_to_save ? dialogs_.file_to_save("Save recipe", kRecipes, "recipe.json") : std::string();
+    const std::string file = dialogs_.file_to_save
+                                 ? dialogs_.file_to_save(to_translate("Save recipe"), kRecipes, "recipe.json")
+                                 : std::string();
     if (file.empty()) return;
     const auto saved = editor_.save(file);
     told_->setText(saved ? translated("written: %1").arg(QString::fromStdString(file))
