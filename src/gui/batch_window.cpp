@@ -19,8 +19,8 @@
 namespace sonar {
 namespace {
 
-constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
-constexpr const char* kTexts = "Texts (*.txt *.log);;All files (*)";
+constexpr const char* kRecipes = to_translate("Recipes (*.json *.JSON);;All files (*)");
+constexpr const char* kTexts = to_translate("Texts (*.txt *.log);;All files (*)");
 constexpr QSize kUsualSize{1180, 680};
 constexpr int kMostJobs = 1024;
 constexpr int kPermille = 1000;
@@ -83,26 +83,34 @@ QWidget* BatchWindow::upper_half() {
   auto* column = new QVBoxLayout(half);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout();
-  add_button(*row, "add", "&Add folder...",
-             "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
-             "dropped here as well",
-             [this] {
-               const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
-               if (!folder.empty()) add_paths({folder});
-             });
-  open_window_ = add_button(*row, "add_open", "Add the open survey", "The one that the main window shows",
+  add_button(
+      *row, "add", to_translate("&Add folder..."),
+      to_translate(
+          "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
+          "dropped here as well"),
+      [this] {
+        const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
+        if (!folder.empty()) add_paths({folder});
+      });
+  open_window_ = add_button(*row, "add_open", to_translate("Add the open survey"),
+                            to_translate("The one that the main window shows"),
                             [this] { tell(batch_.add_survey(app_.workspace.document.paths())); });
-  remove_ = add_button(*row, "remove", "Remove", "Takes the marked survey out of the list (Del); no file is touched",
+  remove_ = add_button(*row, "remove", to_translate("Remove"),
+                       to_translate("Takes the marked survey out of the list (Del); no file is touched"),
                        [this] { remove(); });
-  earlier_ = add_button(*row, "earlier", "Earlier", "Runs the marked survey earlier (Alt+Up)", [this] { move(false); });
-  later_ = add_button(*row, "later", "Later", "Runs the marked survey later (Alt+Down)", [this] { move(true); });
+  earlier_ = add_button(*row, "earlier", to_translate("Earlier"),
+                        to_translate("Runs the marked survey earlier (Alt+Up)"), [this] { move(false); });
+  later_ = add_button(*row, "later", to_translate("Later"), to_translate("Runs the marked survey later (Alt+Down)"),
+                      [this] { move(true); });
   row->addStretch(1);
-  out_ = add_button(*row, "out", "&Results folder...",
-                    "Where results of the marked survey go; beside its raw files, unless another is chosen",
-                    [this] { choose_out(); });
-  open_ = add_button(*row, "open", "&Open in the window",
-                     "Shows the marked survey in the main window, with the schools that its run found (double-click)",
-                     [this] { open_current(); });
+  out_ =
+      add_button(*row, "out", to_translate("&Results folder..."),
+                 to_translate("Where results of the marked survey go; beside its raw files, unless another is chosen"),
+                 [this] { choose_out(); });
+  open_ = add_button(
+      *row, "open", to_translate("&Open in the window"),
+      to_translate("Shows the marked survey in the main window, with the schools that its run found (double-click)"),
+      [this] { open_current(); });
   column->addLayout(row);
   table_->setAccessibleName(translated("Surveys to be run"));
   column->addWidget(table_, 1);
@@ -150,9 +158,11 @@ void BatchWindow::add_run_row(QBoxLayout& column) {
   total_->setAccessibleName(translated("Progress of all surveys"));
   total_->setRange(0, kPermille);
   row->addWidget(total_, 1);
-  start_ = add_button(*row, "start", "&Start", "Runs the surveys one after another; what is done already stays",
+  start_ = add_button(*row, "start", to_translate("&Start"),
+                      to_translate("Runs the surveys one after another; what is done already stays"),
                       [this] { tell(start_batch(app_)); });
-  stop_ = add_button(*row, "stop", "S&top", "Finished observations stay, and the next start goes on from there",
+  stop_ = add_button(*row, "stop", to_translate("S&top"),
+                     to_translate("Finished observations stay, and the next start goes on from there"),
                      [this] { batch_.stop(); });
   column.addLayout(row);
 }
@@ -166,10 +176,11 @@ QWidget* BatchWindow::lower_half() {
   label->setBuddy(log_);
   row->addWidget(label);
   row->addStretch(1);
-  add_button(*row, "copy_log", "Copy log", "All lines, to the clipboard", [this] {
+  add_button(*row, "copy_log", to_translate("Copy log"), to_translate("All lines, to the clipboard"), [this] {
     if (app_.dialogs.copy) app_.dialogs.copy(log_->toPlainText().toStdString());
   });
-  add_button(*row, "save_log", "Save log...", "All lines, as a text file", [this] { save_log(); });
+  add_button(*row, "save_log", to_translate("Save log..."), to_translate("All lines, as a text file"),
+             [this] { save_log(); });
   column->addLayout(row);
   log_->setObjectName("log");
   log_->setReadOnly(true);
@@ -195,7 +206,8 @@ void BatchWindow::choose_out() {
   if (!at || !app_.dialogs.folder_to_save) return;
   const BatchSurvey& survey = batch_.surveys()[*at];
   const std::filesystem::path beside = survey.out.empty() ? survey.paths.front() : survey.out;
-  const std::string folder = app_.dialogs.folder_to_save("Folder for the results", beside.parent_path().string());
+  const std::string folder =
+      app_.dialogs.folder_to_save(to_translate("Folder for the results"), beside.parent_path().string());
   if (!folder.empty()) tell(batch_.set_out(*at, folder));
 }
 
@@ -203,7 +215,7 @@ void BatchWindow::choose_recipe(int choice) {
   const auto chosen = static_cast<BatchRecipe>(choice);
   std::string file;
   if (chosen == BatchRecipe::of_file) {
-    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open("Recipe", kRecipes) : std::string();
+    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
     if (file.empty()) return show_recipe();
   }
   tell(batch_.set_recipe(chosen, file));
@@ -230,8 +242,9 @@ void BatchWindow::open_current() {
 }
 
 void BatchWindow::save_log() {
-  const std::string file =
-      app_.dialogs.file_to_save ? app_.dialogs.file_to_save("Save log", kTexts, "runs.txt") : std::string();
+  const std::string file = app_.dialogs.file_to_save
+                               ? app_.dialogs.file_to_save(to_translate("Save log"), kTexts, "runs.txt")
+                               : std::string();
   if (!file.empty()) tell(batch_.save_log(file));
 }
 

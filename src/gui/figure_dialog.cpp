@@ -41,8 +41,9 @@ class ViewList : public QWidget {
     keep_own_keys(*list_);
     column->addWidget(list_);
     auto* row = new QHBoxLayout();
-    earlier_ = button("Up", "earlier", "The chosen view comes earlier on the page (Alt+Up)");
-    later_ = button("Down", "later", "The chosen view comes later on the page (Alt+Down)");
+    earlier_ =
+        button(to_translate("Up"), "earlier", to_translate("The chosen view comes earlier on the page (Alt+Up)"));
+    later_ = button(to_translate("Down"), "later", to_translate("The chosen view comes later on the page (Alt+Down)"));
     wide_->setObjectName("wide");
     wide_->setToolTip(translated("The chosen view is as wide as the page: for timelines and echograms"));
     row->addWidget(earlier_);
@@ -170,9 +171,10 @@ class FigureDialog : public QDialog {
     const auto section = [&](const char* title, std::vector<std::string> names) {
       add_folding_section(*column, PanelSection{title, source, std::move(names)}, inside);
     };
-    section("Paper", {"paper", "width_mm", "height_mm", "margin_mm", "dpi"});
-    section("Panels", {"columns", "wide_height_percent", "letters", "headings", "legend", "text_pt", "dark"});
-    section("Words", {"title", "caption", "source"});
+    section(to_translate("Paper"), {"paper", "width_mm", "height_mm", "margin_mm", "dpi"});
+    section(to_translate("Panels"),
+            {"columns", "wide_height_percent", "letters", "headings", "legend", "text_pt", "dark"});
+    section(to_translate("Words"), {"title", "caption", "source"});
     column->addStretch(1);
     scroll->setWidget(inside);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -22,7 +22,7 @@ QString key_text(const std::vector<std::string>& keys) {
   return shown.join(", ");
 }
 
-constexpr const char* kMouse = R"(<h3>Mouse</h3><table cellpadding="3">
+constexpr const char* kMouse = to_translate(R"(<h3>Mouse</h3><table cellpadding="3">
 <tr><td><b>Hover</b></td><td>shows what a click would select</td></tr>
 <tr><td><b>Click</b></td><td>selects a school: grows from the voxel under the pointer</td></tr>
 <tr><td><b>Double-click</b></td><td>grows and propagates to earlier and later pings</td></tr>
@@ -30,7 +30,7 @@ constexpr const char* kMouse = R"(<h3>Mouse</h3><table cellpadding="3">
 <tr><td><b>Ctrl+click</b></td><td>takes a growth away from it</td></tr>
 <tr><td><b>G, then drag</b></td><td>measures a line; in slices with Shift a box, with Ctrl a lasso</td></tr>
 <tr><td><b>Right click</b></td><td>what can be done there</td></tr>
-<tr><td><b>Wheel</b></td><td>next fan or beam of a slice, zoom elsewhere</td></tr></table>)";
+<tr><td><b>Wheel</b></td><td>next fan or beam of a slice, zoom elsewhere</td></tr></table>)");
 
 QString sheet(const Actions& actions) {
   std::vector<std::string> order;

@@ -29,12 +29,15 @@ struct Beginning {
   const char* more;
 };
 constexpr std::array<Beginning, 4> kBeginnings{
-    {{"file.open_folder", "Open a folder", "Raw files of a survey, or the results of a run with their schools"},
-     {"file.open_files", "Open some files", "A part of a survey"},
-     {"file.demo", "Open the demo survey", "Simulated; it takes a moment to make at the first time"},
-     {"help.guide", "Read the guide", "From opening a survey to its map; [help.keys] shows all keys"}}};
+    {{"file.open_folder", to_translate("Open a folder"),
+      to_translate("Raw files of a survey, or the results of a run with their schools")},
+     {"file.open_files", to_translate("Open some files"), to_translate("A part of a survey")},
+     {"file.demo", to_translate("Open the demo survey"),
+      to_translate("Simulated; it takes a moment to make at the first time")},
+     {"help.guide", to_translate("Read the guide"),
+      to_translate("From opening a survey to its map; [help.keys] shows all keys")}}};
 
-constexpr const char* kSteps =
+constexpr const char* kSteps = to_translate(
     "<ol style=\"margin-left:-24px\">"
     "<li style=\"margin-bottom:6px\"><b>Open</b> a survey: drop its folder here, or a folder of results with its "
     "schools.</li>"
@@ -42,11 +45,11 @@ constexpr const char* kSteps =
     "one in a "
     "slice, and [school.propagate] follows it.</li>"
     "<li><b>Review and export</b>: [review.accept] accepts, [review.reject] rejects; [export.results] writes tables, "
-    "masks and the map.</li></ol>";
+    "masks and the map.</li></ol>");
 
-constexpr const char* kInstruments =
+constexpr const char* kInstruments = to_translate(
     "Simrad MS70: schools are detected, followed and measured. ME70 and similar sonars: the same where the beams form "
-    "fans. EK60: shown as an echogram; schools are not detected in single beams yet. EK80: named, but not read yet.";
+    "fans. EK60: shown as an echogram; schools are not detected in single beams yet. EK80: named, but not read yet.");
 
 class StartPage : public QWidget {
  public:
