@@ -3,6 +3,7 @@
 
 #include <QApplication>
 
+#include "gui/translated.h"
 #include "session/app_model.h"
 #include "session/volume/volume_model.h"
 
@@ -11,12 +12,12 @@ namespace sonar {
 QString about_text(AppModel& app) {
   const auto* volume = dynamic_cast<const VolumeModel*>(app.picture("volume"));
   const LiveVolumeShown* shown = volume == nullptr ? nullptr : volume->shown();
-  return QString(
+  return translated(
              "Sonar Explorer %1\nApache License 2.0\n\nWith Qt (LGPL 3), GDAL, PROJ, netCDF, Cairo, Pango, "
              "oneTBB, Highway, nlohmann-json, fmt, pugixml, xxHash, libepoxy.\n\n%2")
       .arg(QApplication::applicationVersion())
-      .arg(shown == nullptr ? QString("No volume is on show: what draws them is told here when one is.")
-                            : "Volumes are drawn by: " + QString::fromStdString(shown->renderer));
+      .arg(shown == nullptr ? translated("No volume is on show: what draws them is told here when one is.")
+                            : translated("Volumes are drawn by: %1").arg(QString::fromStdString(shown->renderer)));
 }
 
 }  // namespace sonar

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "gui/translated.h"
 #include "gui/view_keys.h"
 #include "session/context_menu.h"
 
@@ -23,7 +24,7 @@ void refresh(QAction& shown, const Action& action) {
   if (action.checked) shown.setChecked(action.checked());
   if (action.text_now) {
     const std::string text = action.text_now();
-    shown.setText(QString::fromStdString(text.empty() ? action.text : text));
+    shown.setText(text.empty() ? translated(action.text) : QString::fromStdString(text));
   }
 }
 
@@ -34,9 +35,10 @@ QMenu* menu_of(QMainWindow& window, std::map<std::string, QMenu*>& menus, const 
   QMenu*& menu = menus[path];
   if (menu != nullptr) return menu;
   const auto last = path.rfind('/');
-  const QString title = QString::fromStdString(path.substr(last == std::string::npos ? 0 : last + 1));
+  const QString title = translated(path.substr(last == std::string::npos ? 0 : last + 1));
   menu = last == std::string::npos ? window.menuBar()->addMenu(title)
                                    : menu_of(window, menus, path.substr(0, last))->addMenu(title);
+  menu->menuAction()->setObjectName(QString::fromStdString(path));  // whatever the language calls it
   return menu;
 }
 
@@ -49,10 +51,10 @@ void take_keys(QAction& shown, const Action& action) {
 }
 
 QAction* make_action(QMainWindow& window, Actions& actions, const Action& action) {
-  auto* shown = new KeyedAction(QString::fromStdString(action.text), &window);
+  auto* shown = new KeyedAction(translated(action.text), &window);
   shown->setObjectName(QString::fromStdString(action.id));
-  shown->setToolTip(QString::fromStdString(action.tip));
-  shown->setStatusTip(QString::fromStdString(action.tip));
+  shown->setToolTip(translated(action.tip));
+  shown->setStatusTip(translated(action.tip));
   shown->setCheckable(static_cast<bool>(action.checked));
   take_keys(*shown, action);
   QObject::connect(shown, &QAction::triggered, &window, [shown, &actions, &action] {

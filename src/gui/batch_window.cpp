@@ -13,13 +13,14 @@
 #include <utility>
 
 #include "gui/dropped_paths.h"
+#include "gui/translated.h"
 #include "session/app_parts.h"
 
 namespace sonar {
 namespace {
 
-constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
-constexpr const char* kTexts = "Texts (*.txt *.log);;All files (*)";
+constexpr const char* kRecipes = to_translate("Recipes (*.json *.JSON);;All files (*)");
+constexpr const char* kTexts = to_translate("Texts (*.txt *.log);;All files (*)");
 constexpr QSize kUsualSize{1180, 680};
 constexpr int kMostJobs = 1024;
 constexpr int kPermille = 1000;
@@ -31,7 +32,7 @@ QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 BatchWindow::BatchWindow(AppModel& app, QWidget& main)
     : app_(app), batch_(*app.batch), main_(main), table_(new BatchTable(batch_, this)) {
   setObjectName("batch");
-  setWindowTitle("Run surveys");
+  setWindowTitle(translated("Run surveys"));
   resize(kUsualSize.boundedTo(screen()->availableSize()));
   setAcceptDrops(true);
   setAttribute(Qt::WA_QuitOnClose, false);
@@ -67,11 +68,11 @@ void BatchWindow::come_to_front() {
   activateWindow();
 }
 
-QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const QString& text, const char* tip,
+QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
                                      std::function<void()> pressed) {
-  auto* button = new QPushButton(text, this);
+  auto* button = new QPushButton(translated(text), this);
   button->setObjectName(name);
-  button->setToolTip(tip);
+  button->setToolTip(translated(tip));
   connect(button, &QPushButton::clicked, this, std::move(pressed));
   row.addWidget(button);
   return button;
@@ -82,27 +83,36 @@ QWidget* BatchWindow::upper_half() {
   auto* column = new QVBoxLayout(half);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout();
-  add_button(*row, "add", "&Add folder...",
-             "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
-             "dropped here as well",
-             [this] {
-               const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
-               if (!folder.empty()) add_paths({folder});
-             });
-  open_window_ = add_button(*row, "add_open", "Add the open survey", "The one that the main window shows",
+  add_button(
+      *row, "add", to_translate("&Add folder..."),
+      to_translate(
+          "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
+          "dropped here as well"),
+      [this] {
+        const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
+        if (!folder.empty()) add_paths({folder});
+      });
+  open_window_ = add_button(*row, "add_open", to_translate("Add the open survey"),
+                            to_translate("The one that the main window shows"),
                             [this] { tell(batch_.add_survey(app_.workspace.document.paths())); });
-  remove_ = add_button(*row, "remove", "Remove", "Takes the marked survey out of the list (Del); no file is touched",
+  remove_ = add_button(*row, "remove", to_translate("Remove"),
+                       to_translate("Takes the marked survey out of the list (Del); no file is touched"),
                        [this] { remove(); });
-  earlier_ = add_button(*row, "earlier", "Earlier", "Runs the marked survey earlier (Alt+Up)", [this] { move(false); });
-  later_ = add_button(*row, "later", "Later", "Runs the marked survey later (Alt+Down)", [this] { move(true); });
+  earlier_ = add_button(*row, "earlier", to_translate("Earlier"),
+                        to_translate("Runs the marked survey earlier (Alt+Up)"), [this] { move(false); });
+  later_ = add_button(*row, "later", to_translate("Later"), to_translate("Runs the marked survey later (Alt+Down)"),
+                      [this] { move(true); });
   row->addStretch(1);
-  out_ = add_button(*row, "out", "&Results folder...",
-                    "Where results of the marked survey go; beside its raw files, unless another is chosen",
-                    [this] { choose_out(); });
-  open_ = add_button(*row, "open", "&Open in the window",
-                     "Shows the marked survey in the main window, with the schools that its run found (double-click)",
-                     [this] { open_current(); });
+  out_ =
+      add_button(*row, "out", to_translate("&Results folder..."),
+                 to_translate("Where results of the marked survey go; beside its raw files, unless another is chosen"),
+                 [this] { choose_out(); });
+  open_ = add_button(
+      *row, "open", to_translate("&Open in the window"),
+      to_translate("Shows the marked survey in the main window, with the schools that its run found (double-click)"),
+      [this] { open_current(); });
   column->addLayout(row);
+  table_->setAccessibleName(translated("Surveys to be run"));
   column->addWidget(table_, 1);
   add_recipe_row(*column);
   add_run_row(*column);
@@ -117,22 +127,22 @@ QWidget* BatchWindow::upper_half() {
 void BatchWindow::add_recipe_row(QBoxLayout& column) {
   auto* row = new QHBoxLayout();
   recipe_->setObjectName("recipe");
-  recipe_->addItem("of the open survey");
-  recipe_->addItem("default");
-  recipe_->addItem("of a file...");
+  recipe_->addItem(translated("of the open survey"));
+  recipe_->addItem(translated("default"));
+  recipe_->addItem(translated("of a file..."));
   recipe_->setToolTip(
       "Parameters that all surveys are run under. That of the open survey has the calibration that was chosen in it");
   connect(recipe_, &QComboBox::activated, this, [this](int choice) { choose_recipe(choice); });
-  auto* recipe_label = new QLabel("Re&cipe", this);
+  auto* recipe_label = new QLabel(translated("Re&cipe"), this);
   recipe_label->setBuddy(recipe_);
   recipe_file_->setTextFormat(Qt::PlainText);
   recipe_file_->setObjectName("recipe_file");
   jobs_->setObjectName("jobs");
   jobs_->setRange(0, kMostJobs);
-  jobs_->setSpecialValueText("all of the machine's");
-  jobs_->setToolTip("Threads of a run; fewer leave more of the machine to others");
+  jobs_->setSpecialValueText(translated("all of the machine's"));
+  jobs_->setToolTip(translated("Threads of a run; fewer leave more of the machine to others"));
   connect(jobs_, &QSpinBox::valueChanged, this, [this](int jobs) { batch_.set_jobs(jobs); });
-  auto* jobs_label = new QLabel("&Threads", this);
+  auto* jobs_label = new QLabel(translated("&Threads"), this);
   jobs_label->setBuddy(jobs_);
   row->addWidget(recipe_label);
   row->addWidget(recipe_);
@@ -145,11 +155,14 @@ void BatchWindow::add_recipe_row(QBoxLayout& column) {
 void BatchWindow::add_run_row(QBoxLayout& column) {
   auto* row = new QHBoxLayout();
   total_->setObjectName("total");
+  total_->setAccessibleName(translated("Progress of all surveys"));
   total_->setRange(0, kPermille);
   row->addWidget(total_, 1);
-  start_ = add_button(*row, "start", "&Start", "Runs the surveys one after another; what is done already stays",
+  start_ = add_button(*row, "start", to_translate("&Start"),
+                      to_translate("Runs the surveys one after another; what is done already stays"),
                       [this] { tell(start_batch(app_)); });
-  stop_ = add_button(*row, "stop", "S&top", "Finished observations stay, and the next start goes on from there",
+  stop_ = add_button(*row, "stop", to_translate("S&top"),
+                     to_translate("Finished observations stay, and the next start goes on from there"),
                      [this] { batch_.stop(); });
   column.addLayout(row);
 }
@@ -159,20 +172,21 @@ QWidget* BatchWindow::lower_half() {
   auto* column = new QVBoxLayout(half);
   column->setContentsMargins(0, 0, 0, 0);
   auto* row = new QHBoxLayout();
-  auto* label = new QLabel("&Log", this);
+  auto* label = new QLabel(translated("&Log"), this);
   label->setBuddy(log_);
   row->addWidget(label);
   row->addStretch(1);
-  add_button(*row, "copy_log", "Copy log", "All lines, to the clipboard", [this] {
+  add_button(*row, "copy_log", to_translate("Copy log"), to_translate("All lines, to the clipboard"), [this] {
     if (app_.dialogs.copy) app_.dialogs.copy(log_->toPlainText().toStdString());
   });
-  add_button(*row, "save_log", "Save log...", "All lines, as a text file", [this] { save_log(); });
+  add_button(*row, "save_log", to_translate("Save log..."), to_translate("All lines, as a text file"),
+             [this] { save_log(); });
   column->addLayout(row);
   log_->setObjectName("log");
   log_->setReadOnly(true);
   log_->setLineWrapMode(QPlainTextEdit::NoWrap);
   log_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  log_->setPlaceholderText("What the runs tell stands here, as sonarx run tells it.");
+  log_->setPlaceholderText(translated("What the runs tell stands here, as sonarx run tells it."));
   column->addWidget(log_, 1);
   return half;
 }
@@ -192,7 +206,8 @@ void BatchWindow::choose_out() {
   if (!at || !app_.dialogs.folder_to_save) return;
   const BatchSurvey& survey = batch_.surveys()[*at];
   const std::filesystem::path beside = survey.out.empty() ? survey.paths.front() : survey.out;
-  const std::string folder = app_.dialogs.folder_to_save("Folder for the results", beside.parent_path().string());
+  const std::string folder =
+      app_.dialogs.folder_to_save(to_translate("Folder for the results"), beside.parent_path().string());
   if (!folder.empty()) tell(batch_.set_out(*at, folder));
 }
 
@@ -200,7 +215,7 @@ void BatchWindow::choose_recipe(int choice) {
   const auto chosen = static_cast<BatchRecipe>(choice);
   std::string file;
   if (chosen == BatchRecipe::of_file) {
-    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open("Recipe", kRecipes) : std::string();
+    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
     if (file.empty()) return show_recipe();
   }
   tell(batch_.set_recipe(chosen, file));
@@ -227,8 +242,9 @@ void BatchWindow::open_current() {
 }
 
 void BatchWindow::save_log() {
-  const std::string file =
-      app_.dialogs.file_to_save ? app_.dialogs.file_to_save("Save log", kTexts, "runs.txt") : std::string();
+  const std::string file = app_.dialogs.file_to_save
+                               ? app_.dialogs.file_to_save(to_translate("Save log"), kTexts, "runs.txt")
+                               : std::string();
   if (!file.empty()) tell(batch_.save_log(file));
 }
 
@@ -267,7 +283,7 @@ void BatchWindow::show_state() {
   const std::string now = total_text(batch_);
   total_->setValue(static_cast<int>(std::lround(kPermille * (running ? batch_.share() : 0.0))));
   total_->setFormat(text(now));
-  setWindowTitle(running ? "Run surveys: " + text(now) : QString("Run surveys"));
+  setWindowTitle(translated("Run surveys") + (running ? ": " + text(now) : QString()));
 }
 
 void BatchWindow::show_log() {

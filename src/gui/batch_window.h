@@ -39,7 +39,7 @@ class BatchWindow : public QWidget {
  private:
   [[nodiscard]] QWidget* upper_half();
   [[nodiscard]] QWidget* lower_half();
-  QPushButton* add_button(QBoxLayout& row, const char* name, const QString& text, const char* tip,
+  QPushButton* add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
                           std::function<void()> pressed);
   void add_recipe_row(QBoxLayout& column);
   void add_run_row(QBoxLayout& column);

@@ -13,11 +13,11 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
 #include "gui/own_keys.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -44,7 +44,7 @@ void follow(const Source& source, const std::string& name, Widget* widget, Show 
 }
 
 QWidget* bind_switch(const Source& source, const Property& property, QWidget* parent) {
-  auto* box = new QCheckBox(text(property.label), parent);
+  auto* box = new QCheckBox(translated(property.label), parent);
   follow(source, property.name, box, [](QCheckBox& b, const PropertyValue& v) { b.setChecked(std::get<bool>(v)); });
   QObject::connect(box, &QCheckBox::toggled, box,
                    [source, name = property.name](bool on) { (void)source->set(name, on); });
@@ -53,7 +53,7 @@ QWidget* bind_switch(const Source& source, const Property& property, QWidget* pa
 
 QWidget* bind_choice(const Source& source, const Property& property, QWidget* parent) {
   auto* box = new QComboBox(parent);
-  for (const std::string& choice : property.choices) box->addItem(text(label_of(choice, {})));
+  for (const std::string& choice : property.choices) box->addItem(translated(label_of(choice, {})));
   follow(source, property.name, box,
          [](QComboBox& b, const PropertyValue& v) { b.setCurrentIndex(static_cast<int>(std::get<Choice>(v).index)); });
   QObject::connect(box, &QComboBox::currentIndexChanged, box, [source, name = property.name](int index) {
@@ -74,7 +74,8 @@ QWidget* bind_text(const Source& source, const Property& property, QWidget* pare
 /// A text that is one of a list, written as the list has it.
 QWidget* bind_word(const Source& source, const Property& property, QWidget* parent) {
   auto* box = new QComboBox(parent);
-  for (const std::string& word : property.choices) box->addItem(word.empty() ? "(none)" : text(word), text(word));
+  for (const std::string& word : property.choices)
+    box->addItem(word.empty() ? translated("(none)") : text(word), text(word));
   // Long names do not make the panel wide.
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(8);
@@ -113,7 +114,7 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
   box->setRange(std::max(property.min, -1e9), std::min(property.max, 1e9));
   box->setSingleStep(property.max - property.min > 2.0 ? 1.0 : 0.05);
   if (property.unit != "1") box->setSuffix(text(" " + property.unit));
-  if (!property.at_min.empty()) box->setSpecialValueText(text(property.at_min));
+  if (!property.at_min.empty()) box->setSpecialValueText(translated(property.at_min));
   box->setKeyboardTracking(false);
   box->setObjectName(text(property.name + ".box"));
   keep_own_keys(*box);
@@ -150,26 +151,29 @@ QWidget* bind_double(const Source& source, const Property& property, QWidget* pa
   return both;
 }
 
-std::string value_text(const PropertyValue& value, const Property& property) {
-  if (const auto* on = std::get_if<bool>(&value)) return *on ? "on" : "off";
-  if (const auto* whole = std::get_if<int>(&value)) return fmt::format("{}", *whole);
-  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:g}", *number);
-  if (const auto* choice = std::get_if<Choice>(&value)) return property.choices[choice->index];
-  return std::get<std::string>(value);
+QString value_text(const PropertyValue& value, const Property& property) {
+  if (const auto* on = std::get_if<bool>(&value)) return *on ? translated("on") : translated("off");
+  if (const auto* whole = std::get_if<int>(&value)) return QString::number(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return text(fmt::format("{:g}", *number));
+  if (const auto* choice = std::get_if<Choice>(&value))
+    return translated(label_of(property.choices[choice->index], {}));
+  return text(std::get<std::string>(value));
 }
 
 /// What it does; its range, unit and default on one line.
-std::string tooltip_of(const Property& property) {
-  std::string what = property.tooltip;
-  if (!what.empty()) what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
-  const std::string unit = property.unit.empty() || property.unit == "1" ? "" : " " + property.unit;
+QString tooltip_of(const Property& property) {
+  QString what = translated(property.tooltip);
+  if (!what.isEmpty()) what[0] = what[0].toUpper();
+  const QString unit = property.unit.empty() || property.unit == "1" ? QString() : text(" " + property.unit);
   const auto* number = std::get_if<double>(&property.initial);
   const bool lowest = number != nullptr && *number <= property.min && !property.at_min.empty();
-  const std::string initial = lowest ? property.at_min : value_text(property.initial, property) + unit;
+  const QString initial = lowest ? translated(property.at_min) : value_text(property.initial, property) + unit;
   if (std::isfinite(property.min) && std::isfinite(property.max) && property.max > property.min) {
-    return fmt::format("{}\n{:g} to {:g}{}, default {}", what, property.min, property.max, unit, initial);
+    const QString range = translated("%1 to %2, default %3");
+    const auto number_text = [](double value) { return text(fmt::format("{:g}", value)); };
+    return what + "\n" + range.arg(number_text(property.min), number_text(property.max) + unit, initial);
   }
-  return fmt::format("{}\nDefault {}", what, initial);
+  return what + "\n" + translated("Default %1").arg(initial);
 }
 
 }  // namespace
@@ -190,7 +194,14 @@ QWidget* bound_control(const Source& source, const Property& property, QWidget* 
     control = bind_text(source, property, parent);
   }
   control->setObjectName(text(property.name));
-  control->setToolTip(text(tooltip_of(property)));
+  control->setToolTip(tooltip_of(property));
+  // A number is a box and a slider, each of which can have the keyboard.
+  const QList<QWidget*> inside{control, control->findChild<QDoubleSpinBox*>(), control->findChild<QSlider*>()};
+  for (QWidget* one : inside) {
+    if (one == nullptr) continue;
+    one->setAccessibleName(translated(property.label));
+    one->setAccessibleDescription(control->toolTip());
+  }
   keep_own_keys(*control);
   return control;
 }

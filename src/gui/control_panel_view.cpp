@@ -13,6 +13,7 @@
 #include "gui/own_keys.h"
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -27,13 +28,15 @@ QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent
   layout->setContentsMargins(8, 0, 4, 0);
   auto* which = new QComboBox(row);
   which->setObjectName("curve");
-  which->addItems({"View curve", "Growth curve"});
-  which->setToolTip("View curve: colours and opacity of the volume.\nGrowth curve: opacity on which mode paper grows.");
+  which->addItems({translated("View curve"), translated("Growth curve")});
+  which->setAccessibleName(translated("Curve that is shown"));
+  which->setToolTip(
+      translated("View curve: colours and opacity of the volume.\nGrowth curve: opacity on which mode paper grows."));
   QObject::connect(which, &QComboBox::currentIndexChanged, which,
                    [&editor](int index) { editor.growth_shown().set(index == 1); });
-  auto* linked = new QCheckBox("Linked", row);
+  auto* linked = new QCheckBox(translated("Linked"), row);
   linked->setObjectName("curves_linked");
-  linked->setToolTip("A change of one curve is a change of both.\nDefault: off");
+  linked->setToolTip(translated("A change of one curve is a change of both.\nDefault: off"));
   linked->setChecked(workspace.curves_linked());
   workspace.curves_linked.changed().add([linked = QPointer<QCheckBox>(linked), &workspace] {
     if (!linked.isNull()) linked->setChecked(workspace.curves_linked());
@@ -41,12 +44,13 @@ QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent
   QObject::connect(linked, &QCheckBox::toggled, linked, [&workspace](bool on) { workspace.curves_linked.set(on); });
   auto* preset = new QComboBox(row);
   preset->setObjectName("curve_preset");
-  preset->addItem("Preset");
+  preset->addItem(translated("Preset"));
   for (const CurvePreset& one : curve_presets()) {
-    preset->addItem(text(label_of(one.name, {})), text(std::string(one.name)));
-    preset->setItemData(preset->count() - 1, text(std::string(one.text)), Qt::ToolTipRole);
+    preset->addItem(translated(label_of(one.name, {})), text(std::string(one.name)));
+    preset->setItemData(preset->count() - 1, translated(std::string(one.text)), Qt::ToolTipRole);
   }
-  preset->setToolTip("Shapes for the display limits");
+  preset->setAccessibleName(translated("Preset of the curve"));
+  preset->setToolTip(translated("Shapes for the display limits"));
   QObject::connect(preset, &QComboBox::activated, preset, [&editor, preset](int index) {
     if (index > 0) editor.take_preset(preset->itemData(index).toString().toStdString());
     preset->setCurrentIndex(0);
@@ -72,6 +76,7 @@ ControlPanelView::ControlPanelView(TransferEditor& editor, Workspace& workspace,
   column->setSpacing(2);
   auto* picture = new PictureView(editor, workspace.latencies, inside);
   picture->setObjectName("transfer_editor");
+  picture->setAccessibleName(translated("Curve of opacity over Sv, with the display limits"));
   picture->setFixedHeight(kEditorHeight_px);
   column->addWidget(curve_row(editor, workspace, inside));
   column->addWidget(picture);

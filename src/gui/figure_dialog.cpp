@@ -22,6 +22,7 @@
 #include "gui/own_keys.h"
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -35,14 +36,16 @@ class ViewList : public QWidget {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(8, 2, 4, 2);
     list_->setObjectName("views");
-    list_->setToolTip("Tick what goes on the page; Alt+Up and Alt+Down move a view among the others");
+    list_->setAccessibleName(translated("Views on the page"));
+    list_->setToolTip(translated("Tick what goes on the page; Alt+Up and Alt+Down move a view among the others"));
     keep_own_keys(*list_);
     column->addWidget(list_);
     auto* row = new QHBoxLayout();
-    earlier_ = button("Up", "earlier", "The chosen view comes earlier on the page (Alt+Up)");
-    later_ = button("Down", "later", "The chosen view comes later on the page (Alt+Down)");
+    earlier_ =
+        button(to_translate("Up"), "earlier", to_translate("The chosen view comes earlier on the page (Alt+Up)"));
+    later_ = button(to_translate("Down"), "later", to_translate("The chosen view comes later on the page (Alt+Down)"));
     wide_->setObjectName("wide");
-    wide_->setToolTip("The chosen view is as wide as the page: for timelines and echograms");
+    wide_->setToolTip(translated("The chosen view is as wide as the page: for timelines and echograms"));
     row->addWidget(earlier_);
     row->addWidget(later_);
     row->addWidget(wide_);
@@ -72,9 +75,9 @@ class ViewList : public QWidget {
 
  private:
   QPushButton* button(const char* words, const char* name, const char* tip) {
-    auto* made = new QPushButton(words, this);
+    auto* made = new QPushButton(translated(words), this);
     made->setObjectName(name);
-    made->setToolTip(tip);
+    made->setToolTip(translated(tip));
     made->setAutoDefault(false);
     return made;
   }
@@ -93,7 +96,8 @@ class ViewList : public QWidget {
     const QSignalBlocker silent(list_);
     list_->clear();
     for (const FigureChoice& one : now) {
-      auto* item = new QListWidgetItem(text(one.title + (one.wide ? " (own row)" : "")), list_);
+      auto* item =
+          new QListWidgetItem(translated(one.title) + (one.wide ? " " + translated("(own row)") : QString()), list_);
       item->setData(Qt::UserRole, text(one.id));
       item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
       item->setCheckState(one.chosen ? Qt::Checked : Qt::Unchecked);
@@ -120,7 +124,7 @@ class ViewList : public QWidget {
   QListWidget* list_ = new QListWidget(this);
   QPushButton* earlier_ = nullptr;
   QPushButton* later_ = nullptr;
-  QCheckBox* wide_ = new QCheckBox("Row of its own", this);
+  QCheckBox* wide_ = new QCheckBox(translated("Row of its own"), this);
   std::vector<FigureChoice> shown_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };
@@ -129,13 +133,14 @@ class FigureDialog : public QDialog {
  public:
   FigureDialog(QWidget& window, AppModel& app, FigureModel& figure) : QDialog(&window), app_(app), figure_(figure) {
     setObjectName("figure");
-    setWindowTitle("Figure for print");
+    setWindowTitle(translated("Figure for print"));
     resize(window.size().boundedTo(QSize(1280, 900)) * 19 / 20);
     auto* column = new QVBoxLayout(this);
     auto* halves = new QSplitter(Qt::Horizontal, this);
     halves->addWidget(controls());
     preview_ = new PictureView(figure, app.workspace.latencies, halves);
     preview_->setObjectName("preview");
+    preview_->setAccessibleName(translated("The page"));
     halves->addWidget(preview_);
     halves->setStretchFactor(1, 1);
     halves->setChildrenCollapsible(false);
@@ -156,6 +161,7 @@ class FigureDialog : public QDialog {
   QWidget* controls() {
     auto* scroll = new QScrollArea(this);
     scroll->setWidgetResizable(true);
+    scroll->setAccessibleName(translated("What goes on the page"));
     scroll->setFrameShape(QFrame::NoFrame);
     auto* inside = new QWidget(scroll);
     auto* column = new QVBoxLayout(inside);
@@ -165,9 +171,10 @@ class FigureDialog : public QDialog {
     const auto section = [&](const char* title, std::vector<std::string> names) {
       add_folding_section(*column, PanelSection{title, source, std::move(names)}, inside);
     };
-    section("Paper", {"paper", "width_mm", "height_mm", "margin_mm", "dpi"});
-    section("Panels", {"columns", "wide_height_percent", "letters", "headings", "legend", "text_pt", "dark"});
-    section("Words", {"title", "caption", "source"});
+    section(to_translate("Paper"), {"paper", "width_mm", "height_mm", "margin_mm", "dpi"});
+    section(to_translate("Panels"),
+            {"columns", "wide_height_percent", "letters", "headings", "legend", "text_pt", "dark"});
+    section(to_translate("Words"), {"title", "caption", "source"});
     column->addStretch(1);
     scroll->setWidget(inside);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -180,9 +187,9 @@ class FigureDialog : public QDialog {
     told_->setWordWrap(true);
     told_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-    write_ = buttons->addButton("Write...", QDialogButtonBox::ActionRole);
+    write_ = buttons->addButton(translated("Write..."), QDialogButtonBox::ActionRole);
     write_->setObjectName("write");
-    write_->setToolTip("The page as the preview shows it: PNG with its dpi, SVG or PDF (Ctrl+S)");
+    write_->setToolTip(translated("The page as the preview shows it: PNG with its dpi, SVG or PDF (Ctrl+S)"));
     write_->setShortcut(QKeySequence("Ctrl+S"));
     write_->setAutoDefault(false);
     QObject::connect(write_, &QPushButton::clicked, this, [this] { figure_.ask_and_write(); });

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gui/translated.h"
+
 namespace sonar {
 namespace {
 
@@ -22,13 +24,13 @@ QString keys_text(const std::vector<std::string>& keys) {
   return shown.join(", ");
 }
 
-QString menu_text(const Action& action) { return text(action.menu).remove('&').replace("/", " > "); }
+QString menu_text(const Action& action) { return translated_menu(action.menu, " > ").remove('&'); }
 
 }  // namespace
 
 KeyField::KeyField(QWidget* parent) : QLineEdit(parent) {
   setReadOnly(true);
-  setPlaceholderText("Click here, then press the key");
+  setPlaceholderText(translated("Click here, then press the key"));
 }
 
 bool KeyField::event(QEvent* event) {
@@ -54,12 +56,14 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
   auto* column = new QVBoxLayout(this);
   auto* words = new QLineEdit(this);
   words->setObjectName("key_words");
-  words->setPlaceholderText("Find an action or a key");
+  words->setPlaceholderText(translated("Find an action or a key"));
+  words->setAccessibleName(words->placeholderText());
   words->setClearButtonEnabled(true);
   connect(words, &QLineEdit::textChanged, this, [this](const QString& wanted) { narrow(wanted); });
   column->addWidget(words);
   list_->setObjectName("key_list");
-  list_->setHeaderLabels({"Action", "Keys", "Menu"});
+  list_->setHeaderLabels({translated("Action"), translated("Keys"), translated("Menu")});
+  list_->setAccessibleName(translated("Actions and their keys"));
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
   list_->setAlternatingRowColors(true);
@@ -67,12 +71,13 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
   column->addWidget(list_, 1);
   auto* row = new QHBoxLayout();
   key_->setObjectName("key");
+  key_->setAccessibleName(translated("Key of the chosen action"));
   none_->setObjectName("no_key");
   usual_->setObjectName("usual_key");
-  auto* all = new QPushButton("All usual", this);
+  auto* all = new QPushButton(translated("All usual"), this);
   all->setObjectName("all_usual");
-  all->setToolTip("Every action has the keys again that it came with");
-  row->addWidget(new QLabel("Press a key:", this));
+  all->setToolTip(translated("Every action has the keys again that it came with"));
+  row->addWidget(new QLabel(translated("Press a key:"), this));
   row->addWidget(key_, 1);
   for (QPushButton* button : {none_, usual_, all}) {
     button->setAutoDefault(false);
@@ -91,9 +96,9 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
   listening_ = actions.keys_changed().add([this] { fill(); });
   for (const Action& action : actions.list()) {
     auto* item = new QTreeWidgetItem(list_);
-    item->setText(0, text(action.text));
+    item->setText(0, translated(action.text));
     item->setText(2, menu_text(action));
-    item->setToolTip(0, text(action.tip));
+    item->setToolTip(0, translated(action.tip));
     item->setData(0, Qt::UserRole, text(action.id));
   }
   fill();
@@ -132,8 +137,8 @@ void KeyPage::choose() {
   for (QWidget* one : {static_cast<QWidget*>(key_), static_cast<QWidget*>(none_), static_cast<QWidget*>(usual_)}) {
     one->setEnabled(action != nullptr);
   }
-  told_->setText(action == nullptr ? "Choose an action, then press the key that it is to have."
-                                   : text(action->text + ": " + action->tip));
+  told_->setText(action == nullptr ? translated("Choose an action, then press the key that it is to have.")
+                                   : translated(action->text) + ": " + translated(action->tip));
 }
 
 void KeyPage::press(const QKeySequence& key) {
@@ -143,8 +148,8 @@ void KeyPage::press(const QKeySequence& key) {
   const QString shown = key.toString(QKeySequence::NativeText);
   const Action* owner = actions_.with_key(wanted);
   if (owner != nullptr && owner != action) {
-    told_->setText(
-        QString("%1 is the key of \"%2\": give that one another key, or none, first.").arg(shown, text(owner->text)));
+    told_->setText(translated("%1 is the key of \"%2\": give that one another key, or none, first.")
+                       .arg(shown, translated(owner->text)));
   } else {
     set({wanted});
   }
@@ -155,17 +160,17 @@ void KeyPage::set(std::vector<std::string> keys) {
   if (action == nullptr) return;
   const bool given = actions_.set_keys(action->id, keys);
   if (!given) {
-    told_->setText(QString("%1 belongs to another action now.").arg(keys_text(keys)));
+    told_->setText(translated("%1 belongs to another action now.").arg(keys_text(keys)));
   } else if (keys.empty()) {
-    told_->setText(QString("\"%1\" has no key now.").arg(text(action->text)));
+    told_->setText(translated("\"%1\" has no key now.").arg(translated(action->text)));
   } else {
-    told_->setText(QString("\"%1\" has the key %2 now.").arg(text(action->text), keys_text(keys)));
+    told_->setText(translated("\"%1\" has the key %2 now.").arg(translated(action->text), keys_text(keys)));
   }
 }
 
 void KeyPage::reset_all() {
   actions_.take_keys({});
-  told_->setText("Every action has its usual keys.");
+  told_->setText(translated("Every action has its usual keys."));
 }
 
 }  // namespace sonar

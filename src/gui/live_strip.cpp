@@ -4,12 +4,13 @@
 #include <QLabel>
 #include <QToolBar>
 
+#include "gui/translated.h"
 #include "session/live_watch.h"
 
 namespace sonar {
 
 void add_live_strip(QMainWindow& window, AppModel& app) {
-  auto* strip = new QToolBar("Recording", &window);
+  auto* strip = new QToolBar(translated("Recording"), &window);
   strip->setObjectName("live");
   strip->setMovable(false);
   auto* text = new QLabel(strip);
@@ -21,7 +22,8 @@ void add_live_strip(QMainWindow& window, AppModel& app) {
     strip->setVisible(live->on());
     if (!live->on()) return;
     const QString line = QString::fromStdString(live->text()).toHtmlEscaped();
-    const QString head = live->at_newest() ? "<b>LIVE</b>" : "LIVE, looking back (L: newest ping)";
+    const QString head =
+        live->at_newest() ? translated("<b>LIVE</b>") : translated("LIVE, looking back (L: newest ping)");
     text->setText(head + "&nbsp;&nbsp; " + line);
   };
   show();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QJsonArray>
+#include <QJsonDocument>
 #include <QPalette>
 #include <QSocketNotifier>
 #include <chrono>
@@ -17,6 +19,8 @@
 #include "base/manual.h"
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
+#include "gui/translated.h"
+#include "session/all_words.h"
 #include "session/batch/batch.h"
 #include "session/live_watch.h"
 #include "session/open_demo.h"
@@ -60,6 +64,8 @@ struct CommandLine {
   QCommandLineOption demo{"demo", "Open a simulated survey; it is made first where it is not there yet"};
   QCommandLineOption dark{"dark", "Begin in dark colours"};
   QCommandLineOption live{"live", "The survey is still being recorded: follow it"};
+  QCommandLineOption words{"words",
+                           "Print the texts of the window's menus, panels and tables as JSON, for translators"};
   QCommandLineOption recipe{"recipe", "Open the survey under this recipe, or preset, from now on", "recipe"};
 
   CommandLine() {
@@ -69,7 +75,7 @@ struct CommandLine {
     parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);  // as Qt takes its own
     parser.addPositionalArgument("survey", "Folders of raw files, raw files, or folders of results (sonarx run --out)",
                                  "[survey...]");
-    parser.addOptions({help, version, demo, dark, live, recipe});
+    parser.addOptions({help, version, demo, dark, live, recipe, words});
     // Qt takes these itself, and its own pages tell them.
     QCommandLineOption flags(QStringList{"dograb", "nograb", "reverse", "widgetcount"});
     QCommandLineOption values(
@@ -113,6 +119,14 @@ void close_when_asked(QWidget& window, AppModel& app) {
   });
 }
 
+void print_words() {
+  ChangeQueue queue;
+  AppModel app(queue, {});
+  QJsonArray words;
+  for (const std::string& one : all_words(app)) words.append(QString::fromStdString(one));
+  std::printf("%s", QJsonDocument(words).toJson().constData());
+}
+
 int run_program(int argc, char** argv) {
   CommandLine line;
   QCommandLineParser& parser = line.parser;
@@ -132,9 +146,15 @@ int run_program(int argc, char** argv) {
     std::printf("%s%s\nManual: %s\n", parser.helpText().toStdString().c_str(), kExamples, manual_place().c_str());
     return 0;
   }
+  if (line.parser.isSet(line.words)) {
+    print_words();
+    return 0;
+  }
   qInstallMessageHandler(end_without_display);
   const QApplication application(argc, argv);
   qInstallMessageHandler(nullptr);
+
+  load_language();
 
   const LoadedPreferences loaded = Preferences::load(Preferences::path_of_user());
   QueuePump pump;

@@ -20,6 +20,7 @@
 #include "gui/batch_window.h"
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
+#include "gui/dock_tabs.h"
 #include "gui/dropped_paths.h"
 #include "gui/figure_dialog.h"
 #include "gui/key_sheet.h"
@@ -31,8 +32,10 @@
 #include "gui/start_page.h"
 #include "gui/status_line.h"
 #include "gui/tool_bar.h"
+#include "gui/translated.h"
 #include "gui/view_keys.h"
 #include "session/app_parts.h"
+#include "session/picture_sentence.h"
 
 namespace sonar {
 namespace {
@@ -42,9 +45,10 @@ constexpr QSize kMostSize{3840, 2160};
 constexpr int kLayoutVersion = 4;  // raised when docks come or go
 
 QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::string& title, QWidget* inside) {
-  auto* dock = new QDockWidget(QString::fromStdString(title), &window);
+  auto* dock = new QDockWidget(translated(title), &window);
   dock->setObjectName(QString::fromStdString(id));
   inside->setObjectName(QString::fromStdString(id + ".view"));
+  inside->setAccessibleName(dock->windowTitle());
   dock->setWidget(inside);
   window.addDockWidget(Qt::TopDockWidgetArea, dock);
   return dock;
@@ -54,12 +58,13 @@ QDockWidget* add_dock(QMainWindow& window, const std::string& id, const std::str
 void add_list(QMainWindow& window, RowsDock& list) {
   auto* view = new RowsView(*list.rows, list.tree);
   QDockWidget* dock = add_dock(window, list.id, list.title, view);
+  view->set_title(translated(list.title));
   QObject::connect(dock, &QDockWidget::visibilityChanged, view, [view](bool in_front) {
     if (!in_front) view->let_go();
   });
   list.rows->changed().add([shown = QPointer<QDockWidget>(dock), &list] {
     const std::string note = list.rows->note();
-    if (shown) shown->setWindowTitle(QString::fromStdString(note.empty() ? list.title : list.title + ": " + note));
+    if (shown) shown->setWindowTitle(translated(list.title) + QString::fromStdString(note.empty() ? "" : ": " + note));
   });
 }
 
@@ -67,9 +72,9 @@ void add_list(QMainWindow& window, RowsDock& list) {
 void add_panels_menu(QMainWindow& window) {
   QMenu* panels = window.createPopupMenu();
   panels->setObjectName("panels");
-  panels->setTitle("&Panels");
+  panels->setTitle(translated("&Panels"));
   for (QAction* one : window.menuBar()->actions()) {
-    if (one->text() == "&View") one->menu()->insertMenu(find_action(window, "view.dark"), panels);
+    if (one->objectName() == "&View") one->menu()->insertMenu(find_action(window, "view.dark"), panels);
   }
   for (auto* dock : window.findChildren<QDockWidget*>()) {
     QObject::connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool on) {
@@ -105,6 +110,7 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
     connect(shown, &QDockWidget::visibilityChanged, view, [view](bool in_front) { view->set_uncovered(in_front); });
     if (!dock.view_switch.empty()) bind_switch(*shown, dock.view_switch);
     view->set_idle_text([&app, id = dock.id] { return QString::fromStdString(idle_text(app, id)); });
+    view->set_sentence([&app, id = dock.id] { return QString::fromStdString(picture_sentence(app, id)); });
   }
   for (RowsDock& dock : app.lists) add_list(*this, dock);
   add_dock(*this, "controls", "Controls", new ControlPanelView(*app.transfer, app.workspace, app.panel));
@@ -121,6 +127,7 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
   add_live_strip(*this, app);
   add_start_page(*this, app);
   add_view_keys(*this, app);
+  keep_dock_tabs(*this);
   answer();
   const auto theme = [this, &app] {
     take_theme(app.workspace.dark());

@@ -11,6 +11,7 @@
 
 #include "gui/bind.h"
 #include "gui/own_keys.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -18,11 +19,11 @@ namespace {
 QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 
 QLabel* note_label(const PanelSection::Note& note, const PanelSection& section, QWidget* parent) {
-  auto* label = new QLabel(text(note.text()), parent);
+  auto* label = new QLabel(translated(note.text()), parent);
   label->setEnabled(false);
   label->setWordWrap(true);
   const auto refresh = [label = QPointer<QLabel>(label), tell = note.text] {
-    if (!label.isNull()) label->setText(text(tell()));
+    if (!label.isNull()) label->setText(translated(tell()));
   };
   section.source->on_change(refresh);
   if (note.also) note.also->on_change(refresh);
@@ -61,8 +62,9 @@ QWidget* with_default(QWidget* control, const PanelSection& section, const Prope
   row->addWidget(control, 1);
   auto* button = new QToolButton(both);
   button->setObjectName(text(property.name + ".default"));
-  button->setText("Default");
-  button->setToolTip("Not the default: bring that back");
+  button->setText(translated("Default"));
+  button->setAccessibleName(translated("Default of %1").arg(translated(property.label)));
+  button->setToolTip(translated("Not the default: bring that back"));
   QSizePolicy keeps = button->sizePolicy();
   keeps.setRetainSizeWhenHidden(true);  // the controls below each other stay as wide
   button->setSizePolicy(keeps);
@@ -89,7 +91,7 @@ void add_property(QFormLayout& form, const PanelSection& section, const Property
   if (std::holds_alternative<bool>(property.initial)) {
     form.addRow(control);
   } else {
-    auto* label = new QLabel(text(property.label), parent);
+    auto* label = new QLabel(translated(property.label), parent);
     label->setToolTip(tip);
     follow_use(label, section, property.name);
     form.addRow(label, control);
@@ -119,7 +121,7 @@ QWidget* panel_section(const PanelSection& section, QWidget* parent) {
 
 void add_folding_section(QVBoxLayout& column, const PanelSection& section, QWidget* parent) {
   auto* head = new QToolButton(parent);
-  head->setText(text(section.title));
+  head->setText(translated(section.title));
   head->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   head->setAutoRaise(true);
   head->setCheckable(true);

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/picture_view.h"
 
+#include <QAccessible>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
 #include <QMetaObject>
 #include <QMouseEvent>
+#include <QNativeGestureEvent>
 #include <QPainter>
 #include <QPainterPath>
 #include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "gui/accessible_picture.h"
 #include "gui/action_menus.h"
 
 namespace sonar {
@@ -19,6 +23,8 @@ namespace {
 
 constexpr double kWheelUnitsPerStep = 120.0;  // Qt's eighths of a degree, fifteen degrees a notch
 constexpr double kCrossArm_px = 7.0;
+constexpr double kFocus_px = 2.0;
+constexpr double kLeastPinch = 0.1;  // of one event: a pinch never turns the picture inside out
 
 PointerButton button_of(Qt::MouseButtons buttons) {
   if ((buttons & Qt::LeftButton) != 0) return PointerButton::left;
@@ -149,8 +155,10 @@ PictureView::PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget*
       listening_(picture.changed().add([this] {
         show_shape();
         update();
+        tell_screen_reader();
       })),
       listening_latencies_(latencies.changed().add([this] { update(); })) {
+  tell_screen_readers_of_pictures();
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -188,6 +196,23 @@ void PictureView::paintEvent(QPaintEvent* /*event*/) {
   if (latencies_()) {
     draw_on_seabed(painter, rect(), QString::fromStdString(picture_.timing()));
   }
+  draw_focus(painter);
+}
+
+/// Once a picture, not at each move of what is laid over it.
+void PictureView::tell_screen_reader() {
+  if (std::exchange(told_, picture_.pictures()) == picture_.pictures() || !QAccessible::isActive()) return;
+  QAccessibleEvent changed(this, QAccessible::DescriptionChanged);
+  QAccessible::updateAccessibility(&changed);
+}
+
+/// Where the keyboard is, once keys have brought it there: a click needs no frame.
+void PictureView::draw_focus(QPainter& painter) {
+  if (!hasFocus() || !window()->testAttribute(Qt::WA_KeyboardFocusChange)) return;
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), kFocus_px));
+  painter.drawRect(QRectF(rect()).adjusted(kFocus_px / 2, kFocus_px / 2, -kFocus_px / 2, -kFocus_px / 2));
 }
 
 void PictureView::show_shape() {
@@ -223,6 +248,13 @@ void PictureView::mouseReleaseEvent(QMouseEvent* event) { forward(event, Pointer
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) { forward(event, PointerAction::double_press); }
 
 void PictureView::wheelEvent(QWheelEvent* event) {
+  const bool keys = (event->modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
+  if (!event->pixelDelta().isNull() && !keys && picture_.pans()) {
+    // Wheels have no pixels: these are two fingers.
+    PointerEvent pan{PointerAction::pan, PointerButton::none, pixel_at(event->position())};
+    pan.by = pixel_at(event->pixelDelta());
+    return picture_.pointer(with_keys(pan, event->modifiers()));
+  }
   PointerEvent wheel{PointerAction::wheel, PointerButton::none, pixel_at(event->position())};
   wheel.wheel_steps = event->angleDelta().y() / kWheelUnitsPerStep;
   picture_.pointer(with_keys(wheel, event->modifiers()));
@@ -255,7 +287,16 @@ void PictureView::contextMenuEvent(QContextMenuEvent* event) {
   menu_->popup(event->globalPos());
 }
 
+/// A pinch: what lies between the fingers stays there.
+void PictureView::pinch(const QNativeGestureEvent& event) {
+  PointerEvent zoom{PointerAction::zoom, PointerButton::none, pixel_at(event.position())};
+  zoom.factor = std::max(kLeastPinch, 1.0 + event.value());
+  picture_.pointer(with_keys(zoom, event.modifiers()));
+}
+
 bool PictureView::event(QEvent* event) {
+  const auto* gesture = event->type() == QEvent::NativeGesture ? dynamic_cast<QNativeGestureEvent*>(event) : nullptr;
+  if (gesture != nullptr && gesture->gestureType() == Qt::ZoomNativeGesture) return pinch(*gesture), true;
   if (event->type() != QEvent::ToolTip) return QWidget::event(event);
   const auto* help = dynamic_cast<QHelpEvent*>(event);
   const std::string hint = help == nullptr ? std::string{} : picture_.hint(pixel_at(help->pos()));

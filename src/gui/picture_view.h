@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMenu>
+#include <QNativeGestureEvent>
 #include <QPainter>
 #include <QWidget>
 #include <functional>
@@ -22,6 +23,9 @@ class PictureView : public QWidget {
   [[nodiscard]] LivePicture& picture() { return picture_; }
   /// What stands there while there is no picture and nothing wrong.
   void set_idle_text(std::function<QString()> text) { idle_text_ = std::move(text); }
+  /// What a screen reader says of the picture, asked for each time.
+  void set_sentence(std::function<QString()> sentence) { sentence_ = std::move(sentence); }
+  [[nodiscard]] QString sentence() const { return sentence_ ? sentence_() : QString(); }
   /// What a right click opens; it outlives the view.
   void set_menu(QMenu* menu);
   /// Whether its dock is in front of others that share its place.
@@ -47,6 +51,9 @@ class PictureView : public QWidget {
   void show_size();
   void show_shape();
   void draw_overlays(QPainter& painter);
+  void pinch(const QNativeGestureEvent& event);
+  void draw_focus(QPainter& painter);
+  void tell_screen_reader();
   /// A place of the view in the picture's pixels.
   [[nodiscard]] PixelPoint pixel_at(QPointF at) const;
   void forward(QMouseEvent* event, PointerAction action);
@@ -56,6 +63,8 @@ class PictureView : public QWidget {
   int listening_;
   int listening_latencies_;
   std::function<QString()> idle_text_;
+  std::function<QString()> sentence_;
+  std::int64_t told_ = 0;  ///< the picture that a screen reader knows of
   QMenu* menu_ = nullptr;
   bool menu_open_ = false;
 };

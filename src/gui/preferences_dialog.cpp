@@ -7,6 +7,7 @@
 #include <QKeyEvent>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "gui/key_page.h"
 #include "gui/panel_section.h"
+#include "gui/translated.h"
 #include "session/window_preferences.h"
 
 namespace sonar {
@@ -23,13 +25,14 @@ class PreferencesDialog : public QDialog {
  public:
   PreferencesDialog(QWidget& window, AppModel& app) : QDialog(&window) {
     setObjectName("preferences");
-    setWindowTitle("Preferences");
+    setWindowTitle(translated("Preferences"));
     resize(640, 520);
     auto* column = new QVBoxLayout(this);
     auto* pages = new QTabWidget(this);
     pages->setObjectName("pages");
     for (const PanelSection& section : preference_pages(app)) add_page(*pages, section);
-    pages->addTab(new KeyPage(app.actions, pages), "Keys");
+    pages->addTab(new KeyPage(app.actions, pages), translated("Keys"));
+    pages->tabBar()->setAccessibleName(translated("Pages of preferences"));
     column->addWidget(pages, 1);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
     QObject::connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
@@ -56,7 +59,8 @@ class PreferencesDialog : public QDialog {
     // As wide as what stands in it: it scrolls up and down alone.
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll->setMinimumWidth(inside->minimumSizeHint().width() + scroll->verticalScrollBar()->sizeHint().width());
-    pages.addTab(scroll, QString::fromStdString(section.title));
+    pages.addTab(scroll, translated(section.title));
+    scroll->setAccessibleName(translated(section.title));
   }
 };
 

@@ -18,6 +18,7 @@
 #include "gui/panel_section.h"
 #include "gui/recipe_dialog.h"
 #include "gui/rows_view.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -42,7 +43,7 @@ QWidget* asking(QWidget& window) {
 bool change_parameters(QWidget& window, const std::string& title, const PanelSection& section) {
   QDialog dialog(&window);
   dialog.setObjectName("parameters");
-  dialog.setWindowTitle(QString::fromStdString(title));
+  dialog.setWindowTitle(translated(title));
   auto* column = new QVBoxLayout(&dialog);
   column->addWidget(panel_section(section, &dialog));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
@@ -57,26 +58,28 @@ bool change_parameters(QWidget& window, const std::string& title, const PanelSec
 void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.files_to_open = [&window] {
     std::vector<std::string> files;
-    for (const QString& file :
-         QFileDialog::getOpenFileNames(&window, "Open files", {}, "Raw files (*.raw *.RAW);;All files (*)")) {
+    for (const QString& file : QFileDialog::getOpenFileNames(&window, translated("Open files"), {},
+                                                             translated("Raw files (*.raw *.RAW);;All files (*)"))) {
       files.push_back(file.toStdString());
     }
     return files;
   };
   dialogs.file_to_open = [&window](const std::string& title, const std::string& pattern) {
-    return QFileDialog::getOpenFileName(asking(window), text(title), {}, text(pattern)).toStdString();
+    return QFileDialog::getOpenFileName(asking(window), translated(title), {}, translated(pattern)).toStdString();
   };
   dialogs.folder_to_open = [&window] {
-    return QFileDialog::getExistingDirectory(&window, "Open a survey").toStdString();
+    return QFileDialog::getExistingDirectory(&window, translated("Open a survey")).toStdString();
   };
   dialogs.file_to_save = [&window](const std::string& title, const std::string& pattern, const std::string& name) {
-    return QFileDialog::getSaveFileName(asking(window), text(title), text(name), text(pattern)).toStdString();
+    return QFileDialog::getSaveFileName(asking(window), translated(title), text(name), translated(pattern))
+        .toStdString();
   };
   dialogs.folder_to_save = [&window](const std::string& title, const std::string& start) {
-    return QFileDialog::getExistingDirectory(asking(window), text(title), text(start)).toStdString();
+    return QFileDialog::getExistingDirectory(asking(window), translated(title), text(start)).toStdString();
   };
   dialogs.folder_to_run = [&window] {
-    return QFileDialog::getExistingDirectory(asking(window), "A survey, or a folder of surveys").toStdString();
+    return QFileDialog::getExistingDirectory(asking(window), translated("A survey, or a folder of surveys"))
+        .toStdString();
   };
   dialogs.show_page = [](const std::filesystem::path& page) {
     return QDesktopServices::openUrl(QUrl::fromLocalFile(text(page.string())));
@@ -84,11 +87,11 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.text = [&window](const std::string& title, const std::string& label, const std::string& now) {
     bool given = false;
     const QString answer =
-        QInputDialog::getText(&window, text(title), text(label), QLineEdit::Normal, text(now), &given);
+        QInputDialog::getText(&window, translated(title), translated(label), QLineEdit::Normal, text(now), &given);
     return given ? std::optional(answer.toStdString()) : std::nullopt;
   };
   dialogs.yes = [&window](const std::string& question) {
-    return QMessageBox::question(asking(window), "Sonar Explorer", text(question)) == QMessageBox::Yes;
+    return QMessageBox::question(asking(window), "Sonar Explorer", translated(question)) == QMessageBox::Yes;
   };
   dialogs.parameters = [&window](const std::string& title, const PanelSection& section) {
     return change_parameters(window, title, section);
@@ -97,10 +100,12 @@ void answer_questions(QWidget& window, Dialogs& dialogs) {
   dialogs.rows = [&window](const std::string& title, Rows& rows) {
     QDialog dialog(&window);
     dialog.setObjectName("rows_dialog");
-    dialog.setWindowTitle(text(title));
+    dialog.setWindowTitle(translated(title));
     dialog.resize(window.size().boundedTo(QSize(1200, 640)) * 9 / 10);
     auto* column = new QVBoxLayout(&dialog);
-    column->addWidget(new RowsView(rows, false, &dialog));
+    auto* list = new RowsView(rows, false, &dialog);
+    list->set_title(translated(title));
+    column->addWidget(list);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
     QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
     column->addWidget(buttons);

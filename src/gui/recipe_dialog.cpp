@@ -14,24 +14,32 @@
 #include <string>
 
 #include "gui/panel_section.h"
+#include "gui/picture_view.h"
+#include "gui/translated.h"
+#include "session/recipe_preview.h"
 
 namespace sonar {
 namespace {
 
-constexpr const char* kRecipes = "Recipes (*.json *.JSON);;All files (*)";
+constexpr int kPreviewWidth_px = 300;
+constexpr const char* kRecipes = to_translate("Recipes (*.json *.JSON);;All files (*)");
 
 class RecipeDialog : public QDialog {
  public:
   RecipeDialog(QWidget& window, const Dialogs& dialogs, RecipeEditor& editor)
       : QDialog(&window), dialogs_(dialogs), editor_(editor) {
     setObjectName("recipe");
-    setWindowTitle("Recipe");
-    resize(620, 640);
+    setWindowTitle(translated("Recipe"));
+    resize(window.size().boundedTo(QSize(1200, 760)) * 19 / 20);
     auto* column = new QVBoxLayout(this);
     column->addLayout(search_row());
     list_->setWidgetResizable(true);
+    list_->setAccessibleName(translated("Parameters"));
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    column->addWidget(list_, 1);
+    auto* halves = new QHBoxLayout();
+    halves->addWidget(list_, 1);
+    if (RecipeComparison* both = editor.comparison()) halves->addLayout(previews(*both), 1);
+    column->addLayout(halves, 1);
     told_->setWordWrap(true);
     told_->setObjectName("told");
     column->addWidget(told_);
@@ -48,7 +56,8 @@ class RecipeDialog : public QDialog {
  private:
   QHBoxLayout* search_row() {
     words_->setObjectName("words");
-    words_->setPlaceholderText("Find a parameter");
+    words_->setPlaceholderText(translated("Find a parameter"));
+    words_->setAccessibleName(words_->placeholderText());
     words_->setClearButtonEnabled(true);
     changed_->setObjectName("changed");
     QObject::connect(words_, &QLineEdit::textChanged, this, [this] { fill(); });
@@ -59,20 +68,37 @@ class RecipeDialog : public QDialog {
     return row;
   }
 
+  /// Above each other: a slice is wider than it is high.
+  QVBoxLayout* previews(RecipeComparison& both) {
+    auto* column = new QVBoxLayout();
+    const auto add = [&](RecipePreview& picture, const char* title, const char* name) {
+      auto* label = new QLabel(translated(title), this);
+      auto* view = new PictureView(picture, both.workspace.latencies, this);
+      view->setObjectName(name);
+      view->setAccessibleName(label->text());
+      view->setMinimumWidth(kPreviewWidth_px);
+      column->addWidget(label);
+      column->addWidget(view, 1);
+    };
+    add(both.in_force, to_translate("This ping under the recipe in force"), "preview_before");
+    add(both.edited, to_translate("Under the edited recipe"), "preview_after");
+    return column;
+  }
+
   QDialogButtonBox* buttons() {
     auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-    box->button(QDialogButtonBox::Ok)->setText("Use");
+    box->button(QDialogButtonBox::Ok)->setText(translated("Use"));
     box->button(QDialogButtonBox::Ok)
-        ->setToolTip("Opens the survey under this recipe; decisions are kept and laid upon what is found");
+        ->setToolTip(translated("Opens the survey under this recipe; decisions are kept and laid upon what is found"));
     const auto add = [&](const char* text, const char* name, auto pressed) {
-      auto* button = box->addButton(text, QDialogButtonBox::ActionRole);
+      auto* button = box->addButton(translated(text), QDialogButtonBox::ActionRole);
       button->setObjectName(name);
       button->setAutoDefault(false);
       QObject::connect(button, &QPushButton::clicked, this, pressed);
     };
-    add("Load...", "load", [this] { load(); });
-    add("Save as...", "save", [this] { save(); });
-    add("Defaults", "defaults", [this] {
+    add(to_translate("Load..."), "load", [this] { load(); });
+    add(to_translate("Save as..."), "save", [this] { save(); });
+    add(to_translate("Defaults"), "defaults", [this] {
       editor_.take_defaults();
       fill();
     });
@@ -86,7 +112,7 @@ class RecipeDialog : public QDialog {
     auto* column = new QVBoxLayout(inside);
     const auto sections = editor_.sections(words_->text().toStdString(), changed_->isChecked());
     for (const PanelSection& section : sections) add_folding_section(*column, section, inside);
-    if (sections.empty()) column->addWidget(new QLabel("No parameter matches.", inside));
+    if (sections.empty()) column->addWidget(new QLabel(translated("No parameter matches."), inside));
     column->addStretch(1);
     list_->setWidget(inside);  // the one before goes
   }
@@ -98,10 +124,12 @@ class RecipeDialog : public QDialog {
   }
 
   void load() {
-    const std::string file = dialogs_.file_to_open ? dialogs_.file_to_open("Recipe", kRecipes) : std::string();
+    const std::string file =
+        dialogs_.file_to_open ? dialogs_.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
     if (file.empty()) return;
     const auto loaded = editor_.load(file);
-    std::string told = loaded ? "loaded: " + file : to_line(loaded.error());
+    std::string told =
+        loaded ? translated("loaded: %1").arg(QString::fromStdString(file)).toStdString() : to_line(loaded.error());
     if (loaded) {
       for (const std::string& note : editor_.recipe().notes) told += "\n" + note;
     }
@@ -110,17 +138,19 @@ class RecipeDialog : public QDialog {
   }
 
   void save() {
-    const std::string file =
-        dialogs_.file_to_save ? dialogs_.file_to_save("Save recipe", kRecipes, "recipe.json") : std::string();
+    const std::string file = dialogs_.file_to_save
+                                 ? dialogs_.file_to_save(to_translate("Save recipe"), kRecipes, "recipe.json")
+                                 : std::string();
     if (file.empty()) return;
     const auto saved = editor_.save(file);
-    told_->setText(QString::fromStdString(saved ? "written: " + file : to_line(saved.error())));
+    told_->setText(saved ? translated("written: %1").arg(QString::fromStdString(file))
+                         : QString::fromStdString(to_line(saved.error())));
   }
 
   const Dialogs& dialogs_;
   RecipeEditor& editor_;
   QLineEdit* words_ = new QLineEdit(this);
-  QCheckBox* changed_ = new QCheckBox("Changed from default", this);
+  QCheckBox* changed_ = new QCheckBox(translated("Changed from default"), this);
   QScrollArea* list_ = new QScrollArea(this);
   QLabel* told_ = new QLabel(this);
 };

@@ -7,6 +7,7 @@
 #include <QPixmap>
 #include <QPixmapCache>
 
+#include "gui/translated.h"
 #include "session/thumbnails.h"
 
 namespace sonar {
@@ -115,11 +116,10 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
 QVariant RowsModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= columnCount()) return {};
   const ListColumn& column = rows_.columns()[static_cast<std::size_t>(section)];
-  if (role == Qt::ToolTipRole) return QString::fromStdString(column.tip);
+  if (role == Qt::ToolTipRole) return translated(column.tip);
   if (role == Qt::TextAlignmentRole) return QVariant(column.number ? Qt::AlignRight : Qt::AlignLeft);
   if (role != Qt::DisplayRole) return {};
-  const std::string title = column.unit.empty() ? column.title : column.title + " [" + column.unit + "]";
-  return QString::fromStdString(title);
+  return translated(column.title) + QString::fromStdString(column.unit.empty() ? "" : " [" + column.unit + "]");
 }
 
 }  // namespace sonar

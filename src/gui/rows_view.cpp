@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "gui/own_keys.h"
+#include "gui/translated.h"
 
 namespace sonar {
 
@@ -99,6 +100,12 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   });
 }
 
+void RowsView::set_title(const QString& title) {
+  setAccessibleName(title);
+  list_->setAccessibleName(title);
+  findChild<QLineEdit*>("filter")->setAccessibleName(translated("Filter of %1").arg(title));
+}
+
 /// By a click with Ctrl: it is current, and others alone are chosen.
 bool RowsView::was_let_go(const QModelIndex& at) const {
   const QItemSelectionModel& chosen = *list_->selectionModel();
@@ -139,9 +146,11 @@ void RowsView::add_filter_line() {
   auto* line = new QLineEdit(this);
   line->setObjectName("filter");
   const QString limit = QString::fromStdString(rows_.example_limit());
-  line->setPlaceholderText(limit.isEmpty() ? "Filter: words" : "Filter: words, or " + limit);
-  line->setToolTip("Words that a row has, or a title's beginning and a limit: " +
-                   (limit.isEmpty() ? "line>80" : limit));
+  line->setPlaceholderText(limit.isEmpty() ? translated("Filter: words")
+                                           : translated("Filter: words, or %1").arg(limit));
+  line->setToolTip(translated("Words that a row has, or a title's beginning and a limit: %1")
+                       .arg(limit.isEmpty() ? QString("line>80") : limit));
+  line->setAccessibleName(translated("Filter"));
   line->setClearButtonEnabled(true);
   keep_own_keys(*line);
   layout()->addWidget(line);

@@ -41,6 +41,8 @@ class RowsView : public QWidget {
   RowsView(Rows& rows, bool tree, QWidget* parent = nullptr);
   ~RowsView() override;
   [[nodiscard]] QSize sizeHint() const override { return {420, 220}; }
+  /// What a screen reader calls the list.
+  void set_title(const QString& title);
   /// The marked rows into the clipboard, in the order in which they are seen.
   void copy();
   /// Several selected rows are no more than the current one: nobody sees them any longer.

@@ -17,6 +17,7 @@
 #include <functional>
 
 #include "gui/action_menus.h"
+#include "gui/translated.h"
 #include "session/recent_surveys.h"
 
 namespace sonar {
@@ -28,12 +29,15 @@ struct Beginning {
   const char* more;
 };
 constexpr std::array<Beginning, 4> kBeginnings{
-    {{"file.open_folder", "Open a folder", "Raw files of a survey, or the results of a run with their schools"},
-     {"file.open_files", "Open some files", "A part of a survey"},
-     {"file.demo", "Open the demo survey", "Simulated; it takes a moment to make at the first time"},
-     {"help.guide", "Read the guide", "From opening a survey to its map; [help.keys] shows all keys"}}};
+    {{"file.open_folder", to_translate("Open a folder"),
+      to_translate("Raw files of a survey, or the results of a run with their schools")},
+     {"file.open_files", to_translate("Open some files"), to_translate("A part of a survey")},
+     {"file.demo", to_translate("Open the demo survey"),
+      to_translate("Simulated; it takes a moment to make at the first time")},
+     {"help.guide", to_translate("Read the guide"),
+      to_translate("From opening a survey to its map; [help.keys] shows all keys")}}};
 
-constexpr const char* kSteps =
+constexpr const char* kSteps = to_translate(
     "<ol style=\"margin-left:-24px\">"
     "<li style=\"margin-bottom:6px\"><b>Open</b> a survey: drop its folder here, or a folder of results with its "
     "schools.</li>"
@@ -41,11 +45,11 @@ constexpr const char* kSteps =
     "one in a "
     "slice, and [school.propagate] follows it.</li>"
     "<li><b>Review and export</b>: [review.accept] accepts, [review.reject] rejects; [export.results] writes tables, "
-    "masks and the map.</li></ol>";
+    "masks and the map.</li></ol>");
 
-constexpr const char* kInstruments =
+constexpr const char* kInstruments = to_translate(
     "Simrad MS70: schools are detected, followed and measured. ME70 and similar sonars: the same where the beams form "
-    "fans. EK60: shown as an echogram; schools are not detected in single beams yet. EK80: named, but not read yet.";
+    "fans. EK60: shown as an echogram; schools are not detected in single beams yet. EK80: named, but not read yet.");
 
 class StartPage : public QWidget {
  public:
@@ -63,7 +67,7 @@ class StartPage : public QWidget {
     page->addLayout(beginnings(), 1, 0, Qt::AlignTop);
     recent_->setSpacing(6);
     page->addLayout(recent_, 1, 1, 2, 1, Qt::AlignTop);
-    page->addWidget(heading("Opened before", 1.3), 0, 1, Qt::AlignBottom);
+    page->addWidget(heading(translated("Opened before"), 1.3), 0, 1, Qt::AlignBottom);
     window.installEventFilter(this);
     app.workspace.document.changes().add([this](DocumentChange change) {
       if (change == DocumentChange::survey || change == DocumentChange::progress || change == DocumentChange::glance)
@@ -97,7 +101,7 @@ class StartPage : public QWidget {
   /// A text that names actions, with their keys now and after each change of them.
   void keep_keys(const char* text, std::function<void(const QString&)> show) {
     const auto tell = [this, text, show = std::move(show)] {
-      show(QString::fromStdString(app_.actions.with_keys(text)));
+      show(QString::fromStdString(app_.actions.with_keys(translated(text).toStdString())));
     };
     tell();
     app_.actions.keys_changed().add(tell);
@@ -107,20 +111,20 @@ class StartPage : public QWidget {
     auto* column = new QVBoxLayout;
     for (const auto& [id, text, more] : kBeginnings) {
       QAction* action = find_action(window_, id);
-      auto* button = new QCommandLinkButton(text, this);
+      auto* button = new QCommandLinkButton(translated(text), this);
       keep_keys(more, [button](const QString& now) { button->setDescription(now); });
       button->setObjectName(QString("start.") + id);
       QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
       column->addWidget(button);
     }
     column->addSpacing(16);
-    column->addWidget(heading("Three steps", 1.3));
+    column->addWidget(heading(translated("Three steps"), 1.3));
     column->addSpacing(8);
     QLabel* steps = words({}, "start.steps");
     keep_keys(kSteps, [steps](const QString& now) { steps->setText(now); });
     column->addWidget(steps);
     column->addSpacing(8);
-    column->addWidget(words(kInstruments, "start.instruments"));
+    column->addWidget(words(translated(kInstruments), "start.instruments"));
     return column;
   }
 
@@ -132,7 +136,7 @@ class StartPage : public QWidget {
     }
     const std::vector<RecentSurvey> surveys = recent_surveys(app_);
     for (std::size_t i = 0; i < surveys.size(); ++i) recent_->addWidget(recent_button(surveys[i], i));
-    if (surveys.empty()) recent_->addWidget(words("Nothing yet.", "start.nothing"));
+    if (surveys.empty()) recent_->addWidget(words(translated("Nothing yet."), "start.nothing"));
   }
 
   QToolButton* recent_button(const RecentSurvey& survey, std::size_t index) {
@@ -148,10 +152,10 @@ class StartPage : public QWidget {
     if (!survey.thumbnail.empty()) picture.load(QString::fromStdString(survey.thumbnail.string()));
     button->setIcon(picture);
     QString place = QString::fromStdString(survey.place);
-    if (!survey.there) place += " (not there now)";
+    if (!survey.there) place += " " + translated("(not there now)");
     button->setText(QString::fromStdString(survey.name) + "\n" + place);
     button->setEnabled(survey.there);
-    button->setAccessibleName("Open " + QString::fromStdString(survey.name) + " in " + place);
+    button->setAccessibleName(translated("Open %1 in %2").arg(QString::fromStdString(survey.name), place));
     QObject::connect(button, &QToolButton::clicked, button,
                      [this, index] { app_.workspace.document.open(app_.preferences.recent.at(index)); });
     return button;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "gui/own_keys.h"
+#include "gui/translated.h"
 #include "session/beyond_reach.h"
 #include "session/live_watch.h"
 #include "session/merge_offer.h"
@@ -63,9 +64,9 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
 /// What waits for a human to go on: a button that is there as long as it does.
 void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const char* name, std::function<bool()> waits) {
   const Action action = *app.actions.find(id);
-  auto* button = new QPushButton(QString::fromStdString(action.text), &status);
+  auto* button = new QPushButton(translated(action.text), &status);
   button->setObjectName(name);
-  button->setToolTip(QString::fromStdString(action.tip));
+  button->setToolTip(translated(action.tip));
   keep_own_keys(*button);
   status.addPermanentWidget(button);
   const auto show = [button, waits = std::move(waits), now = action.text_now] {
@@ -94,12 +95,14 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   // A line of text, not a label: a label's new text has the whole window laid out anew.
   auto* cursor = new QLineEdit(status);
   cursor->setObjectName("read_out");
+  cursor->setAccessibleName(translated("Values under the pointer"));
   cursor->setReadOnly(true);
   cursor->setFrame(false);
   cursor->setFocusPolicy(Qt::ClickFocus);
   auto* bar = new QProgressBar(status);
+  bar->setAccessibleName(translated("Progress"));
   bar->setFixedWidth(kProgressWidth_px);
-  auto* cancel = new QPushButton("Cancel", status);
+  auto* cancel = new QPushButton(translated("Cancel"), status);
   cancel->setFlat(true);
   keep_own_keys(*cancel);
   status->addWidget(cursor, 1);

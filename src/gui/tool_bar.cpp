@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "gui/action_menus.h"
+#include "gui/translated.h"
 #include "session/playback.h"
 
 namespace sonar {
@@ -102,7 +103,7 @@ void follow(QMainWindow& window, QToolBar& bar, AppModel& app) {
 void add_rate(QToolBar& bar, Playback& playback) {
   auto* rate = new QLabel(&bar);
   rate->setObjectName("play_rate");
-  rate->setToolTip("Speed of playing, and what is reached; + and - change it");
+  rate->setToolTip(translated("Speed of playing, and what is reached; + and - change it"));
   // What it says while it plays must not push the buttons behind it about.
   rate->setMinimumWidth(rate->fontMetrics().horizontalAdvance("20 pings/s, 19.9 reached"));
   rate->setAlignment(Qt::AlignCenter);
@@ -119,7 +120,7 @@ void add_rate(QToolBar& bar, Playback& playback) {
 }  // namespace
 
 void add_tool_bar(QMainWindow& window, AppModel& app) {
-  auto* bar = window.addToolBar("Tools");
+  auto* bar = window.addToolBar(translated("Tools"));
   bar->setObjectName("tools");
   bar->setIconSize({kIcon_px, kIcon_px});
   for (const Button& button : kButtons) {

@@ -14,6 +14,7 @@
 
 #include "gui/picture_view.h"
 #include "gui/rows_view.h"
+#include "gui/translated.h"
 
 namespace sonar {
 namespace {
@@ -87,7 +88,7 @@ class ViewKeys : public QObject {
         focus != nullptr && (focus->testAttribute(Qt::WA_InputMethodEnabled) || focus->inherits("QMenuBar"));
     if (!typed && acts(sequence_of(key))) {
       window_.statusBar()->showMessage(
-          QString("%1 acts while a view or a table has the keyboard: click one first").arg(key.text().toUpper()),
+          translated("%1 acts while a view or a table has the keyboard: click one first").arg(key.text().toUpper()),
           kTold_ms);
     }
     return true;

@@ -16,6 +16,7 @@
 #include "session/live_watch.h"
 #include "session/open_demo.h"
 #include "session/recipe_editor.h"
+#include "session/recipe_preview.h"
 
 namespace sonar {
 namespace {
@@ -100,7 +101,13 @@ void change_recipe(AppModel& app) {
   Document& document = app.workspace.document;
   if (!app.dialogs.recipe) return;
   RecipeEditor editor(app.workspace.queue, document.recipe());
-  if (!app.dialogs.recipe(editor)) return;
+  {
+    RecipeComparison comparison(app.workspace, editor);
+    editor.show(&comparison);
+    const bool used = app.dialogs.recipe(editor);
+    editor.show(nullptr);
+    if (!used) return;
+  }
   if (app.live->on()) app.live->follow_next();
   document.use_recipe(editor.recipe());
   const std::size_t changed = editor.changed();

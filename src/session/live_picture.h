@@ -95,6 +95,8 @@ class LivePicture {
   [[nodiscard]] virtual bool refines() const { return false; }
 
   virtual void pointer(const PointerEvent& /*event*/) {}
+  /// Whether two fingers on a touch pad move what is shown now; where they do not, they turn the wheel.
+  [[nodiscard]] virtual bool pans() const { return false; }
   /// A menu opens at a place: what lies there becomes what its acts are about.
   /// out  false where acts on the selected school are not meant: it lies elsewhere
   virtual bool aim(PixelPoint /*at*/) { return true; }

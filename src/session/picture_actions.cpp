@@ -10,6 +10,7 @@
 #include "session/app_parts.h"
 #include "session/exports.h"
 #include "session/figures/figure_model.h"
+#include "session/slices/slice_places.h"
 
 namespace sonar {
 namespace {
@@ -35,9 +36,13 @@ std::string file_name(const AppModel& app, const std::string& what) {
 }
 
 void ask_for_picture(AppModel& app, PictureKind kind, const std::string& name) {
-  if (!app.dialogs.file_to_save || !asked(app, "Picture: " + name, app.workspace.picture_file, asked_for(kind))) {
-    return;
-  }
+  if (!app.dialogs.file_to_save) return;
+  Parameters<PictureFileParams>& params = app.workspace.picture_file;
+  const PictureFileParams before = params.values();
+  PictureFileParams begun = before;
+  if (app.workspace.document.shown()) begun.kind = at_live_places(app.workspace, begun.kind);
+  params.assign(begun);
+  if (!asked(app, "Picture: " + name, params, asked_for(kind))) return params.assign(before);
   const char* ending = kind == PictureKind::report ? ".pdf" : ".png";
   const std::string file =
       app.dialogs.file_to_save("Save picture", "Pictures (*.png *.svg *.pdf)", file_name(app, name) + ending);

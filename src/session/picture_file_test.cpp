@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <optional>
+#include <utility>
 
+#include "base/units.h"
 #include "session/exports.h"
+#include "session/slices/slice_places.h"
 #include "session/test_app.h"
 
 namespace sonar {
@@ -101,9 +105,68 @@ TEST_F(PictureFile, AllPlanesOfTheCommandLineCanBeHad) {
     EXPECT_TRUE(made("slice-plane")) << kPlaneLiesNames[i] << ": " << told();
     fs::remove(saved_);
   }
-  answer([](ParameterSource& source) { (void)source.set("slice-plane.normal", std::string("0,0,0")); });
+  answer([](ParameterSource& source) {
+    (void)source.set("slice-plane.plane", Choice{static_cast<std::size_t>(PlaneLies::oblique)});
+    (void)source.set("slice-plane.normal", std::string("0,0,0"));
+  });
   EXPECT_FALSE(made("slice-plane"));
   EXPECT_THAT(told(), HasSubstr("make no plane"));
+}
+
+/// What the file's own rules make of the parameters that are asked for, against where the window's slice lies.
+TEST_F(PictureFile, OfARangeOrPlaneSliceBeginsWhereTheWindowsLies) {
+  const Sector& sector = document().shown()->sector();
+  Voxel voxel{sector.fans() / 3, sector.beams() / 4, sector.range().count / 5};
+  for (const PlaneSlice::Kind lies :
+       {PlaneSlice::Kind::horizontal, PlaneSlice::Kind::vertical, PlaneSlice::Kind::oblique}) {
+    choose_plane(workspace(), lies);
+    for (int moved = 0; moved < 2; ++moved) {  // a vertical plane through the sonar, and beside it
+      answer([&](ParameterSource&) {
+        const PictureParams& asked = workspace().picture_file.values().kind;
+        EXPECT_EQ(std::round(sector.range().sample_at(asked.slice_range.range_m)), workspace().slices().sample);
+        const auto live = std::get<PlaneSlice>(live_slice(workspace(), SliceKind::plane, document().ping()));
+        const auto places = places_of(asked.slice_plane);
+        ASSERT_TRUE(places);
+        Result<PlaneSlice> made = fail(ErrorCode::usage, "not made");
+        const auto& t = places->through;
+        const auto& o = places->point;
+        const auto& n = places->normal;
+        const PingNavigation& ping = document().shown()->files().navigation[0];
+        switch (asked.slice_plane.plane) {
+          case PlaneLies::horizontal:
+            made = horizontal_plane(asked.slice_plane.depth_m, ping.transducer_depth_m);
+            break;
+          case PlaneLies::along_bearing:
+            made = vertical_plane(rad_from_deg(asked.slice_plane.bearing_deg) - plane_frame(ping).heading_rad);
+            break;
+          case PlaneLies::through_places:
+            made = vertical_plane({t[0], t[1], 0.0}, {t[2], t[3], 0.0});
+            break;
+          case PlaneLies::oblique:
+            made = oblique_plane({o[0], o[1], o[2]}, {n[0], n[1], n[2]});
+            break;
+          case PlaneLies::through_school:
+            break;
+        }
+        ASSERT_TRUE(made);
+        for (const auto& [a, b] :
+             {std::pair(made->origin, live.origin), std::pair(made->right * 100.0, live.right * 100.0),
+              std::pair(made->down * 100.0, live.down * 100.0)}) {
+          EXPECT_LT(norm(a - b), 0.002);
+        }
+      });
+      EXPECT_TRUE(made("slice-plane")) << told();
+      EXPECT_TRUE(made("slice-range")) << told();
+      lay_slices_through(workspace(), voxel);
+      document().settle();
+    }
+  }
+  accept_ = false;
+  const PictureParams before = workspace().picture_file.values().kind;
+  voxel.sample += 20;
+  lay_slices_through(workspace(), voxel);
+  EXPECT_FALSE(made("slice-range"));
+  EXPECT_EQ(workspace().picture_file.values().kind.slice_range.range_m, before.slice_range.range_m);
 }
 
 TEST_F(PictureFile, ThatIsTooLargeIsRefusedInOneLine) {

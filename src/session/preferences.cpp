@@ -12,6 +12,7 @@
 #include "pipeline/recipe/earlier_parameters.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/json_parameters.h"
+#include "pipeline/recipe/json_path.h"
 #include "pipeline/recipe/transfer_function_json.h"
 
 namespace sonar {
@@ -24,6 +25,7 @@ constexpr std::size_t kMostCharts = 100;
 constexpr std::size_t kMostPlaces = 100;  ///< that surveys were left at
 constexpr std::size_t kMostFiles = 10000;
 constexpr std::size_t kMostKeys = 1000;
+constexpr std::size_t kMostListed = 1000;  ///< surveys to be run
 constexpr std::size_t kMostKeysOfOne = 4;
 constexpr int kMostFoldersBeside = 1000;  ///< of one survey
 
@@ -101,6 +103,18 @@ void describe(Visitor& v, Preferences& p) {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }
 
+json texts_of(const std::vector<fs::path>& paths) {
+  json texts = json::array();
+  for (const fs::path& one : paths) texts.push_back(json_text_of(one));
+  return texts;
+}
+
+std::vector<fs::path> paths_of(const std::vector<std::string>& texts) {
+  std::vector<fs::path> paths;
+  for (const std::string& one : texts) paths.push_back(path_of_json(one));
+  return paths;
+}
+
 std::vector<std::string> texts_of(const json& list, std::size_t most) {
   std::vector<std::string> texts;
   if (!list.is_array()) return texts;
@@ -115,14 +129,24 @@ void read_lists(const json& from, Preferences& to) {
   if (const auto found = from.find("recent"); found != from.end() && found->is_array()) {
     for (const json& one : *found) {
       const auto texts = texts_of(one, kMostFiles);
-      if (!texts.empty() && to.recent.size() < Preferences::kMostRecent)
-        to.recent.emplace_back(texts.begin(), texts.end());
+      if (!texts.empty() && to.recent.size() < Preferences::kMostRecent) to.recent.push_back(paths_of(texts));
     }
   }
   if (const auto found = from.find("species"); found != from.end()) {
     auto species = texts_of(*found, Preferences::kMostSpecies);
     for (std::string& one : species) std::replace_if(one.begin(), one.end(), is_control, ' ');  // no journal takes them
     if (!species.empty()) to.species = std::move(species);
+  }
+}
+
+void read_batch(const json& from, Preferences& to) {
+  const auto found = from.find("batch");
+  if (found == from.end() || !found->is_array()) return;
+  for (const json& one : *found) {
+    const bool sound = one.is_object() && one.contains("survey") && one.contains("out") && one["out"].is_string();
+    const auto texts = sound ? texts_of(one["survey"], kMostFiles) : std::vector<std::string>{};
+    if (!texts.empty() && to.batch.size() < kMostListed)
+      to.batch.push_back({paths_of(texts), path_of_json(one["out"].get<std::string>())});
   }
 }
 
@@ -211,6 +235,7 @@ LoadedPreferences Preferences::load(const fs::path& path) {
   describe(reader, loaded.preferences);
   if (!notes.empty()) loaded.notice = fmt::format("{}: {}", path.string(), fmt::join(notes, "; "));
   read_lists(*from, loaded.preferences);
+  read_batch(*from, loaded.preferences);
   read_curves(*from, loaded.preferences);
   read_charts(*from, loaded.preferences);
   read_left_at(*from, loaded.preferences);
@@ -231,10 +256,10 @@ Result<void> Preferences::save() const {
   to["left_at"] = left_at;
   to["keys"] = keys;
   to["recent"] = json::array();
-  for (const auto& paths : recent) {
-    json texts = json::array();
-    for (const fs::path& one : paths) texts.push_back(one.string());
-    to["recent"].push_back(std::move(texts));
+  for (const auto& paths : recent) to["recent"].push_back(texts_of(paths));
+  to["batch"] = json::array();
+  for (const ListedSurvey& one : batch) {
+    to["batch"].push_back({{"survey", texts_of(one.paths)}, {"out", json_text_of(one.out)}});
   }
   return write_json_file(path.string(), to);
 }

@@ -21,6 +21,13 @@ struct LoadedPreferences;
 /// Absolute, without dots and a slash at its end: one name for one place.
 [[nodiscard]] std::filesystem::path whole_path(const std::filesystem::path& path);
 
+/// A survey of the list of those to be run.
+struct ListedSurvey {
+  std::vector<std::filesystem::path> paths;
+  std::filesystem::path out;  ///< where its results go; empty = nobody has said where yet
+  friend bool operator==(const ListedSurvey&, const ListedSurvey&) = default;
+};
+
 /// What a user wants of the window: never part of a result, never in a hash.
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
@@ -28,6 +35,7 @@ struct Preferences {
 
   std::filesystem::path path;                              ///< empty = they are kept nowhere
   std::vector<std::vector<std::filesystem::path>> recent;  ///< what was opened, newest first
+  std::vector<ListedSurvey> batch;                         ///< surveys to be run, in their order
   std::string window_layout;                               ///< whatever the window wrote, base64
   bool dark = false;
   DisplayParams display;

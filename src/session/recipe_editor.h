@@ -12,6 +12,8 @@
 
 namespace sonar {
 
+struct RecipeComparison;
+
 /// A recipe in a human's hands: the 15 parameters that every user sets first, each with its sentence, then the experts',
 /// by group.
 /// threads  the window's
@@ -20,6 +22,11 @@ class RecipeEditor {
   RecipeEditor(ChangeQueue& queue, Recipe recipe);
 
   [[nodiscard]] const Recipe& recipe() const { return parameters_.values(); }
+  /// To listen to: they change with every edit.
+  [[nodiscard]] Parameters<Recipe>& parameters() { return parameters_; }
+  /// Slices before and after the edit, for as long as a human is at it; null = none are shown.
+  void show(RecipeComparison* comparison) { comparison_ = comparison; }
+  [[nodiscard]] RecipeComparison* comparison() const { return comparison_; }
   /// How many parameters are not as in the preset default.
   [[nodiscard]] std::size_t changed() const;
   /// Sections with the parameters that hold these words in their name or sentence; empty = all.
@@ -41,6 +48,7 @@ class RecipeEditor {
   Parameters<Recipe> parameters_;
   std::shared_ptr<ParameterSource> source_;
   Parameters<Recipe> defaults_;
+  RecipeComparison* comparison_ = nullptr;
 };
 
 }  // namespace sonar

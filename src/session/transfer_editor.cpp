@@ -265,6 +265,8 @@ void TransferEditor::pointer(const PointerEvent& pointed) {
       grip_ = Grip::none;
       return;
     case PointerAction::wheel:
+    case PointerAction::pan:
+    case PointerAction::zoom:
     case PointerAction::leave:
       return;
   }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The desktop program where there is no display: one line and no abort; help, version and wrong usage need none."""
+import json
 import os
 import re
 import subprocess
@@ -34,6 +35,13 @@ class NoDisplay(unittest.TestCase):
             self.assertEqual(run(word), (2, "", f"sonar-explorer: {said}{see}"))
         for words in (("-style", "fusion"), ("-platform=xcb",), ("--dark", "a survey")):
             self.assertIn("no display", run(*words)[2], "Qt's own, or ours")
+
+    def test_words_for_translators_need_no_display(self):
+        code, out, err = run("--words")
+        self.assertEqual((code, err), (0, ""))
+        words = json.loads(out)
+        self.assertEqual(len(words), len(set(words)))
+        self.assertIn("&File", words)
 
     def test_help_and_version(self):
         code, out, err = run("--help")

@@ -8,6 +8,7 @@
 
 #include "io/product_file.h"
 #include "pipeline/recipe/json_file.h"
+#include "pipeline/recipe/json_path.h"
 
 namespace sonar {
 namespace {
@@ -85,8 +86,10 @@ Result<Plan> plan_from_json(const nlohmann::json& json) {
   if (!json.contains("survey") || !is_text_array(json["survey"])) {
     return fail(ErrorCode::format, "survey: expected an array of paths");
   }
-  plan.survey = json["survey"].get<std::vector<std::string>>();
-  if (json.contains("session") && json["session"].is_string()) plan.session = json["session"].get<std::string>();
+  for (const auto& path : json["survey"]) plan.survey.push_back(path_of_json(path.get<std::string>()).string());
+  if (json.contains("session") && json["session"].is_string()) {
+    plan.session = path_of_json(json["session"].get<std::string>()).string();
+  }
   if (!json.contains("recipe")) return fail(ErrorCode::format, "recipe: expected an object");
   auto recipe = recipe_from_text(json["recipe"].dump());
   if (!recipe) return pass_on(recipe);
@@ -153,12 +156,12 @@ Plan make_plan(const SurveyFiles& survey, std::span<const std::filesystem::path>
 std::string plan_text(const Plan& plan) {
   nlohmann::json tasks = nlohmann::json::array();
   for (const PlanTask& task : plan.tasks) tasks.push_back(to_json(task, tasks.size()));
-  nlohmann::json json = {{"plan_version", kPlanVersion},
-                         {"survey", plan.survey},
-                         {"session", plan.session},
-                         {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
-                         {"notes", notes_to_json(plan.notes)},
-                         {"tasks", std::move(tasks)}};
+  nlohmann::json survey = nlohmann::json::array();
+  for (const std::string& path : plan.survey) survey.push_back(json_text_of(path));
+  nlohmann::json json = {
+      {"plan_version", kPlanVersion},          {"survey", std::move(survey)},
+      {"session", json_text_of(plan.session)}, {"recipe", nlohmann::json::parse(recipe_text(plan.recipe))},
+      {"notes", notes_to_json(plan.notes)},    {"tasks", std::move(tasks)}};
   if (plan.pings) json["pings"] = {plan.pings->first, plan.pings->last};
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

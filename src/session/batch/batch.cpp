@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "pipeline/tasks/work_folders.h"
-#include "session/preferences.h"
 
 namespace sonar {
 namespace {
@@ -49,6 +48,18 @@ Result<void> Batch::add_survey(const std::vector<fs::path>& paths) {
   const auto added = add_one(whole, {});
   changed_.tell(BatchChange::surveys);
   return added;
+}
+
+void Batch::take_up(const std::vector<ListedSurvey>& surveys) {
+  // Where results cannot go any more, the folder is asked for again.
+  for (const ListedSurvey& one : surveys) (void)add_one(one.paths, one.out);
+  changed_.tell(BatchChange::surveys);
+}
+
+std::vector<ListedSurvey> Batch::listed() const {
+  std::vector<ListedSurvey> out;
+  for (const BatchSurvey& one : surveys_) out.push_back({one.paths, one.out});
+  return out;
 }
 
 Result<void> Batch::add_one(const std::vector<fs::path>& paths, const fs::path& out) {

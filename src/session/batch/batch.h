@@ -19,6 +19,7 @@
 #include "session/batch/batch_progress.h"
 #include "session/document.h"
 #include "session/listeners.h"
+#include "session/preferences.h"
 
 namespace sonar {
 
@@ -77,6 +78,10 @@ class Batch {
   /// One survey of all the paths, as a window has them open together.
   /// errors  usage: it is in the list already; as set_out()
   Result<void> add_survey(const std::vector<std::filesystem::path>& paths);
+  /// What was listed when the window was closed, whether it can be reached now or not; nothing of it counts as done.
+  void take_up(const std::vector<ListedSurvey>& surveys);
+  /// The same of now, to be kept.
+  [[nodiscard]] std::vector<ListedSurvey> listed() const;
   /// errors  usage: it is running
   Result<void> remove(std::size_t at);
   /// Changes places with the one before or after it.

@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/number_text.h"
 #include "session/app_parts.h"
@@ -46,13 +48,20 @@ bool batch_may_end(AppModel& app) {
 
 void add_batch(AppModel& app) {
   app.batch = std::make_shared<Batch>(app.workspace.queue, app.workspace.document);
+  app.batch->changed().add([&app](BatchChange change) {
+    if (change != BatchChange::surveys || app.batch->listed() == app.preferences.batch) return;
+    app.preferences.batch = app.batch->listed();
+    keep_preferences(app);
+  });
   app.actions.add({.id = "file.run_surveys",
                    .menu = "&File",
                    .text = "Run surveys...",
                    .keys = {"Ctrl+R"},
                    .tip = "Detect the schools of whole surveys, one after another, while you go on: products, tables "
                           "and maps as sonarx run makes them",
-                   .run = [&app] {
+                   .run = [&app, taken_up = std::make_shared<bool>(false)] {
+                     // Not at the start: what is listed may lie on a disk that is slow to answer.
+                     if (!std::exchange(*taken_up, true)) app.batch->take_up(std::vector(app.preferences.batch));
                      if (app.dialogs.show_batch) app.dialogs.show_batch();
                    }});
 }

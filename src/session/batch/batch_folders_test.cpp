@@ -136,6 +136,37 @@ TEST_F(BatchFolders, AFolderOfResultsStandsForItsSurveyAndGoesOn) {
   EXPECT_EQ(next.surveys()[0].out, root_ / "chosen");
 }
 
+// A disk that an old Windows machine wrote has names that are no UTF-8.
+TEST_F(BatchFolders, ASurveyWhoseNameIsNoUtf8GoesOnWhereItWasLeft) {
+  ASSERT_TRUE(batch_.add({survey("st\xF8r")}));
+  run();
+  ASSERT_EQ(state(0), BatchState::done) << batch_.surveys()[0].why;
+  const auto before = bytes_in(out(0));
+  run();
+  EXPECT_EQ(state(0), BatchState::done) << batch_.surveys()[0].why;
+  EXPECT_EQ(bytes_in(out(0)), before) << "what is right stays";
+  const auto named = told_apart(std::vector{out(0)});
+  ASSERT_TRUE(named) << to_line(named.error());
+  EXPECT_EQ(named->raw, std::vector{root_ / "st\xF8r"});
+  const fs::path other = survey("st\xE6r");
+  EXPECT_FALSE(require_results_of(out(0), std::vector{other})) << "told apart, though both look alike";
+}
+
+TEST_F(BatchFolders, TheListIsTakenUpAgain) {
+  ASSERT_TRUE(batch_.add({survey("one"), survey("st\xF8r")}));
+  ASSERT_TRUE(batch_.set_out(0, root_ / "chosen"));
+  Preferences kept;
+  kept.path = root_ / "preferences.json";
+  kept.batch = batch_.listed();
+  ASSERT_TRUE(kept.save());
+  fs::rename(root_ / "one", root_ / "away");  // a disk that is not there now
+  Batch next(queue_, document_);
+  next.take_up(Preferences::load(kept.path).preferences.batch);
+  EXPECT_EQ(next.listed(), batch_.listed());
+  EXPECT_EQ(next.surveys().at(0).out, root_ / "chosen");
+  next.settle();
+}
+
 TEST_F(BatchFolders, NothingBeginsWithoutWhatItNeeds) {
   EXPECT_THAT(refusal(batch_.start()), HasSubstr("no survey is in the list"));
   EXPECT_THAT(refusal(batch_.set_recipe(BatchRecipe::of_file, root_ / "no.json")), HasSubstr("no.json"));

@@ -13,7 +13,6 @@
 #include "model/school_totals.h"
 #include "pipeline/tasks/work_folders.h"
 #include "session/batch/batch.h"
-#include "session/preferences.h"
 
 namespace sonar {
 namespace {

@@ -180,6 +180,13 @@ void ChartModel::pointer(const PointerEvent& event) {
       return release();
     case PointerAction::wheel:
       return zoom(event.at, std::pow(kWheelStep, event.wheel_steps));
+    case PointerAction::pan:
+      if (!shown_) return;  // all of it is there
+      pan_ = Pan{{}, part()};
+      pan_to(event.by);
+      return pan_.reset();
+    case PointerAction::zoom:
+      return zoom(event.at, event.factor);
     case PointerAction::double_press:
       return show_all();
     case PointerAction::leave:

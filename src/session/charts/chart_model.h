@@ -33,6 +33,7 @@ class ChartModel : public LivePicture {
   explicit ChartModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] std::string hint(PixelPoint at) const override;

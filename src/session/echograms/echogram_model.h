@@ -28,6 +28,7 @@ class EchogramModel : public LivePicture {
   EchogramModel& operator=(const EchogramModel&) = delete;
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   void wait() override {
     echograms_->wait();

@@ -97,6 +97,13 @@ void EchogramModel::pointer(const PointerEvent& event) {
       const double factor = std::pow(kWheelStep, event.wheel_steps);
       return event.control ? zoom_heights(event.at.y, factor) : zoom_time(event.at.x, factor);
     }
+    case PointerAction::pan:
+      pan_ = Pan{{}, part(), heights()};
+      pan_to(event.by);
+      return pan_.reset();
+    case PointerAction::zoom:
+      zoom_heights(event.at.y, event.factor);
+      return zoom_time(event.at.x, event.factor);
     case PointerAction::double_press:
       return show_all();
     case PointerAction::leave:

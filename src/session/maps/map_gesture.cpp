@@ -18,6 +18,12 @@ MapGesture::Did MapGesture::take(const PointerEvent& event, const PixelRect& pla
     case PointerAction::wheel:
       zoom_ = zoomed_about(place, whole_metres_per_px, zoom_, event.at, std::pow(kStep, event.wheel_steps));
       break;
+    case PointerAction::zoom:
+      zoom_ = zoomed_about(place, whole_metres_per_px, zoom_, event.at, event.factor);
+      break;
+    case PointerAction::pan:
+      zoom_ = dragged(whole_metres_per_px, zoom_, {}, event.by);
+      break;
     case PointerAction::double_press:
       reset();
       break;

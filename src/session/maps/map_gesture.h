@@ -8,7 +8,7 @@
 
 namespace sonar {
 
-/// What a pointer does to a map: the wheel zooms, dragging pans, a double press shows everything again, and a press that
+/// What a pointer does to a map: the wheel and a pinch zoom, dragging and two fingers pan, a double press shows everything again, and a press that
 /// went nowhere is a click.
 class MapGesture {
  public:

@@ -48,6 +48,7 @@ class ObservationMapModel : public LivePicture {
   explicit ObservationMapModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] PointerShape pointer_shape() const override;

@@ -168,7 +168,10 @@ void StripModel::set_aspect(MaskAspect aspect) {
 void StripModel::pointer(const PointerEvent& event) {
   switch (event.action) {
     case PointerAction::wheel: {
-      const int steps = static_cast<int>(std::round(event.wheel_steps));
+      wheel_ += event.wheel_steps;
+      const int steps = static_cast<int>(std::trunc(wheel_));
+      wheel_ -= steps;
+      if (steps == 0) return;
       if (!event.control) return scroll_to(first() - steps);
       const int before = panes();
       more_panes_ -= steps;
@@ -197,6 +200,8 @@ void StripModel::pointer(const PointerEvent& event) {
       clicked_ = pane->ping;
       return workspace_.document.look_at(pane->ping);
     }
+    case PointerAction::pan:
+    case PointerAction::zoom:
     case PointerAction::double_press:
     case PointerAction::leave:
       return;

@@ -69,6 +69,7 @@ class StripModel : public LivePicture {
   int more_panes_ = 0;       ///< than the width suggests
   std::int64_t clicked_ = -1;
   std::optional<Press> press_;
+  double wheel_ = 0.0;  ///< steps that make no whole one yet
   RunningMasks running_;
   std::shared_ptr<const StripPlaces> places_;
   Listening listening_;  // the last member: it ends first

@@ -47,6 +47,7 @@ class SurveyMapModel : public LivePicture {
   explicit SurveyMapModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] PointerShape pointer_shape() const override;

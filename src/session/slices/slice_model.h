@@ -29,6 +29,8 @@ class SliceModel : public LivePicture {
   ~SliceModel() override;
 
   void pointer(const PointerEvent& event) override;
+  /// Of a slice that shows all there is nothing to move: fingers go through its fans, as the wheel does.
+  [[nodiscard]] bool pans() const override { return zoomed(); }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] PointerShape pointer_shape() const override;

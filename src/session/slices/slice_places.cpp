@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/slices/slice_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "session/survey_schools.h"
 
@@ -31,6 +35,35 @@ bool* switch_of(ViewSwitches& views, SliceKind kind) {
   return &views.plane_slice;
 }
 
+std::string numbers_text(const Point<Sonar>& p) { return fmt::format("{:.3f},{:.3f},{:.3f}", p.x, p.y, p.z); }
+
+/// A plane as it is asked for, in words and numbers.
+PlaneSliceParams params_of(const PlanePlace& place, const PlaneSlice& plane, PlaneSliceParams params) {
+  constexpr double kFar_m = 1000.0;  // what a millimetre turns is less than a pixel
+  switch (place.lies) {
+    case PlaneSlice::Kind::horizontal:
+      params.plane = PlaneLies::horizontal;
+      params.depth_m = place.depth_m;
+      return params;
+    case PlaneSlice::Kind::vertical: {
+      // Along a bearing it would go through the sonar.
+      const Point<Sonar> to = plane.origin + plane.right * kFar_m;
+      params.plane = place.offset_m == 0.0 ? PlaneLies::along_bearing : PlaneLies::through_places;
+      params.bearing_deg = place.bearing_deg;
+      params.through = fmt::format("{:.3f},{:.3f},{:.3f},{:.3f}", plane.origin.x, plane.origin.y, to.x, to.y);
+      return params;
+    }
+    case PlaneSlice::Kind::oblique:
+      break;
+  }
+  params.plane = PlaneLies::oblique;
+  params.point = numbers_text(plane.origin);
+  const auto& [d, r] = std::pair(plane.down, plane.right);  // their product points to the viewer
+  params.normal =
+      numbers_text(Point<Sonar>{d.y * r.z - d.z * r.y, d.z * r.x - d.x * r.z, d.x * r.y - d.y * r.x} * kFar_m);
+  return params;
+}
+
 Voxel middle_voxel(const Sector& sector) { return {sector.fans() / 2, sector.beams() / 2, sector.range().count / 2}; }
 
 }  // namespace
@@ -48,6 +81,15 @@ Slice live_slice(const Workspace& workspace, SliceKind kind, std::int64_t ping_i
       break;
   }
   return plane_slice(workspace.plane.values(), frame_in(workspace, ping_index));
+}
+
+PictureParams at_live_places(const Workspace& workspace, PictureParams params) {
+  const RangeAxis& range = workspace.document.shown()->sector().range();
+  constexpr double kLeast_m = 1e-3;  // 0 asks for the largest school's
+  params.slice_range.range_m = std::max(kLeast_m, range.range_m(workspace.slices().sample));
+  const Slice plane = live_slice(workspace, SliceKind::plane, workspace.document.ping());
+  params.slice_plane = params_of(workspace.plane.values(), std::get<PlaneSlice>(plane), params.slice_plane);
+  return params;
 }
 
 bool switched_on(const Workspace& workspace, SliceKind kind) {

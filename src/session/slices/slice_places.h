@@ -18,6 +18,9 @@ inline constexpr std::array<SliceKind, 4> kSliceKinds{SliceKind::top, SliceKind:
 /// A slice of the observation on show, as it lies in a ping of it.
 /// needs  an observation on show
 [[nodiscard]] Slice live_slice(const Workspace& workspace, SliceKind kind, std::int64_t ping_index);
+/// Parameters of pictures whose range and plane slices lie where the window's do, the plane to a millimetre.
+/// needs  an observation on show
+[[nodiscard]] PictureParams at_live_places(const Workspace& workspace, PictureParams params);
 /// Whether a slice's view is switched on.
 [[nodiscard]] bool switched_on(const Workspace& workspace, SliceKind kind);
 /// Switches a slice's view on.

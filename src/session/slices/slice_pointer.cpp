@@ -32,6 +32,10 @@ void SliceModel::pointer(const PointerEvent& event) {
       return release(event);
     case PointerAction::wheel:
       return turn_wheel(event);
+    case PointerAction::pan:
+      return pan(event.by);
+    case PointerAction::zoom:
+      return zoom(event.at, 1.0 / event.factor);
     case PointerAction::leave:
       return leave();
   }

@@ -209,6 +209,12 @@ void TimelineModel::pointer(const PointerEvent& event) {
       return;
     case PointerAction::wheel:
       return zoom(event.at.x, std::pow(kWheelStep, event.wheel_steps));
+    case PointerAction::pan:
+      pan_ = Pan{0.0, part()};
+      pan_to(event.by.x);
+      return pan_.reset();
+    case PointerAction::zoom:
+      return zoom(event.at.x, event.factor);
     case PointerAction::double_press:
       return show_all();
     case PointerAction::leave:

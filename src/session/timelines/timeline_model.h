@@ -47,6 +47,7 @@ class TimelineModel : public LivePicture {
   TimelineModel& operator=(const TimelineModel&) = delete;
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   void wait() override {
     echograms_->wait();

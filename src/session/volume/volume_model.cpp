@@ -251,7 +251,11 @@ void VolumeModel::pointer(const PointerEvent& pointed) {
     case PointerAction::release:
       return release(event);
     case PointerAction::wheel:
-      return zoom(event);
+      return zoom(event.at, std::pow(kWheelStep, event.wheel_steps));
+    case PointerAction::zoom:
+      return zoom(event.at, event.factor);
+    case PointerAction::pan:
+      return orbit(in_frame(event.by));
     case PointerAction::leave:
       return leave();
   }
@@ -280,16 +284,21 @@ void VolumeModel::release(const PointerEvent& event) {
   if (click) press_voxel(event, false);
 }
 
-void VolumeModel::zoom(const PointerEvent& event) {
-  if (!shown_ || event.wheel_steps == 0.0) return;
+void VolumeModel::orbit(PixelPoint by) {
+  if (!shown_) return;
+  set_camera(turned(workspace_.camera().value_or(shown_->view.camera), by.x, by.y, shown_->place.height));
+}
+
+void VolumeModel::zoom(PixelPoint at, double factor) {
+  if (!shown_ || factor == 1.0) return;
   const Camera camera = workspace_.camera().value_or(shown_->view.camera);
   const CameraBasis b = basis(camera, shown_->view.size);
   const double scale = shown_->view.size.width / shown_->place.width;
-  const PixelPoint pixel{(event.at.x - shown_->place.x) * scale, (event.at.y - shown_->place.y) * scale};
+  const PixelPoint pixel{(at.x - shown_->place.x) * scale, (at.y - shown_->place.y) * scale};
   // While a new camera's picture is still on its way, nothing is known of what it will show.
-  const auto picked = camera == shown_->view.camera ? shown_->picked_at(event.at) : std::nullopt;
+  const auto picked = camera == shown_->view.camera ? shown_->picked_at(at) : std::nullopt;
   const Point<Sonar> about = picked ? picked->position : at_target_depth(camera, b, b.ray(pixel));
-  set_camera(zoomed_about(camera, about, std::pow(kWheelStep, event.wheel_steps)));
+  set_camera(zoomed_about(camera, about, factor));
 }
 
 std::optional<Voxel> VolumeModel::voxel_at(PixelPoint at) const {

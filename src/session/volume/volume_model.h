@@ -39,6 +39,7 @@ class VolumeModel : public LivePicture {
   [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }
 
   void pointer(const PointerEvent& event) override;
+  [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;
   [[nodiscard]] PointerShape pointer_shape() const override;
@@ -80,7 +81,8 @@ class VolumeModel : public LivePicture {
   void press(const PointerEvent& event);
   void drag(const PointerEvent& event);
   void release(const PointerEvent& event);
-  void zoom(const PointerEvent& event);
+  void zoom(PixelPoint at, double factor);
+  void orbit(PixelPoint by);
   void hover(const PointerEvent& event);
   void leave();
   void set_camera(const Camera& camera);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/all_words.h"
+
+#include <gtest/gtest.h>
+
+#include "session/test_app.h"
+
+namespace sonar {
+namespace {
+
+TEST(AllWords, HaveWhatMenusPanelsAndTablesSay) {
+  ChangeQueue queue;
+  AppModel app(queue, {});
+  const std::set<std::string> words = all_words(app);
+  for (const char* menu : {"&File", "&Export", "&View"}) EXPECT_TRUE(words.contains(menu)) << menu;
+  const Action& action = *app.actions.find("schools.detect");
+  EXPECT_TRUE(words.contains(action.text) && words.contains(action.tip));
+  EXPECT_TRUE(words.contains(app.panel.front().title));
+  EXPECT_TRUE(words.contains(app.rows("schools")->columns().front().title));
+  for (const Property& one : app.workspace.display.properties()) {
+    EXPECT_TRUE(words.contains(one.tooltip)) << one.name;
+  }
+  EXPECT_FALSE(words.contains(""));
+}
+
+}  // namespace
+}  // namespace sonar
