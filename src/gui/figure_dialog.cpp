@@ -22,6 +22,7 @@
 #include "gui/own_keys.h"
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
+#include "session/listening.h"
 
 namespace sonar {
 namespace {
@@ -55,10 +56,7 @@ class ViewList : public QWidget {
     QObject::connect(later_, &QPushButton::clicked, this, [this] { move(1); });
     QObject::connect(wide_, &QCheckBox::toggled, this, [this](bool on) { figure_.set_wide(id_of(here()), on); });
     fill();
-    // The parameters outlive the dialog.
-    workspace.figure.on_change([this, alive = std::weak_ptr<bool>(alive_)](const FigureParams&) {
-      if (!alive.expired()) fill();
-    });
+    listening_.to(workspace.figure, [this] { fill(); });
   }
 
  protected:
@@ -122,7 +120,7 @@ class ViewList : public QWidget {
   QPushButton* later_ = nullptr;
   QCheckBox* wide_ = new QCheckBox("Row of its own", this);
   std::vector<FigureChoice> shown_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  Listening listening_;  // the last member: it ends first
 };
 
 class FigureDialog : public QDialog {
@@ -141,10 +139,9 @@ class FigureDialog : public QDialog {
     halves->setChildrenCollapsible(false);
     column->addWidget(halves, 1);
     column->addLayout(foot());
-    listening_ = figure.changed().add([this] { show_state(); });
+    listening_.to(figure.changed(), [this] { show_state(); });
     show_state();
   }
-  ~FigureDialog() override { figure_.changed().remove(listening_); }
 
  protected:
   /// Enter ends the typing of a number or a word, not the dialog.
@@ -203,7 +200,7 @@ class FigureDialog : public QDialog {
   PictureView* preview_ = nullptr;
   QLabel* told_ = new QLabel(this);
   QPushButton* write_ = nullptr;
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace

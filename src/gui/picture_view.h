@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/workspace.h"
 
@@ -53,11 +54,10 @@ class PictureView : public QWidget {
 
   LivePicture& picture_;
   Shared<bool>& latencies_;
-  int listening_;
-  int listening_latencies_;
   std::function<QString()> idle_text_;
   QMenu* menu_ = nullptr;
   bool menu_open_ = false;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar
