@@ -4,13 +4,13 @@
 #include <QAction>
 #include <QMenu>
 #include <QMenuBar>
-#include <QPointer>
 #include <array>
 #include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "gui/listening_of.h"
 #include "gui/translated.h"
 #include "gui/view_keys.h"
 #include "session/context_menu.h"
@@ -94,10 +94,9 @@ void add_menus(QMainWindow& window, Actions& actions) {
     ask_when_opened(*menu, *shown, action);
     if (action.checked) switches.emplace_back(shown, &action);
   }
-  actions.keys_changed().add([guarded = QPointer<QMainWindow>(&window), &actions] {
-    if (guarded.isNull()) return;
+  listening_of(window).to(actions.keys_changed(), [&window, &actions] {
     for (const Action& action : actions.list()) {
-      if (QAction* shown = find_action(*guarded, action.id)) take_keys(*shown, action);
+      if (QAction* shown = find_action(window, action.id)) take_keys(*shown, action);
     }
   });
   // One switch may turn others off: the brush the seed.

@@ -14,11 +14,9 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 
 AnimationTimer::AnimationTimer(AnimationDriver& animations)
     : animations_(animations),
-      listening_(animations.changed().add([this] { animations_.running() ? start(kTick_ms) : stop(); })) {
+      listening_(animations.changed(), [this] { animations_.running() ? start(kTick_ms) : stop(); }) {
   callOnTimeout(this, [this] { animations_.tick(now_s()); });
   if (animations_.running()) start(kTick_ms);
 }
-
-AnimationTimer::~AnimationTimer() { animations_.changed().remove(listening_); }
 
 }  // namespace sonar

@@ -4,6 +4,7 @@
 #include <QTimer>
 
 #include "session/animation_driver.h"
+#include "session/listening.h"
 
 namespace sonar {
 
@@ -12,11 +13,10 @@ class AnimationTimer : public QTimer {
  public:
   /// They outlive the timer.
   explicit AnimationTimer(AnimationDriver& animations);
-  ~AnimationTimer() override;
 
  private:
   AnimationDriver& animations_;
-  int listening_;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -48,17 +48,12 @@ BatchWindow::BatchWindow(AppModel& app, QWidget& main)
   connect(table_, &QTreeView::doubleClicked, this, [this] { open_current(); });
   connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] { show_state(); });
   connect(new QShortcut(QKeySequence::Close, this), &QShortcut::activated, this, [this] { close(); });
-  listening_ = batch_.changed().add([this](BatchChange change) { follow(change); });
-  following_document_ = app.workspace.document.changes().add([this](DocumentChange change) {
+  listening_.to(batch_.changed(), [this](BatchChange change) { follow(change); });
+  listening_.to(app.workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) follow(BatchChange::surveys);
   });
   follow(BatchChange::surveys);
   show_log();
-}
-
-BatchWindow::~BatchWindow() {
-  batch_.changed().remove(listening_);
-  app_.workspace.document.changes().remove(following_document_);
 }
 
 void BatchWindow::come_to_front() {

@@ -17,6 +17,7 @@
 #include "base/result.h"
 #include "gui/batch_table.h"
 #include "session/app_model.h"
+#include "session/listening.h"
 
 class QBoxLayout;
 
@@ -27,7 +28,6 @@ class BatchWindow : public QWidget {
  public:
   /// Both outlive the window. main  comes to the front when a survey is opened
   BatchWindow(AppModel& app, QWidget& main);
-  ~BatchWindow() override;
   void come_to_front();
 
  protected:
@@ -77,8 +77,7 @@ class BatchWindow : public QWidget {
   QPushButton* start_ = nullptr;
   QPushButton* stop_ = nullptr;
   std::size_t lines_shown_ = 0;
-  int listening_ = 0;
-  int following_document_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

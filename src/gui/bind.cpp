@@ -8,7 +8,6 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLineEdit>
-#include <QPointer>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
@@ -16,6 +15,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gui/listening_of.h"
 #include "gui/own_keys.h"
 #include "gui/translated.h"
 
@@ -32,15 +32,14 @@ QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 /// Calls `show` with the value now and after every change, as long as the widget lives.
 template <class Widget, class Show>
 void follow(const Source& source, const std::string& name, Widget* widget, Show show) {
-  const auto refresh = [source, name, guarded = QPointer<Widget>(widget), show] {
-    if (guarded.isNull()) return;
+  const auto refresh = [source, name, widget, show] {
     const auto value = source->value(name);
     if (!value) return;
-    const QSignalBlocker silent(guarded.data());
-    show(*guarded, *value);
+    const QSignalBlocker silent(widget);
+    show(*widget, *value);
   };
   refresh();
-  source->on_change(refresh);
+  source->tell_changes(listening_of(*widget), refresh);
 }
 
 QWidget* bind_switch(const Source& source, const Property& property, QWidget* parent) {

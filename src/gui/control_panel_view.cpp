@@ -4,12 +4,12 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
-#include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QVBoxLayout>
 #include <initializer_list>
 
+#include "gui/listening_of.h"
 #include "gui/own_keys.h"
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
@@ -38,9 +38,8 @@ QWidget* curve_row(TransferEditor& editor, Workspace& workspace, QWidget* parent
   linked->setObjectName("curves_linked");
   linked->setToolTip(translated("A change of one curve is a change of both.\nDefault: off"));
   linked->setChecked(workspace.curves_linked());
-  workspace.curves_linked.changed().add([linked = QPointer<QCheckBox>(linked), &workspace] {
-    if (!linked.isNull()) linked->setChecked(workspace.curves_linked());
-  });
+  listening_of(*linked).to(workspace.curves_linked.changed(),
+                           [linked, &workspace] { linked->setChecked(workspace.curves_linked()); });
   QObject::connect(linked, &QCheckBox::toggled, linked, [&workspace](bool on) { workspace.curves_linked.set(on); });
   auto* preset = new QComboBox(row);
   preset->setObjectName("curve_preset");

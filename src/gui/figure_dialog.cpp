@@ -23,6 +23,7 @@
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
 #include "gui/translated.h"
+#include "session/listening.h"
 
 namespace sonar {
 namespace {
@@ -58,10 +59,7 @@ class ViewList : public QWidget {
     QObject::connect(later_, &QPushButton::clicked, this, [this] { move(1); });
     QObject::connect(wide_, &QCheckBox::toggled, this, [this](bool on) { figure_.set_wide(id_of(here()), on); });
     fill();
-    // The parameters outlive the dialog.
-    workspace.figure.on_change([this, alive = std::weak_ptr<bool>(alive_)](const FigureParams&) {
-      if (!alive.expired()) fill();
-    });
+    listening_.to(workspace.figure, [this] { fill(); });
   }
 
  protected:
@@ -126,7 +124,7 @@ class ViewList : public QWidget {
   QPushButton* later_ = nullptr;
   QCheckBox* wide_ = new QCheckBox(translated("Row of its own"), this);
   std::vector<FigureChoice> shown_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  Listening listening_;  // the last member: it ends first
 };
 
 class FigureDialog : public QDialog {
@@ -146,10 +144,9 @@ class FigureDialog : public QDialog {
     halves->setChildrenCollapsible(false);
     column->addWidget(halves, 1);
     column->addLayout(foot());
-    listening_ = figure.changed().add([this] { show_state(); });
+    listening_.to(figure.changed(), [this] { show_state(); });
     show_state();
   }
-  ~FigureDialog() override { figure_.changed().remove(listening_); }
 
  protected:
   /// Enter ends the typing of a number or a word, not the dialog.
@@ -210,7 +207,7 @@ class FigureDialog : public QDialog {
   PictureView* preview_ = nullptr;
   QLabel* told_ = new QLabel(this);
   QPushButton* write_ = nullptr;
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace

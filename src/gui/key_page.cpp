@@ -93,7 +93,7 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
     if (const Action* action = chosen()) set(actions_.usual_keys(*action));
   });
   connect(all, &QPushButton::clicked, this, [this] { reset_all(); });
-  listening_ = actions.keys_changed().add([this] { fill(); });
+  listening_.to(actions.keys_changed(), [this] { fill(); });
   for (const Action& action : actions.list()) {
     auto* item = new QTreeWidgetItem(list_);
     item->setText(0, translated(action.text));
@@ -105,8 +105,6 @@ KeyPage::KeyPage(Actions& actions, QWidget* parent) : QWidget(parent), actions_(
   for (int each = 0; each < list_->columnCount(); ++each) list_->resizeColumnToContents(each);
   choose();
 }
-
-KeyPage::~KeyPage() { actions_.keys_changed().remove(listening_); }
 
 const Action* KeyPage::chosen() const {
   const QTreeWidgetItem* item = list_->currentItem();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "session/actions.h"
+#include "session/listening.h"
 
 namespace sonar {
 
@@ -34,7 +35,6 @@ class KeyPage : public QWidget {
  public:
   /// The actions outlive the page.
   explicit KeyPage(Actions& actions, QWidget* parent = nullptr);
-  ~KeyPage() override;
 
  private:
   void fill();
@@ -51,7 +51,7 @@ class KeyPage : public QWidget {
   QPushButton* none_ = new QPushButton("No key", this);
   QPushButton* usual_ = new QPushButton("Usual key", this);
   QLabel* told_ = new QLabel(this);
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

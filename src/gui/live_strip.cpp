@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QToolBar>
 
+#include "gui/listening_of.h"
 #include "gui/translated.h"
 #include "session/live_watch.h"
 
@@ -27,7 +28,7 @@ void add_live_strip(QMainWindow& window, AppModel& app) {
     text->setText(head + "&nbsp;&nbsp; " + line);
   };
   show();
-  app.live->changed().add(show);
+  listening_of(*strip).to(app.live->changed(), show);
   // A layout that is put back knows nothing of what is followed now.
   QObject::connect(strip, &QToolBar::visibilityChanged, strip, [strip, live = app.live] {
     if (strip->isHidden() == live->on()) strip->setVisible(live->on());

@@ -11,7 +11,6 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
-#include <QPointer>
 #include <QScreen>
 
 #include "gui/about.h"
@@ -24,6 +23,7 @@
 #include "gui/dropped_paths.h"
 #include "gui/figure_dialog.h"
 #include "gui/key_sheet.h"
+#include "gui/listening_of.h"
 #include "gui/palette.h"
 #include "gui/picture_view.h"
 #include "gui/preferences_dialog.h"
@@ -62,9 +62,9 @@ void add_list(QMainWindow& window, RowsDock& list) {
   QObject::connect(dock, &QDockWidget::visibilityChanged, view, [view](bool in_front) {
     if (!in_front) view->let_go();
   });
-  list.rows->changed().add([shown = QPointer<QDockWidget>(dock), &list] {
+  listening_of(*dock).to(list.rows->changed(), [dock, &list] {
     const std::string note = list.rows->note();
-    if (shown) shown->setWindowTitle(translated(list.title) + QString::fromStdString(note.empty() ? "" : ": " + note));
+    dock->setWindowTitle(translated(list.title) + QString::fromStdString(note.empty() ? "" : ": " + note));
   });
 }
 
@@ -133,11 +133,11 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
     take_theme(app.workspace.dark());
     tint_tool_bar(*this);
   };
-  app.workspace.dark.changed().add(theme);
-  app.workspace.window.on_change([](const WindowParams& window) { take_text_size(window.text_size_percent); });
+  listening_.to(app.workspace.dark.changed(), theme);
+  listening_.to(app.workspace.window, [](const WindowParams& window) { take_text_size(window.text_size_percent); });
   take_text_size(app.workspace.window.values().text_size_percent);
   theme();
-  app.workspace.document.changes().add([this](DocumentChange change) {
+  listening_.to(app.workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey || change == DocumentChange::observation) show_title();
     // Where there is no picture yet, the view tells what it waits for.
     if (change == DocumentChange::progress && app_.workspace.document.survey() == nullptr) {
@@ -164,7 +164,7 @@ void MainWindow::bind_switch(QDockWidget& dock, const std::string& name) {
   // Tabs hide docks too: only closing and opening is a switch.
   connect(dock.toggleViewAction(), &QAction::triggered, &dock,
           [this, name](bool on) { (void)app_.workspace.views.set(name, on); });
-  app_.workspace.views.on_change([this, name, &dock](const ViewSwitches&) {
+  listening_.to(app_.workspace.views, [this, name, &dock] {
     const auto on = app_.workspace.views.value(name);
     if (!on || dock.isHidden() != std::get<bool>(*on)) return;
     dock.setVisible(std::get<bool>(*on));

@@ -9,6 +9,7 @@
 
 #include "gui/animation_timer.h"
 #include "session/app_model.h"
+#include "session/listening.h"
 
 namespace sonar {
 
@@ -44,6 +45,7 @@ class MainWindow : public QMainWindow {
   AppModel& app_;
   AnimationTimer animations_;
   std::unique_ptr<BatchWindow> batch_;  ///< null until it is asked for
+  Listening listening_;                 // the last member: it ends first
 };
 
 }  // namespace sonar

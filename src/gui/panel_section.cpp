@@ -4,12 +4,12 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPointer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/bind.h"
+#include "gui/listening_of.h"
 #include "gui/own_keys.h"
 #include "gui/translated.h"
 
@@ -22,11 +22,9 @@ QLabel* note_label(const PanelSection::Note& note, const PanelSection& section, 
   auto* label = new QLabel(translated(note.text()), parent);
   label->setEnabled(false);
   label->setWordWrap(true);
-  const auto refresh = [label = QPointer<QLabel>(label), tell = note.text] {
-    if (!label.isNull()) label->setText(translated(tell()));
-  };
-  section.source->on_change(refresh);
-  if (note.also) note.also->on_change(refresh);
+  const auto refresh = [label, tell = note.text] { label->setText(translated(tell())); };
+  section.source->tell_changes(listening_of(*label), refresh);
+  if (note.also) note.also->tell_changes(listening_of(*label), refresh);
   return label;
 }
 
@@ -46,11 +44,9 @@ Property as_it_looks(Property property, const PanelSection& section) {
 void follow_use(QWidget* widget, const PanelSection& section, const std::string& name) {
   for (const PanelSection::Use& use : section.uses) {
     if (use.name != name) continue;
-    const auto refresh = [widget = QPointer<QWidget>(widget), counts = use.counts] {
-      if (!widget.isNull()) widget->setEnabled(counts());
-    };
+    const auto refresh = [widget, counts = use.counts] { widget->setEnabled(counts()); };
     refresh();
-    section.source->on_change(refresh);
+    section.source->tell_changes(listening_of(*widget), refresh);
   }
 }
 
@@ -70,12 +66,12 @@ QWidget* with_default(QWidget* control, const PanelSection& section, const Prope
   button->setSizePolicy(keeps);
   keep_own_keys(*button);
   row->addWidget(button);
-  const auto refresh = [button = QPointer<QToolButton>(button), source = section.source, property] {
+  const auto refresh = [button, source = section.source, property] {
     const auto now = source->value(property.name);
-    if (!button.isNull()) button->setVisible(now && *now != property.initial);
+    button->setVisible(now && *now != property.initial);
   };
   refresh();
-  section.source->on_change(refresh);
+  section.source->tell_changes(listening_of(*button), refresh);
   QObject::connect(button, &QToolButton::clicked, button,
                    [source = section.source, property] { (void)source->set(property.name, property.initial); });
   return both;

@@ -149,26 +149,19 @@ void PictureView::draw_overlays(QPainter& painter) {
 }
 
 PictureView::PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget* parent)
-    : QWidget(parent),
-      picture_(picture),
-      latencies_(latencies),
-      listening_(picture.changed().add([this] {
+    : QWidget(parent), picture_(picture), latencies_(latencies), listening_(picture.changed(), [this] {
         show_shape();
         update();
         tell_screen_reader();
-      })),
-      listening_latencies_(latencies.changed().add([this] { update(); })) {
+      }) {
   tell_screen_readers_of_pictures();
+  listening_.to(latencies.changed(), [this] { update(); });
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
 }
 
-PictureView::~PictureView() {
-  picture_.changed().remove(listening_);
-  latencies_.changed().remove(listening_latencies_);
-  picture_.set_seen(false);
-}
+PictureView::~PictureView() { picture_.set_seen(false); }
 
 void PictureView::paintEvent(QPaintEvent* /*event*/) {
   // What is painted is seen. A tab behind another counts as shown, somewhere off the window, and is never painted.

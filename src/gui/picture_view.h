@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/workspace.h"
 
@@ -60,13 +61,12 @@ class PictureView : public QWidget {
 
   LivePicture& picture_;
   Shared<bool>& latencies_;
-  int listening_;
-  int listening_latencies_;
   std::function<QString()> idle_text_;
   std::function<QString()> sentence_;
   std::int64_t told_ = 0;  ///< the picture that a screen reader knows of
   QMenu* menu_ = nullptr;
   bool menu_open_ = false;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -94,8 +94,8 @@ RowsView::RowsView(Rows& rows, bool tree, QWidget* parent)
   });
   connect(list_, &QTreeView::doubleClicked, this,
           [this](const QModelIndex& at) { rows_.open(RowsModel::row_of(order_.mapToSource(at))); });
-  listening_ = rows_.changed().add([this] { rows_changed(); });
-  following_moves_ = rows_.moved().add([this] {
+  listening_.to(rows_.changed(), [this] { rows_changed(); });
+  listening_.to(rows_.moved(), [this] {
     if (!stale_ && !following_) show_selected();
   });
 }
@@ -135,11 +135,6 @@ void RowsView::leave_out_hidden(std::vector<std::size_t> chosen) {
 
 void RowsView::go_to(std::size_t row) {
   if (rows_.selected() != row) rows_.select(row);
-}
-
-RowsView::~RowsView() {
-  rows_.changed().remove(listening_);
-  rows_.moved().remove(following_moves_);
 }
 
 void RowsView::add_filter_line() {

@@ -11,6 +11,7 @@
 
 #include "gui/list_columns.h"
 #include "gui/rows_model.h"
+#include "session/listening.h"
 #include "session/rows.h"
 
 namespace sonar {
@@ -39,7 +40,6 @@ class RowsView : public QWidget {
  public:
   /// The rows outlive the view. tree: levels are shown as branches
   RowsView(Rows& rows, bool tree, QWidget* parent = nullptr);
-  ~RowsView() override;
   [[nodiscard]] QSize sizeHint() const override { return {420, 220}; }
   /// What a screen reader calls the list.
   void set_title(const QString& title);
@@ -80,8 +80,7 @@ class RowsView : public QWidget {
   bool following_ = false;  ///< the selection follows the rows: nobody clicked
   bool showed_ = false;     ///< the rows had one that the window has selected
   bool stale_ = true;       ///< changed while nobody saw it
-  int listening_ = 0;
-  int following_moves_ = 0;
+  Listening listening_;     // the last member: it ends first
 };
 
 }  // namespace sonar

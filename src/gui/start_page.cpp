@@ -18,6 +18,7 @@
 
 #include "gui/action_menus.h"
 #include "gui/translated.h"
+#include "session/listening.h"
 #include "session/recent_surveys.h"
 
 namespace sonar {
@@ -69,7 +70,7 @@ class StartPage : public QWidget {
     page->addLayout(recent_, 1, 1, 2, 1, Qt::AlignTop);
     page->addWidget(heading(translated("Opened before"), 1.3), 0, 1, Qt::AlignBottom);
     window.installEventFilter(this);
-    app.workspace.document.changes().add([this](DocumentChange change) {
+    listening_.to(app.workspace.document.changes(), [this](DocumentChange change) {
       if (change == DocumentChange::survey || change == DocumentChange::progress || change == DocumentChange::glance)
         follow();
     });
@@ -104,7 +105,7 @@ class StartPage : public QWidget {
       show(QString::fromStdString(app_.actions.with_keys(translated(text).toStdString())));
     };
     tell();
-    app_.actions.keys_changed().add(tell);
+    listening_.to(app_.actions.keys_changed(), tell);
   }
 
   QVBoxLayout* beginnings() {
@@ -187,6 +188,7 @@ class StartPage : public QWidget {
   AppModel& app_;
   QVBoxLayout* recent_ = new QVBoxLayout;
   bool seen_ = false;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace

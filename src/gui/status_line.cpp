@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gui/listening_of.h"
 #include "gui/own_keys.h"
 #include "gui/translated.h"
 #include "session/beyond_reach.h"
@@ -78,9 +79,10 @@ void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const cha
   QObject::connect(button, &QPushButton::clicked, &status, [action] {
     if (!action.enabled || action.enabled()) action.run();
   });
-  app.workspace.school.changed().add(show);
-  app.merge_offer->changed().add(show);
-  app.workspace.document.changes().add([show](DocumentChange change) {
+  Listening& listening = listening_of(*button);
+  listening.to(app.workspace.school.changed(), show);
+  listening.to(app.merge_offer->changed(), show);
+  listening.to(app.workspace.document.changes(), [show](DocumentChange change) {
     const bool may_matter =
         change == DocumentChange::state || change == DocumentChange::observation || change == DocumentChange::progress;
     if (may_matter) show();
@@ -136,14 +138,15 @@ void add_status_line(QMainWindow& window, AppModel& app) {
     const bool cut = cursor->fontMetrics().horizontalAdvance(cursor->text()) > cursor->width();
     cursor->setToolTip(cut ? cursor->text() : QString());
   };
-  workspace.cursor.changed().add(read);
+  Listening& listening = listening_of(*status);
+  listening.to(workspace.cursor.changed(), read);
   // After the window has taken the theme, at first too.
   const auto clear = [cursor] { QTimer::singleShot(0, cursor, [cursor] { clear_background(*cursor); }); };
-  workspace.dark.changed().add(clear);
+  listening.to(workspace.dark.changed(), clear);
   clear();
-  workspace.preview.changed().add(read);
-  workspace.measurement.changed().add(read);
-  workspace.document.changes().add([read, status, told, bar, cancel, &workspace](DocumentChange change) {
+  listening.to(workspace.preview.changed(), read);
+  listening.to(workspace.measurement.changed(), read);
+  listening.to(workspace.document.changes(), [read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();
     if (change == DocumentChange::progress) show_progress(*bar, *cancel, workspace.document);
     if (change == DocumentChange::notice) {

@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPixmap>
-#include <QPointer>
 #include <QStyle>
 #include <QTimer>
 #include <QToolBar>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "gui/action_menus.h"
+#include "gui/listening_of.h"
 #include "gui/translated.h"
 #include "session/playback.h"
 
@@ -85,16 +85,15 @@ void follow(QMainWindow& window, QToolBar& bar, AppModel& app) {
   auto* soon = new QTimer(&bar);  // once for all changes of a turn
   soon->setSingleShot(true);
   QObject::connect(soon, &QTimer::timeout, &bar, [&window, &bar, &app] { grey_buttons(window, bar, app.actions); });
-  const auto later = [guarded = QPointer<QTimer>(soon)] {
-    if (!guarded.isNull()) guarded->start(0);
-  };
-  app.workspace.document.changes().add([later](DocumentChange) { later(); });
-  app.workspace.school.changed().add(later);
-  app.workspace.mark.changed().add(later);
+  const auto later = [soon] { soon->start(0); };
+  Listening& listening = listening_of(*soon);
+  listening.to(app.workspace.document.changes(), [later](DocumentChange) { later(); });
+  listening.to(app.workspace.school.changed(), later);
+  listening.to(app.workspace.mark.changed(), later);
   for (const Button& button : kButtons) {
     QAction* shown = *button.id == '\0' ? nullptr : find_action(window, button.id);
     // A button takes over what its action tells of itself, also that it can act.
-    if (shown != nullptr) QObject::connect(shown, &QAction::changed, &bar, later);
+    if (shown != nullptr) QObject::connect(shown, &QAction::changed, soon, later);
   }
   grey_buttons(window, bar, app.actions);
 }
@@ -108,12 +107,11 @@ void add_rate(QToolBar& bar, Playback& playback) {
   rate->setMinimumWidth(rate->fontMetrics().horizontalAdvance("20 pings/s, 19.9 reached"));
   rate->setAlignment(Qt::AlignCenter);
   bar.addWidget(rate);
-  const auto show = [rate = QPointer<QLabel>(rate), &playback] {
-    if (rate.isNull()) return;
+  const auto show = [rate, &playback] {
     const QString text = QString::fromStdString(playback.rate_text());
     if (text != rate->text()) rate->setText(text);
   };
-  playback.changed().add(show);
+  listening_of(*rate).to(playback.changed(), show);
   show();
 }
 

@@ -15,6 +15,7 @@
 #include "gui/picture_view.h"
 #include "gui/rows_view.h"
 #include "gui/translated.h"
+#include "session/listening.h"
 
 namespace sonar {
 namespace {
@@ -71,9 +72,8 @@ class ViewKeys : public QObject {
   ViewKeys(QMainWindow& window, AppModel& app) : QObject(&window), window_(window), app_(app) {
     qApp->installEventFilter(this);
     connect(qApp, &QApplication::focusChanged, this, [this](QWidget* before, QWidget* now) { follow(before, now); });
-    listening_ = app.key_said.changed().add([this] { say(); });
+    listening_.to(app.key_said.changed(), [this] { say(); });
   }
-  ~ViewKeys() override { app_.key_said.changed().remove(listening_); }
 
  protected:
   bool eventFilter(QObject* /*watched*/, QEvent* event) override {
@@ -140,7 +140,7 @@ class ViewKeys : public QObject {
   AppModel& app_;
   QPointer<QWidget> last_;
   QPointer<SaidLabel> said_;
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace

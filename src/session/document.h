@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,21 +14,17 @@
 #include "base/result.h"
 #include "base/task_thread.h"
 #include "base/work.h"
-#include "model/product.h"
-#include "pipeline/journal/state_product.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
-#include "pipeline/tasks/survey_numbers.h"
 #include "session/change_queue.h"
-#include "session/choices.h"
 #include "session/listeners.h"
-#include "session/open_observation.h"
+#include "session/open_survey.h"
 #include "session/right_of_way.h"
 
 namespace sonar {
 
 struct DocumentOptions {
-  Recipe recipe;
+  Recipe recipe;  ///< of surveys for which none was chosen
   std::string operator_name;
   std::string program_version;
   IndexCache cache;  ///< empty folder = none
@@ -60,21 +54,8 @@ enum class DocumentChange : std::uint8_t {
   notice,       ///< there is something to tell
 };
 
-struct Progress {
-  std::string stage;  ///< empty = nothing runs
-  std::int64_t done = 0;
-  std::int64_t total = 0;
-};
-
-/// "obs-0002 cannot be shown: the beams make no product grid: ...".
-/// observation  has no grid
-[[nodiscard]] std::string why_no_grid(const ObservationFiles& observation);
-
-using ProductPtr = std::shared_ptr<const ObservationProduct>;
-using RefusedPtr = std::shared_ptr<const std::vector<RefusedEcho>>;
-
 /// A survey at work: its files, one observation and ping on show, and every human choice. What takes long runs in the
-/// background and comes back through the change queue.
+/// background and comes back through the change queue. What is known of the survey that is open lives as long as it is.
 /// threads  the window's
 class Document {
  public:
@@ -89,32 +70,36 @@ class Document {
   /// Reads the survey in the background and then looks at its first observation; what was open is let go. A work folder of
   /// a run opens the survey that it was made of, under the run's recipe and with the run's schools.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
-  void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {});
+  void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {}) {
+    read({std::move(paths), std::move(first), std::nullopt});
+  }
   /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
   void use_recipe(Recipe recipe);
   /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
   /// it is not the same survey with more pings and observations behind.
-  bool grow(std::shared_ptr<const SurveyFiles> survey);
+  bool grow(std::shared_ptr<const SurveyFiles> survey) { return survey_->grow(std::move(survey)); }
   /// Ends what runs in the background; what was there before stays.
   void cancel();
-  [[nodiscard]] const SurveyFiles* survey() const { return survey_.get(); }
+  /// Whether another survey is being read, or this one anew.
+  [[nodiscard]] bool opening() const { return opening_.has_value(); }
+  [[nodiscard]] const SurveyFiles* survey() const { return survey_files().get(); }
   /// The same, for whoever needs it beyond its end here.
-  [[nodiscard]] const std::shared_ptr<const SurveyFiles>& survey_files() const { return survey_; }
+  [[nodiscard]] const std::shared_ptr<const SurveyFiles>& survey_files() const { return survey_->read_.files; }
   /// What the files' ends tell of a survey that is being read while none is open (glance_at_survey()); else null.
   [[nodiscard]] const std::shared_ptr<const SurveyFiles>& glance() const { return glance_; }
   /// Reads the files of one of its observations alone: they are open while the rest would still be read.
   void open_glanced(std::size_t observation);
   /// Why nothing of the survey is shown, in a line; empty where something is, or no survey is open.
-  [[nodiscard]] std::string nothing_shown() const;
+  [[nodiscard]] std::string nothing_shown() const { return survey_->nothing_shown(); }
   /// The survey's raw files, and folders of them.
-  [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return paths_; }
+  [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return survey_->read_.paths; }
   /// What open() was given: those, or work folders of runs on them.
-  [[nodiscard]] const std::vector<std::filesystem::path>& named() const { return named_; }
-  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_path_; }
+  [[nodiscard]] const std::vector<std::filesystem::path>& named() const { return survey_->read_.named; }
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return choices().journal; }
   /// What choices stand on.
-  [[nodiscard]] const Recipe& recipe() const { return options_.recipe; }
+  [[nodiscard]] const Recipe& recipe() const { return survey_->read_.recipe; }
   /// What Sv and measures follow: the recipe, under the calibration that a human has chosen.
-  [[nodiscard]] Recipe measuring_recipe() const;
+  [[nodiscard]] Recipe measuring_recipe() const { return survey_->measuring_recipe(); }
   [[nodiscard]] const DocumentOptions& options() const { return options_; }
   /// For the pings of observations that are opened from now on, bytes; 0 = half of the machine's memory.
   void use_memory(std::uint64_t bytes) { options_.memory_bytes = bytes == 0 ? usual_memory() : bytes; }
@@ -136,170 +121,105 @@ class Document {
   // --- what is looked at
   /// ping    that is looked at first; out of range = the nearest end
   /// errors  usage: no such observation, or one without a grid
-  Result<void> show(std::size_t observation, std::int64_t ping = 0);
+  Result<void> show(std::size_t observation, std::int64_t ping = 0) { return survey_->show(observation, ping); }
   /// The observation on show; null before there is one.
-  [[nodiscard]] const OpenObservationPtr& shown() const { return shown_; }
+  [[nodiscard]] const OpenObservationPtr& shown() const { return survey_->shown_; }
   /// Null where it is not open.
-  [[nodiscard]] OpenObservationPtr open_observation(std::size_t index) const;
+  [[nodiscard]] OpenObservationPtr open_observation(std::size_t index) const {
+    return survey_->open_observation(index);
+  }
   /// Opens every observation with a grid, as a review of the whole survey needs it.
-  void open_all();
+  void open_all() { survey_->open_all(); }
   /// Out of range = the nearest end.
-  void look_at(std::int64_t ping_index);
+  void look_at(std::int64_t ping_index) { survey_->look_at(ping_index); }
   /// The ping that is looked at; it may still be on its way.
-  [[nodiscard]] std::int64_t ping() const { return ping_; }
+  [[nodiscard]] std::int64_t ping() const { return survey_->ping_; }
   /// The ping that has arrived last; null before the first.
-  [[nodiscard]] const StagedPingPtr& staged() const { return staged_; }
+  [[nodiscard]] const StagedPingPtr& staged() const { return survey_->staged_; }
 
   // --- choices
-  void act(Command command) { act(ping_, std::move(command)); }
+  void act(Command command) { act(ping(), std::move(command)); }
   /// On the observation on show. What cannot be done is told as a notice and changes nothing.
-  void act(std::int64_t ping_index, Command command);
+  void act(std::int64_t ping_index, Command command) {
+    if (shown()) act(shown()->index(), ping_index, std::move(command));
+  }
   /// step  that the act is part of; null = it stands alone
   ActTicket act(std::size_t observation, std::int64_t ping_index, Command command,
-                std::shared_ptr<JournalStep> step = nullptr);
-  void undo();
-  void redo();
-  void stop_propagation();
-  [[nodiscard]] const ChoicesShown& choices() const { return choices_; }
+                std::shared_ptr<JournalStep> step = nullptr) {
+    return survey_->act(observation, ping_index, std::move(command), std::move(step));
+  }
+  void undo() { survey_->undo(); }
+  void redo() { survey_->redo(); }
+  void stop_propagation() { survey_->stop_propagation(); }
+  [[nodiscard]] const ChoicesShown& choices() const { return survey_->choices_; }
   /// Of the observation on show; an empty one before it is known.
-  [[nodiscard]] const JournalState& state() const;
-  [[nodiscard]] const JournalState& state(std::size_t observation) const;
+  [[nodiscard]] const JournalState& state() const {
+    return state(shown() ? shown()->index() : static_cast<std::size_t>(-1));
+  }
+  [[nodiscard]] const JournalState& state(std::size_t observation) const { return survey_->state(observation); }
   /// Number of the school that a running propagation carries on; empty where it makes a new one.
-  [[nodiscard]] std::optional<std::int64_t> followed() const { return followed_; }
+  [[nodiscard]] std::optional<std::int64_t> followed() const { return survey_->followed_; }
   /// Masks of a propagation that runs on the observation on show, by ping; they are part of the state when it ends.
-  [[nodiscard]] const std::map<std::int64_t, PingMask>& propagating() const { return propagating_; }
-  [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
+  [[nodiscard]] const std::map<std::int64_t, PingMask>& propagating() const { return survey_->propagating_; }
+  [[nodiscard]] bool busy() const { return survey_->busy(); }
 
   // --- schools
   /// Looks for schools in one or in all observations, in the background; choices are laid upon what is found. However
   /// many they are, it is one step to undo.
-  void detect(std::vector<std::size_t> observations);
+  void detect(std::vector<std::size_t> observations) { survey_->detect(std::move(observations)); }
   /// Schools that were looked for elsewhere, as detect() takes them.
-  void take_schools(std::size_t observation, const ObservationProduct& found);
-  [[nodiscard]] bool detected(std::size_t observation) const { return detected_.contains(observation); }
+  void take_schools(std::size_t observation, const ObservationProduct& found) {
+    survey_->take_schools(observation, found);
+  }
+  [[nodiscard]] bool detected(std::size_t observation) const { return survey_->detected(observation); }
   /// Whether the journal asks for schools of this observation.
-  [[nodiscard]] bool asks_for_schools(std::size_t observation) const;
+  [[nodiscard]] bool asks_for_schools(std::size_t observation) const { return survey_->asks_for_schools(observation); }
   /// The journal asks for schools of this observation that were not looked for yet: its state is without them.
-  [[nodiscard]] bool lacks_detected(std::size_t observation) const;
+  [[nodiscard]] bool lacks_detected(std::size_t observation) const { return survey_->lacks_detected(observation); }
   /// What lay above the background where schools were looked for and is no school now: rows of /rejected. Never null.
-  [[nodiscard]] RefusedPtr refused(std::size_t observation) const;
+  [[nodiscard]] RefusedPtr refused(std::size_t observation) const { return survey_->refused(observation); }
   /// Schools and their figures as far as they are measured; null where the observation is not open.
-  [[nodiscard]] ProductPtr product(std::size_t observation) const;
+  [[nodiscard]] ProductPtr product(std::size_t observation) const { return survey_->product(observation); }
 
   /// Numbers of schools in the survey as its results last had them. Others follow in the order of observations, and are
   /// known when all are measured.
-  [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_numbers_; }
-  [[nodiscard]] bool all_measured() const;
-  void keep_survey_numbers(std::vector<SurveyNumber> numbers);
+  [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_->survey_numbers_; }
+  [[nodiscard]] bool all_measured() const { return survey_->all_measured(); }
+  void keep_survey_numbers(std::vector<SurveyNumber> numbers) { survey_->keep_survey_numbers(std::move(numbers)); }
 
   /// Whether figures are on their way.
-  [[nodiscard]] bool measuring() const { return measures_begun_ > 0; }
+  [[nodiscard]] bool measuring() const { return survey_->measures_begun_ > 0; }
 
   /// Returns when nothing runs or waits in the background, its changes drained; for tests and the program's end.
   void settle();
 
  private:
-  /// What detection gave of one observation.
-  struct Found {
-    std::vector<SchoolMasks> schools;
-    std::vector<RefusedEcho> refused;
-    std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
+  /// A survey that is being read.
+  struct Opening {
+    std::vector<std::filesystem::path> paths;
+    std::function<Result<void>(Work&)> first;                     ///< what must be done before; may be empty
+    std::optional<std::pair<std::size_t, std::int64_t>> back_to;  ///< see OpenSurvey::begin()
   };
-  /// What was measured of an observation, in this session and, once read from the cache, before it.
-  struct KeptMeasures {
-    MeasuredPings measured;
-    bool read = false;
-  };
+  void read(Opening opening);
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
-  void end_opening(const Error& error, const CancelToken& token);
+  void end_with(const Error& error, const CancelToken& token);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
-  [[nodiscard]] std::string key_of(const SurveyFiles& survey, const ObservationFiles& observation, Recipe recipe) const;
-  [[nodiscard]] std::string key_of(OpenObservation& observation) const;
-  [[nodiscard]] std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_folders,
-                                               const SurveyFiles& survey, const Recipe& recipe) const;
-  void take_survey(std::shared_ptr<const SurveyFiles> survey, Result<JournalPlace> place,
-                   const std::set<std::size_t>& found);
-  void begin_where_it_was_left(std::size_t first);
-  void await_schools(const std::vector<JournalLine>& lines, const std::set<std::size_t>& found);
-  void take_choices(ChoicesShown shown);
-  void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
-  OpenObservationPtr opened(std::size_t index);
-  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
-                  const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token);
-  void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
-  void follow_refused(const ChoicesShown& before);
-  void look_at_others();
-  void rest_unless_shown(std::size_t observation);
-  void tell_unseen(const ChoicesShown& before);
-  void tell_beyond_reach();
-  void tell_lacking(const std::vector<std::size_t>& observations);
-  void measure_changed(const ChoicesShown& before);
-  void measure(std::size_t index);
-  void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
-                      const CancelToken& token, Work& work);
-  void keep_measures();
-  void take_measured();
-  void take_product(std::size_t observation, const ProductPtr& product);
-  void follow_calibration();
-  void replay_journal();
-  [[nodiscard]] OpenObservationPtr calibrated(const OpenObservationPtr& chosen_on) const;
+  void take(SurveyRead read, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to);
 
   ChangeQueue& queue_;
   DocumentOptions options_;
-  Recipe usual_recipe_;                               ///< of surveys for which none was chosen
-  std::vector<std::filesystem::path> opening_;        ///< what is being read; empty = nothing
-  std::function<Result<void>(Work&)> opening_first_;  ///< what must be done before that is read; may be empty
-  std::shared_ptr<const Recipe> asked_recipe_;        ///< that the next survey is opened under
-  std::optional<std::pair<std::size_t, std::int64_t>> back_to_;  ///< observation and ping that it begins with
+  std::optional<Opening> opening_;              ///< none = nothing is being read
+  std::shared_ptr<const Recipe> asked_recipe_;  ///< that the next survey is opened under
   Listeners<DocumentChange> changes_;
-  std::vector<std::filesystem::path> paths_;
-  std::vector<std::filesystem::path> named_;
-  std::vector<std::filesystem::path> work_folders_;  ///< of runs, in which schools were found before
-  std::shared_ptr<const SurveyFiles> survey_;
   std::shared_ptr<const SurveyFiles> glance_;
-  std::filesystem::path journal_path_;
   std::vector<std::string> notices_;
   Progress progress_;
-  std::map<std::size_t, OpenObservationPtr> chosen_on_;  ///< under the recipe: what choices stand on
-  std::map<std::size_t, OpenObservationPtr> open_;       ///< the same, or under a calibration that a human chose
-  std::set<std::size_t> unreplayed_;                     ///< of these the journal's lines wait until something is seen
-  std::vector<std::size_t> undetected_;  ///< so does the detection that they ask for, and what runs found
-  std::shared_ptr<const CalibrationParams> calibration_;
-  OpenObservationPtr shown_;
-  std::int64_t ping_ = 0;
-  StagedPingPtr staged_;
-  std::string unreadable_;  ///< why the ping that is looked at did not arrive; empty = it did, or may
   RightOfWay way_;
-  ChoicesShown choices_;
-  std::chrono::steady_clock::time_point others_looked_at_;
-  std::map<std::int64_t, PingMask> propagating_;
-  std::set<std::size_t> detected_;
-  std::map<std::size_t, std::vector<RefusedEcho>> found_refused_;  ///< as detection told them
-  std::map<std::size_t, RefusedPtr> refused_;                      ///< those of them that are no school now
-  std::map<std::size_t, ProductPtr> products_;
-  std::vector<SurveyNumber> survey_numbers_;
-  std::map<std::size_t, std::shared_ptr<KeptMeasures>> measured_;
   std::shared_ptr<Work> work_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
-  struct Measuring {
-    CancelToken token;
-    std::shared_ptr<Work> work;
-    void cancel() const {
-      token.cancel();
-      work->cancel();
-    }
-  };
-  std::map<std::size_t, Measuring> measuring_;
-  Progress following_;  ///< a propagation's pings
-  Progress replaying_;  ///< the journal's lines
-  std::optional<std::int64_t> followed_;
-  std::int64_t measures_begun_ = 0;
-  std::int64_t measures_done_ = 0;
-  std::unique_ptr<Choices> choices_thread_;
+  std::shared_ptr<OpenSurvey> survey_;                          ///< never null; without files before the first is open
   TaskThread beside_;
-  TaskThread measures_;
   TaskThread background_;  // the last members: they end first
 };
 

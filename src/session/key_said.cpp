@@ -18,13 +18,10 @@ std::string sentence(std::string text) {
 }  // namespace
 
 KeySaid::KeySaid(Workspace& workspace, Actions& actions)
-    : workspace_(workspace),
-      listening_(workspace.document.changes().add([this](DocumentChange change) { hear(change); })) {
+    : workspace_(workspace), listening_(workspace.document.changes(), [this](DocumentChange change) { hear(change); }) {
   actions.on_press(
       [this](const Action& action, const std::string& text, bool allowed) { pressed(action, text, allowed); });
 }
-
-KeySaid::~KeySaid() { workspace_.document.changes().remove(listening_); }
 
 void KeySaid::pressed(const Action& action, const std::string& text, bool allowed) {
   ++asked_;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "session/actions.h"
+#include "session/listening.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -16,7 +17,6 @@ class KeySaid {
  public:
   /// Both outlive this.
   KeySaid(Workspace& workspace, Actions& actions);
-  ~KeySaid();
   KeySaid(const KeySaid&) = delete;
   KeySaid& operator=(const KeySaid&) = delete;
 
@@ -38,7 +38,7 @@ class KeySaid {
   std::int64_t asked_ = 0;
   Listeners<> changed_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  int listening_;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

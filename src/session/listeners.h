@@ -2,35 +2,39 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sonar {
 
-/// Those who want to hear of something; each is called in the order in which it came. One that is gone must not be called:
-/// a listener and what it listens to live equally long, or the listener goes by remove().
+/// Those who want to hear of something; each is called in the order in which it came. Whoever lives as long as what it
+/// listens to is added; anybody else has a Listening.
 /// threads  the window's
 template <class... What>
 class Listeners {
  public:
   using Listener = std::function<void(What...)>;
 
-  /// out  what remove() wants
-  int add(Listener listener) {
-    listeners_.emplace_back(++last_, std::move(listener));
-    return last_;
-  }
-  void remove(int id) {
-    std::erase_if(listeners_, [&](const auto& one) { return one.first == id; });
+  /// For as long as these are.
+  void add(Listener listener) { for_good_.push_back(listen(std::move(listener))); }
+  /// For as long as what comes back is kept, which may be longer than these are.
+  [[nodiscard]] std::shared_ptr<const void> listen(Listener listener) {
+    std::erase_if(listeners_, [](const auto& one) { return one.expired(); });
+    auto kept = std::make_shared<const Listener>(std::move(listener));
+    listeners_.push_back(kept);
+    return kept;
   }
   void tell(What... what) const {
-    const auto now = listeners_;  // a listener may add or remove others
-    for (const auto& [id, listener] : now) listener(what...);
+    const auto now = listeners_;  // a listener may add others, or end some: those are not called any more
+    for (const auto& one : now) {
+      if (const auto listener = one.lock()) (*listener)(what...);
+    }
   }
 
  private:
-  std::vector<std::pair<int, Listener>> listeners_;
-  int last_ = 0;
+  std::vector<std::weak_ptr<const Listener>> listeners_;
+  std::vector<std::shared_ptr<const void>> for_good_;
 };
 
 }  // namespace sonar

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -11,31 +12,34 @@
 
 namespace sonar {
 
-/// What a model listens to; it stops when this goes.
+/// What somebody listens to; it stops when this goes.
 class Listening {
  public:
   Listening() = default;
-  ~Listening() {
-    for (const auto& stop : stops_) stop();
+  template <class To, class Heard>
+  Listening(To& listened, Heard heard) {
+    to(listened, std::move(heard));
   }
+  ~Listening() = default;
   Listening(const Listening&) = delete;
   Listening& operator=(const Listening&) = delete;
 
-  template <class Heard, class... What>
-  void to(Listeners<What...>& listeners, Heard heard) {
-    const int id = listeners.add(std::move(heard));
-    stops_.push_back([&listeners, id] { listeners.remove(id); });
+  template <class... What>
+  void to(Listeners<What...>& listeners, typename Listeners<What...>::Listener heard) {
+    kept_.push_back(listeners.listen(std::move(heard)));
   }
-  template <class P>
-  void to(Parameters<P>& parameters, std::function<void()> heard) {
-    parameters.on_change([alive = std::weak_ptr<bool>(alive_), heard = std::move(heard)](const P&) {
-      if (!alive.expired()) heard();
-    });
+  /// heard  of the new values, or of nothing but that there are some
+  template <class P, class Heard>
+  void to(Parameters<P>& parameters, Heard heard) {
+    if constexpr (std::is_invocable_v<Heard, const P&>) {
+      to(parameters.changed(), std::move(heard));
+    } else {
+      to(parameters.changed(), [heard = std::move(heard)](const P&) { heard(); });
+    }
   }
 
  private:
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  std::vector<std::function<void()>> stops_;
+  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 }  // namespace sonar

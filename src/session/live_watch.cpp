@@ -21,7 +21,7 @@ constexpr double kPoll_s = 0.2;
 LiveWatch::LiveWatch(Workspace& workspace, AnimationDriver& animations)
     : workspace_(workspace),
       animations_(animations),
-      listening_(workspace.document.changes().add([this](DocumentChange change) {
+      listening_(workspace.document.changes(), [this](DocumentChange change) {
         if (change == DocumentChange::survey) {
           set_on(false);
           // When the document has shown what it opens with.
@@ -35,12 +35,9 @@ LiveWatch::LiveWatch(Workspace& workspace, AnimationDriver& animations)
         if (workspace_.document.ping() != asked_ping_) chasing_ = false;  // somebody looks elsewhere
         if (change == DocumentChange::ping && chasing_) go_on_with_newest();
         changed_.tell();
-      })) {}
+      }) {}
 
-LiveWatch::~LiveWatch() {
-  set_on(false);
-  workspace_.document.changes().remove(listening_);
-}
+LiveWatch::~LiveWatch() { set_on(false); }
 
 void LiveWatch::set_on(bool on) {
   if (on == this->on()) return;

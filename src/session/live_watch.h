@@ -15,6 +15,7 @@
 #include "pipeline/stages/observe_memory.h"
 #include "session/animation_driver.h"
 #include "session/listeners.h"
+#include "session/listening.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -90,10 +91,10 @@ class LiveWatch {
   std::map<std::size_t, std::shared_ptr<const ObservationProduct>> last_found_;
   Listeners<> changed_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
-  int listening_;
   std::shared_ptr<Work> work_;
   TaskThread looks_;
-  TaskThread finds_;  // the last members: they end first
+  TaskThread finds_;
+  Listening listening_;  // the last members: they end first
 };
 
 }  // namespace sonar

@@ -43,9 +43,7 @@ std::string offer_text(const MergeProposal& proposal, const JournalState& state)
 
 MergeOffer::MergeOffer(Workspace& workspace)
     : workspace_(workspace),
-      listening_(workspace.document.changes().add([this](DocumentChange change) { hear(change); })) {}
-
-MergeOffer::~MergeOffer() { workspace_.document.changes().remove(listening_); }
+      listening_(workspace.document.changes(), [this](DocumentChange change) { hear(change); }) {}
 
 void MergeOffer::hear(DocumentChange change) {
   if (change == DocumentChange::survey) {

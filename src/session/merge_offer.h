@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/journal/merge_proposals.h"
+#include "session/listening.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -28,7 +29,6 @@ class MergeOffer {
  public:
   /// The workspace outlives this.
   explicit MergeOffer(Workspace& workspace);
-  ~MergeOffer();
   MergeOffer(const MergeOffer&) = delete;
   MergeOffer& operator=(const MergeOffer&) = delete;
 
@@ -61,7 +61,7 @@ class MergeOffer {
   std::map<std::size_t, JournalStatePtr> states_;  ///< as they were last told
   Listeners<> changed_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  int listening_;
+  Listening listening_;  // the last member: it ends first
 };
 
 /// Adds school.merge_proposed and school.keep_apart.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/parameters.h"
 
 namespace sonar {
@@ -20,7 +21,7 @@ class ParameterSource {
   [[nodiscard]] virtual Result<PropertyValue> value(const std::string& name) const = 0;
   /// errors  not_found, bad_parameter; the value stands
   virtual Result<void> set(const std::string& name, const PropertyValue& to) = 0;
-  virtual void on_change(std::function<void()> listener) = 0;
+  virtual void tell_changes(Listening& to, std::function<void()> heard) = 0;
   /// A hand has taken hold of a control, or let go of it: what changes meanwhile is one change.
   virtual void hold(bool /*held*/) {}
 };
@@ -33,9 +34,7 @@ class SourceOf : public ParameterSource {
   [[nodiscard]] const std::vector<Property>& properties() const override { return parameters_.properties(); }
   [[nodiscard]] Result<PropertyValue> value(const std::string& name) const override { return parameters_.value(name); }
   Result<void> set(const std::string& name, const PropertyValue& to) override { return parameters_.set(name, to); }
-  void on_change(std::function<void()> listener) override {
-    parameters_.on_change([listener = std::move(listener)](const P&) { listener(); });
-  }
+  void tell_changes(Listening& to, std::function<void()> heard) override { to.to(parameters_, std::move(heard)); }
   void hold(bool held) override { parameters_.hold(held); }
 
  private:

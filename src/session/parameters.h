@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "base/describe.h"
 #include "base/result.h"
 #include "session/change_queue.h"
+#include "session/listeners.h"
 
 namespace sonar {
 
@@ -143,8 +143,6 @@ class PropertyAccess {
 template <class P>
 class Parameters {
  public:
-  using Listener = std::function<void(const P&)>;
-
   explicit Parameters(ChangeQueue& queue, P defaults = {})
       : queue_(queue), shared_(std::make_shared<Shared>(defaults)), defaults_(std::move(defaults)) {
     PropertyLister lister;
@@ -190,19 +188,19 @@ class Parameters {
       const auto shared = weak.lock();
       if (!shared) return;
       shared->posted = false;
-      for (const Listener& listener : shared->listeners) listener(shared->values);
+      shared->changed.tell(shared->values);
     });
   }
   /// A hand has taken hold of a slider, or let go of it.
   void hold(bool held) { held_ = held; }
   [[nodiscard]] bool held() const { return held_; }
-  void on_change(Listener listener) { shared_->listeners.push_back(std::move(listener)); }
+  [[nodiscard]] Listeners<const P&>& changed() { return shared_->changed; }
 
  private:
   struct Shared {
     explicit Shared(P initial) : values(std::move(initial)) {}
     P values;
-    std::vector<Listener> listeners;
+    Listeners<const P&> changed;
     bool posted = false;
   };
   ChangeQueue& queue_;

@@ -50,7 +50,7 @@ TEST(Parameters, ListenersHearOnceATurn) {
   ChangeQueue queue;
   Parameters<Outer> parameters(queue);
   std::vector<double> heard;
-  parameters.on_change([&](const Outer& now) { heard.push_back(now.tolerance_db); });
+  parameters.changed().add([&](const Outer& now) { heard.push_back(now.tolerance_db); });
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(parameters.set("tolerance_db", 4.0 + i));
   ASSERT_TRUE(parameters.set("mode", Choice{1}));
   queue.drain();

@@ -17,17 +17,14 @@ constexpr std::size_t kRatePings = 11;  // ten steps: as much as an eye averages
 Playback::Playback(Workspace& workspace, AnimationDriver& animations)
     : workspace_(workspace),
       animations_(animations),
-      listening_(workspace.document.changes().add([this](DocumentChange change) {
+      listening_(workspace.document.changes(), [this](DocumentChange change) {
         const auto& document = workspace_.document;
         const bool arrived = document.staged() && document.staged()->ping_index == document.ping();
         if (change == DocumentChange::notice && playing_ && !arrived) unreadable_ = true;
         if (playing_ && identity_ != (document.shown() ? document.shown()->identity() : nullptr)) pause();
-      })) {}
+      }) {}
 
-Playback::~Playback() {
-  animations_.stop(kName);
-  workspace_.document.changes().remove(listening_);
-}
+Playback::~Playback() { animations_.stop(kName); }
 
 void Playback::play() {
   Document& document = workspace_.document;

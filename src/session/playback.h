@@ -9,6 +9,7 @@
 #include <string>
 
 #include "session/animation_driver.h"
+#include "session/listening.h"
 #include "session/workspace.h"
 
 namespace sonar {
@@ -71,7 +72,7 @@ class Playback {
   std::deque<double> came_s_;            ///< when the last pings came
   bool unreadable_ = false;              ///< the ping that was asked for cannot be had
   Listeners<> changed_;
-  int listening_;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -24,7 +24,7 @@ bool unreviewed_first(const SurveySchool& a, const SurveySchool& b) {
 
 Review::Review(Workspace& workspace, const Preferences& preferences)
     : SchoolTable(workspace), preferences_(preferences) {
-  measured_listening_ = workspace.document.changes().add([this](DocumentChange change) {
+  measured_listening_.to(workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) goes_on_ = false;
     if (change == DocumentChange::state) follow_act();
     if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
@@ -32,8 +32,6 @@ Review::Review(Workspace& workspace, const Preferences& preferences)
     next();
   });
 }
-
-Review::~Review() { workspace().document.changes().remove(measured_listening_); }
 
 void Review::school_selected() {
   goes_on_ = false;  // a human has gone elsewhere

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "session/listening.h"
 #include "session/lists/school_table.h"
 #include "session/preferences.h"
 
@@ -43,7 +44,6 @@ class Review : public SchoolTable {
  public:
   /// preferences  outlive it
   Review(Workspace& workspace, const Preferences& preferences);
-  ~Review() override;
   Review(const Review&) = delete;
   Review& operator=(const Review&) = delete;
 
@@ -80,11 +80,11 @@ class Review : public SchoolTable {
   const Preferences& preferences_;
   std::string filter_;
   bool goes_on_ = false;  ///< when everything is measured
-  int measured_listening_ = 0;
   /// Decided, though the journal has not said so yet.
   std::set<std::pair<std::size_t, std::int64_t>> decided_;
   std::optional<SchoolName> left_;  ///< the last that was decided about, behind which the next one is shown
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  Listening measured_listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -125,12 +125,12 @@ std::vector<double> sv_histogram(const Volume& volume, double first_db, int bins
 
 TransferEditor::TransferEditor(Workspace& workspace) : LivePicture(workspace), workspace_(workspace) {
   const auto again = [this] { update(); };
-  workspace.view_curve.changed().add(again);
-  workspace.growth_curve.changed().add(again);
-  workspace.dark.changed().add(again);
-  growth_shown_.changed().add(again);
-  workspace.display.on_change([again](const DisplayParams&) { again(); });
-  workspace.document.changes().add([again](DocumentChange change) {
+  listening_.to(workspace.view_curve.changed(), again);
+  listening_.to(workspace.growth_curve.changed(), again);
+  listening_.to(workspace.dark.changed(), again);
+  listening_.to(growth_shown_.changed(), again);
+  listening_.to(workspace.display, again);
+  listening_.to(workspace.document.changes(), [again](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::survey) again();
   });
 }

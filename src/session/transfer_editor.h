@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "session/curves.h"
+#include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/workspace.h"
 #include "view/axes.h"
@@ -48,6 +49,7 @@ class TransferEditor : public LivePicture {
   Shared<bool> growth_shown_;
   Grip grip_ = Grip::none;
   std::size_t held_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 /// Shares of a ping's voxels by Sv: bins of 1 dB from first_db on, in parts of the fullest bin, on a logarithmic scale.

@@ -72,7 +72,7 @@ void add_window_preferences(AppModel& app) {
   Workspace& workspace = app.workspace;
   // What a key has changed comes here later, when another may have been pressed: it is followed already.
   const auto followed = std::make_shared<WindowParams>();
-  workspace.window.on_change([&app, followed](const WindowParams& now) {
+  workspace.window.changed().add([&app, followed](const WindowParams& now) {
     const WindowParams before = std::exchange(*followed, now);
     follow(app, before, now);
   });

@@ -105,7 +105,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     slices.set({sector.fans() / 2, sector.beams() / 2, sector.range().count / 2});
     lay_plane(*this);
   });
-  display.on_change([this](const DisplayParams& params) {
+  display.changed().add([this](const DisplayParams& params) {
     // A curve that a human drew keeps its shape and takes the scale's colours.
     auto curve = curve_follows_scale()
                      ? transfer_function(params.scale, kMostOpacity)

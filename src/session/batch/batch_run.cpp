@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -171,7 +172,13 @@ void Batch::begin(BatchSurvey& survey) {
       if (auto ours = require_results_of(options.out, sources.survey); !ours) return pass_on(ours);
       return run_survey(sources, options, telling, *work);
     };
-    const auto done = within_memory(run);
+    const auto done = [&]() -> Result<RunDone> {
+      try {
+        return within_memory(run);
+      } catch (const std::exception& failure) {
+        return fail(ErrorCode::io, failure.what());  // one survey fails, and neither the others nor the window
+      }
+    }();
     if (!done) telling.line({RunLine::Kind::failure, to_line(done.error())});
     Ended how = ended(done);
     how.progress = progress->now(seconds_since(begun));

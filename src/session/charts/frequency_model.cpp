@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -14,6 +16,40 @@
 #include "session/survey_schools.h"
 
 namespace sonar {
+
+using StateSchools = std::vector<std::shared_ptr<const StateSchool>>;
+using HeardPings = std::map<std::pair<std::int64_t, std::int64_t>, SchoolFans>;  ///< of a school in a ping
+
+/// What was heard of schools already, while they and those beside them stay as they are.
+/// threads  any
+class HeardSchools {
+ public:
+  [[nodiscard]] HeardPings of(const OpenObservationPtr& observation, const StateSchools& beside) {
+    const std::scoped_lock lock(mutex_);
+    return room(observation, beside).pings;
+  }
+  void add(const OpenObservationPtr& observation, const StateSchools& beside, const HeardPings::key_type& key,
+           const SchoolFans& fans) {
+    const std::scoped_lock lock(mutex_);
+    room(observation, beside).pings[key] = fans;
+  }
+
+ private:
+  struct Room {
+    std::weak_ptr<OpenObservation> observation;  ///< one that was replaced must not be held for it
+    StateSchools beside;
+    HeardPings pings;
+  };
+  Room& room(const OpenObservationPtr& observation, const StateSchools& beside) {
+    Room& room = rooms_[observation->index()];
+    if (room.observation.lock() != observation || room.beside != beside) room = {observation, beside, {}};
+    return room;
+  }
+
+  std::mutex mutex_;
+  std::map<std::size_t, Room> rooms_;
+};
+
 namespace {
 
 constexpr std::size_t kMostSchools = 10;  ///< more lines cannot be told apart
@@ -29,7 +65,7 @@ struct WishedSchool {
 /// Schools of one observation, and all that lie beside them.
 struct WishedObservation {
   OpenObservationPtr observation;
-  std::vector<std::shared_ptr<const StateSchool>> beside;
+  StateSchools beside;
   std::vector<WishedSchool> schools;
 };
 
@@ -87,11 +123,8 @@ Result<SchoolFans> heard_in(const WishedObservation& wished, const Look& look) {
 class Hearing {
  public:
   Hearing(const FrequencyWish& wish, HeardSchools& heard, PixelSize size)
-      : wish_(wish), heard_(heard), size_(size), looks_(looks_of(wish)), give_way_(wish.way) {
-    for (const auto& [index, one] : wish.observations) {
-      HeardInObservation& room = heard[index];
-      if (room.observation != one.observation || room.beside != one.beside) room = {one.observation, one.beside, {}};
-    }
+      : wish_(wish), kept_(heard), size_(size), looks_(looks_of(wish)), give_way_(wish.way) {
+    for (const auto& [index, one] : wish.observations) heard_[index] = heard.of(one.observation, one.beside);
   }
 
   [[nodiscard]] std::size_t looks() const { return looks_.size(); }
@@ -99,11 +132,15 @@ class Hearing {
   /// A ping that cannot be read any more tells nothing.
   void look(std::size_t i) {
     const Look& look = looks_[i];
-    auto& pings = heard_[look.observation].pings;
-    const auto key = std::pair(look.school->number, look.ping);
+    HeardPings& pings = heard_[look.observation];
+    const HeardPings::key_type key(look.school->number, look.ping);
     if (pings.contains(key)) return;
     give_way_();
-    if (auto heard = heard_in(wish_.observations.at(look.observation), look)) pings[key] = std::move(*heard);
+    const WishedObservation& of = wish_.observations.at(look.observation);
+    const auto heard = heard_in(of, look);
+    if (!heard) return;
+    pings[key] = *heard;
+    kept_.add(of.observation, of.beside, key, *heard);
   }
 
   /// What was heard in the first looks.
@@ -134,7 +171,7 @@ class Hearing {
   void add(std::size_t index, const WishedObservation& one, const WishedSchool& school, const Theme& theme,
            FrequencyChartData& data) const {
     SchoolFans fans;
-    for (const auto& [of, part] : heard_.at(index).pings) {
+    for (const auto& [of, part] : heard_.at(index)) {
       const bool asked = !wish_.params.one_ping || of.second == wish_.ping;
       if (of.first == school.school->number && asked) fans.add(part);
     }
@@ -145,7 +182,8 @@ class Hearing {
   }
 
   const FrequencyWish& wish_;
-  HeardSchools& heard_;
+  HeardSchools& kept_;
+  std::map<std::size_t, HeardPings> heard_;
   PixelSize size_;
   std::vector<Look> looks_;
   GivesWay give_way_;
@@ -162,7 +200,8 @@ Result<void> require_frequencies(const FrequencyWish& wish) {
 
 }  // namespace
 
-FrequencyModel::FrequencyModel(Workspace& workspace) : LivePicture(workspace), workspace_(workspace), asked_(params()) {
+FrequencyModel::FrequencyModel(Workspace& workspace)
+    : LivePicture(workspace), workspace_(workspace), asked_(params()), heard_(std::make_shared<HeardSchools>()) {
   const auto anew = [this] { update(); };
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.school.changed(), anew);
@@ -214,8 +253,8 @@ LivePicture::Build FrequencyModel::build(const PictureLook& look) {
     if (!look.panel) sight_.reset();
     return {};
   }
-  const auto heard = look.panel ? std::make_shared<HeardSchools>() : heard_;  // one picture at a time uses it
-  return [wish = std::move(wish), heard](PixelSize size, const CancelToken& token, const Show& show) -> Result<void> {
+  return [wish = std::move(wish), heard = heard_](PixelSize size, const CancelToken& token,
+                                                  const Show& show) -> Result<void> {
     if (auto known = require_frequencies(wish); !known) return known;
     Hearing hearing(wish, *heard, size);
     const auto draw = [&](std::size_t looks) -> Result<void> {

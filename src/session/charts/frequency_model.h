@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,13 +19,7 @@ struct FrequencySight {
   FrequencyChart chart;
 };
 
-/// What was heard of schools already, while they and those beside them stay as they are; by observation.
-struct HeardInObservation {
-  OpenObservationPtr observation;
-  std::vector<std::shared_ptr<const StateSchool>> beside;
-  std::map<std::pair<std::int64_t, std::int64_t>, SchoolFans> pings;  ///< of a school in a ping
-};
-using HeardSchools = std::map<std::size_t, HeardInObservation>;
+class HeardSchools;
 
 /// The selected schools over the frequencies of their fans, of all their pings or of the ping on show
 /// (picture_file.kind.frequency), and the water round them. Pings are looked at behind the window, one after the other: the
@@ -49,7 +42,7 @@ class FrequencyModel : public LivePicture {
 
   Workspace& workspace_;
   FrequencyParams asked_;
-  std::shared_ptr<HeardSchools> heard_ = std::make_shared<HeardSchools>();  ///< of builds
+  std::shared_ptr<HeardSchools> heard_;  ///< of builds, those of panels too
   std::shared_ptr<const FrequencySight> sight_;
   Listening listening_;  // the last member: it ends first
 };

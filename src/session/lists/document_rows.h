@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/rows.h"
 #include "session/workspace.h"
 
@@ -15,19 +16,16 @@ class DocumentRows : public Rows {
  public:
   DocumentRows(Workspace& workspace, std::vector<DocumentChange> shown)
       : workspace_(workspace), shown_(std::move(shown)) {
-    document_ = workspace.document.changes().add([this](DocumentChange change) {
+    listening_.to(workspace.document.changes(), [this](DocumentChange change) {
       for (const DocumentChange one : shown_) {
         if (one == change) return refresh();
       }
       if (change == DocumentChange::ping || change == DocumentChange::looking || change == DocumentChange::observation)
         moved().tell();
     });
-    school_ = workspace.school.changed().add([this] { school_selected(); });
+    listening_.to(workspace.school.changed(), [this] { school_selected(); });
   }
-  ~DocumentRows() override {
-    workspace_.document.changes().remove(document_);
-    workspace_.school.changed().remove(school_);
-  }
+  ~DocumentRows() override = default;
   DocumentRows(const DocumentRows&) = delete;
   DocumentRows& operator=(const DocumentRows&) = delete;
 
@@ -44,8 +42,7 @@ class DocumentRows : public Rows {
  private:
   Workspace& workspace_;
   std::vector<DocumentChange> shown_;
-  int document_ = 0;
-  int school_ = 0;
+  Listening listening_;
 };
 
 /// A column and what stands in it for one of what the rows are about.

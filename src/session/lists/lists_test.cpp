@@ -162,7 +162,7 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   press("review.accept");
   document().settle();
   app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
-  const int listening = document().changes().add([&](DocumentChange change) {
+  auto listening = document().changes().listen([&](DocumentChange change) {
     if (change != DocumentChange::state && change != DocumentChange::measures) return;
     if (document().survey() == nullptr || !document().choices().states.contains(0)) return;
     for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {
@@ -176,7 +176,7 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   ASSERT_TRUE(document().product(0)) << "measured without the schools";
   press("schools.detect_all");
   document().settle();
-  document().changes().remove(listening);
+  listening.reset();
   EXPECT_EQ(text("schools", 0, "Status"), "accepted");
   const std::string named = "accept school " + text("schools", 0, "School");
   EXPECT_EQ(text("journal", 0, "What"), named) << "by the school that it is about, which was not there at first";

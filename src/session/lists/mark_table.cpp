@@ -51,9 +51,7 @@ const std::vector<ColumnOf<SurveyMark>>& mark_columns() {
 MarkTable::MarkTable(AppModel& app)
     : DocumentRows(app.workspace, {DocumentChange::survey, DocumentChange::state, DocumentChange::observation}),
       titles_(titles_of(mark_columns())),
-      listening_(app.workspace.mark.changed().add([this] { moved().tell(); })) {}
-
-MarkTable::~MarkTable() { workspace().mark.changed().remove(listening_); }
+      listening_(app.workspace.mark.changed(), [this] { moved().tell(); }) {}
 
 void MarkTable::make() {
   marks_ = survey_marks(workspace().document);

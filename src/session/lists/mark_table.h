@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/lists/document_rows.h"
 #include "session/marks/marks.h"
 
@@ -13,7 +14,6 @@ namespace sonar {
 class MarkTable : public DocumentRows {
  public:
   explicit MarkTable(AppModel& app);
-  ~MarkTable() override;
   MarkTable(const MarkTable&) = delete;
   MarkTable& operator=(const MarkTable&) = delete;
 
@@ -33,7 +33,7 @@ class MarkTable : public DocumentRows {
   std::vector<ListColumn> titles_;
   std::vector<SurveyMark> marks_;
   bool pictures_ = false;  ///< a bookmark is among them
-  int listening_ = 0;
+  Listening listening_;    // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -53,9 +53,7 @@ const std::vector<ColumnOf<SurveyEcho>>& refused_columns() {
 RefusedTable::RefusedTable(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::state}),
       titles_(titles_of(refused_columns())),
-      listening_(workspace.echo.changed().add([this] { moved().tell(); })) {}
-
-RefusedTable::~RefusedTable() { workspace().echo.changed().remove(listening_); }
+      listening_(workspace.echo.changed(), [this] { moved().tell(); }) {}
 
 void RefusedTable::make() {
   echoes_.clear();

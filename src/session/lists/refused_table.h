@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/lists/document_rows.h"
 
 namespace sonar {
@@ -20,7 +21,6 @@ struct SurveyEcho {
 class RefusedTable : public DocumentRows {
  public:
   explicit RefusedTable(Workspace& workspace);
-  ~RefusedTable() override;
   RefusedTable(const RefusedTable&) = delete;
   RefusedTable& operator=(const RefusedTable&) = delete;
 
@@ -39,7 +39,7 @@ class RefusedTable : public DocumentRows {
  private:
   std::vector<ListColumn> titles_;
   std::vector<SurveyEcho> echoes_;
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

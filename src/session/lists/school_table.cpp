@@ -75,9 +75,7 @@ SchoolTable::SchoolTable(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::observation, DocumentChange::state,
                                DocumentChange::measures}),
       titles_(titles_of(school_columns())),
-      listening_(workspace.chosen_schools.changed().add([this] { moved().tell(); })) {}
-
-SchoolTable::~SchoolTable() { workspace().chosen_schools.changed().remove(listening_); }
+      listening_(workspace.chosen_schools.changed(), [this] { moved().tell(); }) {}
 
 void SchoolTable::make() { schools_ = survey_schools(workspace().document); }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/lists/document_rows.h"
 #include "session/survey_schools.h"
 
@@ -18,7 +19,6 @@ namespace sonar {
 class SchoolTable : public DocumentRows {
  public:
   explicit SchoolTable(Workspace& workspace);
-  ~SchoolTable() override;
   SchoolTable(const SchoolTable&) = delete;
   SchoolTable& operator=(const SchoolTable&) = delete;
   [[nodiscard]] const std::vector<ListColumn>& columns() const override { return titles_; }
@@ -40,7 +40,7 @@ class SchoolTable : public DocumentRows {
  private:
   std::vector<ListColumn> titles_;
   std::vector<SurveySchool> schools_;
-  int listening_ = 0;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -14,48 +14,29 @@
 #include "session/slices/slice_places.h"
 
 namespace sonar {
-namespace {
-
-template <class S>
-std::function<void()> listen(S& to, std::function<void()> what) {
-  const int id = to.changed().add(std::move(what));
-  return [&to, id] { to.changed().remove(id); };
-}
-
-}  // namespace
 
 SliceModel::SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush)
     : LivePicture(workspace), kind_(kind), workspace_(workspace), seed_(seed), brush_(brush) {
-  const int document = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
-  listening_.push_back([this, document] { workspace_.document.changes().remove(document); });
+  listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   const auto anew = [this] { update(); };
   const auto over = [this] { changed().tell(); };
   const auto recolour = [this] { forget_colours(); };
-  listening_.push_back(listen(workspace.slices, anew));
-  listening_.push_back(listen(workspace.school, anew));
-  listening_.push_back(listen(workspace.echo, anew));
-  listening_.push_back(listen(workspace.preview, anew));
-  listening_.push_back(listen(workspace.dark, anew));
-  listening_.push_back(listen(workspace.view_curve, recolour));
-  listening_.push_back(listen(workspace.curve_follows_scale, recolour));
-  listening_.push_back(listen(workspace.cursor, over));
-  listening_.push_back(listen(workspace.tool, over));
-  listening_.push_back(listen(workspace.brush_px, over));
-  listening_.push_back(listen(workspace.measurement, over));
-  workspace.display.on_change([this, alive = std::weak_ptr<bool>(alive_)](const DisplayParams&) {
-    if (!alive.expired()) forget_colours();
-  });
-  workspace.plane.on_change([this, alive = std::weak_ptr<bool>(alive_)](const PlanePlace&) {
-    if (alive.expired()) return;
+  listening_.to(workspace.slices.changed(), anew);
+  listening_.to(workspace.school.changed(), anew);
+  listening_.to(workspace.echo.changed(), anew);
+  listening_.to(workspace.preview.changed(), anew);
+  listening_.to(workspace.dark.changed(), anew);
+  listening_.to(workspace.view_curve.changed(), recolour);
+  listening_.to(workspace.curve_follows_scale.changed(), recolour);
+  listening_.to(workspace.cursor.changed(), over);
+  listening_.to(workspace.tool.changed(), over);
+  listening_.to(workspace.brush_px.changed(), over);
+  listening_.to(workspace.measurement.changed(), over);
+  listening_.to(workspace.display, recolour);
+  listening_.to(workspace.plane, [this] {
     kind_ == SliceKind::plane ? update() : changed().tell();  // the others show where it cuts them
   });
-  workspace.views.on_change([this, alive = std::weak_ptr<bool>(alive_)](const ViewSwitches&) {
-    if (!alive.expired()) changed().tell();
-  });
-}
-
-SliceModel::~SliceModel() {
-  for (const auto& end : listening_) end();
+  listening_.to(workspace.views, over);
 }
 
 void SliceModel::hear(DocumentChange change) {

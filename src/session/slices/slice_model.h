@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/slices/slice_build.h"
 #include "session/tools/brush_tool.h"
@@ -26,7 +27,6 @@ class SliceModel : public LivePicture {
   SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush);
   SliceModel(const SliceModel&) = delete;
   SliceModel& operator=(const SliceModel&) = delete;
-  ~SliceModel() override;
 
   void pointer(const PointerEvent& event) override;
   /// Of a slice that shows all there is nothing to move: fingers go through its fans, as the wheel does.
@@ -91,8 +91,7 @@ class SliceModel : public LivePicture {
     std::vector<Overlay> lines;
   };
   mutable Cuts cuts_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  std::vector<std::function<void()>> listening_;  ///< end it
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -30,8 +30,8 @@ SlicesFollow::SlicesFollow(Workspace& workspace) : workspace_(workspace), plane_
   listening_.to(workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::ping && another_ping()) follow();
   });
-  workspace.plane.on_change([this, alive = std::weak_ptr<bool>(alive_)](const PlanePlace& now) {
-    if (!alive.expired() && lies_otherwise(std::exchange(plane_, now), now)) lay_plane(workspace_);
+  listening_.to(workspace.plane, [this](const PlanePlace& now) {
+    if (lies_otherwise(std::exchange(plane_, now), now)) lay_plane(workspace_);
   });
 }
 

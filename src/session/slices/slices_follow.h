@@ -29,7 +29,6 @@ class SlicesFollow {
   Workspace& workspace_;
   std::pair<std::shared_ptr<const int>, std::int64_t> last_{nullptr, -1};  ///< observation and ping
   PlanePlace plane_;                                                       ///< as it last lay
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   Listening listening_;
 };
 

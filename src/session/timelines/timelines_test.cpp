@@ -4,6 +4,7 @@
 
 #include "publish/echogram_cache.h"
 #include "session/app_parts.h"
+#include "session/listening.h"
 #include "session/maps/test_maps.h"
 #include "session/timelines/timeline_painter.h"
 
@@ -80,8 +81,9 @@ TEST(TimelineModel, AClickMovesPlayheadsMapAndStripBeforeThePingHasArrived) {
     TimelineModel& clicked = whole_survey ? maps.survey_timeline : maps.timeline;
     ASSERT_FALSE(document.shown()->cache().held(ping));
     int playheads = 0;
-    const int one = maps.timeline.changed().add([&] { ++playheads; });
-    const int other = maps.survey_timeline.changed().add([&] { ++playheads; });
+    Listening listening;
+    listening.to(maps.timeline.changed(), [&] { ++playheads; });
+    listening.to(maps.survey_timeline.changed(), [&] { ++playheads; });
     const Image map = maps.map.image();
     const Image strip = maps.strip.image();
     TestMaps::click(clicked, place_of(clicked, document, 0, ping));
@@ -89,7 +91,6 @@ TEST(TimelineModel, AClickMovesPlayheadsMapAndStripBeforeThePingHasArrived) {
     EXPECT_EQ(document.ping(), ping);
     EXPECT_GE(playheads, 2);
     for (TimelineModel* timeline : {&maps.timeline, &maps.survey_timeline}) {
-      timeline->changed().remove(timeline == &maps.timeline ? one : other);
       ASSERT_FALSE(timeline->overlays().empty());
       EXPECT_NEAR(timeline->overlays()[0].line[0].x, place_of(*timeline, document, 0, ping).x, 1e-9);
     }

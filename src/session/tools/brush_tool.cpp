@@ -93,9 +93,7 @@ PingMask that_can_belong(const std::vector<Run>& runs, View3<const SampleFlags> 
 
 BrushTool::BrushTool(Workspace& workspace)
     : workspace_(workspace),
-      listening_(workspace.document.changes().add([this](DocumentChange change) { hear(change); })) {}
-
-BrushTool::~BrushTool() { workspace_.document.changes().remove(listening_); }
+      listening_(workspace.document.changes(), [this](DocumentChange change) { hear(change); }) {}
 
 void BrushTool::press(const SliceMap& map, PixelPoint at, bool erase, double scale) {
   const Document& document = workspace_.document;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "session/listening.h"
 #include "session/workspace.h"
 #include "view/slices/slice.h"
 
@@ -26,7 +27,6 @@ namespace sonar {
 class BrushTool {
  public:
   explicit BrushTool(Workspace& workspace);
-  ~BrushTool();
   BrushTool(const BrushTool&) = delete;
   BrushTool& operator=(const BrushTool&) = delete;
 
@@ -51,7 +51,7 @@ class BrushTool {
   PixelPoint last_;
   PingMask stroke_;
   ActTicket selects_ = 0;  ///< of the act that makes a school
-  int listening_;
+  Listening listening_;    // the last member: it ends first
 };
 
 }  // namespace sonar

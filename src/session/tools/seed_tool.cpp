@@ -20,11 +20,10 @@ bool same_depth(const GrowParams& a, const GrowParams& b) {
 
 SeedTool::SeedTool(Workspace& workspace, AnimationDriver& animations)
     : workspace_(workspace), animations_(animations), params_(grow_params(workspace.select.values())) {
-  document_listening_ = workspace.document.changes().add([this](DocumentChange change) { hear(change); });
-  curve_listening_ = workspace.growth_curve.changed().add([this] { parameters_changed(false, params_); });
-  tool_listening_ = workspace.tool.changed().add([this] { leave(); });
-  workspace.select.on_change([this, alive = std::weak_ptr<bool>(alive_)](const SelectParams& params) {
-    if (alive.expired()) return;
+  listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
+  listening_.to(workspace.growth_curve.changed(), [this] { parameters_changed(false, params_); });
+  listening_.to(workspace.tool.changed(), [this] { leave(); });
+  listening_.to(workspace.select, [this](const SelectParams& params) {
     const GrowParams was = params_;
     const GrowParams now = grow_params(params);
     const bool depth = !same_depth(now, params_);
@@ -34,12 +33,7 @@ SeedTool::SeedTool(Workspace& workspace, AnimationDriver& animations)
   });
 }
 
-SeedTool::~SeedTool() {
-  animations_.stop("grow anew");
-  workspace_.document.changes().remove(document_listening_);
-  workspace_.growth_curve.changed().remove(curve_listening_);
-  workspace_.tool.changed().remove(tool_listening_);
-}
+SeedTool::~SeedTool() { animations_.stop("grow anew"); }
 
 // --- what would be selected
 

@@ -10,6 +10,7 @@
 
 #include "base/task_thread.h"
 #include "session/animation_driver.h"
+#include "session/listening.h"
 #include "session/tools/growth.h"
 #include "session/workspace.h"
 
@@ -149,10 +150,8 @@ class SeedTool {
   JournalStatePtr state_;              ///< of the observation on show, as it was last told
   GrowParams params_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  int document_listening_;
-  int curve_listening_;
-  int tool_listening_;
-  TaskThread growing_;  // the last member: it ends first
+  TaskThread growing_;
+  Listening listening_;  // the last members: they end first
 };
 
 }  // namespace sonar

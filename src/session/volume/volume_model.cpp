@@ -44,38 +44,31 @@ Point<Sonar> at_target_depth(const Camera& camera, const CameraBasis& b, const R
 
 VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
     : LivePicture(workspace), workspace_(workspace), make_(make), live_(std::make_shared<LiveVolume>(std::move(make))) {
-  const auto listen = [this](auto& listeners, auto what) {
-    stop_listening_.push_back([&listeners, id = listeners.add(std::move(what))] { listeners.remove(id); });
-  };
-  listen(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
+  listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   for (Listeners<>* changed : {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
                                &workspace.curve_follows_scale.changed(), &workspace.school.changed(),
                                &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
-    listen(*changed, [this] { update(); });
+    listening_.to(*changed, [this] { update(); });
   }
   for (Listeners<>* changed_over :
        {&workspace.cursor.changed(), &workspace.tool.changed(), &workspace.measurement.changed()}) {
-    listen(*changed_over, [this] { changed().tell(); });
+    listening_.to(*changed_over, [this] { changed().tell(); });
   }
-  listen(workspace.camera.changed(), [this] {
+  listening_.to(workspace.camera.changed(), [this] {
     if (placing_) return;
     camera_ping_ = workspace_.document.ping();
     update();
   });
-  listen(workspace.slices.changed(), [this] {
+  listening_.to(workspace.slices.changed(), [this] {
     const VolumeParams& params = workspace_.volume.values();
     const bool shown = params.context && params.slice_planes;
     if (shown || params.clip != VolumeClip::none) update();
   });
-  const auto again = [this, here = std::weak_ptr<bool>(here_)](const auto&) {
-    if (!here.expired()) update();
-  };
-  workspace.display.on_change(again);
-  workspace.volume.on_change(again);
+  listening_.to(workspace.display, [this] { update(); });
+  listening_.to(workspace.volume, [this] { update(); });
 }
 
 VolumeModel::~VolumeModel() {
-  for (const auto& stop : stop_listening_) stop();
   if (better_) better_->cancel();
   VolumeModel::left_page();
   // Where a back-end was made it must end, and that is not the window's thread.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "publish/live_volume.h"
+#include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/workspace.h"
 
@@ -102,8 +103,8 @@ class VolumeModel : public LivePicture {
   std::shared_ptr<Work> better_;      ///< draws what may be given up
   std::shared_ptr<Work> panel_work_;  ///< draws the panel of a page
   std::string told_;                  ///< the last notice
-  std::vector<std::function<void()>> stop_listening_;
   std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -14,36 +14,37 @@ std::string text_of(const CalibrationParams& calibration) { return to_json(calib
 
 }  // namespace
 
-Recipe Document::measuring_recipe() const {
-  Recipe recipe = options_.recipe;
+Recipe OpenSurvey::measuring_recipe() const {
+  Recipe recipe = read_.recipe;
   if (calibration_) recipe.calibration = *calibration_;
   return recipe;
 }
 
-OpenObservationPtr Document::calibrated(const OpenObservationPtr& chosen_on) const {
+OpenObservationPtr OpenSurvey::calibrated(const OpenObservationPtr& chosen_on) const {
   if (!calibration_) return chosen_on;
   chosen_on->cache().rest();
   chosen_on->cache().keep_last();  // growths are tried on it, again and again
-  return std::make_shared<OpenObservation>(chosen_on, measuring_recipe(), options_.prefetch, options_.memory_bytes);
+  return std::make_shared<OpenObservation>(chosen_on, measuring_recipe(), document_.options().prefetch,
+                                           document_.options().memory_bytes);
 }
 
-void Document::follow_calibration() {
+void OpenSurvey::follow_calibration() {
   if (choices_.states.empty() || !choices_.states.begin()->second) return;
   auto calibration = choices_.states.begin()->second->calibration;
-  const std::string own = text_of(options_.recipe.calibration);
+  const std::string own = text_of(read_.recipe.calibration);
   const std::string now = calibration ? text_of(*calibration) : own;
   if (now == (calibration_ ? text_of(*calibration_) : own)) return;
   if (now == own) calibration.reset();
   calibration_ = std::move(calibration);
-  for (auto& [index, observation] : open_) {
-    observation = calibrated(chosen_on_.at(index));
-    measured_[index] = std::make_shared<KeptMeasures>();
+  for (auto& [index, at] : open_) {
+    at.open = calibrated(at.chosen_on);
+    at.kept = std::make_shared<KeptMeasures>();
   }
   tell(calibration_ ? "Sv and measures follow the chosen calibration; masks and decisions stay (undo takes it back)"
                     : "Sv and measures follow the calibration that the journal began with");
   if (!shown_) return;
-  shown_ = open_.at(shown_->index());
-  changes_.tell(DocumentChange::observation);
+  shown_ = open_.at(shown_->index()).open;
+  tell(DocumentChange::observation);
   look_at(ping_);
 }
 

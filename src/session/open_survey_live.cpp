@@ -39,36 +39,33 @@ ProductPtr with_pings(const ProductPtr& product, const ObservationFiles& observa
 
 }  // namespace
 
-void Document::take_product(std::size_t observation, const ProductPtr& product) {
-  products_[observation] = with_pings(product, survey_->observations[observation]);
+void OpenSurvey::take_product(std::size_t observation, const ProductPtr& product) {
+  open_.at(observation).product = with_pings(product, read_.files->observations[observation]);
   rest_unless_shown(observation);
-  changes_.tell(DocumentChange::measures);
+  tell(DocumentChange::measures);
 }
 
-bool Document::grow(std::shared_ptr<const SurveyFiles> survey) {
-  if (!survey_ || !choices_thread_ || !goes_on(*survey_, *survey)) return false;
-  survey_ = std::move(survey);
-  for (auto& [index, chosen_on] : chosen_on_) {
-    if (same_pings(*chosen_on, *survey_)) continue;
-    chosen_on = std::make_shared<OpenObservation>(*chosen_on, survey_, options_.prefetch, options_.memory_bytes);
-    open_[index] = calibrated(chosen_on);
-    if (auto& product = products_[index]) product = with_pings(product, survey_->observations[index]);
-    choices_thread_->grow(chosen_on);
+bool OpenSurvey::grow(std::shared_ptr<const SurveyFiles> survey) {
+  if (!read_.files || !choices_thread_ || !goes_on(*read_.files, *survey)) return false;
+  read_.files = std::move(survey);
+  const DocumentOptions& options = document_.options();
+  for (auto& [index, at] : open_) {
+    if (same_pings(*at.chosen_on, *read_.files)) continue;
+    at.chosen_on =
+        std::make_shared<OpenObservation>(*at.chosen_on, read_.files, options.prefetch, options.memory_bytes);
+    at.open = calibrated(at.chosen_on);
+    at.product = with_pings(at.product, read_.files->observations[index]);
+    choices_thread_->grow(at.chosen_on);
   }
   const OpenObservationPtr before = shown_;
   if (shown_) {
-    shown_ = open_.at(shown_->index());
+    shown_ = open_.at(shown_->index()).open;
     ping_ = std::min(ping_, shown_->pings() - 1);
   }
-  changes_.tell(DocumentChange::observation);
+  tell(DocumentChange::observation);
   // One that was on its way to the observation as it was comes no more.
   if (shown_ != before && (!staged_ || staged_->ping_index != ping_)) look_at(ping_);
   return true;
-}
-
-void Document::take_schools(std::size_t observation, const ObservationProduct& found) {
-  if (!survey_ || observation >= survey_->observations.size()) return;
-  take_detected(observation, {detected_schools(found), found.rejected, nullptr}, nullptr);
 }
 
 }  // namespace sonar

@@ -78,18 +78,18 @@ std::string why_no_grid(const ObservationFiles& observation) {
   return observation.name + " cannot be shown: it has no grid of fans and beams";
 }
 
-std::string Document::nothing_shown() const {
-  if (!survey_) return {};
+std::string OpenSurvey::nothing_shown() const {
+  if (!read_.files) return {};
   if (shown_) return staged_ ? std::string{} : unreadable_;
-  const auto& all = survey_->observations;
-  if (all.empty()) return fmt::format("there are no pings in {}", fmt::join(names_of(paths_), ", "));
+  const auto& all = read_.files->observations;
+  if (all.empty()) return fmt::format("there are no pings in {}", fmt::join(names_of(read_.paths), ", "));
   if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.grid.has_value(); })) return {};
   std::string why = why_no_grid(all.front());
   if (all.size() > 1) why += fmt::format("; nor can {} more observations", all.size() - 1);
   return why;
 }
 
-void Document::tell_beyond_reach() {
+void OpenSurvey::tell_beyond_reach() {
   const JournalLine* line = line_done(choices_);
   if (line == nullptr || line->command != "propagate") return;
   const auto act = act_of(*line);
@@ -111,7 +111,7 @@ void Document::tell_beyond_reach() {
   }
 }
 
-void Document::tell_unseen(const ChoicesShown& before) {
+void OpenSurvey::tell_unseen(const ChoicesShown& before) {
   const JournalLine* line = line_done(choices_);
   if (line == nullptr) return;
   const bool turned = line->command == "undo" || line->command == "redo";
@@ -122,7 +122,7 @@ void Document::tell_unseen(const ChoicesShown& before) {
   for (const auto& [index, now] : choices_.states) {
     const auto old = before.states.find(index);
     if (old == before.states.end() || !old->second || !now || same_choices(*old->second, *now)) continue;
-    const std::string& name = survey_->observations[index].name;
+    const std::string& name = read_.files->observations[index].name;
     if (takes_over) {
       const auto numbers = gone(*old->second, *now);
       if (!numbers.empty()) {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The schools' figures: measured behind the window after each act, those of earlier acts given up.
+#include <utility>
+
+#include "base/within_memory.h"
+#include "session/document.h"
+
+namespace sonar {
+
+ProductPtr OpenSurvey::product(std::size_t observation) const {
+  const auto found = open_.find(observation);
+  return found == open_.end() ? nullptr : found->second.product;
+}
+
+bool OpenSurvey::all_measured() const {
+  if (!read_.files) return false;
+  const auto& all = read_.files->observations;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].grid && !product(i)) return false;
+  }
+  return true;
+}
+
+void OpenSurvey::keep_survey_numbers(std::vector<SurveyNumber> numbers) {
+  survey_numbers_ = std::move(numbers);
+  tell(DocumentChange::measures);
+}
+
+void OpenSurvey::measure_changed(const ChoicesShown& before) {
+  for (const auto& [index, state] : choices_.states) {
+    const auto old = before.states.find(index);
+    if (old == before.states.end() || old->second != state) measure(index);
+  }
+}
+
+void OpenSurvey::measure(std::size_t index) {
+  const auto at = open_.find(index);
+  const JournalStatePtr state = choices_.states[index];
+  if (at == open_.end() || !state) return;
+  if (at->second.measuring) at->second.measuring->cancel();
+  if (++measures_begun_ > 1) tell(DocumentChange::progress);
+  const auto work = std::make_shared<Work>(1);
+  work->set_progress([give_way = GivesWay(document_.right_of_way())](std::string_view, std::int64_t,
+                                                                     std::int64_t) mutable { give_way(); });
+  const CancelToken posted =
+      measures_.post([this, observation = at->second.open, state, lines = choices_.lines, work, kept = at->second.kept,
+                      refused = refused(index)](const CancelToken& token) {
+        if (!token.cancelled()) measure_behind(observation, *state, *lines, refused, *kept, token, *work);
+        post({}, [this] { take_measured(); });
+      });
+  at->second.measuring = {posted, work};
+}
+
+void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
+                                const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
+                                const CancelToken& token, Work& work) {
+  GivesWay give_way(document_.right_of_way());
+  if (!kept.read) {
+    kept.measured = kept_measured(measured_file(document_.options().cache, observation->survey(), observation->files()),
+                                  key_of(*observation));
+    kept.read = true;
+  }
+  for (const std::int64_t ping_index : pings_to_measure(observation->engine(), state, kept.measured)) {
+    give_way();
+    if (token.cancelled()) return;
+    observation->estimate_background(ping_index);
+  }
+  const std::vector<JournalLine> effective = effective_lines(lines);
+  auto product = within_memory([&] {
+    return state_product(observation->engine(), state,
+                         {effective, document_.options().program_version, false, &kept.measured, *refused}, work);
+  });
+  if (!product) {
+    if (product.error().code != ErrorCode::no_space) return;
+    return post(token, [this, line = to_line(product.error())] { tell(line); });
+  }
+  auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
+  post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+}
+
+std::string OpenSurvey::key_of(OpenObservation& observation) const {
+  return key_of_find(observation.survey(), observation.files(), observation.engine().recipe(),
+                     document_.options().program_version);
+}
+
+/// For the next time the survey is opened.
+void OpenSurvey::keep_measures() {
+  for (const auto& [index, at] : open_) {
+    if (at.measuring) at.measuring->cancel();
+  }
+  measures_.wait();
+  for (const auto& [index, at] : open_) {
+    if (!at.kept->measured.changed) continue;
+    const auto file = measured_file(document_.options().cache, at.open->survey(), at.open->files());
+    keep_measured(file, key_of(*at.open), at.kept->measured);
+  }
+}
+
+void OpenSurvey::take_measured() {
+  const bool shown = measures_begun_ > 1;
+  const bool all = ++measures_done_ == measures_begun_;
+  if (all) measures_begun_ = measures_done_ = 0;
+  if (shown || all) tell(DocumentChange::progress);
+}
+
+}  // namespace sonar
