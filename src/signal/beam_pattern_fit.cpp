@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signal/beam_pattern_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/units.h"
+#include "signal/skyline.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kEdge_db = kHalfBothWays_db;
+constexpr std::size_t kFigures = BeamErrors::kFigures;
+constexpr std::size_t kShapes = 3;
+
+/// Standard deviations of what is known beforehand.
+constexpr double kLevelKnown_db = 10.0;
+constexpr double kLogWidthKnown = 0.5;
+constexpr double kCentreKnown = 0.05;  ///< of a width: the stated steering
+constexpr double kShapeKnown = 3.0;
+
+/// Levels count down to kFull_db under the top, and ever less to kNone_db: farther out the beam has no form of its own.
+constexpr double kFull_db = -11.0;
+constexpr double kNone_db = -15.0;
+constexpr int kLeastBeams = 4;
+/// A beam was crossed where so many levels lie on all sides of its centre, by so much of a width.
+constexpr int kLeastHits = 8;
+constexpr double kAside = 0.1;
+constexpr double kSettled = 1e-3;  ///< dB and widths
+constexpr int kMostIterations = 40;
+constexpr int kUnguarded = 4;  ///< iterations before outliers are left out: the start may be some dB off
+
+/// How well the form holds: near the top better than at the flanks. Only ratios count, the rest is scaled.
+double form_se_db(double under_top_db) { return 0.05 + 0.02 * std::abs(under_top_db); }
+
+double square(double x) { return x * x; }
+
+/// A level against what it should be, and how that changes.
+struct Misfit {
+  double residual_db = 0.0;
+  double weight = 0.0;  ///< 0 = takes no part
+  double under_top_db = 0.0;
+  std::array<double, kFigures> by_beam{};
+  std::array<double, 2> by_direction{};
+  std::array<double, kShapes> by_shape{};
+};
+
+/// Two equations of one ping's direction.
+struct Direct {
+  double aa = 0.0, au = 0.0, uu = 0.0;  ///< normal matrix
+  double ga = 0.0, gu = 0.0;
+  void add(const Misfit& m) {
+    aa += m.weight * m.by_direction[0] * m.by_direction[0];
+    au += m.weight * m.by_direction[0] * m.by_direction[1];
+    uu += m.weight * m.by_direction[1] * m.by_direction[1];
+    ga += m.weight * m.by_direction[0] * m.residual_db;
+    gu += m.weight * m.by_direction[1] * m.residual_db;
+  }
+  [[nodiscard]] bool sound() const {
+    const double det = aa * uu - au * au;
+    return aa > 0.0 && uu > 0.0 && det > 1e-6 * aa * uu;
+  }
+  [[nodiscard]] std::array<double, 2> solve(double a, double u) const {
+    const double det = aa * uu - au * au;
+    return {(uu * a - au * u) / det, (aa * u - au * a) / det};
+  }
+};
+
+double limited(double step, double most) { return std::clamp(step, -most, most); }
+
+class Fitter {
+ public:
+  Fitter(const std::vector<FittedBeam>& stated, const std::vector<HeardLevel>& heard, int pings)
+      : stated_(stated), heard_(heard), of_ping_(static_cast<std::size_t>(pings)), normal_(unknowns()) {
+    fit_.beams = stated;
+    fit_.errors.resize(stated.size());
+    fit_.crossed.resize(stated.size());
+    fit_.directions.resize(of_ping_.size());
+    fit_.used.resize(of_ping_.size());
+    for (std::size_t i = 0; i < heard.size(); ++i) of_ping_[static_cast<std::size_t>(heard[i].ping)].push_back(i);
+    misfits_.resize(heard.size());
+    for (std::size_t k = 0; k < kShapes; ++k) normal_.reach(unknowns() - kShapes + k, 0);
+    std::vector<std::size_t> first(stated.size());  // [beam] the first beam that shares a ping with it
+    for (std::size_t b = 0; b < first.size(); ++b) first[b] = b;
+    for (const auto& ping : of_ping_) {
+      std::size_t least = stated.size();
+      for (const std::size_t i : ping) least = std::min(least, beam(i));
+      for (const std::size_t i : ping) first[beam(i)] = std::min(first[beam(i)], least);
+    }
+    for (std::size_t row = 0; row < stated.size() * kFigures; ++row) {
+      normal_.reach(row, first[row / kFigures] * kFigures);
+    }
+  }
+
+  PatternFit run() {
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) begin(p);
+    for (int i = 0; i < kMostIterations; ++i) {
+      fit_.iterations = i + 1;
+      const bool guarded = i >= kUnguarded;
+      settle_directions(guarded);
+      set_scale();
+      count_hits();
+      const double step = improve();
+      if (guarded && step < kSettled) break;
+    }
+    settle_directions(true);
+    count_hits();
+    finish();
+    return std::move(fit_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t unknowns() const { return stated_.size() * kFigures + kShapes; }
+  [[nodiscard]] std::size_t beam(std::size_t heard) const { return static_cast<std::size_t>(heard_[heard].beam); }
+  [[nodiscard]] std::size_t row(std::size_t heard) const { return beam(heard) * kFigures; }
+
+  /// Where the strongest beams look.
+  void begin(std::size_t p) {
+    double sum = 0.0;
+    FaceDirection at;
+    for (const std::size_t i : of_ping_[p]) {
+      const FittedBeam& beam = stated_[static_cast<std::size_t>(heard_[i].beam)];
+      const double power = linear_from_db(heard_[i].level_db - beam.level_db);
+      at.across += power * beam.centre.across;
+      at.up += power * beam.centre.up;
+      sum += power;
+    }
+    if (sum > 0.0) fit_.directions[p] = {at.across / sum, at.up / sum};
+  }
+
+  Misfit misfit(std::size_t i, const FaceDirection& from, bool guarded) const {
+    const HeardLevel& heard = heard_[i];
+    const auto b = static_cast<std::size_t>(heard.beam);
+    const FittedBeam& beam = fit_.beams[b];
+    const auto& k = fit_.shape.k;
+    const double da = from.across - beam.centre.across;
+    const double du = from.up - beam.centre.up;
+    const double x = square(2.0 * da / beam.width_across);
+    const double y = square(2.0 * du / beam.width_up);
+    Misfit m;
+    m.under_top_db = fit_.shape.db(x, y);
+    m.residual_db = heard.level_db - beam.level_db - m.under_top_db;
+    const double share = std::clamp((m.under_top_db - kNone_db) / (kFull_db - kNone_db), 0.0, 1.0);
+    if (share <= 0.0) return m;
+    const double variance = square(heard.se_db) + square(form_se_db(m.under_top_db));
+    m.weight = share / variance;
+    if (guarded) {
+      constexpr double kTukey = 4.685;
+      const double far = m.residual_db / std::sqrt(variance) / (kTukey * scale_);
+      m.weight *= std::abs(far) < 1.0 ? square(1.0 - far * far) : 0.0;
+    }
+    const double by_x = -kEdge_db - k[0] * (2.0 * x - 1.0) - k[2] * y;
+    const double by_y = -kEdge_db - k[1] * (2.0 * y - 1.0) - k[2] * x;
+    const double by_across = by_x * 8.0 * da / square(beam.width_across);
+    const double by_up = by_y * 8.0 * du / square(beam.width_up);
+    m.by_beam = {1.0, -2.0 * x * by_x, -2.0 * y * by_y, -by_across * stated_[b].width_across,
+                 -by_up * stated_[b].width_up};
+    m.by_direction = {by_across, by_up};
+    m.by_shape = {x - x * x, y - y * y, -x * y};
+    return m;
+  }
+
+  Direct direct(std::size_t p, bool guarded) {
+    Direct d;
+    for (const std::size_t i : of_ping_[p]) {
+      misfits_[i] = misfit(i, fit_.directions[p], guarded);
+      d.add(misfits_[i]);
+    }
+    return d;
+  }
+
+  /// The directions that suit the beams as they are.
+  void settle_directions(bool guarded) {
+    constexpr int kSteps = 6;
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      bool sound = true;
+      for (int step = 0; step < kSteps && sound; ++step) {
+        const Direct d = direct(p, guarded);
+        sound = d.sound();
+        if (!sound) break;
+        const auto move = d.solve(d.ga, d.gu);
+        const FittedBeam& beam = stated_[static_cast<std::size_t>(heard_[of_ping_[p].front()].beam)];
+        fit_.directions[p].across += limited(move[0], beam.width_across / 3.0);
+        fit_.directions[p].up += limited(move[1], beam.width_up / 3.0);
+      }
+      int beams = 0;
+      int refused = 0;
+      const bool still = direct(p, guarded).sound() && sound;
+      for (const std::size_t i : of_ping_[p]) {
+        if (misfits_[i].under_top_db <= kNone_db) continue;
+        ++beams;
+        if (misfits_[i].weight <= 0.0) ++refused;
+      }
+      fit_.used[p] = still && beams - refused >= kLeastBeams && refused <= beams / 3;
+      if (fit_.used[p]) continue;
+      for (const std::size_t i : of_ping_[p]) misfits_[i].weight = 0.0;
+    }
+  }
+
+  /// Spread of the residuals in their own standard errors, by their median.
+  void set_scale() {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < heard_.size(); ++i) {
+      const Misfit& m = misfits_[i];
+      if (m.weight <= 0.0 || m.under_top_db < kFull_db) continue;
+      sizes.push_back(std::abs(m.residual_db) / std::hypot(heard_[i].se_db, form_se_db(m.under_top_db)));
+    }
+    if (sizes.empty()) return;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    // Never below what is known of the errors: what a direction takes away of them would leave out ever more levels.
+    scale_ = std::max(1.0, 1.4826 * *middle);
+  }
+
+  void count_hits() {
+    struct Sides {
+      double least_across = 0.0, most_across = 0.0, least_up = 0.0, most_up = 0.0;
+    };
+    std::vector<Sides> sides(stated_.size());
+    fit_.hits.assign(stated_.size(), 0);
+    for (std::size_t i = 0; i < heard_.size(); ++i) {
+      if (misfits_[i].weight <= 0.0 || misfits_[i].under_top_db < -kEdge_db) continue;
+      ++fit_.hits[beam(i)];
+      const FittedBeam& of = fit_.beams[beam(i)];
+      const FaceDirection& from = fit_.directions[static_cast<std::size_t>(heard_[i].ping)];
+      const double across = (from.across - of.centre.across) / of.width_across;
+      const double up = (from.up - of.centre.up) / of.width_up;
+      Sides& s = sides[beam(i)];
+      s = {std::min(s.least_across, across), std::max(s.most_across, across), std::min(s.least_up, up),
+           std::max(s.most_up, up)};
+    }
+    for (std::size_t b = 0; b < stated_.size(); ++b) {
+      const Sides& s = sides[b];
+      fit_.crossed[b] = fit_.hits[b] >= kLeastHits && s.least_across < -kAside && s.most_across > kAside &&
+                        s.least_up < -kAside && s.most_up > kAside;
+    }
+  }
+
+  /// Figures of a ping's beams and of the form, each with what ties it to the ping's direction.
+  struct Tied {
+    std::size_t row;
+    std::array<double, 2> to;
+  };
+
+  void fill_normal(std::vector<double>& g, std::vector<std::vector<Tied>>& ties, std::vector<Direct>& directs) {
+    normal_.clear();
+    std::fill(g.begin(), g.end(), 0.0);
+    for (std::size_t b = 0; b < stated_.size(); ++b) hold_to_stated(b, g);
+    const std::size_t shapes = unknowns() - kShapes;
+    for (std::size_t k = 0; k < kShapes; ++k) {
+      normal_.at(shapes + k, shapes + k) += 1.0 / square(kShapeKnown);
+      g[shapes + k] -= fit_.shape.k[k] / square(kShapeKnown);
+    }
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      ties[p].clear();
+      if (!fit_.used[p]) continue;
+      add_ping(p, g, ties[p], directs[p]);
+    }
+  }
+
+  void hold_to_stated(std::size_t b, std::vector<double>& g) {
+    const FittedBeam& now = fit_.beams[b];
+    const FittedBeam& was = stated_[b];
+    const std::array<double, kFigures> off = {
+        now.level_db - was.level_db, std::log(now.width_across / was.width_across),
+        std::log(now.width_up / was.width_up), (now.centre.across - was.centre.across) / was.width_across,
+        (now.centre.up - was.centre.up) / was.width_up};
+    constexpr std::array<double, kFigures> known = {kLevelKnown_db, kLogWidthKnown, kLogWidthKnown, kCentreKnown,
+                                                    kCentreKnown};
+    for (std::size_t f = 0; f < kFigures; ++f) {
+      const std::size_t i = b * kFigures + f;
+      normal_.at(i, i) += 1.0 / square(known[f]);
+      g[i] -= off[f] / square(known[f]);
+    }
+  }
+
+  void add_ping(std::size_t p, std::vector<double>& g, std::vector<Tied>& ties, Direct& direct) {
+    const std::size_t shapes = unknowns() - kShapes;
+    direct = {};
+    std::array<Tied, kShapes> of_shape{};
+    for (std::size_t k = 0; k < kShapes; ++k) of_shape[k].row = shapes + k;
+    for (const std::size_t i : of_ping_[p]) {
+      const Misfit& m = misfits_[i];
+      if (m.weight <= 0.0) continue;
+      const double w = m.weight;
+      direct.add(m);
+      for (std::size_t f = 0; f < kFigures; ++f) {
+        const double wf = w * m.by_beam[f];
+        for (std::size_t e = 0; e <= f; ++e) normal_.at(row(i) + f, row(i) + e) += wf * m.by_beam[e];
+        for (std::size_t k = 0; k < kShapes; ++k) normal_.at(shapes + k, row(i) + f) += wf * m.by_shape[k];
+        g[row(i) + f] += wf * m.residual_db;
+        ties.push_back({row(i) + f, {wf * m.by_direction[0], wf * m.by_direction[1]}});
+      }
+      for (std::size_t k = 0; k < kShapes; ++k) {
+        const double wk = w * m.by_shape[k];
+        for (std::size_t e = 0; e <= k; ++e) normal_.at(shapes + k, shapes + e) += wk * m.by_shape[e];
+        g[shapes + k] += wk * m.residual_db;
+        of_shape[k].to[0] += wk * m.by_direction[0];
+        of_shape[k].to[1] += wk * m.by_direction[1];
+      }
+    }
+    ties.insert(ties.end(), of_shape.begin(), of_shape.end());
+    // The direction is eliminated: what it takes from the other unknowns.
+    const auto moved = direct.solve(direct.ga, direct.gu);
+    for (const Tied& one : ties) {
+      const auto by = direct.solve(one.to[0], one.to[1]);
+      for (const Tied& other : ties) {
+        if (other.row <= one.row) normal_.at(one.row, other.row) -= by[0] * other.to[0] + by[1] * other.to[1];
+      }
+      g[one.row] -= one.to[0] * moved[0] + one.to[1] * moved[1];
+    }
+  }
+
+  /// One step of everything together. returns  the largest change, in widths and dB
+  double improve() {
+    std::vector<double> step(unknowns());
+    std::vector<std::vector<Tied>> ties(of_ping_.size());
+    std::vector<Direct> directs(of_ping_.size());
+    fill_normal(step, ties, directs);
+    const auto root = SkylineRoot::of(normal_);
+    if (!root) return 0.0;
+    root->solve(step);
+    double most = 0.0;
+    for (std::size_t b = 0; b < stated_.size(); ++b) {
+      const auto at = [&](std::size_t f, double limit) {
+        const double change = limited(step[b * kFigures + f], limit);
+        if (fit_.crossed[b]) most = std::max(most, std::abs(change));
+        return change;
+      };
+      FittedBeam& beam = fit_.beams[b];
+      beam.level_db += at(BeamErrors::level_db, 3.0);
+      beam.width_across *= std::exp(at(BeamErrors::log_width_across, 0.2));
+      beam.width_up *= std::exp(at(BeamErrors::log_width_up, 0.2));
+      beam.centre.across += at(BeamErrors::centre_across, 0.1) * stated_[b].width_across;
+      beam.centre.up += at(BeamErrors::centre_up, 0.1) * stated_[b].width_up;
+    }
+    for (std::size_t k = 0; k < kShapes; ++k) {
+      fit_.shape.k[k] += limited(step[unknowns() - kShapes + k], 0.5);
+    }
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      if (!fit_.used[p]) continue;
+      double a = directs[p].ga;
+      double u = directs[p].gu;
+      for (const Tied& tied : ties[p]) {
+        a -= tied.to[0] * step[tied.row];
+        u -= tied.to[1] * step[tied.row];
+      }
+      const auto move = directs[p].solve(a, u);
+      const FittedBeam& beam = stated_[static_cast<std::size_t>(heard_[of_ping_[p].front()].beam)];
+      fit_.directions[p].across += limited(move[0], beam.width_across / 3.0);
+      fit_.directions[p].up += limited(move[1], beam.width_up / 3.0);
+    }
+    return most;
+  }
+
+  /// How much of a level's own error its residual lacks, 0 .. 1: what the ping's direction and the beam took of it.
+  [[nodiscard]] std::vector<double> leverage() {
+    std::vector<double> of_beam(stated_.size());
+    for (std::size_t i = 0; i < heard_.size(); ++i) of_beam[beam(i)] += misfits_[i].weight;
+    std::vector<double> all(heard_.size());
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      if (!fit_.used[p]) continue;
+      Direct d;
+      for (const std::size_t i : of_ping_[p]) d.add(misfits_[i]);
+      for (const std::size_t i : of_ping_[p]) {
+        const Misfit& m = misfits_[i];
+        const auto by = d.solve(m.by_direction[0], m.by_direction[1]);
+        const double of_direction = m.weight * (by[0] * m.by_direction[0] + by[1] * m.by_direction[1]);
+        const double of_figures = m.weight > 0.0 ? static_cast<double>(kFigures) * m.weight / of_beam[beam(i)] : 0.0;
+        all[i] = std::min(1.0, of_direction + of_figures);
+      }
+    }
+    return all;
+  }
+
+  void finish() {
+    fit_.residual_db.assign(heard_.size(), std::numeric_limits<double>::quiet_NaN());
+    const std::vector<double> taken = leverage();
+    double squares = 0.0;
+    double weights = 0.0;
+    double unexplained = 0.0;
+    double hits = 0.0;
+    double freedom = 0.0;
+    for (std::size_t i = 0; i < heard_.size(); ++i) {
+      const Misfit& m = misfits_[i];
+      if (m.weight <= 0.0) continue;
+      fit_.residual_db[i] = m.residual_db;
+      squares += m.weight * square(m.residual_db);
+      weights += m.weight;
+      freedom += 1.0 - taken[i];
+      if (m.under_top_db < -kEdge_db) continue;
+      unexplained += square(m.residual_db) - (1.0 - taken[i]) * square(heard_[i].se_db);
+      hits += 1.0 - taken[i];
+    }
+    if (weights > 0.0) fit_.residual_rms_db = std::sqrt(squares / weights);
+    if (unexplained > 0.0) fit_.form_se_db = std::sqrt(unexplained / hits);
+    set_errors(squares / std::max(1.0, freedom));
+  }
+
+  /// variance  of a level of weight 1
+  void set_errors(double variance) {
+    std::vector<double> g(unknowns());
+    std::vector<std::vector<Tied>> ties(of_ping_.size());
+    std::vector<Direct> directs(of_ping_.size());
+    fill_normal(g, ties, directs);
+    const auto root = SkylineRoot::of(normal_);
+    if (!root) return;
+    for (std::size_t b = 0; b < stated_.size(); ++b) {
+      if (fit_.hits[b] == 0) continue;
+      std::array<std::size_t, kFigures> rows{};
+      for (std::size_t f = 0; f < kFigures; ++f) rows[f] = b * kFigures + f;
+      const std::vector<double> inverse = root->inverse_among(rows);
+      auto& covariance = fit_.errors[b].covariance;
+      for (std::size_t f = 0; f < kFigures; ++f) {
+        for (std::size_t e = 0; e < kFigures; ++e) covariance[f][e] = variance * inverse[f * kFigures + e];
+      }
+      // An error of the form at the top is one of the level; at the -6 dB contour, where a level changes by twice 6 dB with
+      // the logarithm of a width, one of the width.
+      covariance[BeamErrors::level_db][BeamErrors::level_db] += square(fit_.form_se_db);
+      for (const auto width : {BeamErrors::log_width_across, BeamErrors::log_width_up}) {
+        covariance[width][width] += square(fit_.form_se_db / (2.0 * kEdge_db));
+      }
+    }
+  }
+
+  const std::vector<FittedBeam>& stated_;
+  const std::vector<HeardLevel>& heard_;
+  std::vector<std::vector<std::size_t>> of_ping_;  ///< [ping] -> indices of heard
+  std::vector<Misfit> misfits_;                    ///< [heard]
+  Skyline normal_;
+  double scale_ = 1.0;
+  PatternFit fit_;
+};
+
+}  // namespace
+
+PatternFit fit_patterns(const std::vector<FittedBeam>& stated, const std::vector<HeardLevel>& heard, int pings) {
+  return Fitter(stated, heard, pings).run();
+}
+
+}  // namespace sonar
