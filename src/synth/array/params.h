@@ -34,6 +34,8 @@ struct Elements {
   double pulse_taper = 0.7;
   PsiLaw psi_law = PsiLaw::exact;
   double psi_excess_db = 6.0;
+  double gain_error_db = 0.0;
+  double sa_error_db = 0.0;
 };
 
 template <class Visitor>
@@ -114,6 +116,18 @@ void describe(Visitor& v, Elements& p) {
            .max = 10,
            .text = "Error of the stated equivalent beam angle at 45 degrees of elevation, with law cos4. Change it to "
                    "test how an angle stated too large or too small biases Sv."});
+  v.field("gain_error_db", p.gain_error_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 6,
+           .text = "Standard deviation of the error of each beam's stated gain. Raise it to test a sonar whose "
+                   "calibration is out of date; truth/beams.csv has what is stated and what is true."});
+  v.field("sa_error_db", p.sa_error_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 3,
+           .text = "Standard deviation of the error of each beam's stated sa correction. Raise it to test the same of "
+                   "the other half of a calibration."});
 }
 
 /// Single fish: their echoes and how they stand in the water.
@@ -268,6 +282,48 @@ void describe(Visitor& v, Company& p) {
                    "for deep water whose seabed is out of reach."});
 }
 
+/// A calibration sphere that is steered through the beams.
+enum class SphereMaterial { tungsten_carbide, copper };
+inline constexpr std::array<std::string_view, 2> kSphereMaterialNames = {"tungsten_carbide", "copper"};
+struct SphereParams {
+  double diameter_mm = 0.0;
+  SphereMaterial material = SphereMaterial::tungsten_carbide;
+  double range_m = 60.0;
+  double elevation_from_deg = -45.0;
+  double elevation_to_deg = 0.0;
+  double azimuth_from_deg = -30.0;
+  double azimuth_to_deg = 30.0;
+};
+
+template <class Visitor>
+void describe(Visitor& v, SphereParams& p) {
+  v.field("diameter_mm", p.diameter_mm,
+          {.unit = "mm",
+           .min = 0,
+           .max = 200,
+           .text = "Diameter of the sphere; 0 for none. Choose 38.1 to test a calibration with the usual sphere of "
+                   "tungsten carbide. Where there is one, pings are recorded to 30 m beyond it."});
+  v.choice("material", p.material, kSphereMaterialNames,
+           "What the sphere is made of. Choose copper to test a calibration with the other usual kind.");
+  v.field("range_m", p.range_m,
+          {.unit = "m",
+           .min = 20,
+           .max = 400,
+           .text = "Range at which the sphere hangs, which varies by some metres. Raise it to test a calibration with "
+                   "weak echoes."});
+  const auto bound = [&v](std::string_view name, double& value, double most, std::string_view text) {
+    v.field(name, value, {.unit = "deg", .min = -most, .max = most, .text = text});
+  };
+  bound("elevation_from_deg", p.elevation_from_deg, 90,
+        "Elevation of the lowest line that the sphere is steered along. Raise it to leave out the deep fans.");
+  bound("elevation_to_deg", p.elevation_to_deg, 90,
+        "Elevation of the uppermost line that the sphere is steered along. Lower it to leave out the upper fans.");
+  bound("azimuth_from_deg", p.azimuth_from_deg, 90,
+        "Azimuth from abeam, positive to the bow, at the aft end of the lines. Raise it to leave out the aft beams.");
+  bound("azimuth_to_deg", p.azimuth_to_deg, 90,
+        "Azimuth from abeam at the fore end of the lines. Lower it to leave out the forward beams.");
+}
+
 enum class Waters { stated, random };
 inline constexpr std::array<std::string_view, 2> kWatersNames = {"stated", "random"};
 
@@ -291,6 +347,7 @@ struct ArrayParams {
   Elements elements;
   FishParams fish;
   Company company;
+  SphereParams sphere;
 };
 
 template <class Visitor>
@@ -380,10 +437,15 @@ void describe(Visitor& v, ArrayParams& p) {
   v.group("elements", p.elements, "the array that sends and receives");
   v.group("fish", p.fish, "single fish");
   v.group("company", p.company, "other scatterers and the state of the water, for waters = stated");
+  v.group("sphere", p.sphere, "a calibration sphere that is steered through the beams");
 }
 
 /// errors  bad_parameter: a field out of range, or a range upside down
 [[nodiscard]] Result<void> check(const ArrayParams& params);
+
+/// A run for calibration: a ship at anchor in quiet water without schools, a sphere of tungsten carbide of 38.1 mm that is
+/// steered through all beams, and stated gains and sa corrections that err.
+[[nodiscard]] ArrayParams sphere_run();
 
 /// The other scatterers of one observation: as stated, or drawn from the seed, each kind absent in three waters of ten.
 [[nodiscard]] Company company_of(const ArrayParams& params, int observation);
