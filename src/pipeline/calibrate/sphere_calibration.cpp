@@ -16,6 +16,10 @@
 namespace sonar {
 namespace {
 
+/// The sound speed of the water is known so well, and the sphere's TS must not change by more with it: near a null of the
+/// series a sphere is no measure, and what is averaged over the pulse's band depends on the pulse's form.
+constexpr double kSpeedKnown_mps = 1.0;
+constexpr double kSteepest_db = 0.2;
 /// What lies beyond the main lobe is not in the fitted pattern's integral: side lobes of a shaded array hold so much.
 constexpr double kBeyondLobe_db = 0.15;
 /// An echo tells the pulse's form where noise is this small.
@@ -120,10 +124,14 @@ void fill_beams(const ObservationFiles& observation, const SphereBeams& beams, c
     if (!beams.sound[row]) continue;
     b.ts_per_mps_db = ts_per_mps(params, beams.calibration[row]);
     b.hits = fit.hits[row];
-    b.crossed = fit.crossed[row];
+    const double ts_se_db = kSpeedKnown_mps * b.ts_per_mps_db;
+    b.crossed = fit.crossed[row] && ts_se_db <= kSteepest_db;
+    b.near_null = fit.crossed[row] && !b.crossed;
     if (!b.crossed) continue;
+    BeamErrors errors = fit.errors[row];
+    errors.covariance[BeamErrors::level_db][BeamErrors::level_db] += square(ts_se_db);
     const double sa_db = db_from_linear(pulses_per_sample) - tops[row].share_db;
-    b.after = fitted_figures(fit.beams[row], fit.errors[row], fit.shape, sa_db, tops[row].se_db);
+    b.after = fitted_figures(fit.beams[row], errors, fit.shape, sa_db, tops[row].se_db);
     b.after.channel = b.before.channel;
     b.off_across_deg = deg_from_rad(fit.beams[row].centre.across - beams.stated[row].centre.across);
     b.off_up_deg = deg_from_rad(fit.beams[row].centre.up - beams.stated[row].centre.up);

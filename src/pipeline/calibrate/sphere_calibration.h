@@ -23,6 +23,7 @@ struct CalibratedBeam {
   double ts_db = 0.0;           ///< of the sphere in this beam's pulse
   double ts_per_mps_db = 0.0;   ///< how that changes with the sound speed of the water, at most, dB for 1 m/s
   int hits = 0;                 ///< pings with the sphere inside its -6 dB contour
+  bool near_null = false;       ///< crossed, but at this frequency the sphere's TS is not known well enough
   bool crossed = false;         ///< hits on all sides: `after` is known
   double off_across_deg = 0.0;  ///< where the beam looks beside where it should, along the ship and up
   double off_up_deg = 0.0;

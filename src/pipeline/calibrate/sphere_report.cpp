@@ -21,10 +21,6 @@ constexpr std::array<std::string_view, 10> kColumns = {
     "gain_db",    "sa_correction_db",    "psi_db",    "width_along_deg",    "width_athwart_deg",
     "gain_db_se", "sa_correction_db_se", "psi_db_se", "width_along_deg_se", "width_athwart_deg_se"};
 
-/// Uncertain speed of sound of the water, and how much of the sphere's TS it may move before that is told.
-constexpr double kSpeedUnsure_mps = 3.0;
-constexpr double kSteep_db = 0.1;
-
 /// "0-4, 20, 22-24"
 std::string spans(const std::vector<int>& numbers) {
   std::string text;
@@ -62,7 +58,7 @@ FanLine fan_line(const SphereCalibration& made, int fan) {
   for (const CalibratedBeam& b : made.beams) {
     if (b.fan != fan) continue;
     if (!b.crossed) {
-      line.left.push_back(b.beam);
+      if (!b.near_null) line.left.push_back(b.beam);
       continue;
     }
     ++line.crossed;
@@ -97,7 +93,8 @@ std::string fan_lines(const SphereCalibration& made) {
   }
   std::vector<int> whole;
   for (int fan = 0; fan < fans; ++fan) {
-    if (fan_line(made, fan).crossed == 0) whole.push_back(fan);
+    const FanLine line = fan_line(made, fan);
+    if (line.crossed == 0 && !line.left.empty()) whole.push_back(fan);
   }
   if (!whole.empty()) left += fmt::format("; all of fan {}", spans(whole));
   if (!left.empty()) text += "\nnot crossed, as they were: " + left.substr(2) + "\n";
@@ -122,18 +119,17 @@ std::string beam_lines(const SphereCalibration& made) {
   return text;
 }
 
-/// Fans whose TS a small error of the sound speed moves: near a null of the series a sphere is a bad measure.
-std::string steep_fans(const SphereCalibration& made) {
+/// Near a null of the series a sphere is no measure.
+std::string fans_near_null(const SphereCalibration& made) {
   std::vector<int> fans;
   for (const CalibratedBeam& b : made.beams) {
-    if (!b.crossed || kSpeedUnsure_mps * b.ts_per_mps_db < kSteep_db) continue;
-    if (fans.empty() || fans.back() != b.fan) fans.push_back(b.fan);
+    if (b.near_null && (fans.empty() || fans.back() != b.fan)) fans.push_back(b.fan);
   }
   if (fans.empty()) return "";
   return fmt::format(
-      "uncertain: in fan {} the sphere's TS changes by {} dB and more with {} m/s of the water's sound "
-      "speed; measure it, or take another sphere for these\n",
-      spans(fans), kSteep_db, kSpeedUnsure_mps);
+      "crossed, but as they were: beams of fan {}, at whose frequency this sphere's TS depends too much on "
+      "the sound speed (another sphere is needed)\n",
+      spans(fans));
 }
 
 }  // namespace
@@ -174,7 +170,7 @@ std::string calibration_text(const SphereCalibration& made, const SphereRunParam
       made.fit.residual_rms_db, made.fit.form_se_db);
   text += fan_lines(made);
   if (every_beam) text += beam_lines(made);
-  text += steep_fans(made);
+  text += fans_near_null(made);
   for (const std::string& name : made.left_out) {
     text +=
         fmt::format("left out: {}, which has no fans of beams, or others than {}\n", name, made.observations.front());
@@ -215,6 +211,7 @@ std::string calibration_json_text(const SphereCalibration& made, const SphereRun
                         {"sphere_ts_per_mps_db", b.ts_per_mps_db},
                         {"hits", b.hits},
                         {"crossed", b.crossed},
+                        {"near_null", b.near_null},
                         {"before", beams_to_json({b.before})[0]}};
     if (b.crossed) {
       beam["after"] = beams_to_json({b.after})[0];
