@@ -135,10 +135,10 @@ void add_calibrate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--water", arguments->water,
                    "Water around the sphere: temperature in deg C, salinity in psu, depth in m; otherwise the raw "
                    "files' sound speed")
-      ->check(numbers_between_commas("T,S,D"));
+      ->check(numbers_between_commas("T,S,DEPTH"));
   verb->add_option("--range", arguments->range,
                    "The sphere lies between these ranges in m; otherwise anywhere from 10 m on")
-      ->check(numbers_between_commas("A,B"));
+      ->check(numbers_between_commas("FROM,TO"));
   verb->add_option("--recipe", arguments->recipe, "Parameters of absorption and ranges (see sonarx recipe)")
       ->check(named_file());
   verb->add_option("--sound-speed", arguments->sound_speed, kSoundSpeedHelp)->check(named_path("X|FILE"));
