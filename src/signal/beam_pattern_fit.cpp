@@ -19,7 +19,7 @@ constexpr std::size_t kShapes = 3;
 /// Standard deviations of what is known beforehand.
 constexpr double kLevelKnown_db = 10.0;
 constexpr double kLogWidthKnown = 0.5;
-constexpr double kCentreKnown = 0.05;  ///< of a width: the stated steering
+constexpr double kCentreKnown = 0.02;  ///< of a width: the stated steering
 constexpr double kShapeKnown = 3.0;
 
 /// Levels count down to kFull_db under the top, and ever less to kNone_db: farther out the beam has no form of its own.
@@ -28,10 +28,15 @@ constexpr double kNone_db = -15.0;
 constexpr int kLeastBeams = 4;
 /// A beam was crossed where so many levels lie on all sides of its centre, by so much of a width.
 constexpr int kLeastHits = 8;
-constexpr double kAside = 0.1;
+constexpr double kAside = 0.25;
+/// Of a width: towards the ends of what the sphere crossed the scale of the directions is known no better, for it follows
+/// from beams whose form differs.
+constexpr double kScaleKnown = 0.03;
 constexpr double kSettled = 1e-3;  ///< dB and widths
 constexpr int kMostIterations = 40;
-constexpr int kUnguarded = 4;  ///< iterations before outliers are left out: the start may be some dB off
+constexpr int kUnguarded = 4;
+constexpr int kSettling =
+    8;  ///< iterations before whole pings are left out, for good  ///< iterations before outliers are left out: the start may be some dB off
 
 /// How well the form holds: near the top better than at the flanks. Only ratios count, the rest is scaled.
 double form_se_db(double under_top_db) { return 0.05 + 0.02 * std::abs(under_top_db); }
@@ -43,6 +48,8 @@ struct Misfit {
   double residual_db = 0.0;
   double weight = 0.0;  ///< 0 = takes no part
   double under_top_db = 0.0;
+  double share = 0.0;   ///< 1 near the top, 0 where no form is known
+  double excess = 0.0;  ///< residual over its standard error
   std::array<double, kFigures> by_beam{};
   std::array<double, 2> by_direction{};
   std::array<double, kShapes> by_shape{};
@@ -82,6 +89,7 @@ class Fitter {
     fit_.used.resize(of_ping_.size());
     for (std::size_t i = 0; i < heard.size(); ++i) of_ping_[static_cast<std::size_t>(heard[i].ping)].push_back(i);
     misfits_.resize(heard.size());
+    disturbed_.resize(of_ping_.size());
     for (std::size_t k = 0; k < kShapes; ++k) normal_.reach(unknowns() - kShapes + k, 0);
     std::vector<std::size_t> first(stated.size());  // [beam] the first beam that shares a ping with it
     for (std::size_t b = 0; b < first.size(); ++b) first[b] = b;
@@ -101,10 +109,11 @@ class Fitter {
       fit_.iterations = i + 1;
       const bool guarded = i >= kUnguarded;
       settle_directions(guarded);
+      if (i >= kSettling) leave_out_disturbed();
       set_scale();
       count_hits();
       const double step = improve();
-      if (guarded && step < kSettled) break;
+      if (i > kSettling && step < kSettled) break;
     }
     settle_directions(true);
     count_hits();
@@ -143,14 +152,15 @@ class Fitter {
     Misfit m;
     m.under_top_db = fit_.shape.db(x, y);
     m.residual_db = heard.level_db - beam.level_db - m.under_top_db;
-    const double share = std::clamp((m.under_top_db - kNone_db) / (kFull_db - kNone_db), 0.0, 1.0);
-    if (share <= 0.0) return m;
+    m.share = std::clamp((m.under_top_db - kNone_db) / (kFull_db - kNone_db), 0.0, 1.0);
+    if (m.share <= 0.0) return m;
     const double variance = square(heard.se_db) + square(form_se_db(m.under_top_db));
-    m.weight = share / variance;
+    m.excess = std::abs(m.residual_db) / std::sqrt(variance);
+    m.weight = m.share / variance;
     if (guarded) {
       constexpr double kTukey = 4.685;
-      const double far = m.residual_db / std::sqrt(variance) / (kTukey * scale_);
-      m.weight *= std::abs(far) < 1.0 ? square(1.0 - far * far) : 0.0;
+      const double far = m.excess / (kTukey * scale_);
+      m.weight *= far < 1.0 ? square(1.0 - far * far) : 0.0;
     }
     const double by_x = -kEdge_db - k[0] * (2.0 * x - 1.0) - k[2] * y;
     const double by_y = -kEdge_db - k[1] * (2.0 * y - 1.0) - k[2] * x;
@@ -194,9 +204,41 @@ class Fitter {
         ++beams;
         if (misfits_[i].weight <= 0.0) ++refused;
       }
-      fit_.used[p] = still && beams - refused >= kLeastBeams && refused <= beams / 3;
-      if (fit_.used[p]) continue;
-      for (const std::size_t i : of_ping_[p]) misfits_[i].weight = 0.0;
+      fit_.used[p] = !disturbed_[p] && still && beams - refused >= kLeastBeams && refused <= beams / 3;
+      if (!fit_.used[p]) leave_out(p);
+    }
+  }
+
+  void leave_out(std::size_t p) {
+    fit_.used[p] = false;
+    for (const std::size_t i : of_ping_[p]) misfits_[i].weight = 0.0;
+  }
+
+  /// A fish beside the sphere is heard by several beams, by some so little that they look sound: the whole ping goes where
+  /// its levels fit together much worse than those of other pings.
+  void leave_out_disturbed() {
+    constexpr double kMuchWorse = 1.7;
+    std::vector<double> misfit_of(of_ping_.size());
+    std::vector<double> sorted;
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      if (!fit_.used[p]) continue;
+      double sum = 0.0;
+      double shares = 0.0;
+      for (const std::size_t i : of_ping_[p]) {
+        sum += misfits_[i].share * square(misfits_[i].excess);
+        shares += misfits_[i].share;
+      }
+      misfit_of[p] = std::sqrt(sum / shares);
+      sorted.push_back(misfit_of[p]);
+    }
+    if (sorted.empty()) return;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double most = kMuchWorse * std::max(1.0, *middle);
+    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
+      if (misfit_of[p] <= most) continue;
+      disturbed_[p] = true;
+      leave_out(p);
     }
   }
 
@@ -421,7 +463,7 @@ class Fitter {
       // the logarithm of a width, one of the width.
       covariance[BeamErrors::level_db][BeamErrors::level_db] += square(fit_.form_se_db);
       for (const auto width : {BeamErrors::log_width_across, BeamErrors::log_width_up}) {
-        covariance[width][width] += square(fit_.form_se_db / (2.0 * kEdge_db));
+        covariance[width][width] += square(fit_.form_se_db / (2.0 * kEdge_db)) + square(kScaleKnown);
       }
     }
   }
@@ -430,6 +472,7 @@ class Fitter {
   const std::vector<HeardLevel>& heard_;
   std::vector<std::vector<std::size_t>> of_ping_;  ///< [ping] -> indices of heard
   std::vector<Misfit> misfits_;                    ///< [heard]
+  std::vector<bool> disturbed_;                    ///< [ping]
   Skyline normal_;
   double scale_ = 1.0;
   PatternFit fit_;

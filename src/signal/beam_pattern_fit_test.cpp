@@ -63,8 +63,8 @@ World world(double noise_db, double form) {
     beam.centre.up += 0.001 * numbers.normal();
   }
   for (int p = 0; p < kPings; ++p) {
-    const FaceDirection at{numbers.uniform(-0.03, kSpacing * (kBeams - 1) + 0.03),
-                           numbers.uniform(-0.03, kSpacing * (kFans - 1) + 0.03)};
+    const FaceDirection at{numbers.uniform(-0.05, kSpacing * (kBeams - 1) + 0.05),
+                           numbers.uniform(-0.05, kSpacing * (kFans - 1) + 0.05)};
     w.at.push_back(at);
     for (std::size_t b = 0; b < w.beams.size(); ++b) {
       const FittedBeam& beam = w.beams[b];
@@ -90,7 +90,7 @@ TEST(PatternFit, BeamsAndDirectionsComeBackFromLevelsAlone) {
     EXPECT_NEAR(fit.beams[b].width_across / w.beams[b].width_across, 1.0, 0.02) << b;
     EXPECT_NEAR(fit.beams[b].width_up / w.beams[b].width_up, 1.0, 0.02) << b;
   }
-  EXPECT_GE(crossed, kFans * kBeams - 4);
+  EXPECT_GE(crossed, (kFans - 2) * (kBeams - 2));  // outside the outermost too few beams hear the sphere
   for (std::size_t p = 0; p < w.at.size(); ++p) {
     if (!fit.used[p]) continue;
     EXPECT_NEAR(fit.directions[p].across, w.at[p].across, 0.003) << p;
@@ -109,7 +109,7 @@ TEST(PatternFit, StandardErrorsCoverTheTruth) {
     sum += std::pow(fit.beams[b].level_db - w.beams[b].level_db, 2) / variance;
     n += 1.0;
   }
-  ASSERT_GT(n, 15.0);
+  ASSERT_GT(n, 10.0);
   EXPECT_GT(std::sqrt(sum / n), 0.5);
   EXPECT_LT(std::sqrt(sum / n), 1.5);
 }

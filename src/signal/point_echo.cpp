@@ -13,12 +13,79 @@ namespace {
 
 constexpr int kGap = 2;      ///< samples between the window and those that tell the noise
 constexpr int kBeside = 10;  ///< of these on either side
-constexpr int kLeastInGroup = 5;
+constexpr std::size_t kLeastInGroup = 5;
+constexpr double kNormal = 1.4826;         ///< standard over middle deviation
+constexpr double kErrorOfMiddle = 1.2533;  ///< over that of a mean
+
+/// The middle, and its standard error by the middle deviation: one echo beside another's does not count.
+EchoTop middle_of(std::vector<double>& shares_db) {
+  if (shares_db.empty()) return {};
+  const auto half = static_cast<std::ptrdiff_t>(shares_db.size() / 2);
+  const auto middle = [half](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + half, values.end());
+    return values[static_cast<std::size_t>(half)];
+  };
+  const double share_db = middle(shares_db);
+  for (double& share : shares_db) share = std::abs(share - share_db);
+  const double n = static_cast<double>(shares_db.size());
+  return {share_db, kErrorOfMiddle * kNormal * middle(shares_db) / std::sqrt(n), static_cast<int>(shares_db.size())};
+}
 
 /// Sums over a group, to take its mean off.
 struct GroupSums {
   double n = 0.0, u = 0.0, uu = 0.0, y = 0.0;
 };
+
+struct PulseForm {
+  double b = 0.0;
+  double c = 0.0;
+  [[nodiscard]] double top_db(const OffTop& e) const {
+    return e.share_db - b * std::abs(e.off_samples) - c * e.off_samples * e.off_samples;
+  }
+};
+
+/// By least squares over what differs within groups; held near nothing where the echoes all lie alike.
+PulseForm form_of(std::span<const OffTop> echoes, std::size_t groups) {
+  std::vector<GroupSums> sums(groups);
+  for (const OffTop& e : echoes) {
+    GroupSums& s = sums[e.group];
+    const double u = std::abs(e.off_samples);
+    s.n += 1.0;
+    s.u += u;
+    s.uu += u * u;
+    s.y += e.share_db;
+  }
+  constexpr double kHeld = 1e-3;
+  double aa = kHeld, ab = 0.0, bb = kHeld, ga = 0.0, gb = 0.0;
+  for (const OffTop& e : echoes) {
+    const GroupSums& s = sums[e.group];
+    const double u = std::abs(e.off_samples) - s.u / s.n;
+    const double uu = e.off_samples * e.off_samples - s.uu / s.n;
+    const double y = e.share_db - s.y / s.n;
+    aa += u * u;
+    ab += u * uu;
+    bb += uu * uu;
+    ga += u * y;
+    gb += uu * y;
+  }
+  const double det = aa * bb - ab * ab;
+  return {(bb * ga - ab * gb) / det, (aa * gb - ab * ga) / det};
+}
+
+std::vector<EchoTop> tops_of(std::span<const OffTop> echoes, const PulseForm& form, std::size_t groups) {
+  std::vector<std::vector<double>> tops(groups + 1);  // the last: of all
+  for (const OffTop& e : echoes) {
+    tops[e.group].push_back(form.top_db(e));
+    tops[groups].push_back(form.top_db(e));
+  }
+  const EchoTop all = middle_of(tops[groups]);
+  std::vector<EchoTop> out;
+  for (std::size_t g = 0; g < groups; ++g) {
+    out.push_back(tops[g].size() >= kLeastInGroup ? middle_of(tops[g]) : all);
+    out.back().echoes = static_cast<int>(tops[g].size());
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -51,51 +118,21 @@ PointEcho point_echo(std::span<const std::int16_t> counts, int around, int half_
 }
 
 std::vector<EchoTop> echo_tops(std::span<const OffTop> echoes, std::size_t groups) {
-  // b and c by least squares over what differs within groups, held near nothing where the echoes all lie alike.
-  std::vector<GroupSums> sums(groups);
-  for (const OffTop& e : echoes) {
-    GroupSums& s = sums[e.group];
-    const double u = std::abs(e.off_samples);
-    s.n += 1.0;
-    s.u += u;
-    s.uu += u * u;
-    s.y += e.share_db;
+  constexpr int kRounds = 4;
+  constexpr double kFar = 4.0;  // standard deviations: another echo overlaps
+  std::vector<OffTop> sound(echoes.begin(), echoes.end());
+  std::vector<EchoTop> tops;
+  for (int round = 0; round < kRounds; ++round) {
+    const PulseForm form = form_of(sound, groups);
+    tops = tops_of(sound, form, groups);
+    std::vector<double> off;
+    for (const OffTop& e : sound) off.push_back(std::abs(form.top_db(e) - tops[e.group].share_db));
+    const double spread_db = middle_of(off).share_db;
+    std::erase_if(sound, [&](const OffTop& e) {
+      return std::abs(form.top_db(e) - tops[e.group].share_db) > kFar * kNormal * spread_db;
+    });
   }
-  constexpr double kHeld = 1e-3;
-  double aa = kHeld, ab = 0.0, bb = kHeld, ga = 0.0, gb = 0.0;
-  for (const OffTop& e : echoes) {
-    const GroupSums& s = sums[e.group];
-    const double u = std::abs(e.off_samples) - s.u / s.n;
-    const double uu = e.off_samples * e.off_samples - s.uu / s.n;
-    const double y = e.share_db - s.y / s.n;
-    aa += u * u;
-    ab += u * uu;
-    bb += uu * uu;
-    ga += u * y;
-    gb += uu * y;
-  }
-  const double det = aa * bb - ab * ab;
-  const double b = (bb * ga - ab * gb) / det;
-  const double c = (aa * gb - ab * ga) / det;
-  double squares = 0.0;
-  double sum = 0.0;
-  const auto at_top = [&](const OffTop& e) {
-    return e.share_db - b * std::abs(e.off_samples) - c * e.off_samples * e.off_samples;
-  };
-  std::vector<double> tops(groups);
-  for (const OffTop& e : echoes) {
-    tops[e.group] += at_top(e) / sums[e.group].n;
-    sum += at_top(e);
-  }
-  for (const OffTop& e : echoes) squares += std::pow(at_top(e) - tops[e.group], 2);
-  const auto all = static_cast<double>(echoes.size());
-  const double spread = all > 1.0 ? std::sqrt(squares / (all - 1.0)) : 0.0;
-  std::vector<EchoTop> out(groups);
-  for (std::size_t g = 0; g < groups && all > 0.0; ++g) {
-    const bool own = sums[g].n >= kLeastInGroup;
-    out[g] = {own ? tops[g] : sum / all, spread / std::sqrt(own ? sums[g].n : all), static_cast<int>(sums[g].n)};
-  }
-  return out;
+  return tops;
 }
 
 }  // namespace sonar

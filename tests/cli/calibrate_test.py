@@ -8,8 +8,8 @@ import sonarx
 from sonarx import Case, run
 
 # Some beams around -9 degrees, which a sphere at 35 m crosses in pings enough.
-PATCH = {"sphere": {"range_m": 35, "elevation_from_deg": -12, "elevation_to_deg": -6.5, "azimuth_from_deg": -4,
-                    "azimuth_to_deg": 4}}
+PATCH = {"sphere": {"range_m": 35, "elevation_from_deg": -14, "elevation_to_deg": -5, "azimuth_from_deg": -6,
+                    "azimuth_to_deg": 6}}
 
 
 def rows(path):
@@ -23,7 +23,7 @@ class Calibrate(Case):
         cls.folder = cls.fresh("calibrate")
         cls.survey, cls.table = cls.folder / "sphere", cls.folder / "calibration.csv"
         (cls.folder / "patch.json").write_text(json.dumps(PATCH))
-        code, _, err = run("simulate", cls.survey, "--physics", "array", "--sphere", "wc38.1", "--pings", 110, "--seed", 4,
+        code, _, err = run("simulate", cls.survey, "--physics", "array", "--sphere", "wc38.1", "--pings", 130, "--seed", 4,
                            "--params", cls.folder / "patch.json")
         assert code == 0, err
         code, cls.said, err = run("calibrate", cls.survey, "--sphere", "wc38.1", "--out", cls.table)
@@ -54,7 +54,7 @@ class Calibrate(Case):
                                       self.folder / "again.csv"))
         self.assertEqual((self.folder / "again.csv").read_text(), self.table.read_text())
         self.assertEqual(len(told["beams"]), 500)
-        self.assertEqual(told["pings"], 110)
+        self.assertEqual(told["pings"], 130)
         self.assertEqual([b["channel"] for b in told["beams"] if b["crossed"]], sorted(rows(self.table)))
         for beam in told["beams"]:
             self.assertEqual("after" in beam, beam["crossed"])

@@ -54,8 +54,10 @@ void gather(const SphereTrack& track, SphereCalibration& out, Gathered& all) {
 std::vector<EchoTop> tops_of(const Gathered& all, const SphereCalibration& out, std::size_t rows) {
   std::vector<OffTop> clear;
   for (std::size_t i = 0; i < out.levels.size(); ++i) {
-    if (!std::isfinite(out.fit.residual_db[i]) || out.levels[i].se_db > kClear_db) continue;
-    clear.push_back({static_cast<std::size_t>(out.levels[i].beam), all.echoes[i].off_samples, all.echoes[i].share_db});
+    const auto beam = static_cast<std::size_t>(out.levels[i].beam);
+    const bool inside = out.levels[i].level_db > out.fit.beams[beam].level_db - kHalfBothWays_db;
+    if (!inside || !std::isfinite(out.fit.residual_db[i]) || out.levels[i].se_db > kClear_db) continue;
+    clear.push_back({beam, all.echoes[i].off_samples, all.echoes[i].share_db});
   }
   return echo_tops(clear, rows);
 }
