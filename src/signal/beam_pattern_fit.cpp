@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/units.h"
+#include "signal/level_misfit.h"
 #include "signal/skyline.h"
 
 namespace sonar {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kEdge_db = kHalfBothWays_db;
 constexpr std::size_t kFigures = BeamErrors::kFigures;
-constexpr std::size_t kShapes = 3;
 
 /// Standard deviations of what is known beforehand.
 constexpr double kLevelKnown_db = 10.0;
@@ -22,9 +22,8 @@ constexpr double kLogWidthKnown = 0.5;
 constexpr double kCentreKnown = 0.02;  ///< of a width: the stated steering
 constexpr double kShapeKnown = 3.0;
 
-/// Levels count down to kFull_db under the top, and ever less to kNone_db: farther out the beam has no form of its own.
-constexpr double kFull_db = -11.0;
-constexpr double kNone_db = -15.0;
+/// Where Tukey's weights end, in standard deviations.
+constexpr double kTukey = 4.685;
 constexpr int kLeastBeams = 4;
 /// A beam was crossed where so many levels lie on all sides of its centre, by so much of a width.
 constexpr int kLeastHits = 8;
@@ -38,43 +37,7 @@ constexpr int kUnguarded = 4;
 constexpr int kSettling =
     8;  ///< iterations before whole pings are left out, for good  ///< iterations before outliers are left out: the start may be some dB off
 
-/// How well the form holds: near the top better than at the flanks. Only ratios count, the rest is scaled.
-double form_se_db(double under_top_db) { return 0.05 + 0.02 * std::abs(under_top_db); }
-
 double square(double x) { return x * x; }
-
-/// A level against what it should be, and how that changes.
-struct Misfit {
-  double residual_db = 0.0;
-  double weight = 0.0;  ///< 0 = takes no part
-  double under_top_db = 0.0;
-  double share = 0.0;   ///< 1 near the top, 0 where no form is known
-  double excess = 0.0;  ///< residual over its standard error
-  std::array<double, kFigures> by_beam{};
-  std::array<double, 2> by_direction{};
-  std::array<double, kShapes> by_shape{};
-};
-
-/// Two equations of one ping's direction.
-struct Direct {
-  double aa = 0.0, au = 0.0, uu = 0.0;  ///< normal matrix
-  double ga = 0.0, gu = 0.0;
-  void add(const Misfit& m) {
-    aa += m.weight * m.by_direction[0] * m.by_direction[0];
-    au += m.weight * m.by_direction[0] * m.by_direction[1];
-    uu += m.weight * m.by_direction[1] * m.by_direction[1];
-    ga += m.weight * m.by_direction[0] * m.residual_db;
-    gu += m.weight * m.by_direction[1] * m.residual_db;
-  }
-  [[nodiscard]] bool sound() const {
-    const double det = aa * uu - au * au;
-    return aa > 0.0 && uu > 0.0 && det > 1e-6 * aa * uu;
-  }
-  [[nodiscard]] std::array<double, 2> solve(double a, double u) const {
-    const double det = aa * uu - au * au;
-    return {(uu * a - au * u) / det, (aa * u - au * a) / det};
-  }
-};
 
 double limited(double step, double most) { return std::clamp(step, -most, most); }
 
@@ -140,43 +103,11 @@ class Fitter {
     if (sum > 0.0) fit_.directions[p] = {at.across / sum, at.up / sum};
   }
 
-  Misfit misfit(std::size_t i, const FaceDirection& from, bool guarded) const {
-    const HeardLevel& heard = heard_[i];
-    const auto b = static_cast<std::size_t>(heard.beam);
-    const FittedBeam& beam = fit_.beams[b];
-    const auto& k = fit_.shape.k;
-    const double da = from.across - beam.centre.across;
-    const double du = from.up - beam.centre.up;
-    const double x = square(2.0 * da / beam.width_across);
-    const double y = square(2.0 * du / beam.width_up);
-    Misfit m;
-    m.under_top_db = fit_.shape.db(x, y);
-    m.residual_db = heard.level_db - beam.level_db - m.under_top_db;
-    m.share = std::clamp((m.under_top_db - kNone_db) / (kFull_db - kNone_db), 0.0, 1.0);
-    if (m.share <= 0.0) return m;
-    const double variance = square(heard.se_db) + square(form_se_db(m.under_top_db));
-    m.excess = std::abs(m.residual_db) / std::sqrt(variance);
-    m.weight = m.share / variance;
-    if (guarded) {
-      constexpr double kTukey = 4.685;
-      const double far = m.excess / (kTukey * scale_);
-      m.weight *= far < 1.0 ? square(1.0 - far * far) : 0.0;
-    }
-    const double by_x = -kEdge_db - k[0] * (2.0 * x - 1.0) - k[2] * y;
-    const double by_y = -kEdge_db - k[1] * (2.0 * y - 1.0) - k[2] * x;
-    const double by_across = by_x * 8.0 * da / square(beam.width_across);
-    const double by_up = by_y * 8.0 * du / square(beam.width_up);
-    m.by_beam = {1.0, -2.0 * x * by_x, -2.0 * y * by_y, -by_across * stated_[b].width_across,
-                 -by_up * stated_[b].width_up};
-    m.by_direction = {by_across, by_up};
-    m.by_shape = {x - x * x, y - y * y, -x * y};
-    return m;
-  }
-
-  Direct direct(std::size_t p, bool guarded) {
-    Direct d;
+  DirectionEquations direct(std::size_t p, bool guarded) {
+    DirectionEquations d;
     for (const std::size_t i : of_ping_[p]) {
-      misfits_[i] = misfit(i, fit_.directions[p], guarded);
+      misfits_[i] = misfit(heard_[i], fit_.beams[beam(i)], stated_[beam(i)], fit_.shape, fit_.directions[p],
+                           guarded ? kTukey * scale_ : 0.0);
       d.add(misfits_[i]);
     }
     return d;
@@ -188,7 +119,7 @@ class Fitter {
     for (std::size_t p = 0; p < of_ping_.size(); ++p) {
       bool sound = true;
       for (int step = 0; step < kSteps && sound; ++step) {
-        const Direct d = direct(p, guarded);
+        const DirectionEquations d = direct(p, guarded);
         sound = d.sound();
         if (!sound) break;
         const auto move = d.solve(d.ga, d.gu);
@@ -200,7 +131,7 @@ class Fitter {
       int refused = 0;
       const bool still = direct(p, guarded).sound() && sound;
       for (const std::size_t i : of_ping_[p]) {
-        if (misfits_[i].under_top_db <= kNone_db) continue;
+        if (misfits_[i].under_top_db <= kFormEnds_db) continue;
         ++beams;
         if (misfits_[i].weight <= 0.0) ++refused;
       }
@@ -247,7 +178,7 @@ class Fitter {
     std::vector<double> sizes;
     for (std::size_t i = 0; i < heard_.size(); ++i) {
       const Misfit& m = misfits_[i];
-      if (m.weight <= 0.0 || m.under_top_db < kFull_db) continue;
+      if (m.weight <= 0.0 || m.under_top_db < kFormHolds_db) continue;
       sizes.push_back(std::abs(m.residual_db) / std::hypot(heard_[i].se_db, form_se_db(m.under_top_db)));
     }
     if (sizes.empty()) return;
@@ -287,7 +218,8 @@ class Fitter {
     std::array<double, 2> to;
   };
 
-  void fill_normal(std::vector<double>& g, std::vector<std::vector<Tied>>& ties, std::vector<Direct>& directs) {
+  void fill_normal(std::vector<double>& g, std::vector<std::vector<Tied>>& ties,
+                   std::vector<DirectionEquations>& directs) {
     normal_.clear();
     std::fill(g.begin(), g.end(), 0.0);
     for (std::size_t b = 0; b < stated_.size(); ++b) hold_to_stated(b, g);
@@ -319,7 +251,7 @@ class Fitter {
     }
   }
 
-  void add_ping(std::size_t p, std::vector<double>& g, std::vector<Tied>& ties, Direct& direct) {
+  void add_ping(std::size_t p, std::vector<double>& g, std::vector<Tied>& ties, DirectionEquations& direct) {
     const std::size_t shapes = unknowns() - kShapes;
     direct = {};
     std::array<Tied, kShapes> of_shape{};
@@ -360,7 +292,7 @@ class Fitter {
   double improve() {
     std::vector<double> step(unknowns());
     std::vector<std::vector<Tied>> ties(of_ping_.size());
-    std::vector<Direct> directs(of_ping_.size());
+    std::vector<DirectionEquations> directs(of_ping_.size());
     fill_normal(step, ties, directs);
     const auto root = SkylineRoot::of(normal_);
     if (!root) return 0.0;
@@ -405,7 +337,7 @@ class Fitter {
     std::vector<double> all(heard_.size());
     for (std::size_t p = 0; p < of_ping_.size(); ++p) {
       if (!fit_.used[p]) continue;
-      Direct d;
+      DirectionEquations d;
       for (const std::size_t i : of_ping_[p]) d.add(misfits_[i]);
       for (const std::size_t i : of_ping_[p]) {
         const Misfit& m = misfits_[i];
@@ -446,7 +378,7 @@ class Fitter {
   void set_errors(double variance) {
     std::vector<double> g(unknowns());
     std::vector<std::vector<Tied>> ties(of_ping_.size());
-    std::vector<Direct> directs(of_ping_.size());
+    std::vector<DirectionEquations> directs(of_ping_.size());
     fill_normal(g, ties, directs);
     const auto root = SkylineRoot::of(normal_);
     if (!root) return;
