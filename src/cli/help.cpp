@@ -31,6 +31,9 @@ constexpr std::array kExamples = {
     Examples{"simulate",
              "  sonarx simulate SYNTHETIC --preset standard --seed 1\n"
              "  sonarx simulate SYNTHETIC --physics array --waters random --seed 7\n"},
+    Examples{"calibrate",
+             "  sonarx calibrate SPHERE --sphere wc38.1 -o calibration.csv\n"
+             "  sonarx calibrate SPHERE --sphere cu60 --water 7.5,35.1,20 --range 40,70 -o calibration.csv\n"},
     Examples{"run",
              "  sonarx run SURVEY -o OUT\n"
              "  sonarx run SURVEY -o OUT --recipe R.json -j 4\n"

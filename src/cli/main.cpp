@@ -41,6 +41,7 @@ int run_program(int argc, char** argv) {
   VerbRunner run;
   add_info(app, run);
   add_simulate(app, run);
+  add_calibrate(app, run);
   add_run(app, run);
   add_plan(app, run);
   add_follow(app, run);

@@ -25,6 +25,7 @@
 #include "pipeline/recipe/json_parameters.h"
 #include "pipeline/recipe/parameter_table.h"
 #include "pipeline/survey/survey.h"
+#include "signal/elastic_sphere.h"
 #include "synth/array/simulate_array.h"
 
 namespace sonar {
@@ -44,6 +45,7 @@ struct SimulateOptions {
   std::optional<double> file_mb;
   std::string beam_pattern;
   std::string waters;
+  std::string sphere;
   std::string params;
   bool print_params = false;
   bool describe = false;
@@ -122,6 +124,14 @@ Result<synth::array::ArrayParams> array_parameters(const SimulateOptions& o) {
                                          {"--noise", o.noise.has_value()}});
   if (!own) return pass_on(own);
   synth::array::ArrayParams p;
+  if (!o.sphere.empty()) {
+    const auto sphere = named_sphere(o.sphere);
+    if (!sphere) return fail(ErrorCode::usage, "--sphere: " + sphere.error().text);
+    p = synth::array::sphere_run();
+    p.sphere.diameter_mm = sphere->diameter_m * 1e3;
+    p.sphere.material = sphere->material.name == "cu" ? synth::array::SphereMaterial::copper
+                                                      : synth::array::SphereMaterial::tungsten_carbide;
+  }
   if (!o.params.empty()) {
     if (auto taken = take_file(o.params, p); !taken) return pass_on(taken);
   }
@@ -169,7 +179,8 @@ int write_survey(const SimulateOptions& o, std::int64_t wanted_schools, const Ma
 }
 
 int simulate_standard(const SimulateOptions& o) {
-  if (auto own = only_for("array", {{"--waters", !o.waters.empty()}}); !own) return report(own.error());
+  const auto own = only_for("array", {{"--waters", !o.waters.empty()}, {"--sphere", !o.sphere.empty()}});
+  if (!own) return report(own.error());
   std::vector<synth::Beam> beams = synth::ms70_beams();
   if (!o.beams.empty()) {
     auto table = synth::read_beam_table(o.beams);
@@ -229,6 +240,10 @@ void add_simulate(CLI::App& app, VerbRunner& run) {
                    "Array physics: the strengths of other scatterers as the parameters state them, or drawn from the "
                    "seed (random)")
       ->check(one_of({"stated", "random"}));
+  verb->add_option("--sphere", o->sphere,
+                   "Array physics: a run for calibration in place of a survey, with a sphere (wc38.1, cu60) that is "
+                   "steered through the beams, and stated gains that err; truth/beams.csv has the true ones")
+      ->check(some_name());
   verb->add_option("--params", o->params, "JSON file whose members take the place of the preset's: --print-params")
       ->check(named_file());
   auto* print =

@@ -15,6 +15,7 @@ using VerbRunner = std::function<int()>;
 // Each verb's file adds one subcommand, whose callback puts the work to be done into `run`.
 void add_info(CLI::App& app, VerbRunner& run);
 void add_simulate(CLI::App& app, VerbRunner& run);
+void add_calibrate(CLI::App& app, VerbRunner& run);
 void add_run(CLI::App& app, VerbRunner& run);
 void add_plan(CLI::App& app, VerbRunner& run);
 void add_follow(CLI::App& app, VerbRunner& run);

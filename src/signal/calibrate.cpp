@@ -31,6 +31,13 @@ double sv_constant_db(const ChannelCalibration& c) {
   return -db_from_linear(constant) - psi_db - 2.0 * c.gain_db - 2.0 * c.sa_correction_db + c.extra_factor_db;
 }
 
+double sp_constant_db(const ChannelCalibration& c) {
+  const double wavelength_m = c.sound_speed_mps / c.frequency_hz;
+  const double constant =
+      c.transmit_power_w * wavelength_m * wavelength_m / (16.0 * std::numbers::pi * std::numbers::pi);
+  return -db_from_linear(constant) - 2.0 * c.gain_db;
+}
+
 SampleRanges::SampleRanges(double first_range_m, double spacing_m, int count) {
   SONAR_CHECK(count >= 0);
   const bool sound = positive(spacing_m) && std::isfinite(first_range_m);

@@ -27,6 +27,10 @@ struct ChannelCalibration {
 /// -10 log10(Pt lambda^2 c tau psi / (32 pi^2)) - 2 G - 2 Sa + extra factor.
 [[nodiscard]] double sv_constant_db(const ChannelCalibration& calibration);
 
+/// The same of the equation for a point target: -10 log10(Pt lambda^2 / (16 pi^2)) - 2 G.
+/// Sp = P + 40 log10 r + 2 alpha r + this
+[[nodiscard]] double sp_constant_db(const ChannelCalibration& calibration);
+
 /// Where samples lie, which all channels of a grid share. first_range_m: range of sample 0, may be negative; ranges below one
 /// spacing count as one spacing. All unknown where the spacing is not positive.
 struct SampleRanges {

@@ -46,7 +46,9 @@ enum class Purpose : std::uint32_t {
   cloud,
   sea,
   diffuse,
-  other_sounder
+  other_sounder,
+  sphere,
+  stated
 };
 
 /// A stream of random numbers, one for each (seed, observation, ping, channel, purpose).

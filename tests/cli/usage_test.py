@@ -23,7 +23,7 @@ class Usage(Case):
 
     def test_help_says_what_stands_for_a_value(self):
         kinds = {"N", "X", "X|FILE", "FILE", "FOLDER", "PATH", "NAME", "WORD", "A:B", "HOST:PORT", "RULE", "TIME", "N,N", "WIDTHxHEIGHT",
-                 "X,Y,Z", "X,Y,X,Y", "PING,FAN,BEAM,SAMPLE", "COLUMN"}
+                 "X,Y,Z", "X,Y,X,Y", "T,S,DEPTH", "FROM,TO", "PING,FAN,BEAM,SAMPLE", "COLUMN"}
         found = set()
         for verb in VERBS:
             found |= set(re.findall(r"(?m)^  -\S+ ([A-Z]\S*)", self.sonarx(verb, "--help")))

@@ -89,6 +89,18 @@ ChannelCalibration channel_calibration(const BeamConfig& beam, const ChannelPing
   return calibration;
 }
 
+ChannelPing first_head(const ObservationFiles& observation, std::size_t channel) {
+  const ChannelTransmit& sent = observation.transmit[channel];
+  ChannelPing head;
+  head.channel = static_cast<int>(channel);
+  head.frequency_hz = sent.frequency_hz;
+  head.transmit_power_w = sent.transmit_power_w;
+  head.pulse_length_s = sent.pulse_length_s;
+  head.sound_speed_mps = sent.sound_speed_mps;
+  head.absorption_db_per_m = sent.absorption_db_per_m;
+  return head;
+}
+
 CalibrationTables::CalibrationTables(const ObservationFiles& observation, const CalibrationParams& params)
     : observation_(observation),
       params_(params),
@@ -122,18 +134,6 @@ CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> he
     std::copy(row.begin(), row.end(), table->view().row(row_of_channel_[channel]).begin());
   }
   return table;
-}
-
-ChannelPing CalibrationTables::first_head(std::size_t channel) const {
-  const ChannelTransmit& sent = observation_.transmit[channel];
-  ChannelPing head;
-  head.channel = static_cast<int>(channel);
-  head.frequency_hz = sent.frequency_hz;
-  head.transmit_power_w = sent.transmit_power_w;
-  head.pulse_length_s = sent.pulse_length_s;
-  head.sound_speed_mps = sent.sound_speed_mps;
-  head.absorption_db_per_m = sent.absorption_db_per_m;
-  return head;
 }
 
 void CalibrationTables::note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const {
@@ -173,7 +173,7 @@ Diagnostics CalibrationTables::diagnostics() const {
   std::vector<std::size_t> sound;
   for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
     if (!observation_.transmit[channel].seen() || channel >= observation_.config.beams.size()) continue;
-    const ChannelPing head = first_head(channel);
+    const ChannelPing head = first_head(observation_, channel);
     if (is_sound(channel_calibration(observation_.config.beams[channel], head, params_, users_.of(head.channel),
                                      given_speed_mps_))) {
       sound.push_back(channel);
@@ -201,7 +201,7 @@ void CalibrationTables::note_impossible_psi(Diagnostics& notes) const {
 void CalibrationTables::note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const {
   if (params_.absorption != AbsorptionSource::file) return;
   const auto computed =
-      std::count_if(channels.begin(), channels.end(), [&](std::size_t c) { return !tells_absorption(first_head(c)); });
+      std::count_if(channels.begin(), channels.end(), [&](std::size_t c) { return !tells_absorption(first_head(observation_, c)); });
   if (computed == 0) return;
   const WaterProperties& water = params_.water;
   notes.push_back(

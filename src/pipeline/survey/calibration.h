@@ -28,6 +28,9 @@ namespace sonar {
                                                      const BeamCalibration* beam_calibration,
                                                      double given_speed_mps = 0.0);
 
+/// A head with what the observation's first ping set for a channel.
+[[nodiscard]] ChannelPing first_head(const ObservationFiles& observation, std::size_t channel);
+
 /// Tables [fan][beam][sample] that turn power counts into Sv counts, one for each set of transmit settings that occurs.
 /// threads  any
 class CalibrationTables {
@@ -44,7 +47,6 @@ class CalibrationTables {
 
  private:
   [[nodiscard]] Table make(std::span<const ChannelPing> heads) const;
-  [[nodiscard]] ChannelPing first_head(std::size_t channel) const;
   void note_unmatched_gains(std::span<const std::size_t> channels, Diagnostics& notes) const;
   void note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const;
   void note_impossible_psi(Diagnostics& notes) const;

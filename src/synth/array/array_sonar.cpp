@@ -52,6 +52,7 @@ struct ArraySonar::Heard {
   std::vector<BodyTruth> bodies;
   std::vector<FishTruth> fish;
   std::vector<CompanyTruth> company;
+  std::vector<SphereTruth> sphere;
 };
 
 ArraySonar::ArraySonar(const Receiver& receiver, const GridRecord& grid, const Scene& scene)
@@ -62,6 +63,7 @@ ArraySonar::ArraySonar(const Receiver& receiver, const GridRecord& grid, const S
       wave_number_(middle_wave_number(receiver.pattern())),
       diffuse_(receiver, scene.sea, scene.voyage.ship.transducer_depth_m, scene.seed),
       power_per_sv_(receiver.shape()) {
+  if (scene.sphere.diameter_mm > 0.0) sphere_m_ = sphere_amplitudes_m(scene.sphere, receiver);
   const Shape3 shape = receiver.shape();
   for (int f = 0; f < shape.fans; ++f) {
     for (int b = 0; b < shape.beams; ++b) {
@@ -172,7 +174,7 @@ void ArraySonar::hear_company(const View& view, int ping, const Work& work, Hear
   for_each_company(scene_.sea, scene_.fish, wave_number_, view, scene_.seed, scene_.observation, ping,
                    range.range_m(range.count), use);
   for (const OtherPing& other : scene_.sea.others) {
-    if (other.ping != ping) continue;
+    if (other.ping != ping || other.first_sample >= shape.samples) continue;
     RandomStream random(scene_.seed, Purpose::other_sounder, scene_.observation, static_cast<std::uint32_t>(ping));
     std::vector<std::complex<float>> amplitude(static_cast<std::size_t>(shape.beams));
     receiver_.pattern().receive(other.from, other.fan, amplitude);
@@ -195,6 +197,13 @@ void ArraySonar::hear_company(const View& view, int ping, const Work& work, Hear
     row.last_sample = std::min(shape.samples - 1, other.first_sample + other.samples);
     heard.company.push_back(row);
   }
+}
+
+void ArraySonar::hear_sphere(const View& view, int ping, Heard& heard) const {
+  if (sphere_m_.empty()) return;
+  heard.sphere.push_back(sphere_at(scene_.sphere, ping, scene_.voyage.pings, scene_.seed));
+  const Point<Enu> at = place_of(heard.sphere.back(), view);
+  receiver_.add({view.heard(at), norm(at), 1.0, 1.0, sphere_m_}, heard.field.view(), nullptr);
 }
 
 std::vector<RowLimits> ArraySonar::limits(const View& view) const {
@@ -275,6 +284,7 @@ ArrayPing ArraySonar::ping(int ping, const Work& work) const {
     heard.company.push_back(row);
   }
   hear_company(v, ping, work, heard);
+  hear_sphere(v, ping, heard);
   for (const School& school : scene_.schools) hear_school(school, v, ping, work, heard);
   if (work.cancelled()) return {};
 
@@ -292,6 +302,7 @@ ArrayPing ArraySonar::ping(int ping, const Work& work) const {
   out.bodies = std::move(heard.bodies);
   out.fish = std::move(heard.fish);
   out.company = std::move(heard.company);
+  out.sphere = std::move(heard.sphere);
   tell_schools(v, ping, heard, out);
   return out;
 }

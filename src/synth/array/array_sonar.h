@@ -9,6 +9,7 @@
 #include "synth/array/diffuse.h"
 #include "synth/array/fish_school.h"
 #include "synth/array/receiver.h"
+#include "synth/array/sphere.h"
 
 namespace sonar::synth::array {
 
@@ -24,6 +25,7 @@ struct Scene {
   FishParams fish;
   Sea sea;
   std::vector<School> schools;
+  SphereParams sphere;
 };
 
 struct ArrayPing {
@@ -32,6 +34,7 @@ struct ArrayPing {
   std::vector<BodyTruth> bodies;
   std::vector<FishTruth> fish;
   std::vector<CompanyTruth> company;
+  std::vector<SphereTruth> sphere;  ///< one, or none
 };
 
 /// The array at work in one observation.
@@ -50,6 +53,7 @@ class ArraySonar {
   [[nodiscard]] View view(int ping) const;
   void hear_school(const School& school, const View& view, int ping, const Work& work, Heard& heard) const;
   void hear_company(const View& view, int ping, const Work& work, Heard& heard) const;
+  void hear_sphere(const View& view, int ping, Heard& heard) const;
   [[nodiscard]] std::vector<RowLimits> limits(const View& view) const;
   void tell_schools(const View& view, int ping, Heard& heard, ArrayPing& out) const;
 
@@ -60,6 +64,7 @@ class ArraySonar {
   double wave_number_;
   Diffuse diffuse_;
   Array3<float> power_per_sv_;
+  std::vector<double> sphere_m_;  ///< [fan] amplitude of the sphere; empty = there is none
 };
 
 /// Wave number in the middle of the sonar's band: what the fish's own directivity is worked out with.

@@ -78,6 +78,12 @@ struct BeamTruth {
   double psi_stated_db = 0.0;
   double psi_true_db = 0.0;
   double sa_correction_db = 0.0;
+  double sa_stated_db = 0.0;
+  double gain_db = 0.0;
+  double gain_stated_db = 0.0;
+  double width_along_deg = 0.0;    ///< -3 dB of the one-way beam whose square the two-way one is: upright ...
+  double width_athwart_deg = 0.0;  ///< ... and along the fan
+  double sphere_ts_db = kUnknown;  ///< of the sphere in this beam's pulse
 };
 template <class Visitor>
 void columns(Visitor& v, BeamTruth& r) {
@@ -87,6 +93,12 @@ void columns(Visitor& v, BeamTruth& r) {
   v("psi_stated_db", "dB re 1 sr", r.psi_stated_db);
   v("psi_true_db", "dB re 1 sr", r.psi_true_db);
   v("sa_correction_db", "dB", r.sa_correction_db);
+  v("sa_stated_db", "dB", r.sa_stated_db);
+  v("gain_db", "dB", r.gain_db);
+  v("gain_stated_db", "dB", r.gain_stated_db);
+  v("width_along_deg", "degrees", r.width_along_deg);
+  v("width_athwart_deg", "degrees", r.width_athwart_deg);
+  v("sphere_ts_db", "dB re 1 m2", r.sphere_ts_db);
 }
 
 /// A strength of the water of an observation: a row of truth/water.csv.

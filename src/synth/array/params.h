@@ -6,6 +6,7 @@
 
 #include "base/describe.h"
 #include "base/result.h"
+#include "synth/array/sphere_params.h"
 
 namespace sonar::synth::array {
 
@@ -34,6 +35,8 @@ struct Elements {
   double pulse_taper = 0.7;
   PsiLaw psi_law = PsiLaw::exact;
   double psi_excess_db = 6.0;
+  double gain_error_db = 0.0;
+  double sa_error_db = 0.0;
 };
 
 template <class Visitor>
@@ -114,6 +117,18 @@ void describe(Visitor& v, Elements& p) {
            .max = 10,
            .text = "Error of the stated equivalent beam angle at 45 degrees of elevation, with law cos4. Change it to "
                    "test how an angle stated too large or too small biases Sv."});
+  v.field("gain_error_db", p.gain_error_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 6,
+           .text = "Standard deviation of the error of each beam's stated gain. Raise it to test a sonar whose "
+                   "calibration is out of date; truth/beams.csv has what is stated and what is true."});
+  v.field("sa_error_db", p.sa_error_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 3,
+           .text = "Standard deviation of the error of each beam's stated sa correction. Raise it to test the same of "
+                   "the other half of a calibration."});
 }
 
 /// Single fish: their echoes and how they stand in the water.
@@ -291,6 +306,7 @@ struct ArrayParams {
   Elements elements;
   FishParams fish;
   Company company;
+  SphereParams sphere;
 };
 
 template <class Visitor>
@@ -380,10 +396,15 @@ void describe(Visitor& v, ArrayParams& p) {
   v.group("elements", p.elements, "the array that sends and receives");
   v.group("fish", p.fish, "single fish");
   v.group("company", p.company, "other scatterers and the state of the water, for waters = stated");
+  v.group("sphere", p.sphere, "a calibration sphere that is steered through the beams");
 }
 
 /// errors  bad_parameter: a field out of range, or a range upside down
 [[nodiscard]] Result<void> check(const ArrayParams& params);
+
+/// A run for calibration: a ship at anchor in quiet water without schools, a sphere of tungsten carbide of 38.1 mm that is
+/// steered through all beams, and stated gains and sa corrections that err.
+[[nodiscard]] ArrayParams sphere_run();
 
 /// The other scatterers of one observation: as stated, or drawn from the seed, each kind absent in three waters of ten.
 [[nodiscard]] Company company_of(const ArrayParams& params, int observation);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/units.h"
+#include "synth/random.h"
 
 namespace sonar::synth::array {
 namespace {
@@ -136,6 +137,20 @@ void Pattern::measure_widths(int f) {
   width_up_[i] = half_power_width([&](double x) { return power(t.at(0.0, x)); });
 }
 
+Pattern::TwoWayWidths Pattern::two_way_widths(int f, int beam) const {
+  const Fan& fan = fans_[static_cast<std::size_t>(f)];
+  std::vector<std::complex<float>> amplitude(fan.bow.size());
+  // half_power_width() looks where the power is half of its most: the root of a two-way power of a quarter.
+  const auto root = [&](double bow, double up) {
+    const double abeam = std::sqrt(std::max(0.0, 1.0 - bow * bow - up * up));
+    if (!two_way(f, {bow, up, abeam}, 0.0, amplitude)) return 0.0;
+    return static_cast<double>(std::abs(amplitude[static_cast<std::size_t>(beam)]));
+  };
+  const double bow = fan.bow[static_cast<std::size_t>(beam)];
+  return {half_power_width([&](double x) { return root(bow + x, fan.up); }),
+          half_power_width([&](double x) { return root(bow, fan.up + x); })};
+}
+
 bool Pattern::two_way(int f, const Direction& to, double least, std::span<std::complex<float>> out) const {
   if (to.abeam <= 0.0) return false;
   const auto n = static_cast<std::size_t>(f);
@@ -220,6 +235,15 @@ std::vector<Beam> stated_beams(std::vector<Beam> beams, const Pattern& pattern, 
           deg_from_rad(pattern.width_bow(fan)) / std::max(0.1, std::cos(rad_from_deg(beam.azimuth_deg)));
       beam.sa_correction_db = db_from_linear(effective_pulse_s / kPulseLength_s) / 2.0;
     }
+  }
+  return beams;
+}
+
+std::vector<Beam> with_errors(std::vector<Beam> beams, const Elements& params, std::uint64_t seed) {
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    RandomStream random(seed, Purpose::stated, 0, 0, static_cast<std::uint32_t>(i));
+    beams[i].gain_db += params.gain_error_db * random.normal();
+    beams[i].sa_correction_db += params.sa_error_db * random.normal();
   }
   return beams;
 }

@@ -67,6 +67,11 @@ class Pattern {
   /// One-way receiving -3 dB widths in direction cosine, full.
   [[nodiscard]] double width_bow(int fan) const { return width_bow_[static_cast<std::size_t>(fan)]; }
   [[nodiscard]] double width_up(int fan) const { return width_up_[static_cast<std::size_t>(fan)]; }
+  /// Full widths at which the two-way pattern is down by 6.02 dB, through its top; in direction cosine.
+  struct TwoWayWidths {
+    double bow, up;
+  };
+  [[nodiscard]] TwoWayWidths two_way_widths(int fan, int beam) const;
 
  private:
   struct Table {
@@ -99,6 +104,8 @@ class Pattern {
 /// law, the Sa correction is that of the received pulse.
 [[nodiscard]] std::vector<Beam> stated_beams(std::vector<Beam> beams, const Pattern& pattern, const Elements& params,
                                              double effective_pulse_s);
+/// The table as a calibration that is out of date has it: gains and sa corrections err.
+[[nodiscard]] std::vector<Beam> with_errors(std::vector<Beam> beams, const Elements& params, std::uint64_t seed);
 /// Stated minus true equivalent beam angle, dB.
 [[nodiscard]] double psi_error_db(const Elements& params, double elevation_deg);
 

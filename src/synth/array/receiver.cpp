@@ -63,7 +63,8 @@ void Receiver::add(const Echo& echo, View3<std::complex<float>> field, ExpectedB
   for (int f = 0; f < shape_.fans; ++f) {
     const Fan& fan = pattern_.fans()[static_cast<std::size_t>(f)];
     if (!pattern_.two_way(f, echo.from, kLeastHeard, {amplitude.data(), fan.bow.size()})) continue;
-    const double lost = spread * std::pow(10.0, -0.1 * beam(f, 0).absorption_db_per_m * echo.range_m);
+    const double of_fan = echo.of_fan.empty() ? 1.0 : echo.of_fan[static_cast<std::size_t>(f)];
+    const double lost = of_fan * spread * std::pow(10.0, -0.1 * beam(f, 0).absorption_db_per_m * echo.range_m);
     const double way = std::remainder(2.0 * fan.wave_number * echo.range_m, 2.0 * std::numbers::pi);
     const std::complex<float> arrives(echo.amplitude * std::polar(lost, way));
     const auto mean = static_cast<float>(echo.expected_m2 * lost * lost);

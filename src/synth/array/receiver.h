@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <span>
 #include <vector>
 
 #include "base/array.h"
@@ -17,8 +18,9 @@ namespace sonar::synth::array {
 struct Echo {
   Direction from;
   double range_m = 0.0;
-  std::complex<double> amplitude;  ///< m, of size sqrt(sigma_bs); its phase beside that of the way
-  double expected_m2 = 0.0;        ///< mean of its squared size
+  std::complex<double> amplitude;    ///< m, of size sqrt(sigma_bs); its phase beside that of the way
+  double expected_m2 = 0.0;          ///< mean of its squared size
+  std::span<const double> of_fan{};  ///< [fan] what its amplitude is at the fan's frequency, times the above; empty = 1
 };
 
 /// Expected power over transmitted geometry: a part of the grid in which W accumulate.

@@ -63,22 +63,55 @@ struct FurtherTruth {
   std::vector<CompanyTruth> company;
   std::vector<WaterTruth> water;
   std::vector<BeamTruth> beams;
+  std::vector<SphereTruth> sphere;
 
   [[nodiscard]] Result<void> write(const std::filesystem::path& folder) const {
     if (auto done = write_truth(folder / "fish.csv", fish); !done) return done;
     if (auto done = write_truth(folder / "company.csv", company); !done) return done;
     if (auto done = write_truth(folder / "water.csv", water); !done) return done;
-    return write_truth(folder / "beams.csv", beams);
+    if (auto done = write_truth(folder / "beams.csv", beams); !done) return done;
+    return sphere.empty() ? Result<void>{} : write_truth(folder / "sphere.csv", sphere);
   }
 };
 
-std::vector<BeamTruth> beam_rows(const std::vector<Beam>& stated, const Pattern& pattern) {
-  std::vector<BeamTruth> rows;
-  for (std::size_t i = 0; i < stated.size(); ++i) {
-    rows.push_back({static_cast<std::int64_t>(i), stated[i].elevation_deg, stated[i].azimuth_deg, stated[i].psi_db,
-                    db_from_linear(pattern.psi_sr(static_cast<int>(i))), stated[i].sa_correction_db});
+/// stated  what the raw files say; the receiver has what is true
+std::vector<BeamTruth> beam_rows(const std::vector<Beam>& stated, const Receiver& receiver,
+                                 const SphereParams& sphere) {
+  const Pattern& pattern = receiver.pattern();
+  const std::vector<double> sphere_m =
+      sphere.diameter_mm > 0.0 ? sphere_amplitudes_m(sphere, receiver) : std::vector<double>{};
+  std::vector<BeamTruth> rows(stated.size());
+  for (std::size_t f = 0; f < pattern.fans().size(); ++f) {
+    const std::vector<int>& channels = pattern.fans()[f].channel;
+    for (std::size_t b = 0; b < channels.size(); ++b) {
+      const auto i = static_cast<std::size_t>(channels[b]);
+      const Beam& is = receiver.beams()[i];
+      const Pattern::TwoWayWidths widths = pattern.two_way_widths(static_cast<int>(f), static_cast<int>(b));
+      rows[i] = {static_cast<std::int64_t>(i),
+                 is.elevation_deg,
+                 is.azimuth_deg,
+                 stated[i].psi_db,
+                 db_from_linear(pattern.psi_sr(static_cast<int>(i))),
+                 is.sa_correction_db,
+                 stated[i].sa_correction_db,
+                 is.gain_db,
+                 stated[i].gain_db,
+                 deg_from_rad(widths.up) / std::max(0.1, std::cos(rad_from_deg(is.elevation_deg))),
+                 deg_from_rad(widths.bow) / std::max(0.1, std::cos(rad_from_deg(is.azimuth_deg))),
+                 sphere_m.empty() ? kUnknown : 20.0 * std::log10(sphere_m[f])};
+    }
   }
   return rows;
+}
+
+/// What the water lets a sphere run do without: 30 m beyond the sphere nothing is recorded.
+std::vector<Beam> recorded_beams(const SphereParams& sphere) {
+  std::vector<Beam> beams = ms70_beams();
+  constexpr double kBeyond_m = 30.0;
+  if (sphere.diameter_mm <= 0.0) return beams;
+  const double samples = (sphere.range_m + kBeyond_m) / (kSoundSpeed_mps * kSampleInterval_s / 2.0);
+  for (Beam& beam : beams) beam.count = std::min(beam.count, static_cast<int>(samples));
+  return beams;
 }
 
 /// One ping's datagrams and its truth.
@@ -108,16 +141,16 @@ EncodedPing encode(const ArraySonar& sonar, const Receiver& receiver, const Grid
 /// Makes and writes the observations of a survey, one after the other.
 class Survey {
  public:
-  Survey(const std::filesystem::path& out, const ArrayParams& params, const Receiver& receiver, const GridRecord& grid,
-         const std::string& program_version, Work& work)
+  Survey(const std::filesystem::path& out, const ArrayParams& params, const Receiver& receiver,
+         const std::vector<Beam>& stated, const GridRecord& grid, const std::string& program_version, Work& work)
       : params_(params),
         receiver_(receiver),
         grid_(grid),
         work_(work),
-        files_(out, sounder_config(receiver.beams(), kSurveyName), params.file_mb),
+        files_(out, sounder_config(stated, kSurveyName), params.file_mb),
         truth_(out / "truth", kSurveyName, program_version),
         folder_(out / "truth") {
-    further_.beams = beam_rows(receiver.beams(), receiver.pattern());
+    further_.beams = beam_rows(stated, receiver, params.sphere);
   }
 
   Result<void> add(const Voyage& voyage, int number) {
@@ -126,6 +159,7 @@ class Survey {
     scene.observation = static_cast<std::uint32_t>(number);
     scene.seed = static_cast<std::uint64_t>(params_.seed);
     scene.fish = params_.fish;
+    scene.sphere = params_.sphere;
     scene.sea = make_sea(params_, voyage, scene.observation, receiver_.shape().fans);
     const double wave_number = middle_wave_number(receiver_.pattern());
     scene.schools = make_schools({params_, scene.voyage, scene.sea.terrain, wave_number, scene.observation}, work_);
@@ -169,6 +203,7 @@ class Survey {
                         std::move(e.made.schools), std::move(e.made.bodies));
         append(further_.fish, std::move(e.made.fish), name);
         append(further_.company, std::move(e.made.company), name);
+        append(further_.sphere, std::move(e.made.sphere), name);
       }
       pings_ += static_cast<std::int64_t>(made.size());
       work_.progress("simulate", pings_, std::int64_t{params_.observations} * params_.pings);
@@ -193,7 +228,7 @@ Result<SimulateResult> simulate_array_survey(const std::filesystem::path& out, c
                                              const std::string& program_version, Work& work) {
   if (auto ok = check(params); !ok) return pass_on(ok);
   const std::vector<Voyage> all = voyages(params);
-  const std::vector<Beam> table = ms70_beams();
+  const std::vector<Beam> table = recorded_beams(params.sphere);
   std::uint64_t bytes = 0;
   for (const Voyage& voyage : all) bytes += bytes_of(voyage, table);
   auto folder = SurveyFolder::prepare(out, force, bytes);
@@ -203,7 +238,8 @@ Result<SimulateResult> simulate_array_survey(const std::filesystem::path& out, c
   const Receiver receiver(pattern, pulse, stated_beams(table, pattern, params.elements, pulse.effective_s()));
   const auto grid = grid_of(receiver, receiver.beams());
   if (!grid) return pass_on(grid);
-  Survey survey(out, params, receiver, *grid, program_version, work);
+  const auto stated = with_errors(receiver.beams(), params.elements, static_cast<std::uint64_t>(params.seed));
+  Survey survey(out, params, receiver, stated, *grid, program_version, work);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (auto added = survey.add(all[i], static_cast<int>(i)); !added) return pass_on(added);
   }
