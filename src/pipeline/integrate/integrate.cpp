@@ -94,6 +94,7 @@ class ObservationIntegral {
     input.grid = &engine_.grid();
     input.background = staged->background();
     input.placement = engine_.placement(ping);
+    input.seabed = staged->seabed.found ? &staged->seabed : nullptr;
     input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
     if (const auto of_ping = schools_.find(ping); of_ping != schools_.end()) input.schools = of_ping->second.masks;
     return integrate_ping(input, layout_);

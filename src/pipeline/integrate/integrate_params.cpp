@@ -13,7 +13,7 @@ Result<CellLayout> cell_layout(const IntegrateParams& params) {
   layout.channel_m = params.depth_channel_m;
   if (params.layer_top_m == 0.0 && params.layer_bottom_m == 0.0) return layout;
   if (!(params.layer_bottom_m > params.layer_top_m)) {
-    return fail(ErrorCode::bad_parameter, fmt::format("layer_bottom_m: {} lies not below layer_top_m, {}",
+    return fail(ErrorCode::bad_parameter, fmt::format("layer_bottom_m = {}: expected more than the layer's top, {}",
                                                       params.layer_bottom_m, params.layer_top_m));
   }
   layout.depth_from_m = params.layer_top_m;

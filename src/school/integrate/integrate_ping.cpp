@@ -12,6 +12,7 @@
 #include "school/fading.h"
 #include "school/integrate/depth_parts.h"
 #include "school/measure/echo_statistics.h"
+#include "school/measure/measure_input.h"
 
 namespace sonar {
 namespace {
@@ -145,15 +146,16 @@ PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout)
     const auto flags = ping.flags.row(row);
     const RowBackground noise(ping.background, row);
     const double solid_angle = sector.solid_angle_sr(row / sector.beams(), row % sector.beams());
+    const int seabed = seabed_heard(ping.seabed, row, samples);
     Voxel voxel;
     voxel.alike = voxels_alike(*ping.grid, sector.range().spacing_m, ping.pulse_m, row);
     for (int sample = 0; sample < samples; ++sample) {
       const auto s = static_cast<std::size_t>(sample);
       const auto of_voxel = parts->of(sample);
-      if (of_voxel.empty() || any(flags[s] & kNeverMember)) continue;
+      voxel.member = member[s] != 0;
+      if (of_voxel.empty() || any(flags[s] & kNeverMember) || (sample >= seabed && !voxel.member)) continue;
       voxel.volume_m3 = solid_angle * sector.shell_m3_per_sr(sample);
       voxel.heard = !is_faulty(flags[s], counts[s]);
-      voxel.member = member[s] != 0;
       if (voxel.heard) {
         voxel.sv = linear_from_count(counts[s]);
         voxel.noise = noise(sample);

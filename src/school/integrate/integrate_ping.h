@@ -12,6 +12,7 @@
 #include "model/mask.h"
 #include "school/detect/noise_level.h"
 #include "school/integrate/cells.h"
+#include "school/seabed/seabed.h"
 
 namespace sonar {
 
@@ -24,11 +25,12 @@ struct IntegrationInput {
   Background background;
   Placement placement;
   double pulse_m = 0.0;                      ///< extent of the pulse along range, c tau / 2
+  const Seabed* seabed = nullptr;            ///< null = none seen
   std::span<const PingMask* const> schools;  ///< no voxel in two
 };
 
 /// Sums of a ping over range bins and depth channels: linear, weighted by voxel volume, background taken off and negative
-/// remainders kept. A voxel belongs to the range bin of its centre, and to depth channels by its vertical extent.
+/// remainders kept. Beyond where a beam hears the seabed by its edge only members of schools count. A voxel belongs to the range bin of its centre, and to depth channels by its vertical extent.
 /// threads  pure; sums in the order of rows and samples
 /// cost     linear in voxels; ten times as much of it where the beams are not stabilised
 [[nodiscard]] PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout);

@@ -31,6 +31,7 @@ struct Scene {
   Array3<std::int16_t> calibration{Shape3{20, 25, kSamples}, 0};
   std::vector<double> background_db = {};
   std::vector<const PingMask*> schools = {};
+  Seabed seabed = {};
   Placement placement{{60.0, 5.0}, 0.3, kTransducer_m};
 
   void fill(const std::function<double(int fan, int sample)>& expected) {
@@ -51,6 +52,7 @@ struct Scene {
     ping.placement = placement;
     ping.pulse_m = 1.5;
     ping.schools = schools;
+    ping.seabed = &seabed;
     return integrate_ping(ping, layout);
   }
 };
@@ -188,6 +190,26 @@ TEST(IntegratePing, schools_and_the_rest_are_the_whole) {
   }
   EXPECT_NEAR(members, volume, 1e-9 * volume);
   EXPECT_NEAR(school_m2, 1e-4 * volume, 0.002 * 1e-4 * volume);
+}
+
+TEST(IntegratePing, beyond_the_beam_edge_echo_of_the_seabed_only_schools_count) {
+  Scene scene;
+  scene.fill([](int fan, int sample) { return fan == 5 && sample >= 400 ? 1e-2 : 1e-8; });
+  scene.seabed.heard_sample.assign(500, kSamples);
+  for (int beam = 0; beam < 25; ++beam) scene.seabed.heard_sample[static_cast<std::size_t>(5 * 25 + beam)] = 400;
+  PingMask school;
+  school.runs.push_back({5 * 25 + 3, 400, 20});
+  school.confidence.assign(20, 255);
+  scene.schools = {&school};
+  const PingCells cells = scene.integrated({});
+  double loud = 0.0;
+  double members = 0.0;
+  for (const CellSums& cell : cells.cells) {
+    loud += cell.echo_m2 - 1e-8 * cell.heard_m3;
+    members += cell.school_m2;
+  }
+  EXPECT_GT(members, 0.0);
+  EXPECT_NEAR(loud / members, 1.0, 0.01);
 }
 
 TEST(IntegratePing, a_voxel_counts_in_the_bin_of_its_centre_as_far_as_the_reach) {
