@@ -18,7 +18,8 @@ PROJECT = Path(__file__).resolve().parent.parent.parent
 # Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
 ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
 # What the reader brings.
-BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n"}
+BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
+           "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n"}
 
 
 def commands(page):
