@@ -11,7 +11,7 @@
 
 #include "io/csv.h"
 #include "io/product_file.h"
-#include "io/transects.h"
+#include "pipeline/integrate/transects.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/stages/engine.h"
 #include "pipeline/stages/observe.h"

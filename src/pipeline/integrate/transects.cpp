@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/transects.h"
+#include "pipeline/integrate/transects.h"
 
 #include <fmt/format.h>
 
