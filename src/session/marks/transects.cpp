@@ -20,11 +20,12 @@ std::filesystem::path survey_of(const Workspace& workspace) {
   return paths.empty() ? std::filesystem::path{} : paths.front();
 }
 
-/// The first ping within a period, of the earliest observation that has one.
+/// The first ping within a period, of the earliest observation with a grid that has one.
 std::optional<SurveyPeriod> placed(const SurveyFiles& survey, const Transect& period) {
   std::optional<SurveyPeriod> earliest;
   TimeNs begins = 0;
   for (std::size_t i = 0; i < survey.observations.size(); ++i) {
+    if (!survey.observations[i].grid) continue;
     const auto& pings = survey.observations[i].navigation;
     const auto first = std::lower_bound(pings.begin(), pings.end(), period.start_utc,
                                         [](const PingNavigation& ping, TimeNs time) { return ping.time < time; });
