@@ -254,6 +254,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
     }
   }
   for (const ObservationProduct& product : observations) add_start(d, product);
+  for (TextItem& name : transect_names(d, observations, style)) names.names.push_back(std::move(name));
   const auto left_out = add_numbers(d, observations, names.names, ship);
   std::move(names.leaders.begin(), names.leaders.end(), std::back_inserter(frame.items));
   for (TextItem& name : names.names) frame.items.emplace_back(std::move(name));

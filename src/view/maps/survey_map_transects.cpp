@@ -2,8 +2,8 @@
 #include "view/maps/survey_map_transects.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <optional>
 
 #include "view/maps/map_items.h"
 #include "view/shapes.h"
@@ -11,7 +11,8 @@
 namespace sonar {
 namespace {
 
-constexpr double kBreadth = 6.0;  ///< of the lines, over that of thin ones
+constexpr double kBreadth = 6.0;    ///< of the lines, over that of thin ones
+constexpr double kBeside_em = 0.8;  ///< names stand so far to the right of a track
 constexpr std::uint8_t kAlpha = 150;
 
 /// Number of a stratum among those of the transects, from 1.
@@ -41,7 +42,9 @@ void add_line(const SurveyMapDrawing& d, std::span<const ObservationProduct> obs
   }
 }
 
-void add_name(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations, const Transect& transect) {
+/// Where on the map the middle of what is seen of a transect lies.
+std::optional<PixelPoint> middle_of(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations,
+                                    const Transect& transect) {
   std::vector<PixelPoint> places;
   for (const ObservationProduct& observation : observations) {
     for (const PingNavigation& ping : pings_of(observation, transect)) {
@@ -49,12 +52,7 @@ void add_name(const SurveyMapDrawing& d, std::span<const ObservationProduct> obs
       if (at) places.push_back(*at);
     }
   }
-  if (places.empty()) return;
-  const PixelPoint middle = places[places.size() / 2];
-  TextItem name =
-      text_item({middle.x, middle.y - 1.1 * d.em}, transect.name, 0.9 * d.em, d.theme.text, TextAnchor::centre);
-  name.halo = d.theme.halo;
-  d.frame.items.emplace_back(std::move(name));
+  return places.empty() ? std::nullopt : std::optional(places[places.size() / 2]);
 }
 
 }  // namespace
@@ -66,11 +64,21 @@ void add_transects(const SurveyMapDrawing& d, std::span<const ObservationProduct
     add_line(d, observations, one, with_alpha(school_colour(number_of(one.stratum, style.transects)), kAlpha));
   }
   for (const Transect& one : style.transects) {
-    if (one.type == EffortType::off) add_line(d, observations, one, d.theme.no_data);
+    if (one.type == EffortType::off) add_line(d, observations, one, d.theme.muted);
   }
+}
+
+std::vector<TextItem> transect_names(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations,
+                                     const SurveyMapStyle& style) {
+  std::vector<TextItem> names;
   for (const Transect& one : style.transects) {
-    if (one.type == EffortType::transect) add_name(d, observations, one);
+    const auto at = one.type == EffortType::transect ? middle_of(d, observations, one) : std::nullopt;
+    if (!at) continue;
+    names.push_back(
+        text_item({at->x + kBeside_em * d.em, at->y}, one.name, 0.9 * d.em, d.theme.text, TextAnchor::left));
+    names.back().halo = d.theme.halo;
   }
+  return names;
 }
 
 std::string transects_text(const SurveyMapStyle& style) {
