@@ -41,8 +41,7 @@ constexpr std::array<OptionOf, 1> kOptions{{{"layer_bottom_m", "--layer-bottom-m
 void print_result(const Integrated& done, const std::string& out) {
   for (const std::string& name : done.left_out) {
     print_note(
-        fmt::format("left-out: {}: not integrated, for it is of another sounder or has no grid of fans and beams",
-                    printable(name)));
+        fmt::format("not-integrated: {}: it is of another sounder, or has no grid of fans and beams", printable(name)));
   }
   for (const std::string& name : done.without_schools) {
     print_note(fmt::format("no-product: {}: {} has none, so that columns of schools are empty; sonarx run makes it",
@@ -50,7 +49,9 @@ void print_result(const Integrated& done, const std::string& out) {
   }
   for (const StratumRow& row : done.tables.strata) {
     if (row.level == "transect") continue;
-    const std::string of = row.level == "survey" ? "survey" : "stratum " + printable(row.stratum);
+    const std::string of = row.level == "survey" ? "survey"
+                           : row.stratum.empty() ? "no stratum"
+                                                 : "stratum " + printable(row.stratum);
     fmt::print("{}: NASC {} m2 nmi-2, standard error {} ({} over {:.2f} nmi)\n", of,
                std::isfinite(row.nasc_m2_nmi2) ? fmt::format("{:.4g}", row.nasc_m2_nmi2) : "unknown",
                std::isfinite(row.nasc_se_m2_nmi2) ? fmt::format("{:.2g}", row.nasc_se_m2_nmi2) : "unknown",

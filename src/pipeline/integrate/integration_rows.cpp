@@ -144,7 +144,7 @@ void put(StratumRow& row, const MeanWithError& all, const MeanWithError& school)
 
 /// A transect's mean over its EDSUs by their lengths. Neighbouring ones are alike, so they tell no error of it.
 std::vector<StratumRow> transect_rows(std::span<const EffortRow> effort) {
-  std::vector<std::pair<std::string, Figures>> figures;
+  std::vector<Figures> figures;
   std::vector<StratumRow> rows;
   for (const EffortRow& unit : effort) {
     if (unit.edsu == 0) continue;
@@ -152,15 +152,15 @@ std::vector<StratumRow> transect_rows(std::span<const EffortRow> effort) {
     while (at < rows.size() && rows[at].transect != unit.transect) ++at;
     if (at == rows.size()) {
       rows.push_back({.level = "transect", .stratum = unit.stratum, .transect = unit.transect, .n_transects = 1});
-      figures.emplace_back(unit.transect, Figures{});
+      figures.emplace_back();
     }
     ++rows[at].n_edsu;
     rows[at].distance_nmi += unit.distance_nmi;
-    figures[at].second.all.push_back({unit.distance_nmi, unit.nasc_m2_nmi2});
-    figures[at].second.school.push_back({unit.distance_nmi, unit.nasc_school_m2_nmi2});
+    figures[at].all.push_back({unit.distance_nmi, unit.nasc_m2_nmi2});
+    figures[at].school.push_back({unit.distance_nmi, unit.nasc_school_m2_nmi2});
   }
   for (std::size_t at = 0; at < rows.size(); ++at) {
-    put(rows[at], mean_alone(figures[at].second.all), mean_alone(figures[at].second.school));
+    put(rows[at], mean_alone(figures[at].all), mean_alone(figures[at].school));
   }
   return rows;
 }
