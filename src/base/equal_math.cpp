@@ -33,6 +33,7 @@ double log10(double x) noexcept { return Sleef_cinz_log10d1_u10purec(x); }
 double log1p(double x) noexcept { return Sleef_cinz_log1pd1_u10purec(x); }
 double pow(double x, double y) noexcept { return Sleef_cinz_powd1_u10purec(x, y); }
 double cbrt(double x) noexcept { return Sleef_cinz_cbrtd1_u10purec(x); }
+double erf(double x) noexcept { return Sleef_cinz_erfd1_u10purec(x); }
 
 float sinf(float x) noexcept { return static_cast<float>(sin(static_cast<double>(x))); }
 float cosf(float x) noexcept { return static_cast<float>(cos(static_cast<double>(x))); }

@@ -45,6 +45,9 @@ constexpr std::array kExamples = {
              "  sonarx submit SURVEY -o OUT --partition long --account fish\n"
              "  sonarx submit SURVEY -o OUT --dry-run     the scripts alone\n"},
     Examples{"status", "  sonarx status OUT\n  sonarx status OUT --json\n"},
+    Examples{"integrate",
+             "  sonarx integrate SURVEY -o OUT\n"
+             "  sonarx integrate SURVEY -o OUT --edsu-nmi 0.1 --range-bin-m 25 --depth-channel-m 20\n"},
     Examples{"propagate",
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
     Examples{"export",

@@ -76,6 +76,11 @@ void add_common(CLI::App& verb, RenderArguments& a) {
                         "Depths as GeoTIFF or netCDF grid (GEBCO, EMODnet): the seabed")
             ->check(named_file()),
         "volume survey-map report");
+  suits(
+      verb.add_option("--transects", a.picture.transects,
+                      "CSV name,stratum,type,start_utc,stop_utc: transects along the track, a colour for each stratum")
+          ->check(named_file()),
+      "survey-map report");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
 }

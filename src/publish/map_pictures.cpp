@@ -10,6 +10,7 @@
 #include "io/depth_raster.h"
 #include "io/mask_outlines.h"
 #include "model/school_totals.h"
+#include "pipeline/integrate/transects.h"
 #include "publish/drawn_schools.h"
 #include "view/maps/observation_map.h"
 #include "view/maps/survey_map.h"
@@ -97,6 +98,11 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   style.sv_high_db = options.display.scale.high_db();
   style.unsearched = static_cast<int>(std::count_if(observations.begin(), observations.end(),
                                                     [](const DrawnObservation& o) { return !o.has_product(); }));
+  if (!options.transects.empty()) {
+    auto transects = read_transects(options.transects);
+    if (!transects) return pass_on(transects);
+    style.transects = std::move(*transects);
+  }
   std::optional<DepthGrid> depths;
   if (!options.depth_raster.empty()) {
     const auto surveyed = survey_extent(products, outlines, style.margin);

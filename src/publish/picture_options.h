@@ -46,6 +46,7 @@ struct PictureOptions {
   std::optional<Camera> camera;                 ///< in place of the one that `kind` names
   PictureParams kind;                           ///< what is asked for one kind alone
   std::filesystem::path depth_raster;           ///< seabed of volumes and maps; empty = none
+  std::filesystem::path transects;              ///< table of them for the survey map; empty = none
 };
 
 /// Refuses what no picture can be made of, before anything is read.

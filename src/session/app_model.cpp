@@ -29,6 +29,7 @@ AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
   add_slices(*this);
   add_volume(*this);
   add_maps(*this);
+  add_transects(*this);
   add_charts(*this);
   add_noise_steps(*this);
   add_lists(*this);

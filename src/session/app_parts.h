@@ -16,6 +16,7 @@ namespace sonar {
 void add_slices(AppModel& app);              ///< slices, the tools in them, stepping and playing through pings
 void add_volume(AppModel& app);              ///< the view in three dimensions
 void add_maps(AppModel& app);                ///< observation map, propagation strip, survey map, timelines
+void add_transects(AppModel& app);           ///< what a table tells of the survey's transects
 void add_noise_steps(AppModel& app);         ///< a slice at each step of noise removal
 void add_charts(AppModel& app);              ///< figures of schools, one over another
 void add_lists(AppModel& app);               ///< survey tree, tables of schools, review, journal, diagnostics

@@ -226,6 +226,7 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
     options.selected_school = workspace.document.state().schools[*selected]->number;
   }
   if (kind != PictureKind::volume || file.seabed) options.depth_raster = workspace.depth_raster();
+  options.transects = workspace.transects().file;
   if (const auto school = selected_school(workspace); school && file.selected_school_alone) {
     options.schools = {school->name.number};
   }

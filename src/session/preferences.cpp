@@ -150,11 +150,11 @@ void read_batch(const json& from, Preferences& to) {
   }
 }
 
-void read_charts(const json& from, Preferences& to) {
-  const auto found = from.find("charts");
+void read_files(const json& from, const char* name, FileOfSurvey& to) {
+  const auto found = from.find(name);
   if (found == from.end() || !found->is_object()) return;
-  for (const auto& [survey, raster] : found->items()) {
-    if (raster.is_string() && to.charts.size() < kMostCharts) to.charts[survey] = raster.get<std::string>();
+  for (const auto& [survey, file] : found->items()) {
+    if (file.is_string() && to.size() < kMostCharts) to[survey] = file.get<std::string>();
   }
 }
 
@@ -237,7 +237,8 @@ LoadedPreferences Preferences::load(const fs::path& path) {
   read_lists(*from, loaded.preferences);
   read_batch(*from, loaded.preferences);
   read_curves(*from, loaded.preferences);
-  read_charts(*from, loaded.preferences);
+  read_files(*from, "charts", loaded.preferences.charts);
+  read_files(*from, "transects", loaded.preferences.transects);
   read_left_at(*from, loaded.preferences);
   read_keys(*from, loaded.preferences);
   return loaded;
@@ -253,6 +254,7 @@ Result<void> Preferences::save() const {
   if (growth_curve) to["growth_curve"] = to_json(*growth_curve);
   to["species"] = species;
   to["charts"] = charts;
+  to["transects"] = transects;
   to["left_at"] = left_at;
   to["keys"] = keys;
   to["recent"] = json::array();
@@ -300,19 +302,23 @@ void Preferences::take(const Workspace& workspace) {
   curves_linked = workspace.curves_linked();
 }
 
-fs::path Preferences::chart_of(const fs::path& survey) const {
-  const auto found = charts.find(whole_path(survey).string());
-  return found == charts.end() ? fs::path{} : fs::path(found->second);
+fs::path file_of(const FileOfSurvey& files, const fs::path& survey) {
+  const auto found = files.find(whole_path(survey).string());
+  return found == files.end() ? fs::path{} : fs::path(found->second);
 }
 
-void Preferences::set_chart(const fs::path& survey, const fs::path& raster) {
+void set_file(FileOfSurvey& files, const fs::path& survey, const fs::path& file) {
   const std::string name = whole_path(survey).string();
-  if (raster.empty()) {
-    charts.erase(name);
-  } else if (charts.size() < kMostCharts || charts.contains(name)) {
-    charts[name] = whole_path(raster).string();
+  if (file.empty()) {
+    files.erase(name);
+  } else if (files.size() < kMostCharts || files.contains(name)) {
+    files[name] = whole_path(file).string();
   }
 }
+
+fs::path Preferences::chart_of(const fs::path& survey) const { return file_of(charts, survey); }
+
+void Preferences::set_chart(const fs::path& survey, const fs::path& raster) { set_file(charts, survey, raster); }
 
 std::optional<std::pair<std::string, std::int64_t>> Preferences::left_at_of(const std::vector<fs::path>& survey) const {
   const auto found = survey.empty() ? left_at.end() : left_at.find(whole_path(survey.front()).string());

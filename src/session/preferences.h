@@ -28,6 +28,13 @@ struct ListedSurvey {
   friend bool operator==(const ListedSurvey&, const ListedSurvey&) = default;
 };
 
+/// Survey -> a file that was chosen for it, kept for the next time.
+using FileOfSurvey = std::map<std::string, std::string>;
+/// Empty = none.
+[[nodiscard]] std::filesystem::path file_of(const FileOfSurvey& files, const std::filesystem::path& survey);
+/// file  empty = no longer any
+void set_file(FileOfSurvey& files, const std::filesystem::path& survey, const std::filesystem::path& file);
+
 /// What a user wants of the window: never part of a result, never in a hash.
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
@@ -47,7 +54,8 @@ struct Preferences {
   std::optional<TransferFunction> view_curve;    ///< that a human drew; empty = the scale's
   std::optional<TransferFunction> growth_curve;  ///< empty = the default
   bool curves_linked = false;
-  std::map<std::string, std::string> charts;  ///< survey -> its raster of depths
+  FileOfSurvey charts;     ///< rasters of depths
+  FileOfSurvey transects;  ///< their tables
   /// Survey -> observation and ping that it was left at.
   std::map<std::string, std::pair<std::string, std::int64_t>> left_at;
   std::string operator_name;

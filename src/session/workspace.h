@@ -10,7 +10,9 @@
 #include <set>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "model/transect.h"
 #include "model/transfer_function.h"
 #include "pipeline/exports/reduce.h"
 #include "session/change_queue.h"
@@ -88,6 +90,13 @@ struct ChosenMark {
   friend bool operator==(const ChosenMark&, const ChosenMark&) = default;
 };
 
+/// Transects of the survey, and the table that told them; empty = none.
+struct SurveyTransects {
+  std::filesystem::path file;
+  std::vector<Transect> periods;
+  friend bool operator==(const SurveyTransects&, const SurveyTransects&) = default;
+};
+
 /// Where slices lie; Workspace::plane tells it of the plane slice.
 struct SlicePlaces {
   int fan = 0;     ///< of the top slice
@@ -144,6 +153,7 @@ struct Workspace {
   Shared<bool> measure_all_fans{false};            ///< areas of slices from above go through all fans
   Shared<bool> dark{false};
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
+  Shared<SurveyTransects> transects;                      ///< on maps and timelines, and among the marks
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
   Shared<std::optional<ChosenMark>> mark;                 ///< on a timeline; another school or survey ends it
   Shared<std::optional<Camera>> camera;                   ///< of the volume; empty = the overview

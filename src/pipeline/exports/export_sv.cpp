@@ -12,6 +12,7 @@
 #include "pipeline/journal/earlier.h"
 #include "pipeline/stages/engine.h"
 #include "pipeline/stages/observe.h"
+#include "pipeline/stages/taken_background.h"
 
 namespace sonar {
 namespace {
@@ -22,14 +23,6 @@ constexpr std::size_t kMostBytes = 256U << 20U;  ///< of a file's arrays, unpack
 constexpr std::size_t kBytesOfVoxel = 2 + 2 + 1 + 4 + 1;
 
 using Staged = std::optional<Result<StagedPing>>;
-
-Result<void> give_backgrounds(Engine& engine, const ObservationProduct& product, Work& work) {
-  if (product.background_db.empty()) return engine.estimate_background(0, engine.pings() - 1, work);
-  for (std::size_t i = 0; i < product.background_db.size(); ++i) {
-    engine.give_background(static_cast<std::int64_t>(i), product.background_db[i]);
-  }
-  return {};
-}
 
 /// Stages pings side by side and writes them one after the other.
 class SvExport {
@@ -88,7 +81,7 @@ Result<std::vector<fs::path>> export_sv(const SurveyFiles& survey, const Observa
                 fmt::format("{}: the raw files have no observation of these pings", product.observation));
   }
   Engine engine(survey, *observation, recipe);
-  if (auto given = give_backgrounds(engine, product, work); !given) return pass_on(given);
+  if (auto given = take_background(engine, product, work); !given) return pass_on(given);
   const GridRecord& grid = *product.grid;
   const std::size_t voxels = grid.grid.channel.size() * static_cast<std::size_t>(grid.range.count);
   const std::size_t pings = product.pings.size();

@@ -18,6 +18,14 @@ namespace sonar {
 
 struct EchoClaims;
 
+/// From where a beam hears the seabed, by its edge first: what lies beyond is a school's where it is a member, else not. The
+/// record's end where none is heard.
+/// seabed  null = none seen
+[[nodiscard]] inline int seabed_heard(const Seabed* seabed, int row, int samples) {
+  return seabed == nullptr || seabed->heard_sample.empty() ? samples
+                                                           : seabed->heard_sample[static_cast<std::size_t>(row)];
+}
+
 /// What one ping offers for measuring; borrowed.
 struct MeasureInput {
   View3<const std::int16_t> sv;        ///< unfiltered Sv counts
@@ -38,12 +46,7 @@ struct MeasureInput {
   const EchoClaims* claims = nullptr;  ///< what each school of the ping reaches for; null = there is no other
   double threshold_db = kUnknown;      ///< the mask's, for the record
 
-  /// From where a beam hears the seabed, by its edge first: what lies beyond is a school's where it is a member, else not.
-  /// The record's end where none is heard.
-  [[nodiscard]] int seabed_heard(int row) const {
-    return seabed == nullptr || seabed->heard_sample.empty() ? sv.shape().samples
-                                                             : seabed->heard_sample[static_cast<std::size_t>(row)];
-  }
+  [[nodiscard]] int seabed_heard(int row) const { return sonar::seabed_heard(seabed, row, sv.shape().samples); }
 };
 
 }  // namespace sonar

@@ -13,6 +13,7 @@
 #include "base/middle.h"
 #include "base/units.h"
 #include "school/detect/noise_level.h"
+#include "school/fading.h"
 #include "school/runs.h"
 
 namespace sonar {
@@ -20,8 +21,7 @@ namespace {
 
 /// Beyond half its width a two-way beam has 12 dB less than the edge of the mask, which lies about as far below the top.
 constexpr double kBeyond_m = 3.0;
-constexpr int kShells = 3;          ///< the water is heard from so many times as far off along range
-constexpr double kTwoWay = 0.7071;  ///< two-way beams are as much narrower; neighbours fade alike within that width
+constexpr int kShells = 3;                ///< the water is heard from so many times as far off along range
 constexpr std::size_t kEnoughInRow = 10;  ///< voxels that tell what a beam hears of the water
 constexpr double kOthers = 2.0;  ///< times the mask's threshold, which what lies round a mask is below but for fading
 
@@ -31,13 +31,6 @@ struct Reach {
   int samples = 1;
   double alike = 1.0;  ///< voxels that fade as one
 };
-
-double spacing_deg(const std::vector<double>& angles, int at) {
-  const auto last = std::ssize(angles) - 1;
-  if (last < 1) return 1.0;
-  const std::ptrdiff_t i = std::clamp<std::ptrdiff_t>(at, 1, last);
-  return std::abs(angles[static_cast<std::size_t>(i)] - angles[static_cast<std::size_t>(i) - 1]);
-}
 
 int half_width(double width, double spacing) {
   const double cells = 0.5 * width / spacing;
@@ -52,12 +45,9 @@ Reach reach_of(const MeasureInput& ping, const PingMask& mask) {
   const double fan_deg = spacing_deg(ping.grid->elevation_deg, row / beams);
   const double beam_deg = spacing_deg(ping.grid->azimuth_deg, row % beams);
   const double sample_m = ping.sector->range().spacing_m;
-  const auto alike = [](double width, double spacing) {
-    return std::isfinite(width) ? std::max(1.0, width / spacing) : 1.0;
-  };
   return {half_width(vertical, fan_deg), half_width(horizontal, beam_deg),
           std::max(1, static_cast<int>(std::ceil(kBeyond_m / sample_m))),
-          alike(kTwoWay * vertical, fan_deg) * alike(kTwoWay * horizontal, beam_deg) * alike(ping.pulse_m, sample_m)};
+          voxels_alike(*ping.grid, sample_m, ping.pulse_m, row)};
 }
 
 /// Which voxels of a box round a mask are members, lie round them, or tell the water.

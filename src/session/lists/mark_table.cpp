@@ -4,46 +4,73 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <variant>
 
 #include "session/lists/cells.h"
+#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {
 
-const EventCommand* event_of(const SurveyMark& mark) { return std::get_if<EventCommand>(&mark.mark.what); }
-
-const PingNavigation& navigation_of(const SurveyMark& mark) {
-  return mark.observation->files().navigation[static_cast<std::size_t>(mark.first_ping)];
+const EventCommand* event_of(const MarkRow& row) {
+  const auto* mark = std::get_if<SurveyMark>(&row.what);
+  return mark == nullptr ? nullptr : std::get_if<EventCommand>(&mark->mark.what);
 }
 
-Cell kind_cell(const SurveyMark& mark) {
-  const EventCommand* event = event_of(mark);
+const Transect* transect_of(const MarkRow& row) {
+  const auto* there = std::get_if<SurveyPeriod>(&row.what);
+  return there == nullptr ? nullptr : &there->period;
+}
+
+Cell kind_cell(const MarkRow& row) {
+  if (const Transect* transect = transect_of(row)) {
+    return text_cell(transect->type == EffortType::off ? "off effort" : "transect");
+  }
+  const EventCommand* event = event_of(row);
   return text_cell(event == nullptr ? "bad pings" : event->kind);
 }
 
-Cell what_cell(const SurveyMark& mark) {
-  const EventCommand* event = event_of(mark);
-  if (event != nullptr) return text_cell(event->text);
+Cell what_cell(const MarkRow& row) {
+  if (const Transect* transect = transect_of(row)) {
+    return text_cell(transect->stratum.empty() ? transect->name
+                                               : fmt::format("{} (stratum {})", transect->name, transect->stratum));
+  }
+  if (const EventCommand* event = event_of(row)) return text_cell(event->text);
+  const auto& mark = std::get<SurveyMark>(row.what);
   if (mark.first_ping == mark.last_ping) return text_cell("takes no part in measures");
   return text_cell(fmt::format("to ping {}, take no part in measures", mark.last_ping));
 }
 
-const std::vector<ColumnOf<SurveyMark>>& mark_columns() {
-  using M = SurveyMark;
+const std::vector<ColumnOf<MarkRow>>& mark_columns() {
+  using M = MarkRow;
   static const std::vector<ColumnOf<M>> kColumns{
-      {{"Mark", "", "trawl, station, noise, other, bookmark, or bad pings", false}, kind_cell},
-      {{"What", "", "as it was written when the mark was set", false, true}, what_cell},
-      {{"Observation", "", "", false}, [](const M& m) { return text_cell(m.observation->name()); }},
-      {{"Ping", "", "the first one from the mark's time on", true},
-       [](const M& m) { return count_cell(m.first_ping); }},
-      {{"Time", "UTC", "of that ping", false}, [](const M& m) { return time_cell(navigation_of(m).time); }},
-      {{"Latitude", "", "of the sonar", true},
-       [](const M& m) { return latitude_cell(navigation_of(m).transducer.latitude_deg); }},
+      {{"Mark", "", "trawl, station, noise, other, bookmark, bad pings, transect, or off effort", false}, kind_cell},
+      {{"What", "", "as it was written when the mark was set, or in the table of transects", false, true}, what_cell},
+      {{"Observation", "", "", false}, [](const M& m) { return text_cell(m.observation); }},
+      {{"Ping", "", "the first one from the mark's time on", true}, [](const M& m) { return count_cell(m.ping); }},
+      {{"Time", "UTC", "of that ping", false}, [](const M& m) { return time_cell(m.at.time); }},
+      {{"Latitude", "", "of the sonar", true}, [](const M& m) { return latitude_cell(m.at.transducer.latitude_deg); }},
       {{"Longitude", "", "of the sonar", true},
-       [](const M& m) { return longitude_cell(navigation_of(m).transducer.longitude_deg); }},
+       [](const M& m) { return longitude_cell(m.at.transducer.longitude_deg); }},
   };
   return kColumns;
+}
+
+MarkRow row_of(SurveyMark mark) {
+  const std::size_t index = mark.mark.observation;
+  const std::string name = mark.observation->name();
+  const std::int64_t ping = mark.first_ping;
+  const PingNavigation at = mark.observation->files().navigation[static_cast<std::size_t>(ping)];
+  return {std::move(mark), index, name, ping, at};
+}
+
+MarkRow row_of(SurveyPeriod period, const SurveyFiles& survey) {
+  const std::size_t index = period.observation;
+  const ObservationFiles& observation = survey.observations[index];
+  const std::int64_t ping = period.first_ping;
+  return {std::move(period), index, observation.name, ping, observation.navigation[static_cast<std::size_t>(ping)]};
 }
 
 }  // namespace
@@ -51,12 +78,19 @@ const std::vector<ColumnOf<SurveyMark>>& mark_columns() {
 MarkTable::MarkTable(AppModel& app)
     : DocumentRows(app.workspace, {DocumentChange::survey, DocumentChange::state, DocumentChange::observation}),
       titles_(titles_of(mark_columns())),
-      listening_(app.workspace.mark.changed(), [this] { moved().tell(); }) {}
+      listening_(app.workspace.mark.changed(), [this] { moved().tell(); }) {
+  listening_.to(app.workspace.transects.changed(), [this] { refresh(); });
+}
 
 void MarkTable::make() {
-  marks_ = survey_marks(workspace().document);
+  marks_.clear();
+  for (SurveyMark& mark : survey_marks(workspace().document)) marks_.push_back(row_of(std::move(mark)));
+  for (SurveyPeriod& period : survey_periods(workspace())) {
+    marks_.push_back(row_of(std::move(period), *workspace().document.survey()));
+  }
+  std::ranges::stable_sort(marks_, {}, [](const MarkRow& row) { return std::pair(row.observation_index, row.ping); });
   pictures_ = std::ranges::any_of(
-      marks_, [](const SurveyMark& one) { return event_of(one) != nullptr && event_of(one)->kind == kBookmark; });
+      marks_, [](const MarkRow& row) { return event_of(row) != nullptr && event_of(row)->kind == kBookmark; });
 }
 
 Cell MarkTable::cell(std::size_t row, std::size_t column) const { return mark_columns()[column].cell(marks_[row]); }
@@ -69,13 +103,19 @@ std::optional<std::filesystem::path> MarkTable::picture(std::size_t row) const {
 }
 
 void MarkTable::select(std::size_t row) {
-  if (row < marks_.size()) go_to_mark(workspace(), marks_[row]);
+  if (row >= marks_.size()) return;
+  const MarkRow there = marks_[row];  // what follows may make the rows anew
+  if (const auto* mark = std::get_if<SurveyMark>(&there.what)) return go_to_mark(workspace(), *mark);
+  go_to_ping(workspace(), there.observation_index, there.ping);
 }
 
 std::optional<std::size_t> MarkTable::selected() const {
   const auto& chosen = workspace().mark();
   if (!chosen) return std::nullopt;
-  const auto found = std::ranges::find(marks_, *chosen, &SurveyMark::mark);
+  const auto found = std::ranges::find_if(marks_, [&](const MarkRow& row) {
+    const auto* mark = std::get_if<SurveyMark>(&row.what);
+    return mark != nullptr && mark->mark == *chosen;
+  });
   return found == marks_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - marks_.begin()));
 }
 

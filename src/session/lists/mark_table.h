@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "session/listening.h"
 #include "session/lists/document_rows.h"
 #include "session/marks/marks.h"
+#include "session/marks/transects.h"
 
 namespace sonar {
 
-/// What was marked in the time of the survey, bookmarks with a small picture. A click on one goes to it.
+/// What was marked in the time of the survey, or what a table tells of its transects, and the ping where it begins.
+struct MarkRow {
+  std::variant<SurveyMark, SurveyPeriod> what;
+  std::size_t observation_index = 0;
+  std::string observation;
+  std::int64_t ping = 0;
+  PingNavigation at;
+};
+
+/// What was marked in the time of the survey, bookmarks with a small picture, and its transects. A click on one goes to it.
 class MarkTable : public DocumentRows {
  public:
   explicit MarkTable(AppModel& app);
@@ -31,7 +44,7 @@ class MarkTable : public DocumentRows {
 
  private:
   std::vector<ListColumn> titles_;
-  std::vector<SurveyMark> marks_;
+  std::vector<MarkRow> marks_;
   bool pictures_ = false;  ///< a bookmark is among them
   Listening listening_;    // the last member: it ends first
 };

@@ -69,6 +69,7 @@ SurveyMapModel::SurveyMapModel(Workspace& workspace)
   listening_.to(workspace.school.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(workspace.depth_raster.changed(), [this] { update(); });
+  listening_.to(workspace.transects.changed(), [this] { update(); });
   listening_.to(workspace.display, [this] { update(); });
 }
 
@@ -96,6 +97,7 @@ LivePicture::Build SurveyMapModel::build(const PictureLook& look) {
   wish.numbers = document.survey_numbers();
   wish.all_measured = document.all_measured();
   wish.depth_raster = workspace_.depth_raster();
+  wish.style.transects = workspace_.transects().periods;
   wish.style.zoom = gesture_.zoom();
   wish.style.rejected = workspace_.display.values().rejected;
   wish.look = look;

@@ -44,6 +44,7 @@ TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> ec
   listening_.to(workspace.marked_interval.changed(), [this] { changed().tell(); });
   listening_.to(workspace.mark.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
+  listening_.to(workspace.transects.changed(), [this] { update(); });
   listening_.to(echograms_->changed(), [this] {
     // Nobody looks: what is being filled may rest.
     if (!seen() && !on_page()) echograms_->want(this, {});
@@ -128,6 +129,7 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
     if (index != shown->index()) fill.push_back(index);
   }
   echograms_->want_all_beams(this, fill);
+  wish.transects = workspace_.transects().periods;
   wish.sv = workspace_.display.values().scale;
   wish.shown = shown_;
   wish.look = look;

@@ -2,6 +2,7 @@
 #include "session/timelines/timeline_painter.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "pipeline/stages/observe.h"
@@ -22,6 +23,16 @@ TimelineObservation drawn(const TimelineWish::Observation& wish, const Observati
   out.chosen_echo = wish.chosen_echo;
   if (wish.state && wish.open) add_marked(out, *wish.state, *wish.open);
   return out;
+}
+
+/// What begins while the observation goes on, or before it without being over.
+void add_periods(TimelineObservation& drawn, const std::vector<Transect>& transects) {
+  const auto& pings = drawn.product->pings;
+  if (pings.empty()) return;
+  for (const Transect& one : transects) {
+    if (one.start_utc > pings.back().time || one.stop_utc < pings.front().time) continue;
+    drawn.marks.push_back({std::max(one.start_utc, pings.front().time), std::string(name(one.type)), one.name});
+  }
 }
 
 }  // namespace
@@ -67,6 +78,7 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
       product = &head->second;
     }
     observations.push_back(drawn(one, *product));
+    add_periods(observations.back(), wish.transects);
   }
   const Theme theme = dock_theme(size, wish.look);
   TimelineStyle style;

@@ -27,6 +27,7 @@ struct TimelineWish {
   std::shared_ptr<const SurveyFiles> survey;
   std::vector<Observation> observations;
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
+  std::vector<Transect> transects;        ///< flags tell where each begins
   SvScale sv;                             ///< of a beam's own Sv, as in slices
   bool rejected = true;
   PictureLook look;

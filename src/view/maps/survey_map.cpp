@@ -19,6 +19,7 @@
 #include "view/maps/map_items.h"
 #include "view/maps/survey_map_labels.h"
 #include "view/maps/survey_map_legend.h"
+#include "view/maps/survey_map_transects.h"
 #include "view/school_labels.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
@@ -240,6 +241,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
     }
     schools = schools || !product.schools.empty();
   }
+  add_transects(d, observations, style);
   for (const ObservationProduct& product : observations) {
     frame.items.emplace_back(track_item(map, product.pings, {theme.track, 1.6 * theme.line_px, {}}));
   }
@@ -252,6 +254,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
     }
   }
   for (const ObservationProduct& product : observations) add_start(d, product);
+  for (TextItem& name : transect_names(d, observations, style)) names.names.push_back(std::move(name));
   const auto left_out = add_numbers(d, observations, names.names, ship);
   std::move(names.leaders.begin(), names.leaders.end(), std::back_inserter(frame.items));
   for (TextItem& name : names.names) frame.items.emplace_back(std::move(name));
@@ -260,7 +263,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   add_scale_and_north(frame, map, theme);
   if (style.legend)
     add_survey_legend(d, p.legend, bands, style, depths, schools,
-                      {left_out_text(left_out), left_out_text(names.left_out, "names"), note});
+                      {left_out_text(left_out), left_out_text(names.left_out, "names"), transects_text(style), note});
   if (!theme.bars) frame.bars = survey_bars(d, bands, style, schools);
   Layout layout;
   layout.title = p.title;

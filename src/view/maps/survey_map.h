@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/describe.h"
 #include "base/result.h"
@@ -15,6 +16,7 @@
 #include "model/depth_grid.h"
 #include "model/map_outlines.h"
 #include "model/product.h"
+#include "model/transect.h"
 #include "view/frame_description.h"
 #include "view/maps/map_frame.h"
 #include "view/sv_scale.h"
@@ -39,6 +41,7 @@ struct SurveyMapStyle {
   MapZoom zoom;              ///< of the map that shows the whole survey
   std::size_t left_out = 0;  ///< schools that there are and that nobody wants to see
   int unsearched = 0;        ///< observations whose schools nobody looked for: that they show none says nothing
+  std::vector<Transect> transects = {};  ///< drawn along the track, with their names; empty = none are known
   friend bool operator==(const SurveyMapStyle&, const SurveyMapStyle&) = default;
 };
 
