@@ -20,7 +20,7 @@ template <bool kPlain>
 class Packet {
  public:
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): as many of met_ as there are masks
-  Packet(const TraceJob& job, const Rays& ray, V phase, V from, V last)
+  Packet(const TraceJob& job, const Rays& ray, V eye_u, V phase, V from, V last)
       : grid_(job.grid),
         optics_(job.optics),
         view_(job.view),
@@ -36,6 +36,12 @@ class Packet {
     left_ = set(1.0F);
     if constexpr (!kPlain) {
       largest_ = set(-40000.0F);
+      largest_u_ = zero();
+      const auto& ahead = job.view.forward;
+      const V depth_per_u =
+          hn::MulAdd(ray.dx, set(ahead[0]), hn::MulAdd(ray.dy, set(ahead[1]), hn::Mul(ray.dz, set(ahead[2]))));
+      pale_per_u_ = hn::Mul(depth_per_u, set(job.view.per_m));
+      pale_from_ = hn::MulAdd(eye_u, pale_per_u_, set(job.view.nearest_m * job.view.per_m));
       before_ = set(-1.0F);
       before_u_ = zero();
       for (int i = 0; i <= job.view.masks; ++i) met_[i] = 0;
@@ -123,32 +129,35 @@ class Packet {
     const V beyond = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(after, end), to_));
     from_ = hn::IfThenElse(empty, beyond, from_);
     if constexpr (!kPlain) {
-      // The last place of a block without gaps is below every level that matters.
+      // The last place of a cell without gaps that is not walked is below every level that matters.
+      const M passed = hn::Or(empty, thin);
       const V below = hn::IfThenElse(is_set<kGapsBit>(word), set(-1.0F), set(1.0F));
-      before_ = hn::IfThenElse(empty, below, before_);
-      before_u_ = hn::IfThenElse(empty, hn::Min(exit, to_), before_u_);
+      before_ = hn::IfThenElse(passed, below, before_);
+      before_u_ = hn::IfThenElse(passed, hn::Min(exit, to_), before_u_);
     }
     if (any(thin)) {
       counts.segments += static_cast<std::int64_t>(hn::CountTrue(D(), thin));
       const V nearest = hn::Mul(hn::Round(hn::Mul(exit, per_step)), step);
       const V stop = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(nearest, end), to_));
-      segment(thin, cell, hn::Sub(stop, from_));
+      segment(thin, cell, from_, stop);
       from_ = hn::IfThenElse(thin, stop, from_);
     }
     step_ = hn::IfThenElse(hn::Or(empty, thin), step, step_);
     per_step_ = hn::IfThenElse(hn::Or(empty, thin), per_step, per_step_);
   }
 
-  void segment(M lanes, W cell, V length) {
+  void segment(M lanes, W cell, V from, V stop) {
     V mean[4];
     rows_at(reinterpret_cast<const float*>(job_.means), cell, mean);
     const V extinction = mean[3];
-    const V opacity = opacity_of(hn::IfThenElseZero(lanes, hn::Mul(extinction, length)));
+    const V opacity = opacity_of(hn::IfThenElseZero(lanes, hn::Mul(extinction, hn::Sub(stop, from))));
+    Rgb emission{mean[0], mean[1], mean[2]};
+    if constexpr (!kPlain) fade(emission, extinction, hn::Mul(set(0.5F), hn::Add(from, stop)));
     V share = hn::Mul(hn::Mul(opacity, left_), inverse(hn::Max(extinction, set(1e-12F))));
     share = hn::IfThenElseZero(lanes, share);
-    rgb_.r = hn::MulAdd(share, mean[0], rgb_.r);
-    rgb_.g = hn::MulAdd(share, mean[1], rgb_.g);
-    rgb_.b = hn::MulAdd(share, mean[2], rgb_.b);
+    rgb_.r = hn::MulAdd(share, emission.r, rgb_.r);
+    rgb_.g = hn::MulAdd(share, emission.g, rgb_.g);
+    rgb_.b = hn::MulAdd(share, emission.b, rgb_.b);
     left_ = hn::IfThenElse(lanes, hn::NegMulAdd(opacity, left_, left_), left_);
   }
 
@@ -157,7 +166,7 @@ class Packet {
       const V value = value_at(grid_, p);
       const Seen seen = seen_at(value);
       if (!any(hn::Gt(seen.extinction, zero()))) return;
-      lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(seen.extinction, length))), unpacked(seen.rgb10));
+      lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(seen.extinction, length))), unpacked(seen.rgb10), u);
     } else {
       sample_any(lanes, p, word, u, length);
     }
@@ -168,14 +177,14 @@ class Packet {
     Rgb emission{zero(), zero(), zero()};
     V extinction = zero();
     if (view_.masked && any(hn::And(lanes, is_set<kMaskBit>(word)))) {
-      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, emission, extinction);
+      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, u, emission, extinction);
     }
     if (view_.data) meet_data(lanes, p, voxel, word, u, emission, extinction);
     const M lit_up = hn::Gt(extinction, zero());
     if (!any(lit_up)) return;
     const V per = hn::Div(set(1.0F), hn::Max(extinction, set(1e-12F)));
     lay(opacity_of(hn::Mul(extinction, length)),
-        {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)});
+        {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)}, u);
   }
 
   void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
@@ -184,15 +193,17 @@ class Packet {
     if (grid_.known != nullptr && any(hn::And(lanes, is_set<kGapsBit>(word)))) share = share_of(grid_, voxel, p);
     const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
     if (view_.mode == RayMode::maximum) {
-      largest_ = hn::IfThenElse(counts, hn::Max(largest_, value), largest_);
+      const M larger = hn::And(counts, hn::Gt(value, largest_));
+      largest_ = hn::IfThenElse(larger, value, largest_);
+      largest_u_ = hn::IfThenElse(larger, u, largest_u_);
       return;
     }
-    if (view_.mode == RayMode::first_hit) {
+    if (ends_at_surface(view_.mode)) {
       const M above = hn::And(counts, hn::Ge(value, set(view_.first_hit_count)));
       if (any(above)) hit(above, u);
       before_ = hn::IfThenElse(counts, set(1.0F), hn::IfThenElse(lanes, set(-1.0F), before_));
       before_u_ = hn::IfThenElse(lanes, u, before_u_);
-      return;
+      if (!accumulates(view_.mode)) return;
     }
     const Seen seen = seen_at(value);
     const V own = hn::IfThenElseZero(lanes, hn::Mul(share, seen.extinction));
@@ -200,7 +211,7 @@ class Packet {
     Rgb rgb = unpacked(seen.rgb10);
     if (view_.lighting.on) {
       const Slope slope = slope_of(corners_of(grid_, voxel), p);
-      light(view_, ray_, gradient_of(grid_, p, slope), static_cast<float>(kDbPerCount), rgb);
+      light(view_, ray_, gradient_of(grid_, p, slope), static_cast<float>(kDbPerCount), rgb, set(1.0F));
     }
     emission.r = hn::MulAdd(own, rgb.r, emission.r);
     emission.g = hn::MulAdd(own, rgb.g, emission.g);
@@ -223,13 +234,66 @@ class Packet {
     const Corners corners = corners_of(grid_, voxel_of(grid_, p));
     Rgb rgb = unpacked(seen_at(value_of(corners, p)).rgb10);
     if (view_.lighting.on) {
-      light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
+      const Gradient g = gradient_of(grid_, p, slope_of(corners, p));
+      const V sky = view_.lighting.occlusion_m > 0.0F ? sky_over(p, g) : set(1.0F);
+      light(view_, ray_, g, static_cast<float>(kDbPerCount), rgb, sky);
     }
-    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb);
+    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, high);
+  }
+
+  /// Share of the ambient light that reaches a surface.
+  HWY_NOINLINE V sky_over(const Place& p, const Gradient& g) const {
+    const V length2 = hn::MulAdd(g.x, g.x, hn::MulAdd(g.y, g.y, hn::Mul(g.z, g.z)));
+    const V per = hn::Div(set(-1.0F), hn::Max(root(length2), set(1e-20F)));
+    const V nx = hn::Mul(g.x, per);
+    const V ny = hn::Mul(g.y, per);
+    const V nz = hn::Mul(g.z, per);
+    // Two tangents without a branch: Duff and others, Building an orthonormal basis, revisited, JCGT 6 (2017).
+    const V side = hn::CopySign(set(1.0F), nz);
+    const V a = hn::Div(set(-1.0F), hn::Add(side, nz));
+    const V b = hn::Mul(hn::Mul(nx, ny), a);
+    const V one[3] = {hn::MulAdd(hn::Mul(side, a), hn::Mul(nx, nx), set(1.0F)), hn::Mul(side, b),
+                      hn::Neg(hn::Mul(side, nx))};
+    const V two[3] = {b, hn::MulAdd(a, hn::Mul(ny, ny), side), hn::Neg(ny)};
+    const V normal[3] = {nx, ny, nz};
+    V sum = zero();
+    for (const auto& d : view_.sky) {
+      const auto along = [&](int i) {
+        return hn::MulAdd(set(d[0]), one[i], hn::MulAdd(set(d[1]), two[i], hn::Mul(set(d[2]), normal[i])));
+      };
+      Rays ray;
+      ray.dx = along(0);
+      ray.dy = along(1);
+      ray.dz = along(2);
+      const V start = begin_at(ray, p.x, p.y, p.z);
+      sum = hn::Add(sum, open_along(ray, start));
+    }
+    return hn::Mul(sum, set(1.0F / static_cast<float>(kSkyRays)));
+  }
+
+  /// Where within occlusion_m Sv first reaches the level, 0..1.
+  V open_along(const Rays& ray, V start) const {
+    const V step = set(view_.lighting.occlusion_m / static_cast<float>(kSkySteps));
+    V before = zero();  // counts above the level
+    V open = set(1.0F);
+    M going = hn::Lt(zero(), open);
+    for (int i = 0; i < kSkySteps && any(going); ++i) {
+      const Place p = place_at(grid_, ray, hn::MulAdd(set(static_cast<float>(i + 1)), step, start));
+      M counts = is_inside(grid_, p);
+      if (grid_.known != nullptr) counts = hn::And(counts, hn::Ge(share_of(grid_, voxel_of(grid_, p), p), set(0.5F)));
+      const V over = hn::IfThenElse(counts, hn::Sub(value_at(grid_, p), set(view_.first_hit_count)), set(-1.0F));
+      const M met = hn::And(going, hn::Ge(over, zero()));
+      const V part = hn::Div(before, hn::Min(hn::Sub(before, over), set(-1e-6F)));
+      open = hn::IfThenElse(
+          met, hn::Mul(hn::Add(set(static_cast<float>(i)), part), set(1.0F / static_cast<float>(kSkySteps))), open);
+      going = hn::AndNot(met, going);
+      before = hn::Min(over, zero());
+    }
+    return open;
   }
 
   /// All layers that touch the voxels round the samples, the lowest number first.
-  void meet_masks(M lanes, const Place& p, W voxel, Rgb& emission, V& extinction) {
+  void meet_masks(M lanes, const Place& p, W voxel, V u, Rgb& emission, V& extinction) {
     W word[4];
     gather_columns(grid_, grid_.masks, voxel, word);
     std::int32_t layer = next_layer(lanes, word, 0);
@@ -239,7 +303,7 @@ class Packet {
         c.first[i] = confidence_of(hn::And(word[i], seti(0xFFFF)), layer);
         c.second[i] = confidence_of(hn::And(hn::ShiftRight<16>(word[i]), seti(0xFFFF)), layer);
       }
-      meet_layer(lanes, layer, p, c, emission, extinction);
+      meet_layer(lanes, layer, p, c, u, emission, extinction);
     }
   }
 
@@ -261,7 +325,7 @@ class Packet {
     return hn::ConvertTo(D(), hn::IfThenElseZero(of_layer, hn::And(half, seti(0xFF))));
   }
 
-  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, Rgb& emission, V& extinction) {
+  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, V u, Rgb& emission, V& extinction) {
     const V confidence = value_of(c, p);
     const auto& colour = view_.mask_rgb[layer - 1];
     const M at_surface = hn::And(lanes, hn::Ge(confidence, set(view_.fuzzy_at)));
@@ -269,8 +333,8 @@ class Packet {
     if (fresh != 0) {
       met_[layer] |= fresh;
       Rgb rgb{set(colour[0]), set(colour[1]), set(colour[2])};
-      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb);
-      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb);
+      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb, set(1.0F));
+      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb, u);
     }
     const M in_core = hn::And(lanes, hn::Ge(confidence, set(view_.core_at)));
     const V own = hn::IfThenElseZero(in_core, set(view_.core_extinction));
@@ -303,7 +367,7 @@ class Packet {
   void show_largest() {
     const Seen seen = seen_at(largest_);
     const M shown = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(seen.extinction, zero()));
-    lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10));
+    lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10), largest_u_);
   }
 
   struct Seen {
@@ -319,7 +383,17 @@ class Packet {
     return {extinction, hn::BitCast(I(), colour)};
   }
 
-  void lay(V opacity, const Rgb& rgb) {
+  /// Colours times `weight`, mixed with the background by their depth.
+  void fade(Rgb& rgb, V weight, V u) const {
+    if (view_.palest <= 0.0F) return;
+    const V part = hn::Clamp(hn::MulSub(u, pale_per_u_, pale_from_), zero(), set(1.0F));
+    const V pale = hn::Mul(part, set(view_.palest));
+    const auto mixed = [&](V own, float ground) { return lerp(own, hn::Mul(weight, set(ground)), pale); };
+    rgb = {mixed(rgb.r, view_.ground[0]), mixed(rgb.g, view_.ground[1]), mixed(rgb.b, view_.ground[2])};
+  }
+
+  void lay(V opacity, Rgb rgb, V u) {
+    if constexpr (!kPlain) fade(rgb, set(1.0F), u);
     const V share = hn::Mul(opacity, left_);
     rgb_.r = hn::MulAdd(share, rgb.r, rgb_.r);
     rgb_.g = hn::MulAdd(share, rgb.g, rgb_.g);
@@ -352,7 +426,8 @@ class Packet {
   V left_;
   M met_sector_ = none();
   Rgb rgb_;
-  V largest_, before_, before_u_;
+  V largest_, largest_u_, before_, before_u_;
+  V pale_per_u_, pale_from_;
   std::uint32_t met_[kPlain ? 1 : 256];
 };
 

@@ -134,7 +134,7 @@ TEST_F(ContextGl, EveryVariantOfTheShaderCompiles) {
     const auto ok = pass.prepare(variant);
     EXPECT_TRUE(ok) << (ok ? "" : ok.error().text);
   };
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum, RayMode::volume_and_surface}) {
     for (int bits = 0; bits < 32; ++bits) {
       RayVariant v{.mode = mode};
       v.lit = (bits & 1) != 0;
@@ -143,6 +143,7 @@ TEST_F(ContextGl, EveryVariantOfTheShaderCompiles) {
       v.folded = (bits & 8) != 0;
       v.mask_words = (bits & 16) != 0 ? 8 : 0;
       v.opaque = v.lit;
+      v.cued = v.folded;
       good(v);
     }
   }
