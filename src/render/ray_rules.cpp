@@ -24,6 +24,17 @@ Point<Sonar> unit(const Point<Sonar>& p) {
 
 double fract(double value) { return value - std::floor(value); }
 
+/// Digits of n behind the point in the reverse order, 0..1.
+double reversed(std::uint32_t n, std::uint32_t base) {
+  double out = 0.0;
+  for (double digit = 1.0 / base; n > 0; n /= base, digit /= base) out += digit * (n % base);
+  return out;
+}
+
+/// Halton's sequence in the unit square, moved by half of what sixteen of its numbers leave between them: their mean is
+/// the middle then.
+PixelPoint spread(std::uint32_t n) { return {fract(reversed(n, 2) + 1.0 / 32.0), fract(reversed(n, 3) + 1.0 / 18.0)}; }
+
 bool finite(const Point<Sonar>& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
@@ -44,19 +55,19 @@ double sample_phase(int x, int y, std::uint32_t jitter_frame) {
 
 PixelPoint pixel_shift(std::uint32_t jitter_frame) {
   if (jitter_frame == 0) return {0.0, 0.0};
-  return {fract(0.7548776662466927 * jitter_frame) - 0.5, fract(0.5698402909980532 * jitter_frame) - 0.5};
+  const PixelPoint at = spread(jitter_frame);
+  return {at.x - 0.5, at.y - 0.5};
 }
 
 std::array<std::array<float, 3>, kSkyRays> sky_rays(std::uint32_t jitter_frame) {
   // Within a quarter turn, and within a ring's half of the light, evenly from frame to frame.
-  const double turn = jitter_frame == 0 ? 0.5 : fract(0.7548776662466927 * jitter_frame);
-  const double tilt = jitter_frame == 0 ? 0.5 : fract(0.5698402909980532 * jitter_frame);
+  const PixelPoint at = jitter_frame == 0 ? PixelPoint{0.5, 0.5} : spread(jitter_frame);
   std::array<std::array<float, 3>, kSkyRays> out{};
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double ring = static_cast<double>(i / 4);
     // The cosine law: sine^2 of the angle off the normal is even.
-    const double sine2 = 0.5 * (ring + tilt);
-    const double azimuth = 0.5 * std::numbers::pi * (static_cast<double>(i % 4) + turn + 0.5 * ring);
+    const double sine2 = 0.5 * (ring + at.x);
+    const double azimuth = 0.5 * std::numbers::pi * (static_cast<double>(i % 4) + at.y + 0.5 * ring);
     const double sine = std::sqrt(sine2);
     out[i] = {static_cast<float>(sine * std::cos(azimuth)), static_cast<float>(sine * std::sin(azimuth)),
               static_cast<float>(std::sqrt(1.0 - sine2))};

@@ -25,7 +25,8 @@ namespace sonar {
 // quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
 // reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
 // Surfaces (first hit; volume and surface). The ray ends with opacity 1 where the level is crossed, colour of that level; what
-// accumulates up to the start of that interval lies before it. Maximum. Colour of the largest Sv behind the masks' light.
+// accumulates up to the start of that interval lies before it. Maximum. Colour of the largest Sv behind the masks'
+// light; the peak is looked for between samples, at h / 2, h / 4 ... to both sides, kClimbs times.
 // Ambient light on surfaces. Comes from the half space before the surface, less where something stands in it: of kSkyRays
 // rays from the place, each of equal share under the cosine law, one whose Sv first reaches the level at the distance d
 // brings d / occlusion_m of its light (kSkySteps steps, linear in between). Outside the sector and where Sv is not known
@@ -45,11 +46,12 @@ inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of t
 /// fract(fract(52.9829189 fract(0.06711056 x + 0.00583715 y)) + 0.61803399 frame), x, y of the full picture.
 [[nodiscard]] double sample_phase(int x, int y, std::uint32_t jitter_frame);
 
-/// Where in its pixel the frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
-/// pixels, so that the mean of n frames is a picture of n rays a pixel, evenly spread: fract(n a) with the numbers a of
-/// Roberts' R2 sequence.
+/// Where in its pixel a frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
+/// pixels, so that the mean of n frames is a picture of n rays a pixel, evenly spread (Halton's sequence to the bases 2
+/// and 3).
 [[nodiscard]] PixelPoint pixel_shift(std::uint32_t jitter_frame);
 
+inline constexpr int kClimbs = 3;
 inline constexpr int kSkyRays = 8;
 inline constexpr int kSkySteps = 8;
 /// Directions in which a frame looks whether ambient light comes: (first tangent, second tangent, normal). Two rings of

@@ -50,12 +50,13 @@ inline std::shared_ptr<VolumeData> balls(const std::vector<Ball>& all) {
   return out;
 }
 
-/// White where the level is reached; before it nothing, or water of an even extinction and another colour.
-inline OpticalTable table(float haze_per_m = 0.0F) {
+/// White where the level is reached, another colour before it; an even extinction in both.
+inline OpticalTable table(float below_per_m = 0.0F, float above_per_m = 0.0F) {
   OpticalTable out{-90.0, -10.0, {}};
   for (int i = 0; i < 801; ++i) {
     const bool above = -90.0 + 0.1 * i >= kLevel_db - 0.25;
-    out.rgb_extinction.push_back(above ? std::array{1.0F, 1.0F, 1.0F, 1.0F} : std::array{0.2F, 0.4F, 0.6F, haze_per_m});
+    out.rgb_extinction.push_back(above ? std::array{1.0F, 1.0F, 1.0F, above_per_m}
+                                       : std::array{0.2F, 0.4F, 0.6F, below_per_m});
   }
   return out;
 }
@@ -130,10 +131,11 @@ inline const std::array<float, 4>& pixel(const RayImage& image, int x, int y) {
 /// A ball has the outline and the normals of a ball.
 inline void a_ball_is_round(VolumeRenderer& r) {
   const Ball ball = lone_ball();
+  const auto volume = balls({ball});
   for (const RayMode mode : {RayMode::first_hit, RayMode::volume_and_surface}) {
     VolumeView seen = view(45.0, mode);
     seen.lighting = lamp_alone();
-    const RayImage rays = drawn(r, balls({ball}), table(), seen);
+    const RayImage rays = drawn(r, volume, table(), seen);
     const Point<Sonar> lamp = light_direction(basis(seen.camera, seen.size));
     double squares = 0.0;
     int met = 0;
@@ -158,8 +160,9 @@ inline void a_ball_is_round(VolumeRenderer& r) {
 inline void nothing_darkens_a_lone_ball(VolumeRenderer& r) {
   VolumeView seen = view(45.0, RayMode::first_hit);
   seen.lighting = sky_alone(20.0F);
+  const auto volume = balls({lone_ball()});
   for (const std::uint32_t frame : {0U, 1U, 5U}) {
-    for (const auto& p : drawn(r, balls({lone_ball()}), table(), seen, {1, 1.0, 0.03, frame}).rgba) {
+    for (const auto& p : drawn(r, volume, table(), seen, {1, 1.0, 0.03, frame}).rgba) {
       if (p[3] == 0.0F) continue;
       ASSERT_NEAR(p[0], 1.0F, 0.02F) << frame;
     }
@@ -172,13 +175,14 @@ inline void a_round_room_is_as_dark_as_it_is_wide(VolumeRenderer& r) {
   for (const float reach : {12.0F, 24.0F}) {
     VolumeView seen = view(1e-3, RayMode::first_hit);
     seen.lighting = sky_alone(reach);
+    const auto volume = balls({room()});
     const double expected = 4.0 * room().radius_m / (3.0 * static_cast<double>(reach));
-    const RayImage one = drawn(r, balls({room()}), table(), seen);
-    const RayImage many = mean_of(r, balls({room()}), table(), seen, 16);
+    const RayImage one = drawn(r, volume, table(), seen);
+    const RayImage many = mean_of(r, volume, table(), seen, 16);
     for (std::size_t i = 0; i < one.rgba.size(); ++i) {
       ASSERT_EQ(one.rgba[i][3], 1.0F);
       ASSERT_NEAR(static_cast<double>(one.rgba[i][0]), expected, 0.06 * expected) << reach;
-      ASSERT_NEAR(static_cast<double>(many.rgba[i][0]), expected, 0.03 * expected) << reach;
+      ASSERT_NEAR(static_cast<double>(many.rgba[i][0]), expected, 0.04 * expected) << reach;
     }
   }
 }
@@ -202,13 +206,15 @@ inline void two_balls_darken_each_other(VolumeRenderer& r) {
 inline void a_surface_stands_in_its_water(VolumeRenderer& r) {
   Ball ball = lone_ball();
   ball.fall_db_per_m = 20.0;  // so that no other Sv comes before the level
+  const auto volume = balls({ball});
   VolumeView seen = view(20.0, RayMode::volume_and_surface);
   seen.size = {1, 1};
+  seen.camera.vertical_fov_rad = 1e-4;
   for (const double limit : {0.0, 10.0}) {
     double mean = 0.0;
     for (std::uint32_t frame = 1; frame <= 16; ++frame) {
       mean +=
-          static_cast<double>(drawn(r, balls({ball}), table(0.05F), seen, {1, 1.0, limit, frame}).rgba[0][0]) / 16.0;
+          static_cast<double>(drawn(r, volume, table(0.05F, 0.05F), seen, {1, 1.0, limit, frame}).rgba[0][0]) / 16.0;
     }
     const double left = std::exp(-0.05 * (20.0 - ball.radius_m));
     EXPECT_NEAR(mean, left * 1.0 + (1.0 - left) * 0.2, 0.005) << limit;
@@ -217,18 +223,19 @@ inline void a_surface_stands_in_its_water(VolumeRenderer& r) {
 
 /// Without water before it, it is the first hit; where nothing reaches the level, it is the volume.
 inline void it_is_both_of_what_it_is_made_of(VolumeRenderer& r) {
+  const auto volume = balls({lone_ball()});
   VolumeView seen = view(45.0, RayMode::first_hit);
   seen.lighting.on = true;
   seen.lighting.occlusion_m = 10.0F;
-  const RayImage hit = drawn(r, balls({lone_ball()}), table(), seen);
+  const RayImage hit = drawn(r, volume, table(), seen);
   seen.mode = RayMode::volume_and_surface;
-  EXPECT_EQ(drawn(r, balls({lone_ball()}), table(), seen).rgba, hit.rgba);
+  EXPECT_EQ(drawn(r, volume, table(), seen).rgba, hit.rgba);
   for (const bool lit : {false, true}) {
     seen.lighting.on = lit;
     seen.first_hit_db = 0.0;
-    const Image both = over(drawn(r, balls({lone_ball()}), table(0.01F), seen), Rgba8{0, 0, 0, 255});
+    const Image both = over(drawn(r, volume, table(0.01F, 0.01F), seen), Rgba8{0, 0, 0, 255});
     seen.mode = RayMode::accumulate;
-    EXPECT_GT(psnr_db(over(drawn(r, balls({lone_ball()}), table(0.01F), seen), Rgba8{0, 0, 0, 255}), both), 60.0);
+    EXPECT_GT(psnr_db(over(drawn(r, volume, table(0.01F, 0.01F), seen), Rgba8{0, 0, 0, 255}), both), 60.0);
     seen.mode = RayMode::volume_and_surface;
   }
 }
@@ -236,9 +243,10 @@ inline void it_is_both_of_what_it_is_made_of(VolumeRenderer& r) {
 /// A surface has as much of the background as its depth says; opacity stays.
 inline void what_is_far_fades(VolumeRenderer& r) {
   const Ball ball = lone_ball();
+  const auto volume = balls({ball});
   VolumeView seen = view(45.0, RayMode::first_hit);
   seen.cue = {{20, 40, 80, 255}, 36.0, 48.0};
-  const RayImage rays = drawn(r, balls({ball}), table(), seen);
+  const RayImage rays = drawn(r, volume, table(), seen);
   for (int y = 0; y < seen.size.height; ++y) {
     for (int x = 0; x < seen.size.width; ++x) {
       const Meeting at = meeting(seen, x, y, ball);
@@ -249,12 +257,12 @@ inline void what_is_far_fades(VolumeRenderer& r) {
   }
   for (const RayMode mode : {RayMode::accumulate, RayMode::maximum, RayMode::volume_and_surface}) {
     seen.mode = mode;
-    const RayImage with = drawn(r, balls({ball}), table(0.02F), seen);
+    const RayImage with = drawn(r, volume, table(0.02F, 0.1F), seen);
     VolumeView bare = seen;
     bare.cue = {};
-    const RayImage without = drawn(r, balls({ball}), table(0.02F), bare);
+    const RayImage without = drawn(r, volume, table(0.02F, 0.1F), bare);
     Work work(2);
-    const RayImage truth = brute_force(*balls({ball}), table(0.02F), {}, seen, 0.5, work);
+    const RayImage truth = brute_force(*volume, table(0.02F, 0.1F), {}, seen, 0.5, work);
     EXPECT_GT(psnr_db(over(with, Rgba8{0, 0, 0, 255}), over(truth, Rgba8{0, 0, 0, 255})), 40.0)
         << static_cast<int>(mode);
     for (std::size_t i = 0; i < with.rgba.size(); ++i) {
@@ -306,11 +314,12 @@ inline void frames_at_rest_smooth_edges(VolumeRenderer& r) {
     VolumeView fine = seen;
     fine.size = {768, 768};
     const Rgba8 black{0, 0, 0, 255};
-    const Image truth = over(reduced(drawn(r, volume, table(), fine), 4), black);
-    const Image mean = over(mean_of(r, volume, table(), seen, 16), black);
+    const Image truth = over(reduced(drawn(r, volume, table(0.0F, 1.0F), fine), 4), black);
+    const Image mean = over(mean_of(r, volume, table(0.0F, 1.0F), seen, 16), black);
     EXPECT_GT(psnr_db(mean, truth), 45.0) << static_cast<int>(mode);
     EXPECT_GT(worst_tile_psnr_db(mean, truth), 35.0) << static_cast<int>(mode);
-    EXPECT_LT(psnr_db(over(drawn(r, volume, table(), seen), black), truth), 40.0) << "one ray a pixel has steps";
+    EXPECT_LT(psnr_db(over(drawn(r, volume, table(0.0F, 1.0F), seen), black), truth), 40.0)
+        << "one ray a pixel has steps";
   }
 }
 

@@ -29,13 +29,14 @@ class Packet {
         phase_(phase),
         from_(from),
         to_(from),
+        first_(from),
         last_(last),
         step_(set(job.view.step_m)),
         per_step_(set(1.0F / job.view.step_m)) {
     rgb_ = {zero(), zero(), zero()};
     left_ = set(1.0F);
     if constexpr (!kPlain) {
-      largest_ = set(-40000.0F);
+      largest_ = set(kNothing);
       largest_u_ = zero();
       const auto& ahead = job.view.forward;
       const V depth_per_u =
@@ -84,6 +85,8 @@ class Packet {
   }
 
  private:
+  static constexpr float kNothing = -40000.0F;  ///< counts below all there are
+
   /// One step for some: leaps and segments where any lane needs one, samples once half of the lanes are ready.
   HWY_INLINE void advance(M alive, RayCounts& counts) {
     const V multiple = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
@@ -271,6 +274,12 @@ class Packet {
     return hn::Mul(sum, set(1.0F / static_cast<float>(kSkyRays)));
   }
 
+  /// Whether there is a value at p that counts, wherever p is.
+  M is_known(const Place& p) const {
+    const M inside = is_inside(grid_, p);
+    return grid_.known == nullptr ? inside : hn::And(inside, hn::Ge(share_of(grid_, voxel_of(grid_, p), p), set(0.5F)));
+  }
+
   /// Where within occlusion_m Sv first reaches the level, 0..1.
   V open_along(const Rays& ray, V start) const {
     const V step = set(view_.lighting.occlusion_m / static_cast<float>(kSkySteps));
@@ -279,9 +288,7 @@ class Packet {
     M going = hn::Lt(zero(), open);
     for (int i = 0; i < kSkySteps && any(going); ++i) {
       const Place p = place_at(grid_, ray, hn::MulAdd(set(static_cast<float>(i + 1)), step, start));
-      M counts = is_inside(grid_, p);
-      if (grid_.known != nullptr) counts = hn::And(counts, hn::Ge(share_of(grid_, voxel_of(grid_, p), p), set(0.5F)));
-      const V over = hn::IfThenElse(counts, hn::Sub(value_at(grid_, p), set(view_.first_hit_count)), set(-1.0F));
+      const V over = hn::IfThenElse(is_known(p), hn::Sub(value_at(grid_, p), set(view_.first_hit_count)), set(-1.0F));
       const M met = hn::And(going, hn::Ge(over, zero()));
       const V part = hn::Div(before, hn::Min(hn::Sub(before, over), set(-1e-6F)));
       open = hn::IfThenElse(
@@ -364,9 +371,28 @@ class Packet {
     return hn::IfThenElse(hn::RebindMask(I(), idle), hn::Or(word, seti(1 | 1 << kEmptyBit)), word);
   }
 
+  /// The peak between samples.
+  void climb() {
+    const M met = hn::Gt(largest_, set(kNothing));
+    V reach = set(view_.step_m);
+    for (int i = 0; i < kClimbs; ++i) {
+      reach = hn::Mul(reach, set(0.5F));
+      const V middle = largest_u_;
+      for (const float side : {-1.0F, 1.0F}) {
+        const V u = hn::Clamp(hn::MulAdd(reach, set(side), middle), first_, last_);
+        const Place p = place_at(grid_, ray_, u);
+        const V value = value_at(grid_, p);
+        const M larger = hn::And(hn::And(met, is_known(p)), hn::Gt(value, largest_));
+        largest_ = hn::IfThenElse(larger, value, largest_);
+        largest_u_ = hn::IfThenElse(larger, u, largest_u_);
+      }
+    }
+  }
+
   void show_largest() {
+    climb();
     const Seen seen = seen_at(largest_);
-    const M shown = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(seen.extinction, zero()));
+    const M shown = hn::And(hn::Gt(largest_, set(kNothing)), hn::Gt(seen.extinction, zero()));
     lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10), largest_u_);
   }
 
@@ -422,7 +448,7 @@ class Packet {
   const TraceView& view_;
   const TraceJob& job_;
   Rays ray_;
-  V phase_, from_, to_, last_, step_, per_step_;
+  V phase_, from_, to_, first_, last_, step_, per_step_;
   V left_;
   M met_sector_ = none();
   Rgb rgb_;

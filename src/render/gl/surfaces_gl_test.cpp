@@ -45,8 +45,9 @@ TEST_F(SurfacesGl, AgreesWithTheProcessorFrameByFrame) {
   const std::vector<Ball> two{lone_ball(), {centre() + Point<Sonar>{7.0, 7.0, 0.0}, 4.0, 2.0}};
   for (const std::uint32_t frame : {0U, 3U}) {
     const DrawQuality quality{1, 1.0, 0.03, frame};
-    const Image ours = over(drawn(*renderer_, balls(two), table(0.01F), seen, quality), Rgba8{0, 0, 0, 255});
-    EXPECT_GT(psnr_db(over(drawn(*cpu, balls(two), table(0.01F), seen, quality), Rgba8{0, 0, 0, 255}), ours), 45.0)
+    const Image ours = over(drawn(*renderer_, balls(two), table(0.01F, 0.01F), seen, quality), Rgba8{0, 0, 0, 255});
+    EXPECT_GT(psnr_db(over(drawn(*cpu, balls(two), table(0.01F, 0.01F), seen, quality), Rgba8{0, 0, 0, 255}), ours),
+              45.0)
         << frame;
   }
 }

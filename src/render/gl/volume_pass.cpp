@@ -33,6 +33,7 @@ std::string defines(const RayVariant& v) {
          flag("WIDE", v.wide) + flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) +
          flag("EVEN_BEAMS", v.even_beams) + flag("EVEN_FANS", v.even_fans) + flag("ANGLE_ENTRIES", kAngleEntries) +
          flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow) + flag("SKY_STEPS", kSkySteps) +
+         flag("CLIMBS", kClimbs) +
          fmt::format("#define ALONG_BEAMS {:.3f}\n#define FACE_INDEX {:.4f}\n", kAlongBeams, kFaceIndex);
 }
 
@@ -67,12 +68,12 @@ std::string ray_shader(const RayVariant& variant) {
   std::string out =
       kVersion + defines(variant) + joined({"block.glsl", "grid.glsl", "sector.glsl", "cells.glsl", "sum.glsl"});
   if (variant.lit || variant.mask_words > 0) {
-    out += joined({"light.glsl", "sky.glsl"});
+    out += shader_source("light.glsl");
   }
   if (variant.mask_words > 0) {
     out += shader_source("masks.glsl");
   }
-  return out + joined({"volume.frag"});
+  return out + joined({"sky.glsl", "volume.frag"});
 }
 
 Result<void> VolumePass::prepare(const RayVariant& variant) {

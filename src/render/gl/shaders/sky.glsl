@@ -5,17 +5,22 @@ bool is_inside(vec3 g, vec3 p) {
   return all(greaterThan(g, vec3(FACE_INDEX))) && all(lessThan(g, last)) && p.z >= ray.forward.w;
 }
 
+// Whether there is a value that counts, wherever the place is.
+bool is_known(vec3 g, vec3 p) {
+#if GAPPED
+  return is_inside(g, p) && known_at(g) >= 0.5;
+#else
+  return is_inside(g, p);
+#endif
+}
+
 // Where within the reach Sv first comes to the level, 0..1.
 float open_along(vec3 p, vec3 out_there) {
   float before = 0.0;  // counts above the level
   for (int i = 0; i < SKY_STEPS; ++i) {
     vec3 q = p + out_there * (ray.cones.w * float(i + 1) / float(SKY_STEPS));
     vec3 g = index_of(q, length(q));
-    bool counts = is_inside(g, q);
-#if GAPPED
-    counts = counts && known_at(g) >= 0.5;
-#endif
-    float over = counts ? sv_at(g) - ray.range.w : -1.0;
+    float over = is_known(g, q) ? sv_at(g) - ray.range.w : -1.0;
     if (over >= 0.0) return (float(i) + before / min(before - over, -1e-6)) / float(SKY_STEPS);
     before = over;
   }

@@ -71,9 +71,27 @@ void end_hit() {
   lay_over(shown, 1.0, hit_high);
 }
 
-void end_maximum() {
+void climb(float t) {
+  vec3 p = base + t * dir;
+  vec3 g = index_of(p, sqrt(base2 + t * t));
+  float counts = sv_at(g);
+  if (counts <= largest || !is_known(g, p)) return;
+  largest = counts;
+  largest_t = t;
+}
+
+void end_maximum(vec2 span) {
+  if (largest <= -1e9) return;
+  // The peak between samples.
+  float reach = ray.up.w;
+  for (int i = 0; i < CLIMBS; ++i) {
+    reach *= 0.5;
+    float middle = largest_t;
+    climb(max(middle - reach, span.x));
+    climb(min(middle + reach, span.y));
+  }
   vec4 seen = optics(largest);
-  if (largest > -1e9 && seen.a > 0.0) lay_over(seen.rgb, 1.0, largest_t);
+  if (seen.a > 0.0) lay_over(seen.rgb, 1.0, largest_t);
 }
 
 float phase_of(ivec2 pixel) {
@@ -158,7 +176,7 @@ void main() {
 #if SURFACE
   end_hit();
 #elif MAXIMUM
-  end_maximum();
+  end_maximum(span);
 #endif
   // A ray that ended early is opaque: what it had not yet seen is taken to look like what it had.
   colour = through > 0.01 ? vec4(rgb, 1.0 - through) : vec4(rgb / (1.0 - through), 1.0);
