@@ -10,7 +10,7 @@
 #include <bit>
 
 #include "base/units.h"
-#include "render/cpu/field-inl.h"
+#include "render/cpu/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonar::HWY_NAMESPACE {
@@ -238,65 +238,10 @@ class Packet {
     Rgb rgb = unpacked(seen_at(value_of(corners, p)).rgb10);
     if (view_.lighting.on) {
       const Gradient g = gradient_of(grid_, p, slope_of(corners, p));
-      const V sky = view_.lighting.occlusion_m > 0.0F ? sky_over(p, g) : set(1.0F);
+      const V sky = view_.lighting.occlusion_m > 0.0F ? sky_over(grid_, view_, p, g) : set(1.0F);
       light(view_, ray_, g, static_cast<float>(kDbPerCount), rgb, sky);
     }
     lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, high);
-  }
-
-  /// Share of the ambient light that reaches a surface.
-  HWY_NOINLINE V sky_over(const Place& p, const Gradient& g) const {
-    const V length2 = hn::MulAdd(g.x, g.x, hn::MulAdd(g.y, g.y, hn::Mul(g.z, g.z)));
-    const V per = hn::Div(set(-1.0F), hn::Max(root(length2), set(1e-20F)));
-    const V nx = hn::Mul(g.x, per);
-    const V ny = hn::Mul(g.y, per);
-    const V nz = hn::Mul(g.z, per);
-    // Two tangents without a branch: Duff and others, Building an orthonormal basis, revisited, JCGT 6 (2017).
-    const V side = hn::CopySign(set(1.0F), nz);
-    const V a = hn::Div(set(-1.0F), hn::Add(side, nz));
-    const V b = hn::Mul(hn::Mul(nx, ny), a);
-    const V one[3] = {hn::MulAdd(hn::Mul(side, a), hn::Mul(nx, nx), set(1.0F)), hn::Mul(side, b),
-                      hn::Neg(hn::Mul(side, nx))};
-    const V two[3] = {b, hn::MulAdd(a, hn::Mul(ny, ny), side), hn::Neg(ny)};
-    const V normal[3] = {nx, ny, nz};
-    V sum = zero();
-    for (const auto& d : view_.sky) {
-      const auto along = [&](int i) {
-        return hn::MulAdd(set(d[0]), one[i], hn::MulAdd(set(d[1]), two[i], hn::Mul(set(d[2]), normal[i])));
-      };
-      Rays ray;
-      ray.dx = along(0);
-      ray.dy = along(1);
-      ray.dz = along(2);
-      const V start = begin_at(ray, p.x, p.y, p.z);
-      sum = hn::Add(sum, open_along(ray, start));
-    }
-    return hn::Mul(sum, set(1.0F / static_cast<float>(kSkyRays)));
-  }
-
-  /// Whether there is a value at p that counts, wherever p is.
-  M is_known(const Place& p) const {
-    const M inside = is_inside(grid_, p);
-    return grid_.known == nullptr ? inside : hn::And(inside, hn::Ge(share_of(grid_, voxel_of(grid_, p), p), set(0.5F)));
-  }
-
-  /// Where within occlusion_m Sv first reaches the level, 0..1.
-  V open_along(const Rays& ray, V start) const {
-    const V step = set(view_.lighting.occlusion_m / static_cast<float>(kSkySteps));
-    V before = zero();  // counts above the level
-    V open = set(1.0F);
-    M going = hn::Lt(zero(), open);
-    for (int i = 0; i < kSkySteps && any(going); ++i) {
-      const Place p = place_at(grid_, ray, hn::MulAdd(set(static_cast<float>(i + 1)), step, start));
-      const V over = hn::IfThenElse(is_known(p), hn::Sub(value_at(grid_, p), set(view_.first_hit_count)), set(-1.0F));
-      const M met = hn::And(going, hn::Ge(over, zero()));
-      const V part = hn::Div(before, hn::Min(hn::Sub(before, over), set(-1e-6F)));
-      open = hn::IfThenElse(
-          met, hn::Mul(hn::Add(set(static_cast<float>(i)), part), set(1.0F / static_cast<float>(kSkySteps))), open);
-      going = hn::AndNot(met, going);
-      before = hn::Min(over, zero());
-    }
-    return open;
   }
 
   /// All layers that touch the voxels round the samples, the lowest number first.
@@ -351,19 +296,6 @@ class Packet {
     extinction = hn::Add(extinction, own);
   }
 
-  static std::uint32_t bits(M m) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(D(), m, bytes);
-    std::uint32_t out = 0;
-    for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t{bytes[i]} << (8 * i);
-    return out;
-  }
-  static M mask_of(std::uint32_t lanes) {
-    std::uint8_t bytes[8] = {};
-    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(lanes >> (8 * i));
-    return hn::LoadMaskBits(D(), bytes);
-  }
-
   /// Cells that cannot raise a ray's maximum are empty to it; masks there count all the same.
   W lower_than_met(W word) const {
     const M lower = hn::Le(hn::ConvertTo(D(), hn::ShiftRight<16>(word)), largest_);
@@ -382,7 +314,7 @@ class Packet {
         const V u = hn::Clamp(hn::MulAdd(reach, set(side), middle), first_, last_);
         const Place p = place_at(grid_, ray_, u);
         const V value = value_at(grid_, p);
-        const M larger = hn::And(hn::And(met, is_known(p)), hn::Gt(value, largest_));
+        const M larger = hn::And(hn::And(met, is_known(grid_, p)), hn::Gt(value, largest_));
         largest_ = hn::IfThenElse(larger, value, largest_);
         largest_u_ = hn::IfThenElse(larger, u, largest_u_);
       }

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/ray_rules.h"
+
 #include <gtest/gtest.h>
 
-#include <memory>
-
-#include "render/surface_laws.h"
+#include <algorithm>
+#include <cmath>
 
 namespace sonar {
 namespace {
-
-using namespace surface_laws;
-
-class CpuSurfaces : public testing::Test {
- protected:
-  std::unique_ptr<VolumeRenderer> renderer_ = make_cpu_renderer();
-};
-
-TEST_F(CpuSurfaces, ABallIsRound) { a_ball_is_round(*renderer_); }
-TEST_F(CpuSurfaces, NothingDarkensALoneBall) { nothing_darkens_a_lone_ball(*renderer_); }
-TEST_F(CpuSurfaces, ARoundRoomIsAsDarkAsItIsWide) { a_round_room_is_as_dark_as_it_is_wide(*renderer_); }
-TEST_F(CpuSurfaces, TwoBallsDarkenEachOther) { two_balls_darken_each_other(*renderer_); }
-TEST_F(CpuSurfaces, ASurfaceStandsInItsWater) { a_surface_stands_in_its_water(*renderer_); }
-TEST_F(CpuSurfaces, ItIsBothOfWhatItIsMadeOf) { it_is_both_of_what_it_is_made_of(*renderer_); }
-TEST_F(CpuSurfaces, WhatIsFarFades) { what_is_far_fades(*renderer_); }
-TEST_F(CpuSurfaces, AgreesWithTheReference) { agrees_with_the_reference(*renderer_); }
-TEST_F(CpuSurfaces, FramesAtRestSmoothEdges) { frames_at_rest_smooth_edges(*renderer_); }
 
 /// Sixteen rays a pixel lie in sixteen places, about its middle.
 TEST(RayRules, FramesTakeOtherPlacesInThePixel) {
