@@ -24,6 +24,7 @@ Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView
                                             int divisor) {
   view.mode = RayMode::accumulate;
   view.lighting.on = false;
+  view.cue = {};
   view.masks = {.fuzzy_above = confidence,
                 .core_at = 1.0F,
                 .fuzzy_opacity = 1.0F,

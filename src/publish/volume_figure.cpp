@@ -46,11 +46,14 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
     line = options.volume.filtered ? "noise removed" : "as recorded";
     if (options.volume.mode == RayMode::accumulate) line += ", accumulated";
     if (options.volume.mode == RayMode::maximum) line += ", maximum along each ray";
-    if (options.volume.mode == RayMode::first_hit) {
-      line += fmt::format(", surface at {}{:g} dB", options.volume.first_hit_db < 0.0 ? "\u2212" : "",
+    if (options.volume.mode == RayMode::volume_and_surface) line += ", accumulated up to the";
+    if (options.volume.mode == RayMode::first_hit) line += ",";
+    if (ends_at_surface(options.volume.mode)) {
+      line += fmt::format(" surface at {}{:g} dB", options.volume.first_hit_db < 0.0 ? "\u2212" : "",
                           std::abs(options.volume.first_hit_db));
     }
     if (options.volume.lighting) line += ", lit";
+    if (options.volume.depth_cue) line += ", paler with distance";
     if (options.volume.clip != VolumeClip::none) line += ", cut open";
   }
   if (figure.seabed && known_percent(*figure.seabed) < 100) {
@@ -239,6 +242,8 @@ VolumeView volume_view(const VolumeFigure& figure, const PictureOptions& options
   view.mode = options.volume.mode;
   view.first_hit_db = options.volume.first_hit_db;
   view.lighting.on = options.volume.lighting;
+  view.lighting.occlusion_m = static_cast<float>(options.volume.occlusion_m);
+  if (options.volume.depth_cue) view.cue = depth_cue(figure.sector(), camera, place.theme.plot);
   view.masks = mask_style(options.display, options.volume);
   view.masks.data_too = view.masks.data_too && figure.samples;
   view.opaque_m = context.opaque_m;

@@ -10,7 +10,8 @@
 
 namespace sonar {
 
-inline constexpr std::array<std::string_view, 3> kRayModeNames{"accumulate", "first_hit", "maximum"};
+inline constexpr std::array<std::string_view, 4> kRayModeNames{"accumulate", "first_hit", "maximum",
+                                                               "volume_and_surface"};
 
 /// Which back-end draws volumes.
 enum class RendererChoice : std::uint8_t {
@@ -33,6 +34,8 @@ struct VolumeParams {
   RayMode mode = RayMode::accumulate;
   double first_hit_db = -50.0;
   bool lighting = true;
+  double occlusion_m = 15.0;
+  bool depth_cue = false;
   bool data = true;
   bool filtered = true;
   bool context = true;
@@ -58,9 +61,17 @@ void describe(Visitor& v, VolumeParams& p) {
           {.unit = "dB",
            .min = -200,
            .max = 100,
-           .text = "mode first hit: the surface lies where Sv reaches this",
+           .text = "modes first hit, and volume and surface: the surface lies where Sv reaches this",
            .tier = Tier::basic});
   v.field("lighting", p.lighting, {.text = "light surfaces by the gradient of Sv in metres", .tier = Tier::basic});
+  v.field("occlusion_m", p.occlusion_m,
+          {.unit = "m",
+           .min = 0,
+           .max = 1000,
+           .text = "lit surfaces are darker where others stand within this distance before them; 0 = nowhere"});
+  v.field("depth_cue", p.depth_cue,
+          {.text = "echoes fade into the background with their distance from the eye, as the lines round them do",
+           .tier = Tier::basic});
   v.field("data", p.data, {.text = "show the data round the schools", .tier = Tier::basic, .flag = "masks-alone"});
   v.field("filtered", p.filtered,
           {.text = "show Sv after the median filter, without speckle; off = as recorded",

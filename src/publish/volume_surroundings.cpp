@@ -86,8 +86,8 @@ ContextPicture volume_context(const VolumeFigure& figure, const PictureOptions& 
   const ContextParams params = volume_surroundings(figure, options);
   const Theme theme = scaled_theme(place);
   const auto seabed = figure.seabed ? std::optional(*figure.seabed) : std::nullopt;
-  return draw_context(context_scene(figure.sector(), params, theme, seabed), camera, place.rays, theme.plot,
-                      -params.transducer_depth_m, work);
+  return draw_context(context_scene(figure.sector(), params, theme, seabed), camera, place.rays,
+                      depth_cue(figure.sector(), camera, theme.plot), -params.transducer_depth_m, work);
 }
 
 }  // namespace sonar

@@ -17,7 +17,6 @@ namespace {
 constexpr int kSubPixels = 2;       ///< a side
 constexpr double kNear_m = 0.1;     ///< nearer things are cut off
 constexpr double kFaintLine = 0.3;  ///< share of a line's alpha that is drawn before the volume
-constexpr double kPalest = 0.5;     ///< how much of the background the farthest line has
 constexpr int kBandRows = 32;
 
 /// A corner on the sub-pixel raster; `inverse` = 1 / depth, which is linear on the screen.
@@ -96,33 +95,15 @@ std::vector<Piece> pieces(const std::vector<SceneTriangle>& triangles, const Scr
   return out;
 }
 
-/// Lines fade into the background with their distance from the eye: what is near and what is far can be told.
-class DepthCue {
- public:
-  DepthCue(const std::vector<SceneLine>& lines, const Screen& screen, Rgba8 background) : background_(background) {
-    for (const SceneLine& line : lines) {
-      const double depth_m = screen.depth((line.from + line.to) * 0.5);
-      if (depth_m < kNear_m) continue;
-      nearest_m_ = std::min(nearest_m_, depth_m);
-      farthest_m_ = std::max(farthest_m_, depth_m);
-    }
-  }
-  [[nodiscard]] Rgba8 seen(const SceneLine& line, const Screen& screen) const {
-    if (!(farthest_m_ > nearest_m_)) return line.colour;
-    const double depth_m = screen.depth((line.from + line.to) * 0.5);
-    const double pale = kPalest * std::clamp((depth_m - nearest_m_) / (farthest_m_ - nearest_m_), 0.0, 1.0);
-    const auto mixed = [pale](std::uint8_t own, std::uint8_t ground) {
-      return static_cast<std::uint8_t>(std::lround(own + pale * (ground - own)));
-    };
-    const Rgba8& c = line.colour;
-    return {mixed(c.r, background_.r), mixed(c.g, background_.g), mixed(c.b, background_.b), c.a};
-  }
-
- private:
-  Rgba8 background_;
-  double nearest_m_ = std::numeric_limits<double>::infinity();
-  double farthest_m_ = 0.0;
-};
+/// A line as pale as its middle.
+Rgba8 faded(const SceneLine& line, const Screen& screen, const DepthCue& cue) {
+  const double pale = cue.pale(screen.depth((line.from + line.to) * 0.5));
+  const auto mixed = [pale](std::uint8_t own, std::uint8_t ground) {
+    return static_cast<std::uint8_t>(std::lround(own + pale * (ground - own)));
+  };
+  const Rgba8& c = line.colour;
+  return {mixed(c.r, cue.background.r), mixed(c.g, cue.background.g), mixed(c.b, cue.background.b), c.a};
+}
 
 /// Lines become quads as wide as they are on the screen.
 std::vector<Piece> pieces(const std::vector<SceneLine>& lines, const Screen& screen, const DepthCue& cue,
@@ -145,7 +126,7 @@ std::vector<Piece> pieces(const std::vector<SceneLine>& lines, const Screen& scr
                     {b.x - nx, b.y - ny, b.inverse},
                     {a.x - nx, a.y - ny, a.inverse}},
                    4,
-                   premultiplied(cue.seen(line, screen), share)});
+                   premultiplied(faded(line, screen, cue), share)});
   }
   return out;
 }
@@ -258,19 +239,18 @@ float ray_metres(const Band& band, int x, int y, const CameraBasis& camera) {
 
 }  // namespace
 
-ContextPicture draw_context(const ContextScene& scene, const Camera& camera, PixelSize size, Rgba8 background,
+ContextPicture draw_context(const ContextScene& scene, const Camera& camera, PixelSize size, const DepthCue& cue,
                             double surface_z_m, Work& work) {
   const Screen screen(camera, size);
   const bool above = camera.eye.z < surface_z_m;
   const std::vector<Piece> opaque = pieces(scene.opaque, screen);
   const std::vector<Piece> translucent = pieces(scene.translucent, screen);
   const std::vector<Piece> ground = pieces(scene.ground, screen);
-  const DepthCue cue(scene.lines, screen, background);
   const std::vector<Piece> lines = pieces(scene.lines, screen, cue, 1.0);
   const std::vector<Piece> faint = pieces(scene.lines, screen, cue, kFaintLine);
   const std::vector<Piece> under = pieces(scene.under, screen, cue, 1.0);
   ContextPicture out{Image(size), Image(size, {0, 0, 0, 0}), nullptr};
-  const Premultiplied filled = premultiplied(background);
+  const Premultiplied filled = premultiplied(cue.background);
   std::vector<float> metres(opaque.empty() ? 0 : size.count());
   work.for_each((size.height + kBandRows - 1) / kBandRows, [&](std::int64_t number) {
     const int first = static_cast<int>(number) * kBandRows;
@@ -286,7 +266,7 @@ ContextPicture draw_context(const ContextScene& scene, const Camera& camera, Pix
     draw_over(faint, behind, front);
     for (int y = first; y < first + rows; ++y) {
       for (int x = 0; x < size.width; ++x) {
-        out.behind.at(x, y) = pixel_of(behind, x, y, background, filled);
+        out.behind.at(x, y) = pixel_of(behind, x, y, cue.background, filled);
         out.front.at(x, y) = pixel_of(front, x, y, {0, 0, 0, 0}, {});
         if (!metres.empty()) metres[out.behind.index(x, y)] = ray_metres(behind, x, y, screen.camera());
       }

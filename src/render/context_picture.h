@@ -9,6 +9,7 @@
 #include "view/image.h"
 #include "view/volume/camera.h"
 #include "view/volume/context_scene.h"
+#include "view/volume/depth_cue.h"
 
 namespace sonar {
 
@@ -20,10 +21,10 @@ struct ContextPicture {
 };
 
 /// Draws a scene by the processor, the same for both back-ends. Edges are smoothed (2 x 2 samples a pixel), and lines
-/// fade into the background with their distance.
+/// fade into the background as `cue` says.
 /// surface_z_m  of the sea surface: which layer translucent things go to depends on the eye's side of it
 [[nodiscard]] ContextPicture draw_context(const ContextScene& scene, const Camera& camera, PixelSize size,
-                                          Rgba8 background, double surface_z_m, Work& work);
+                                          const DepthCue& cue, double surface_z_m, Work& work);
 
 /// `top` over `below`, straight alpha; sizes must agree.
 [[nodiscard]] Image over(const Image& top, const Image& below);

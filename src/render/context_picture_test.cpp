@@ -30,7 +30,7 @@ TEST(ContextPicture, AFaceHasItsPlaceSizeAndDistance) {
   ContextScene scene;
   add_square(scene.opaque, 0.0, 50.0, kRed);
   Work work(2);
-  const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  const ContextPicture picture = draw_context(scene, kFromAft, kSize, {kBlack}, -7.0, work);
   int red = 0;
   for (const Rgba8& p : picture.behind.pixels) red += p == kRed ? 1 : 0;
   EXPECT_EQ(red, 100 * 100) << "50 m at 100 m fills half of a 90 degree view each way";
@@ -47,7 +47,7 @@ TEST(ContextPicture, TheNearerHidesTheFartherInAnyOrder) {
     add_square(scene.opaque, near_first ? -20.0 : 30.0, 30.0, near_first ? kRed : kGreen);
     add_square(scene.opaque, near_first ? 30.0 : -20.0, 30.0, near_first ? kGreen : kRed);
     Work work(1);
-    const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+    const ContextPicture picture = draw_context(scene, kFromAft, kSize, {kBlack}, -7.0, work);
     EXPECT_EQ(picture.behind.at(100, 100), kRed);
   }
 }
@@ -57,10 +57,10 @@ TEST(ContextPicture, WhatLiesUnderChangesNoOpaqueEcho) {
   ContextScene scene;
   scene.lines.push_back({{0.0, -40.0, 10.0}, {0.0, 40.0, 10.0}, kGreen, 3.0});
   Work work(1);
-  const ContextPicture without = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  const ContextPicture without = draw_context(scene, kFromAft, kSize, {kBlack}, -7.0, work);
   scene.under.push_back({{0.0, -40.0, -10.0}, {500.0, 40.0, -10.0}, kRed, 3.0});
   scene.under.push_back({{0.0, -40.0, 10.0}, {0.0, 40.0, 10.0}, kRed, 3.0});
-  const ContextPicture with = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  const ContextPicture with = draw_context(scene, kFromAft, kSize, {kBlack}, -7.0, work);
   EXPECT_FALSE(with.behind.pixels == without.behind.pixels) << "it is there";
   EXPECT_TRUE(with.front.pixels == without.front.pixels);
   const std::vector<std::array<float, 4>> echoes(kSize.count(), {0.2F, 0.4F, 0.6F, 1.0F});
@@ -81,11 +81,11 @@ TEST(ContextPicture, TheSeaLiesOnTheEyesSide) {
   Work work(1);
   Camera camera = kFromAft;
   camera.eye.z = -20.0;
-  const ContextPicture above = draw_context(scene, camera, kSize, kBlack, -7.0, work);
+  const ContextPicture above = draw_context(scene, camera, kSize, {kBlack}, -7.0, work);
   EXPECT_EQ(above.behind.at(100, 100), kBlack);
   EXPECT_EQ(above.front.at(100, 100).a, 100);
   camera.eye.z = 20.0;
-  const ContextPicture below = draw_context(scene, camera, kSize, kBlack, -7.0, work);
+  const ContextPicture below = draw_context(scene, camera, kSize, {kBlack}, -7.0, work);
   EXPECT_EQ(below.front.at(100, 100).a, 0);
   EXPECT_GT(below.behind.at(100, 100).b, 90);
 }
@@ -95,7 +95,7 @@ TEST(ContextPicture, WhatIsBehindTheEyeIsCutOff) {
   // A plane that passes under the eye and goes on behind it.
   scene.opaque.push_back({{Point<Sonar>{-500.0, -300.0, 10.0}, {500.0, 0.0, 10.0}, {-500.0, 300.0, 10.0}}, kGreen});
   Work work(1);
-  const ContextPicture picture = draw_context(scene, kFromAft, kSize, kBlack, -7.0, work);
+  const ContextPicture picture = draw_context(scene, kFromAft, kSize, {kBlack}, -7.0, work);
   EXPECT_EQ(picture.behind.at(100, 199), kGreen);
   EXPECT_EQ(picture.behind.at(100, 50), kBlack) << "nothing above the horizon";
 }
@@ -131,8 +131,8 @@ TEST(ContextPicture, AnyNumberOfThreadsDrawsTheSame) {
   Work one(1);
   Work four(4);
   const Camera camera = overview(sector, {320, 240});
-  const ContextPicture a = draw_context(scene, camera, {320, 240}, kBlack, -7.0, one);
-  const ContextPicture b = draw_context(scene, camera, {320, 240}, kBlack, -7.0, four);
+  const ContextPicture a = draw_context(scene, camera, {320, 240}, {kBlack}, -7.0, one);
+  const ContextPicture b = draw_context(scene, camera, {320, 240}, {kBlack}, -7.0, four);
   EXPECT_EQ(a.behind, b.behind);
   EXPECT_EQ(a.front, b.front);
   EXPECT_EQ(*a.opaque_m, *b.opaque_m);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/units.h"
 
@@ -22,6 +23,17 @@ Point<Sonar> unit(const Point<Sonar>& p) {
 }
 
 double fract(double value) { return value - std::floor(value); }
+
+/// Digits of n behind the point in the reverse order, 0..1.
+double reversed(std::uint32_t n, std::uint32_t base) {
+  double out = 0.0;
+  for (double digit = 1.0 / base; n > 0; n /= base, digit /= base) out += digit * (n % base);
+  return out;
+}
+
+/// Halton's sequence in the unit square, moved by half of what sixteen of its numbers leave between them: their mean is
+/// the middle then.
+PixelPoint spread(std::uint32_t n) { return {fract(reversed(n, 2) + 1.0 / 32.0), fract(reversed(n, 3) + 1.0 / 18.0)}; }
 
 bool finite(const Point<Sonar>& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -41,12 +53,34 @@ double sample_phase(int x, int y, std::uint32_t jitter_frame) {
   return fract(noise + 0.61803399 * jitter_frame);
 }
 
+PixelPoint pixel_shift(std::uint32_t jitter_frame) {
+  if (jitter_frame == 0) return {0.0, 0.0};
+  const PixelPoint at = spread(jitter_frame);
+  return {at.x - 0.5, at.y - 0.5};
+}
+
+std::array<std::array<float, 3>, kSkyRays> sky_rays(std::uint32_t jitter_frame) {
+  // Within a quarter turn, and within a ring's half of the light, evenly from frame to frame.
+  const PixelPoint at = jitter_frame == 0 ? PixelPoint{0.5, 0.5} : spread(jitter_frame);
+  std::array<std::array<float, 3>, kSkyRays> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double ring = static_cast<double>(i / 4);
+    // The cosine law: sine^2 of the angle off the normal is even.
+    const double sine2 = 0.5 * (ring + at.x);
+    const double azimuth = 0.5 * std::numbers::pi * (static_cast<double>(i % 4) + at.y + 0.5 * ring);
+    const double sine = std::sqrt(sine2);
+    out[i] = {static_cast<float>(sine * std::cos(azimuth)), static_cast<float>(sine * std::sin(azimuth)),
+              static_cast<float>(std::sqrt(1.0 - sine2))};
+  }
+  return out;
+}
+
 Point<Sonar> light_direction(const CameraBasis& camera) {
   return unit(camera.up * 0.6 - camera.right * 0.5 - camera.forward);
 }
 
 std::array<double, 3> lit(const std::array<double, 3>& rgb, const Point<Sonar>& gradient_db_per_m,
-                          const Point<Sonar>& light, const Point<Sonar>& ray, const Lighting& lighting) {
+                          const Point<Sonar>& light, const Point<Sonar>& ray, const Lighting& lighting, double sky) {
   const double length = norm(gradient_db_per_m);
   if (!lighting.on || !(length > 0.0)) {
     return rgb;
@@ -56,7 +90,7 @@ std::array<double, 3> lit(const std::array<double, 3>& rgb, const Point<Sonar>& 
   const double diffuse = std::max(0.0, dot(n, light));
   const double gloss = std::pow(std::max(0.0, dot(n, unit(light - ray))), 16.0);
   const double scale =
-      1.0 - w + w * (static_cast<double>(lighting.ambient) + static_cast<double>(lighting.diffuse) * diffuse);
+      1.0 - w + w * (static_cast<double>(lighting.ambient) * sky + static_cast<double>(lighting.diffuse) * diffuse);
   const double white = w * static_cast<double>(lighting.specular) * gloss;
   return {rgb[0] * scale + white, rgb[1] * scale + white, rgb[2] * scale + white};
 }
@@ -132,8 +166,10 @@ Result<void> check_view(const VolumeView& view, const DrawQuality& quality) {
                 fmt::format("opaque distances for {} pixels in a picture of {}", view.opaque_m->size(), size.count()));
   }
   if (!finite(view.camera.eye) || !finite(view.camera.target) || !finite(view.camera.up) ||
-      !std::isfinite(view.camera.vertical_fov_rad) || std::isnan(view.first_hit_db)) {
-    return fail(ErrorCode::bad_parameter, "a camera or a level that is not a number");
+      !std::isfinite(view.camera.vertical_fov_rad) || std::isnan(view.first_hit_db) ||
+      !std::isfinite(view.cue.nearest_m) || !std::isfinite(view.cue.farthest_m) ||
+      !std::isfinite(view.lighting.occlusion_m)) {
+    return fail(ErrorCode::bad_parameter, "a camera, a level or a distance that is not a number");
   }
   return {};
 }

@@ -24,11 +24,18 @@ namespace sonar {
 // lies in front. Where a layer first reaches fuzzy_above (half a
 // quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
 // reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
-// First hit. Ends the ray with opacity 1 where the level is crossed, colour of that level. Maximum. Colour of the largest
-// Sv behind the masks' light.
+// Surfaces (first hit; volume and surface). The ray ends with opacity 1 where the level is crossed, colour of that level; what
+// accumulates up to the start of that interval lies before it. Maximum. Colour of the largest Sv behind the masks'
+// light; the peak is looked for between samples, at h / 2, h / 4 ... to both sides, kClimbs times.
+// Ambient light on surfaces. Comes from the half space before the surface, less where something stands in it: of kSkyRays
+// rays from the place, each of equal share under the cosine law, one whose Sv first reaches the level at the distance d
+// brings d / occlusion_m of its light (kSkySteps steps, linear in between). Outside the sector and where Sv is not known
+// water is open. Zhukov, Iones and Kronin, An ambient light illumination model, Rendering Techniques 1998 (obscurances).
+// Depth. With a cue, a colour laid at a depth is mixed with cue.pale(depth) of the background; its opacity stays.
 
 inline constexpr double kOpaqueEnough = 0.99;
 inline constexpr float kAlongBeams = 0.9F;
+inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of the sector's face is outside
 
 /// Column or row of the full picture whose ray stands for pixel i of a picture divided by `divisor`.
 [[nodiscard]] int full_pixel(int i, int divisor, int count);
@@ -39,14 +46,28 @@ inline constexpr float kAlongBeams = 0.9F;
 /// fract(fract(52.9829189 fract(0.06711056 x + 0.00583715 y)) + 0.61803399 frame), x, y of the full picture.
 [[nodiscard]] double sample_phase(int x, int y, std::uint32_t jitter_frame);
 
+/// Where in its pixel a frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
+/// pixels, so that the mean of n frames is a picture of n rays a pixel, evenly spread (Halton's sequence to the bases 2
+/// and 3).
+[[nodiscard]] PixelPoint pixel_shift(std::uint32_t jitter_frame);
+
+inline constexpr int kClimbs = 3;
+inline constexpr int kSkyRays = 8;
+inline constexpr int kSkySteps = 8;
+/// Directions in which a frame looks whether ambient light comes: (first tangent, second tangent, normal). Two rings of
+/// four rays, each of half the light; turned and tilted from frame to frame.
+[[nodiscard]] std::array<std::array<float, 3>, kSkyRays> sky_rays(std::uint32_t jitter_frame);
+
 /// Unit vector towards the light: behind the eye, from its upper left.
 [[nodiscard]] Point<Sonar> light_direction(const CameraBasis& camera);
 
 /// Colour under light. n = -gradient / |gradient|, w = min(1, |gradient| / full_gradient), half = unit(light - ray):
-///   rgb (1 - w + w (ambient + diffuse max(0, n light))) + w specular max(0, n half)^16
+///   rgb (1 - w + w (ambient sky + diffuse max(0, n light))) + w specular max(0, n half)^16
 /// ray  direction of the ray, away from the eye
+/// sky  share of the ambient light that comes, 0..1
 [[nodiscard]] std::array<double, 3> lit(const std::array<double, 3>& rgb, const Point<Sonar>& gradient_db_per_m,
-                                        const Point<Sonar>& light, const Point<Sonar>& ray, const Lighting& lighting);
+                                        const Point<Sonar>& light, const Point<Sonar>& ray, const Lighting& lighting,
+                                        double sky = 1.0);
 
 /// errors  bad_parameter: no sample, or fewer than 2 fans, beams or samples; sector and array of different shape
 [[nodiscard]] Result<void> check_volume(const VolumeData& volume);

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "base/units.h"
+#include "render/cell_states.h"
 #include "render/cpu/sample_columns.h"
 #include "render/cpu/trace.h"
 #include "render/grid_axes.h"
-#include "render/homogeneous_cells.h"
 #include "render/mask_grid.h"
 #include "render/ray_rules.h"
 
@@ -60,15 +60,6 @@ bool same_beams(const Sector& a, const Sector& b) {
   return true;
 }
 
-/// What of the cells depends on the view.
-struct CellKey {
-  RayMode mode = RayMode::accumulate;
-  double first_hit_db = 0.0;
-  bool data = true;
-  double thin_limit = 0.0;
-  friend bool operator==(const CellKey&, const CellKey&) = default;
-};
-
 class CpuRenderer final : public VolumeRenderer {
  public:
   [[nodiscard]] std::string name() const override { return std::string("cpu (") + trace_target() + ")"; }
@@ -78,7 +69,7 @@ class CpuRenderer final : public VolumeRenderer {
   Result<RayImage> draw(const VolumeView& view, const DrawQuality& quality, Work& work) override;
 
  private:
-  void classify(const CellKey& key, Work& work);
+  void answer(const CellQuestion& question, Work& work);
   [[nodiscard]] TraceGrid grid() const;
   [[nodiscard]] TraceView traced(const VolumeView& view, const DrawQuality& quality) const;
 
@@ -93,7 +84,7 @@ class CpuRenderer final : public VolumeRenderer {
   Macrocells cells_;
   std::optional<TransferTable> table_;
   MaskGrid masks_;
-  std::optional<CellKey> key_;  ///< what words_ and means_ were made for
+  std::optional<CellQuestion> answered_;  ///< what words_ and means_ were made for
   std::vector<std::int32_t> words_;
   std::vector<std::array<float, 4>> means_;
 };
@@ -128,7 +119,7 @@ Result<void> CpuRenderer::set_volume(std::shared_ptr<const VolumeData> volume) {
   }
   cells_ = macrocells(filled_);
   masks_ = {};
-  key_.reset();
+  answered_.reset();
   return {};
 }
 
@@ -137,7 +128,7 @@ Result<void> CpuRenderer::set_transfer(const OpticalTable& table) {
     return ok;
   }
   table_ = transfer_table(table);
-  key_.reset();
+  answered_.reset();
   return {};
 }
 
@@ -150,36 +141,27 @@ Result<void> CpuRenderer::set_masks(std::span<const MaskLayer> masks) {
     return pass_on(grid);
   }
   masks_ = std::move(*grid);
-  key_.reset();
+  answered_.reset();
   return {};
 }
 
-void CpuRenderer::classify(const CellKey& key, Work& work) {
-  if (key_ == key) {
+void CpuRenderer::answer(const CellQuestion& question, Work& work) {
+  if (answered_ == question) {
     return;
   }
-  std::vector<std::uint8_t> set(cells_.size(), 0);
-  if (key.data && key.mode == RayMode::accumulate) set = visible_cells(cells_, *table_);
-  if (key.data && key.mode == RayMode::first_hit) set = cells_reaching(cells_, key.first_hit_db);
-  if (key.data && key.mode == RayMode::maximum) set = cells_reaching(cells_, table_->lowest_visible_db);
-  auto thin = thin_cells(cells_, *table_, set, axes_.spacing_m, key.thin_limit);
-  for (std::size_t i = 0; i < masks_.cells.size(); ++i) {
-    if (masks_.cells[i] != 0) {
-      set[i] = 1;
-      thin[i] = 0;
-    }
+  CellStates states = cell_states(question, filled_, cells_, *table_, masks_, axes_.spacing_m, work);
+  if (work.cancelled()) {
+    return;
   }
-  means_.clear();
-  if (std::find(thin.begin(), thin.end(), 1) != thin.end()) means_ = cell_means(filled_, cells_, *table_, thin, work);
-  const auto distance = empty_distance(cells_, set);
-  words_.resize(set.size());
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto flag = [](bool on, int bit) { return on ? 1 << bit : 0; };
-    words_[i] = distance[i] | flag(distance[i] != 0, kEmptyBit) | flag(thin[i] != 0, kThinBit) |
-                flag(!cells_.gaps.empty() && cells_.gaps[i] != 0, kGapsBit) |
-                flag(!masks_.empty() && masks_.cells[i] != 0, kMaskBit) | cells_.largest[i] * 65536;
+  means_ = std::move(states.means);
+  words_.resize(states.flags.size());
+  static_assert(kCellThin << kThinBit == 1 << kThinBit && kCellGaps << kThinBit == 1 << kGapsBit &&
+                kCellMasked << kThinBit == 1 << kMaskBit);
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    const int empty = states.distance[i] != 0 ? 1 << kEmptyBit : 0;
+    words_[i] = states.distance[i] | states.flags[i] << kThinBit | empty | cells_.largest[i] * 65536;
   }
-  key_ = key;
+  answered_ = question;
 }
 
 TraceGrid CpuRenderer::grid() const {
@@ -239,15 +221,23 @@ TraceView CpuRenderer::traced(const VolumeView& view, const DrawQuality& quality
   v.pixel_scale = f(camera.tan_half_fov / (0.5 * view.size.height));
   v.full = view.size;
   v.size = divided(view.size, quality.divisor);
+  const PixelPoint shift = pixel_shift(quality.jitter_frame);
+  v.shift = {f(shift.x), f(shift.y)};
   v.divisor = quality.divisor;
   v.step_m = f(quality.step_samples * axes_.spacing_m);
   v.jitter_frame = quality.jitter_frame;
   v.mode = view.mode;
   v.data = view.masks.data_too;
   v.masked = !masks_.empty();
-  v.plain = v.mode == RayMode::accumulate && v.data && !v.masked && !view.lighting.on && filled_.complete();
+  v.plain =
+      v.mode == RayMode::accumulate && v.data && !v.masked && !view.lighting.on && !view.cue.on() && filled_.complete();
   v.first_hit_count = f(counts_from_db(view.first_hit_db));
   v.lighting = view.lighting;
+  v.sky = sky_rays(quality.jitter_frame);
+  v.palest = view.cue.on() ? f(DepthCue::kPalest) : 0.0F;
+  v.nearest_m = f(view.cue.nearest_m);
+  v.per_m = view.cue.on() ? f(1.0 / (view.cue.farthest_m - view.cue.nearest_m)) : 0.0F;
+  v.ground = {f(view.cue.background.r / 255.0), f(view.cue.background.g / 255.0), f(view.cue.background.b / 255.0)};
   v.fuzzy_at = std::max(0.5F, view.masks.fuzzy_above * 255.0F);
   v.core_at = view.masks.core_at * 255.0F;
   v.fuzzy_opacity = std::clamp(view.masks.fuzzy_opacity, 0.0F, 1.0F);
@@ -265,11 +255,7 @@ Result<RayImage> CpuRenderer::draw(const VolumeView& view, const DrawQuality& qu
   if (auto ok = check_view(view, quality); !ok) {
     return pass_on(ok);
   }
-  // A mean knows no gradient: under light every cell is walked.
-  const bool thin = view.mode == RayMode::accumulate && !view.lighting.on;
-  classify({view.mode, view.mode == RayMode::first_hit ? view.first_hit_db : 0.0, view.masks.data_too,
-            thin ? quality.homogeneous_limit : 0.0},
-           work);
+  answer(cell_question(view, quality), work);
   const TraceJob job{grid(), trace_optics(*table_), traced(view, quality), words_.data(),
                      means_.empty() ? nullptr : means_.data()};
   const PixelSize size = job.view.size;

@@ -112,8 +112,8 @@ HWY_INLINE Gradient gradient_of(const TraceGrid& grid, const Place& p, const Slo
           hn::MulAdd(p.y, hn::Add(along, up_side), hn::Mul(p.x, side)), hn::NegMulAdd(rho, up, hn::Mul(p.z, along))};
 }
 
-/// lit() of ray_rules.h, colours changed in place where the lanes say so. `scale` makes the gradient one of dB.
-HWY_INLINE void light(const TraceView& view, const Rays& ray, const Gradient& g, float scale, Rgb& rgb) {
+/// lit() of ray_rules.h, colours changed in place. `scale` makes the gradient one of dB.
+HWY_INLINE void light(const TraceView& view, const Rays& ray, const Gradient& g, float scale, Rgb& rgb, V sky) {
   const V length2 = hn::MulAdd(g.x, g.x, hn::MulAdd(g.y, g.y, hn::Mul(g.z, g.z)));
   const V length = hn::Max(root(length2), set(1e-20F));
   const V per = hn::Div(set(-1.0F), length);
@@ -132,7 +132,7 @@ HWY_INLINE void light(const TraceView& view, const Rays& ray, const Gradient& g,
   V gloss = hn::Div(hn::MulAdd(nx, hx, hn::MulAdd(ny, hy, hn::Mul(nz, hz))), hn::Max(half, set(1e-20F)));
   gloss = hn::Max(gloss, zero());
   for (int i = 0; i < 4; ++i) gloss = hn::Mul(gloss, gloss);
-  const V shade = hn::MulAdd(toward, set(view.lighting.diffuse), set(view.lighting.ambient));
+  const V shade = hn::MulAdd(toward, set(view.lighting.diffuse), hn::Mul(sky, set(view.lighting.ambient)));
   const V factor = hn::MulAdd(w, hn::Sub(shade, set(1.0F)), set(1.0F));
   const V white = hn::Mul(hn::Mul(w, set(view.lighting.specular)), gloss);
   rgb.r = hn::MulAdd(rgb.r, factor, white);

@@ -21,6 +21,19 @@ struct Rays {
   V cone_a, cone_b, cone_d;  ///< dz^2, nz dz, nz^2 + m2 dz^2
 };
 
+/// Fills what follows from the direction and a place on the ray; returns u there.
+HWY_INLINE V begin_at(Rays& ray, V x, V y, V z) {
+  const V u = hn::MulAdd(x, ray.dx, hn::MulAdd(y, ray.dy, hn::Mul(z, ray.dz)));
+  ray.nx = hn::NegMulAdd(u, ray.dx, x);
+  ray.ny = hn::NegMulAdd(u, ray.dy, y);
+  ray.nz = hn::NegMulAdd(u, ray.dz, z);
+  ray.m2 = hn::MulAdd(ray.nx, ray.nx, hn::MulAdd(ray.ny, ray.ny, hn::Mul(ray.nz, ray.nz)));
+  ray.cone_a = hn::Mul(ray.dz, ray.dz);
+  ray.cone_b = hn::Mul(ray.nz, ray.dz);
+  ray.cone_d = hn::MulAdd(ray.m2, ray.cone_a, hn::Mul(ray.nz, ray.nz));
+  return u;
+}
+
 struct Place {
   V x, y, z, rho, r;
   V fan, beam, sample;  ///< fractions within the voxel cell
@@ -122,6 +135,16 @@ HWY_INLINE Place place_at(const TraceGrid& grid, const Rays& ray, V u) {
   p.fan = hn::Sub(fan, hn::ConvertTo(D(), p.fan0));
   p.sample = hn::Sub(sample, hn::ConvertTo(D(), p.sample0));
   return p;
+}
+
+/// Of place_at(), which takes what lies outside to the sector's nearest face.
+HWY_INLINE M is_inside(const TraceGrid& grid, const Place& p) {
+  const auto between = [](W whole, V part, int count) {
+    const V index = hn::Add(hn::ConvertTo(D(), whole), part);
+    return hn::And(hn::Gt(index, set(kFaceIndex)), hn::Lt(index, set(static_cast<float>(count - 1) - kFaceIndex)));
+  };
+  const M across = hn::And(between(p.beam0, p.beam, grid.beams), between(p.fan0, p.fan, grid.fans));
+  return hn::And(hn::And(across, between(p.sample0, p.sample, grid.samples)), hn::Ge(p.z, set(grid.surface_z_m)));
 }
 
 HWY_INLINE W cell_of(const TraceGrid& grid, const Place& p) {

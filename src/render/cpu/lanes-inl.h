@@ -36,6 +36,20 @@ HWY_INLINE M is_set(W words) {
 }
 HWY_INLINE V lerp(V a, V b, V f) { return hn::MulAdd(f, hn::Sub(b, a), a); }
 
+/// A bit a lane.
+HWY_INLINE std::uint32_t bits(M m) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(D(), m, bytes);
+  std::uint32_t out = 0;
+  for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t{bytes[i]} << (8 * i);
+  return out;
+}
+HWY_INLINE M mask_of(std::uint32_t lanes) {
+  std::uint8_t bytes[8] = {};
+  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(lanes >> (8 * i));
+  return hn::LoadMaskBits(D(), bytes);
+}
+
 // Division and square root hold a vector unit for 15 to 25 cycles; an estimate and one step of Newton's, right to about
 // 2^-22, for 5. Neither makes a number of 1/0: NaN, which compares false.
 #if HWY_TARGET == HWY_SCALAR

@@ -10,7 +10,7 @@
 #include <bit>
 
 #include "base/units.h"
-#include "render/cpu/field-inl.h"
+#include "render/cpu/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sonar::HWY_NAMESPACE {
@@ -20,7 +20,7 @@ template <bool kPlain>
 class Packet {
  public:
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): as many of met_ as there are masks
-  Packet(const TraceJob& job, const Rays& ray, V phase, V from, V last)
+  Packet(const TraceJob& job, const Rays& ray, V eye_u, V phase, V from, V last)
       : grid_(job.grid),
         optics_(job.optics),
         view_(job.view),
@@ -29,13 +29,20 @@ class Packet {
         phase_(phase),
         from_(from),
         to_(from),
+        first_(from),
         last_(last),
         step_(set(job.view.step_m)),
         per_step_(set(1.0F / job.view.step_m)) {
     rgb_ = {zero(), zero(), zero()};
     left_ = set(1.0F);
     if constexpr (!kPlain) {
-      largest_ = set(-40000.0F);
+      largest_ = set(kNothing);
+      largest_u_ = zero();
+      const auto& ahead = job.view.forward;
+      const V depth_per_u =
+          hn::MulAdd(ray.dx, set(ahead[0]), hn::MulAdd(ray.dy, set(ahead[1]), hn::Mul(ray.dz, set(ahead[2]))));
+      pale_per_u_ = hn::Mul(depth_per_u, set(job.view.per_m));
+      pale_from_ = hn::MulAdd(eye_u, pale_per_u_, set(job.view.nearest_m * job.view.per_m));
       before_ = set(-1.0F);
       before_u_ = zero();
       for (int i = 0; i <= job.view.masks; ++i) met_[i] = 0;
@@ -78,6 +85,8 @@ class Packet {
   }
 
  private:
+  static constexpr float kNothing = -40000.0F;  ///< counts below all there are
+
   /// One step for some: leaps and segments where any lane needs one, samples once half of the lanes are ready.
   HWY_INLINE void advance(M alive, RayCounts& counts) {
     const V multiple = hn::Mul(hn::Add(hn::Floor(hn::MulAdd(from_, per_step_, set(2e-3F))), set(1.0F)), step_);
@@ -123,32 +132,35 @@ class Packet {
     const V beyond = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(after, end), to_));
     from_ = hn::IfThenElse(empty, beyond, from_);
     if constexpr (!kPlain) {
-      // The last place of a block without gaps is below every level that matters.
+      // The last place of a cell without gaps that is not walked is below every level that matters.
+      const M passed = hn::Or(empty, thin);
       const V below = hn::IfThenElse(is_set<kGapsBit>(word), set(-1.0F), set(1.0F));
-      before_ = hn::IfThenElse(empty, below, before_);
-      before_u_ = hn::IfThenElse(empty, hn::Min(exit, to_), before_u_);
+      before_ = hn::IfThenElse(passed, below, before_);
+      before_u_ = hn::IfThenElse(passed, hn::Min(exit, to_), before_u_);
     }
     if (any(thin)) {
       counts.segments += static_cast<std::int64_t>(hn::CountTrue(D(), thin));
       const V nearest = hn::Mul(hn::Round(hn::Mul(exit, per_step)), step);
       const V stop = hn::IfThenElse(hn::Ge(exit, to_), to_, hn::Min(hn::Max(nearest, end), to_));
-      segment(thin, cell, hn::Sub(stop, from_));
+      segment(thin, cell, from_, stop);
       from_ = hn::IfThenElse(thin, stop, from_);
     }
     step_ = hn::IfThenElse(hn::Or(empty, thin), step, step_);
     per_step_ = hn::IfThenElse(hn::Or(empty, thin), per_step, per_step_);
   }
 
-  void segment(M lanes, W cell, V length) {
+  void segment(M lanes, W cell, V from, V stop) {
     V mean[4];
     rows_at(reinterpret_cast<const float*>(job_.means), cell, mean);
     const V extinction = mean[3];
-    const V opacity = opacity_of(hn::IfThenElseZero(lanes, hn::Mul(extinction, length)));
+    const V opacity = opacity_of(hn::IfThenElseZero(lanes, hn::Mul(extinction, hn::Sub(stop, from))));
+    Rgb emission{mean[0], mean[1], mean[2]};
+    if constexpr (!kPlain) fade(emission, extinction, hn::Mul(set(0.5F), hn::Add(from, stop)));
     V share = hn::Mul(hn::Mul(opacity, left_), inverse(hn::Max(extinction, set(1e-12F))));
     share = hn::IfThenElseZero(lanes, share);
-    rgb_.r = hn::MulAdd(share, mean[0], rgb_.r);
-    rgb_.g = hn::MulAdd(share, mean[1], rgb_.g);
-    rgb_.b = hn::MulAdd(share, mean[2], rgb_.b);
+    rgb_.r = hn::MulAdd(share, emission.r, rgb_.r);
+    rgb_.g = hn::MulAdd(share, emission.g, rgb_.g);
+    rgb_.b = hn::MulAdd(share, emission.b, rgb_.b);
     left_ = hn::IfThenElse(lanes, hn::NegMulAdd(opacity, left_, left_), left_);
   }
 
@@ -157,7 +169,7 @@ class Packet {
       const V value = value_at(grid_, p);
       const Seen seen = seen_at(value);
       if (!any(hn::Gt(seen.extinction, zero()))) return;
-      lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(seen.extinction, length))), unpacked(seen.rgb10));
+      lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(seen.extinction, length))), unpacked(seen.rgb10), u);
     } else {
       sample_any(lanes, p, word, u, length);
     }
@@ -168,14 +180,14 @@ class Packet {
     Rgb emission{zero(), zero(), zero()};
     V extinction = zero();
     if (view_.masked && any(hn::And(lanes, is_set<kMaskBit>(word)))) {
-      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, emission, extinction);
+      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, u, emission, extinction);
     }
     if (view_.data) meet_data(lanes, p, voxel, word, u, emission, extinction);
     const M lit_up = hn::Gt(extinction, zero());
     if (!any(lit_up)) return;
     const V per = hn::Div(set(1.0F), hn::Max(extinction, set(1e-12F)));
     lay(opacity_of(hn::Mul(extinction, length)),
-        {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)});
+        {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)}, u);
   }
 
   void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
@@ -184,15 +196,17 @@ class Packet {
     if (grid_.known != nullptr && any(hn::And(lanes, is_set<kGapsBit>(word)))) share = share_of(grid_, voxel, p);
     const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
     if (view_.mode == RayMode::maximum) {
-      largest_ = hn::IfThenElse(counts, hn::Max(largest_, value), largest_);
+      const M larger = hn::And(counts, hn::Gt(value, largest_));
+      largest_ = hn::IfThenElse(larger, value, largest_);
+      largest_u_ = hn::IfThenElse(larger, u, largest_u_);
       return;
     }
-    if (view_.mode == RayMode::first_hit) {
+    if (ends_at_surface(view_.mode)) {
       const M above = hn::And(counts, hn::Ge(value, set(view_.first_hit_count)));
       if (any(above)) hit(above, u);
       before_ = hn::IfThenElse(counts, set(1.0F), hn::IfThenElse(lanes, set(-1.0F), before_));
       before_u_ = hn::IfThenElse(lanes, u, before_u_);
-      return;
+      if (!accumulates(view_.mode)) return;
     }
     const Seen seen = seen_at(value);
     const V own = hn::IfThenElseZero(lanes, hn::Mul(share, seen.extinction));
@@ -200,7 +214,7 @@ class Packet {
     Rgb rgb = unpacked(seen.rgb10);
     if (view_.lighting.on) {
       const Slope slope = slope_of(corners_of(grid_, voxel), p);
-      light(view_, ray_, gradient_of(grid_, p, slope), static_cast<float>(kDbPerCount), rgb);
+      light(view_, ray_, gradient_of(grid_, p, slope), static_cast<float>(kDbPerCount), rgb, set(1.0F));
     }
     emission.r = hn::MulAdd(own, rgb.r, emission.r);
     emission.g = hn::MulAdd(own, rgb.g, emission.g);
@@ -223,13 +237,15 @@ class Packet {
     const Corners corners = corners_of(grid_, voxel_of(grid_, p));
     Rgb rgb = unpacked(seen_at(value_of(corners, p)).rgb10);
     if (view_.lighting.on) {
-      light(view_, ray_, gradient_of(grid_, p, slope_of(corners, p)), static_cast<float>(kDbPerCount), rgb);
+      const Gradient g = gradient_of(grid_, p, slope_of(corners, p));
+      const V sky = view_.lighting.occlusion_m > 0.0F ? sky_over(grid_, view_, p, g) : set(1.0F);
+      light(view_, ray_, g, static_cast<float>(kDbPerCount), rgb, sky);
     }
-    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb);
+    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, high);
   }
 
   /// All layers that touch the voxels round the samples, the lowest number first.
-  void meet_masks(M lanes, const Place& p, W voxel, Rgb& emission, V& extinction) {
+  void meet_masks(M lanes, const Place& p, W voxel, V u, Rgb& emission, V& extinction) {
     W word[4];
     gather_columns(grid_, grid_.masks, voxel, word);
     std::int32_t layer = next_layer(lanes, word, 0);
@@ -239,7 +255,7 @@ class Packet {
         c.first[i] = confidence_of(hn::And(word[i], seti(0xFFFF)), layer);
         c.second[i] = confidence_of(hn::And(hn::ShiftRight<16>(word[i]), seti(0xFFFF)), layer);
       }
-      meet_layer(lanes, layer, p, c, emission, extinction);
+      meet_layer(lanes, layer, p, c, u, emission, extinction);
     }
   }
 
@@ -261,7 +277,7 @@ class Packet {
     return hn::ConvertTo(D(), hn::IfThenElseZero(of_layer, hn::And(half, seti(0xFF))));
   }
 
-  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, Rgb& emission, V& extinction) {
+  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, V u, Rgb& emission, V& extinction) {
     const V confidence = value_of(c, p);
     const auto& colour = view_.mask_rgb[layer - 1];
     const M at_surface = hn::And(lanes, hn::Ge(confidence, set(view_.fuzzy_at)));
@@ -269,8 +285,8 @@ class Packet {
     if (fresh != 0) {
       met_[layer] |= fresh;
       Rgb rgb{set(colour[0]), set(colour[1]), set(colour[2])};
-      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb);
-      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb);
+      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb, set(1.0F));
+      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb, u);
     }
     const M in_core = hn::And(lanes, hn::Ge(confidence, set(view_.core_at)));
     const V own = hn::IfThenElseZero(in_core, set(view_.core_extinction));
@@ -280,19 +296,6 @@ class Packet {
     extinction = hn::Add(extinction, own);
   }
 
-  static std::uint32_t bits(M m) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(D(), m, bytes);
-    std::uint32_t out = 0;
-    for (std::size_t i = 0; i < 4; ++i) out |= std::uint32_t{bytes[i]} << (8 * i);
-    return out;
-  }
-  static M mask_of(std::uint32_t lanes) {
-    std::uint8_t bytes[8] = {};
-    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(lanes >> (8 * i));
-    return hn::LoadMaskBits(D(), bytes);
-  }
-
   /// Cells that cannot raise a ray's maximum are empty to it; masks there count all the same.
   W lower_than_met(W word) const {
     const M lower = hn::Le(hn::ConvertTo(D(), hn::ShiftRight<16>(word)), largest_);
@@ -300,10 +303,29 @@ class Packet {
     return hn::IfThenElse(hn::RebindMask(I(), idle), hn::Or(word, seti(1 | 1 << kEmptyBit)), word);
   }
 
+  /// The peak between samples.
+  void climb() {
+    const M met = hn::Gt(largest_, set(kNothing));
+    V reach = set(view_.step_m);
+    for (int i = 0; i < kClimbs; ++i) {
+      reach = hn::Mul(reach, set(0.5F));
+      const V middle = largest_u_;
+      for (const float side : {-1.0F, 1.0F}) {
+        const V u = hn::Clamp(hn::MulAdd(reach, set(side), middle), first_, last_);
+        const Place p = place_at(grid_, ray_, u);
+        const V value = value_at(grid_, p);
+        const M larger = hn::And(hn::And(met, is_known(grid_, p)), hn::Gt(value, largest_));
+        largest_ = hn::IfThenElse(larger, value, largest_);
+        largest_u_ = hn::IfThenElse(larger, u, largest_u_);
+      }
+    }
+  }
+
   void show_largest() {
+    climb();
     const Seen seen = seen_at(largest_);
-    const M shown = hn::And(hn::Gt(largest_, set(-40000.0F)), hn::Gt(seen.extinction, zero()));
-    lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10));
+    const M shown = hn::And(hn::Gt(largest_, set(kNothing)), hn::Gt(seen.extinction, zero()));
+    lay(hn::IfThenElseZero(shown, set(1.0F)), unpacked(seen.rgb10), largest_u_);
   }
 
   struct Seen {
@@ -319,7 +341,17 @@ class Packet {
     return {extinction, hn::BitCast(I(), colour)};
   }
 
-  void lay(V opacity, const Rgb& rgb) {
+  /// Colours times `weight`, mixed with the background by their depth.
+  void fade(Rgb& rgb, V weight, V u) const {
+    if (view_.palest <= 0.0F) return;
+    const V part = hn::Clamp(hn::MulSub(u, pale_per_u_, pale_from_), zero(), set(1.0F));
+    const V pale = hn::Mul(part, set(view_.palest));
+    const auto mixed = [&](V own, float ground) { return lerp(own, hn::Mul(weight, set(ground)), pale); };
+    rgb = {mixed(rgb.r, view_.ground[0]), mixed(rgb.g, view_.ground[1]), mixed(rgb.b, view_.ground[2])};
+  }
+
+  void lay(V opacity, Rgb rgb, V u) {
+    if constexpr (!kPlain) fade(rgb, set(1.0F), u);
     const V share = hn::Mul(opacity, left_);
     rgb_.r = hn::MulAdd(share, rgb.r, rgb_.r);
     rgb_.g = hn::MulAdd(share, rgb.g, rgb_.g);
@@ -348,11 +380,12 @@ class Packet {
   const TraceView& view_;
   const TraceJob& job_;
   Rays ray_;
-  V phase_, from_, to_, last_, step_, per_step_;
+  V phase_, from_, to_, first_, last_, step_, per_step_;
   V left_;
   M met_sector_ = none();
   Rgb rgb_;
-  V largest_, before_, before_u_;
+  V largest_, largest_u_, before_, before_u_;
+  V pale_per_u_, pale_from_;
   std::uint32_t met_[kPlain ? 1 : 256];
 };
 

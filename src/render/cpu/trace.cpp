@@ -41,17 +41,7 @@ Rays rays_of(const TraceView& view, const Pixels& px, V& eye_u) {
   ray.dx = hn::Mul(ray.dx, per);
   ray.dy = hn::Mul(ray.dy, per);
   ray.dz = hn::Mul(ray.dz, per);
-  const V ex = set(view.eye[0]);
-  const V ey = set(view.eye[1]);
-  const V ez = set(view.eye[2]);
-  eye_u = hn::MulAdd(ex, ray.dx, hn::MulAdd(ey, ray.dy, hn::Mul(ez, ray.dz)));
-  ray.nx = hn::NegMulAdd(eye_u, ray.dx, ex);
-  ray.ny = hn::NegMulAdd(eye_u, ray.dy, ey);
-  ray.nz = hn::NegMulAdd(eye_u, ray.dz, ez);
-  ray.m2 = hn::MulAdd(ray.nx, ray.nx, hn::MulAdd(ray.ny, ray.ny, hn::Mul(ray.nz, ray.nz)));
-  ray.cone_a = hn::Mul(ray.dz, ray.dz);
-  ray.cone_b = hn::Mul(ray.nz, ray.dz);
-  ray.cone_d = hn::MulAdd(ray.m2, ray.cone_a, hn::Mul(ray.nz, ray.nz));
+  eye_u = begin_at(ray, set(view.eye[0]), set(view.eye[1]), set(view.eye[2]));
   return ray;
 }
 
@@ -79,7 +69,7 @@ void trace_packet(const TraceJob& job, const Pixels& px, RayCounts& counts) {
   V last;
   outer_bounds(job, ray, eye_u, hn::Load(D(), px.end_m), first, last);
   const M meets = hn::Lt(first, last);
-  Packet<kPlain> packet(job, ray, hn::Load(D(), px.phase), first, last);
+  Packet<kPlain> packet(job, ray, eye_u, hn::Load(D(), px.phase), first, last);
   if (any(meets)) packet.run(counts);
   packet.store(px.out, px.lanes);
   std::uint8_t bits[8] = {};
@@ -90,8 +80,10 @@ void trace_packet(const TraceJob& job, const Pixels& px, RayCounts& counts) {
 void fill_lane(const TraceView& view, int x, int y, std::size_t lane, Pixels& px) {
   const int fx = full_pixel(x, view.divisor, view.full.width);
   const int fy = full_pixel(y, view.divisor, view.full.height);
-  px.x[lane] = (static_cast<float>(fx) + 0.5F - 0.5F * static_cast<float>(view.full.width)) * view.pixel_scale;
-  px.y[lane] = (0.5F * static_cast<float>(view.full.height) - static_cast<float>(fy) - 0.5F) * view.pixel_scale;
+  const float x_px = static_cast<float>(fx) + 0.5F + view.shift[0];
+  const float y_px = static_cast<float>(fy) + 0.5F + view.shift[1];
+  px.x[lane] = (x_px - 0.5F * static_cast<float>(view.full.width)) * view.pixel_scale;
+  px.y[lane] = (0.5F * static_cast<float>(view.full.height) - y_px) * view.pixel_scale;
   px.phase[lane] = static_cast<float>(sample_phase(fx, fy, view.jitter_frame));
   px.end_m[lane] = 1e9F;
   if (view.opaque_m != nullptr) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "render/ray_rules.h"
 #include "render/transfer_table.h"
 #include "render/volume_renderer.h"
 
@@ -76,6 +77,7 @@ struct TraceView {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in
   std::array<float, 3> eye, right, up, forward, light;
   float pixel_scale;  ///< tan(half fov) / half height
   PixelSize full, size;
+  std::array<float, 2> shift;  ///< pixel_shift()
   int divisor;
   float step_m;
   std::uint32_t jitter_frame;
@@ -83,7 +85,10 @@ struct TraceView {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in
   bool data, plain, masked;
   float first_hit_count;
   Lighting lighting;
-  float fuzzy_at, core_at;  ///< 0..255
+  std::array<std::array<float, 3>, kSkyRays> sky;  ///< sky_rays()
+  float palest, nearest_m, per_m;                  ///< DepthCue; palest = 0 where it is off
+  std::array<float, 3> ground;                     ///< 0..1
+  float fuzzy_at, core_at;                         ///< 0..255
   float fuzzy_opacity, core_extinction;
   const std::array<float, 3>* mask_rgb;
   int masks;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "render/cell_states.h"
 #include "render/gl/capabilities.h"
-#include "render/gl/cell_states.h"
 #include "render/gl/gl_state.h"
 #include "render/gl/grid_textures.h"
 #include "render/gl/volume_pass.h"
@@ -207,6 +207,7 @@ RayVariant GlRenderer::variant(const VolumeView& view) const {
   out.mode = view.mode;
   out.lit = view.lighting.on;
   out.data = view.masks.data_too;
+  out.cued = view.cue.on();
   out.gapped = !filled_.complete();
   out.folded = plan_.folded();
   out.opaque = view.opaque_m != nullptr;

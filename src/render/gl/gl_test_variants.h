@@ -11,7 +11,7 @@ namespace sonar::gl_test {
 /// All that a picture may ask for in all modes, then all shapes of a sector.
 [[nodiscard]] inline std::vector<RayVariant> every_variant() {
   std::vector<RayVariant> out;
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum, RayMode::volume_and_surface}) {
     for (int bits = 0; bits < 32; ++bits) {
       RayVariant v{.mode = mode};
       v.lit = (bits & 1) != 0;
@@ -20,6 +20,7 @@ namespace sonar::gl_test {
       v.folded = (bits & 8) != 0;
       v.mask_words = (bits & 16) != 0 ? 8 : 0;
       v.opaque = v.lit;
+      v.cued = v.folded;
       out.push_back(v);
     }
   }

@@ -35,6 +35,13 @@ void fill_camera(const RayBlockSource& s, RayBlock& out) {
   out.light = turned(light_direction(camera), middle, static_cast<double>(s.view.lighting.full_gradient_db_per_m));
   const Lighting& l = s.view.lighting;
   out.lighting = {l.ambient, l.diffuse, l.specular, f(kDbPerCount)};
+  const DepthCue& cue = s.view.cue;
+  const Rgba8& c = cue.background;
+  out.ground = {f(c.r / 255.0), f(c.g / 255.0), f(c.b / 255.0), f(DepthCue::kPalest)};
+  const PixelPoint shift = pixel_shift(s.quality.jitter_frame);
+  out.frame = {f(shift.x), f(shift.y), f(cue.nearest_m), cue.on() ? f(1.0 / (cue.farthest_m - cue.nearest_m)) : 0.0F};
+  const auto sky = sky_rays(s.quality.jitter_frame);
+  for (std::size_t i = 0; i < sky.size(); ++i) out.sky[i] = {sky[i][0], sky[i][1], sky[i][2], 0.0F};
   out.picture = {s.view.size.width, s.view.size.height, s.quality.divisor, 0};
 }
 
@@ -44,7 +51,7 @@ void fill_grid(const RayBlockSource& s, RayBlock& out) {
   const double narrowest = std::max(1e-6, std::min(a.least_beam_rad, a.least_fan_rad));
   out.sides = {f(std::sin(a.half_width_rad)), f(std::cos(a.half_width_rad)), f(a.nearest_m), f(a.farthest_m)};
   out.cones = {f(std::abs(std::sin(a.first_elevation_rad))), f(std::abs(std::sin(a.last_elevation_rad))),
-               f(2.0 * h / narrowest), 0.0F};
+               f(2.0 * h / narrowest), s.view.lighting.occlusion_m};
   out.angle = {f(a.beam_of.first), f(a.beam_of.per_unit), f(a.fan_of.first), f(a.fan_of.per_unit)};
   if (a.even_beams) {
     out.angle[0] = f(-a.half_width_rad);

@@ -6,6 +6,7 @@
 
 #include "render/gl/fold_plan.h"
 #include "render/grid_axes.h"
+#include "render/ray_rules.h"
 #include "render/transfer_table.h"
 #include "view/volume/volume_scene.h"
 
@@ -17,10 +18,11 @@ using IVec4 = std::array<std::int32_t, 4>;
 /// The uniform block of shaders/block.glsl (std140), line by line; what the lines mean stands there.
 struct RayBlock {
   Vec4 right, up, forward, eye, light, lighting;
-  Vec4 sides, cones, angle, range, table, texel, stride, stack, mask;
+  Vec4 sides, cones, angle, range, table, texel, stride, stack, mask, ground, frame;
+  std::array<Vec4, kSkyRays> sky;
   IVec4 picture, cells, pieces, size;
 };
-static_assert(sizeof(RayBlock) == 19 * 16);
+static_assert(sizeof(RayBlock) == 29 * 16);
 
 /// Units of the textures; the one list that shaders and passes share.
 struct TextureSlot {

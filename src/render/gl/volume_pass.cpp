@@ -13,7 +13,8 @@ namespace sonar {
 namespace {
 
 constexpr GLuint kBlockBinding = 0;
-constexpr const char* kVersion = "#version 410 core\n";
+/// Of every shader: the uniform block is the same in all of them.
+const std::string kVersion = fmt::format("#version 410 core\n#define SKY_RAYS {}\n", kSkyRays);
 
 /// files  of render/gl/shaders, one after the other; an empty name adds nothing
 std::string shader_of(std::initializer_list<std::string_view> files, std::string_view defines = {}) {
@@ -27,12 +28,15 @@ std::string shader_of(std::initializer_list<std::string_view> files, std::string
 
 std::string defines(const RayVariant& v) {
   const auto flag = [](const char* name, auto value) { return fmt::format("#define {} {}\n", name, int{value}); };
-  return flag("MODE", static_cast<int>(v.mode)) + flag("LIT", v.lit) + flag("DATA", v.data) + flag("GAPPED", v.gapped) +
-         flag("FOLDED", v.folded) + flag("OPAQUE", v.opaque) + flag("MASKS", v.mask_words > 0) +
-         flag("MASK_WORDS", v.mask_words) + flag("INNER", v.inner) + flag("WIDE", v.wide) +
-         flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) + flag("EVEN_BEAMS", v.even_beams) +
-         flag("EVEN_FANS", v.even_fans) + flag("ANGLE_ENTRIES", kAngleEntries) + flag("CELL_SAMPLES", kCellSamples) +
-         flag("CELL_ROW", kCellRow) + fmt::format("#define ALONG_BEAMS {:.3f}\n", kAlongBeams);
+  return flag("ACCUMULATES", accumulates(v.mode)) + flag("SURFACE", ends_at_surface(v.mode)) +
+         flag("MAXIMUM", v.mode == RayMode::maximum) + flag("LIT", v.lit) + flag("CUED", v.cued) +
+         flag("DATA", v.data) + flag("GAPPED", v.gapped) + flag("FOLDED", v.folded) + flag("OPAQUE", v.opaque) +
+         flag("MASKS", v.mask_words > 0) + flag("MASK_WORDS", v.mask_words) + flag("INNER", v.inner) +
+         flag("WIDE", v.wide) + flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) +
+         flag("EVEN_BEAMS", v.even_beams) + flag("EVEN_FANS", v.even_fans) + flag("ANGLE_ENTRIES", kAngleEntries) +
+         flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow) + flag("SKY_STEPS", kSkySteps) +
+         flag("CLIMBS", kClimbs) +
+         fmt::format("#define ALONG_BEAMS {:.3f}\n#define FACE_INDEX {:.4f}\n", kAlongBeams, kFaceIndex);
 }
 
 void set_slots(const Program& program) {
@@ -67,8 +71,8 @@ ShaderTexts hull_shaders() { return {shader_of({"block.glsl", "hull.vert"}), sha
 ShaderTexts ray_shaders(const RayVariant& variant) {
   const bool masks = variant.mask_words > 0;
   return {shader_of({"whole.vert"}),
-          shader_of({"block.glsl", "grid.glsl", "sector.glsl", "cells.glsl", variant.lit || masks ? "light.glsl" : "",
-                     masks ? "masks.glsl" : "", "volume.frag"},
+          shader_of({"block.glsl", "grid.glsl", "sector.glsl", "cells.glsl", "sum.glsl",
+                     variant.lit || masks ? "light.glsl" : "", masks ? "masks.glsl" : "", "sky.glsl", "volume.frag"},
                     defines(variant))};
 }
 

@@ -18,6 +18,7 @@ struct RayVariant {
   RayMode mode = RayMode::accumulate;
   bool lit = false;
   bool data = true;
+  bool cued = false;  ///< colours fade with their depth
   bool gapped = false;
   bool folded = false;
   bool opaque = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/units.h"
@@ -17,6 +18,8 @@ using P = Point<Sonar>;
 using Rgb = std::array<double, 3>;
 
 double dot(const P& a, const P& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+P cross(const P& a, const P& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+P unit(const P& p) { return p * (1.0 / norm(p)); }
 
 struct Scene {
   const VolumeData& volume;
@@ -73,20 +76,25 @@ std::optional<SectorIndex> inside(const Scene& scene, const P& p) {
 /// What has come together along a ray so far.
 struct Ray1 {
   Ray ray;
+  double depth_per_m;  ///< along the camera's forward
+  const DepthCue& cue;
   Rgb rgb{};
   double left = 1.0;               ///< transmittance
   std::optional<double> before_m;  ///< the last place, where it was inside and below the level of first hit
   double largest_db = -1e9;
+  double largest_m = 0.0;
   std::vector<bool> surface_met;
 
-  void lay(const Rgb& colour, double opacity) {
-    for (std::size_t c = 0; c < 3; ++c) rgb[c] += left * opacity * colour[c];
+  void lay(const Rgb& colour, double opacity, double t_m) {
+    const double pale = cue.pale(t_m * depth_per_m);
+    const Rgb ground{cue.background.r / 255.0, cue.background.g / 255.0, cue.background.b / 255.0};
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] += left * opacity * ((1.0 - pale) * colour[c] + pale * ground[c]);
     left *= 1.0 - opacity;
   }
 };
 
 /// Surfaces are laid at once; what the cores add to emission and extinction is returned, as emission and extinction.
-std::array<double, 4> meet_masks(const Scene& scene, Ray1& r, const P& p, const SectorIndex& at) {
+std::array<double, 4> meet_masks(const Scene& scene, Ray1& r, double t_m, const P& p, const SectorIndex& at) {
   std::array<double, 4> sum{};
   const MaskStyle& style = scene.view.masks;
   for (std::size_t k = 0; k < scene.masks.size(); ++k) {
@@ -98,7 +106,7 @@ std::array<double, 4> meet_masks(const Scene& scene, Ray1& r, const P& p, const 
       const auto field = [&](const P& q) { return interpolated(scene.confidence[k], scene.volume.sector.index_of(q)); };
       const P g = gradient(field, p) * 1e6;  // a surface is lit in full
       r.lay(scene.view.lighting.on ? lit(rgb, g, scene.light, r.ray.direction, scene.view.lighting) : rgb,
-            static_cast<double>(style.fuzzy_opacity));
+            static_cast<double>(style.fuzzy_opacity), t_m);
     }
     if (f >= static_cast<double>(style.core_at)) {
       const auto e = static_cast<double>(style.core_extinction_per_m);
@@ -108,10 +116,40 @@ std::array<double, 4> meet_masks(const Scene& scene, Ray1& r, const P& p, const 
   return sum;
 }
 
+P sv_gradient(const Scene& scene, const P& p) {
+  return gradient([&](const P& q) { return sv_db(scene, q); }, p);
+}
+
 Rgb shaded(const Scene& scene, const Ray1& r, const Rgb& rgb, const P& p) {
   if (!scene.view.lighting.on) return rgb;
-  const auto field = [&](const P& q) { return sv_db(scene, q); };
-  return lit(rgb, gradient(field, p), scene.light, r.ray.direction, scene.view.lighting);
+  return lit(rgb, sv_gradient(scene, p), scene.light, r.ray.direction, scene.view.lighting);
+}
+
+bool reaches_level(const Scene& scene, const P& p) {
+  const auto at = inside(scene, p);
+  if (!at || db_from_counts(interpolated(scene.filled.sv, *at)) < scene.view.first_hit_db) return false;
+  return scene.filled.complete() || interpolated(scene.filled.known, *at) >= 0.5;
+}
+
+/// Ambient light that reaches a surface: 8 rings of 16 rays in place of kSkyRays, 32 steps in place of kSkySteps.
+double sky(const Scene& scene, const P& p, const P& normal) {
+  constexpr int kRings = 8;
+  constexpr int kRound = 16;
+  constexpr int kSteps = 32;
+  const auto reach = static_cast<double>(scene.view.lighting.occlusion_m);
+  const P one = unit(cross(normal, std::abs(normal.z) < 0.7 ? P{0, 0, 1} : P{1, 0, 0}));
+  const P two = cross(normal, one);
+  double sum = 0.0;
+  for (int i = 0; i < kRings * kRound; ++i) {
+    const double sine2 = (i % kRings + 0.5) / kRings;
+    const double azimuth = 2.0 * std::numbers::pi * (i / kRings + 0.5 * (i % 2)) / kRound;
+    const P out = one * (std::sqrt(sine2) * std::cos(azimuth)) + two * (std::sqrt(sine2) * std::sin(azimuth)) +
+                  normal * std::sqrt(1.0 - sine2);
+    int step = 1;
+    while (step <= kSteps && !reaches_level(scene, p + out * (reach * step / kSteps))) ++step;
+    sum += step > kSteps ? 1.0 : (step - 0.5) / kSteps;
+  }
+  return sum / (kRings * kRound);
 }
 
 /// The first place of level `first_hit_db` between the last sample and this one.
@@ -124,7 +162,14 @@ void hit(const Scene& scene, Ray1& r, double t_m) {
   }
   const P p = r.ray.origin + r.ray.direction * high;
   const auto o = optics_at(scene.table, sv_db(scene, p));
-  r.lay(shaded(scene, r, {o[0], o[1], o[2]}, p), 1.0);
+  const Lighting& lighting = scene.view.lighting;
+  Rgb rgb{o[0], o[1], o[2]};
+  if (lighting.on) {
+    const P g = sv_gradient(scene, p);
+    const double open = lighting.occlusion_m > 0.0F && norm(g) > 0.0 ? sky(scene, p, unit(g * -1.0)) : 1.0;
+    rgb = lit(rgb, g, scene.light, r.ray.direction, lighting, open);
+  }
+  r.lay(rgb, 1.0, high);
 }
 
 void take_sample(const Scene& scene, Ray1& r, double t_m, double length_m) {
@@ -134,31 +179,34 @@ void take_sample(const Scene& scene, Ray1& r, double t_m, double length_m) {
     r.before_m.reset();
     return;
   }
-  std::array<double, 4> sum = meet_masks(scene, r, p, *at);
+  std::array<double, 4> sum = meet_masks(scene, r, t_m, p, *at);
   const double share = scene.filled.complete() ? 1.0 : interpolated(scene.filled.known, *at);
   if (scene.view.masks.data_too && share > 0.0) {
     const double db = db_from_counts(interpolated(scene.filled.sv, *at));
     const bool counts = share >= 0.5;
-    if (scene.view.mode == RayMode::accumulate) {
+    if (ends_at_surface(scene.view.mode) && counts && db >= scene.view.first_hit_db) {
+      hit(scene, r, t_m);
+      return;
+    }
+    if (accumulates(scene.view.mode)) {
       const auto o = optics_at(scene.table, db);
       const Rgb rgb = o[3] > 0.0 ? shaded(scene, r, {o[0], o[1], o[2]}, p) : Rgb{};
       const double e = share * o[3];
       sum = {sum[0] + e * rgb[0], sum[1] + e * rgb[1], sum[2] + e * rgb[2], sum[3] + e};
-    } else if (counts && scene.view.mode == RayMode::maximum) {
-      r.largest_db = std::max(r.largest_db, db);
-    } else if (counts && db >= scene.view.first_hit_db) {
-      hit(scene, r, t_m);
-      return;
+    } else if (counts && scene.view.mode == RayMode::maximum && db > r.largest_db) {
+      r.largest_db = db;
+      r.largest_m = t_m;
     }
     r.before_m = counts ? std::optional(t_m) : std::nullopt;
   }
   if (sum[3] > 0.0) {
-    r.lay({sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]}, -std::expm1(-sum[3] * length_m));
+    r.lay({sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]}, -std::expm1(-sum[3] * length_m), t_m);
   }
 }
 
 std::array<float, 4> ray_colour(const Scene& scene, const Ray& ray, double end_m) {
-  Ray1 r{ray, {}, 1.0, {}, -1e9, std::vector<bool>(scene.masks.size())};
+  Ray1 r{ray, dot(ray.direction, scene.camera.forward), scene.view.cue, {}, 1.0, {}, -1e9,
+         0.0, std::vector<bool>(scene.masks.size())};
   const double middle = -dot(ray.origin, ray.direction);
   const P nearest = ray.origin + ray.direction * middle;
   const double far_m = scene.volume.sector.range().range_m(scene.filled.sv.shape().samples - 1);
@@ -170,7 +218,7 @@ std::array<float, 4> ray_colour(const Scene& scene, const Ray& ray, double end_m
   }
   if (scene.view.mode == RayMode::maximum && r.largest_db > -1e9) {
     const auto o = optics_at(scene.table, r.largest_db);
-    if (o[3] > 0.0) r.lay({o[0], o[1], o[2]}, 1.0);
+    if (o[3] > 0.0) r.lay({o[0], o[1], o[2]}, 1.0, r.largest_m);
   }
   const auto f = [](double v) { return static_cast<float>(v); };
   return {f(r.rgb[0]), f(r.rgb[1]), f(r.rgb[2]), f(1.0 - r.left)};

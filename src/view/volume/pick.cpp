@@ -143,9 +143,10 @@ class Walk {
   bool data(const Point<Sonar>& p, double t, double step, const Field& field, const std::array<Corner, 8>& around) {
     const double extinction = field.known * extinction_at(table_, field.sv_db);
     const bool counts = field.known >= 0.5;
-    if (view_.mode == RayMode::first_hit) {
-      if (!counts || field.sv_db < view_.first_hit_db) return true;
+    if (ends_at_surface(view_.mode) && counts && field.sv_db >= view_.first_hit_db) {
       data_ = hit(p, t, around);
+      transmittance_ = 0.0;
+      gathered_.push_back({1.0, *data_});
       return false;
     }
     if (view_.mode == RayMode::maximum) {
@@ -155,7 +156,7 @@ class Walk {
       }
       return true;
     }
-    if (extinction <= 0.0) return true;
+    if (!accumulates(view_.mode) || extinction <= 0.0) return true;
     transmittance_ *= std::exp(-extinction * step);
     gathered_.push_back({1.0 - transmittance_, hit(p, t, around)});
     return transmittance_ > 0.01;
@@ -223,12 +224,12 @@ class Walk {
   /// A mask's surface is met where the data before it has not hidden it.
   [[nodiscard]] std::optional<Picked> result() const {
     std::optional<Picked> seen = data_;
-    if (view_.mode == RayMode::accumulate && !gathered_.empty() && gathered_.back().opacity >= kLeastOpacity) {
+    if (accumulates(view_.mode) && !gathered_.empty() && gathered_.back().opacity >= kLeastOpacity) {
       const double half = 0.5 * gathered_.back().opacity;
       seen = std::find_if(gathered_.begin(), gathered_.end(), [&](const Gathered& g) { return g.opacity >= half; })->at;
     }
-    if (mask_ && (!seen || mask_->distance_m <= seen->distance_m || view_.mode == RayMode::accumulate)) {
-      const bool hidden = seen && view_.mode == RayMode::accumulate && 1.0 - transmittance_ > 0.5;
+    if (mask_ && (!seen || mask_->distance_m <= seen->distance_m || accumulates(view_.mode))) {
+      const bool hidden = seen && accumulates(view_.mode) && 1.0 - transmittance_ > 0.5;
       return hidden ? seen : mask_;
     }
     return seen;

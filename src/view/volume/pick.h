@@ -24,6 +24,7 @@ struct Picked {
 ///   maximum     the place of the largest Sv
 ///   accumulate  the first place by which half of the ray's opacity has gathered: what one sees there, not the thin
 ///               haze before it
+///   volume_and_surface  the same; a surface is opaque
 /// A mask's fuzzy surface before that place is met first (and alone where the data is not shown).
 /// A mask's surface gives a member of the mask, however the place lies between members and others.
 /// Where the voxel at the place has no data, the nearest of the interpolation's corners that has some is given.

@@ -52,7 +52,7 @@ PixelPoint pixel_of(const VolumeView& view, const Point<Sonar>& p) {
 }
 
 TEST(Pick, GivesTheOneLitVoxelUnderThePointerInEveryMode) {
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum, RayMode::volume_and_surface}) {
     for (const auto& [fan, beam, sample] : {std::array{2, 3, 40}, std::array{6, 8, 150}, std::array{1, 1, 190}}) {
       VolumeData volume = volume_of(-80.0);
       light(volume, fan, beam, sample, -40.0);
@@ -208,7 +208,7 @@ TEST(Pick, WhatIsDrawnBesideMissingSamplesIsFound) {
     volume.sv(4, 4, sample) = volume.sv(4, 6, sample) = kNoData;
     volume.sv(3, 5, sample) = volume.sv(5, 5, sample) = kNoData;
   }
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum, RayMode::volume_and_surface}) {
     const VolumeView view = view_of(volume, mode);
     const auto hit =
         pick(volume, table_from(-60.0, -40.0, 1.0), {}, view, pixel_of(view, volume.sector.centre(4, 5, 100)));
@@ -222,7 +222,7 @@ TEST(Pick, WhatIsDrawnBesideMissingSamplesIsFound) {
 TEST(Pick, NothingIsFoundWhereNothingIsKnown) {
   VolumeData volume = volume_of(-40.0);
   for (auto& sv : volume.sv.all()) sv = kNoData;
-  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum}) {
+  for (const RayMode mode : {RayMode::accumulate, RayMode::first_hit, RayMode::maximum, RayMode::volume_and_surface}) {
     const VolumeView view = view_of(volume, mode);
     EXPECT_FALSE(pick(volume, table_from(-60.0, -40.0, 1.0), {}, view, {200.5, 150.5}));
   }

@@ -13,6 +13,7 @@
 #include "model/transfer_function.h"
 #include "model/volume.h"
 #include "view/volume/camera.h"
+#include "view/volume/depth_cue.h"
 
 namespace sonar {
 
@@ -47,10 +48,19 @@ inline constexpr int kMostTableEntries = 1024;
 
 /// How the samples along a ray become a colour.
 enum class RayMode : std::uint8_t {
-  accumulate,  ///< emission and absorption, front to back, ended at 99 % opacity
-  first_hit,   ///< colour at the first place whose Sv reaches `first_hit_db`, lit where lighting is on
-  maximum,     ///< colour of the largest Sv on the ray, opaque where the table's extinction is above 0
+  accumulate,          ///< emission and absorption, front to back, ended at 99 % opacity
+  first_hit,           ///< colour at the first place whose Sv reaches `first_hit_db`, lit where lighting is on
+  maximum,             ///< colour of the largest Sv on the ray, opaque where the table's extinction is above 0
+  volume_and_surface,  ///< what accumulates before the surface of first_hit, and that surface
 };
+/// Whether what lies along a ray adds up.
+[[nodiscard]] constexpr bool accumulates(RayMode mode) {
+  return mode == RayMode::accumulate || mode == RayMode::volume_and_surface;
+}
+/// Whether a ray ends at the first place that reaches `first_hit_db`.
+[[nodiscard]] constexpr bool ends_at_surface(RayMode mode) {
+  return mode == RayMode::first_hit || mode == RayMode::volume_and_surface;
+}
 
 /// Light from the eye's upper left by the gradient of Sv in metres; weighted by the gradient's strength, so that noise
 /// is not lit.
@@ -60,6 +70,8 @@ struct Lighting {
   float diffuse = 0.6F;
   float specular = 0.2F;
   float full_gradient_db_per_m = 1.0F;  ///< at and above this the surface is lit in full
+  /// Of the surface where rays end: how far off what reaches the surface's Sv keeps ambient light from it, m; 0 = none
+  float occlusion_m = 0.0F;
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
@@ -93,6 +105,7 @@ struct VolumeView {
   double first_hit_db = -50.0;
   Lighting lighting;
   MaskStyle masks;
+  DepthCue cue;  ///< off where nothing is said
   /// [height][width], metres along each pixel's ray where an opaque thing (seabed, ship) ends it; empty = nothing there
   std::shared_ptr<const std::vector<float>> opaque_m;
 };
@@ -102,7 +115,8 @@ struct DrawQuality {
   int divisor = 1;                  ///< 1 full resolution, 2 half (drawn small and enlarged by the caller), 4 quarter
   double step_samples = 1.0;        ///< longest step, in range samples (metres = step_samples * spacing_m)
   double homogeneous_limit = 0.03;  ///< optical depth below which a cell is one segment; 0 = never
-  std::uint32_t jitter_frame = 0;   ///< 0 = samples at the middle of steps; n = the n-th jittered frame of a series
+  /// 0 = rays through the middle of pixels, samples at the middle of steps; n = the n-th jittered frame of a series
+  std::uint32_t jitter_frame = 0;
   friend bool operator==(const DrawQuality&, const DrawQuality&) = default;
 };
 

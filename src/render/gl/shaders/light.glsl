@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light by the gradient in metres; the same words as lit() in render/ray_rules.h.
-vec3 lit(vec3 rgb, vec3 gradient) {
+vec3 lit(vec3 rgb, vec3 gradient, float sky) {
   float strength = length(gradient);
   if (strength == 0.0) return rgb;
   vec3 n = -gradient / strength;
   float w = min(1.0, strength / ray.light.w);
   float diffuse = max(0.0, dot(n, ray.light.xyz));
   float gloss = pow(max(0.0, dot(n, normalize(ray.light.xyz - dir))), 16.0);
-  float scale = 1.0 - w + w * (ray.lighting.x + ray.lighting.y * diffuse);
+  float scale = 1.0 - w + w * (ray.lighting.x * sky + ray.lighting.y * diffuse);
   return rgb * scale + w * ray.lighting.z * gloss;
 }
 

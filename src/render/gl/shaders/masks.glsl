@@ -14,8 +14,8 @@ uint mask_texel(ivec3 i, ivec3 corner) {
 #endif
 }
 
-// Lays surfaces over what lies behind (into `rgb` and `through`); returns emission and extinction of the cores.
-vec4 meet_masks(vec3 g, vec3 p, inout vec3 rgb, inout float through) {
+// Lays surfaces over what lies behind; returns emission and extinction of the cores.
+vec4 meet_masks(vec3 g, vec3 p, float t) {
   ivec3 corner = corner_of(g);
   vec3 f = g - vec3(corner);
   uint layer[8];
@@ -49,12 +49,11 @@ vec4 meet_masks(vec3 g, vec3 p, inout vec3 rgb, inout float through) {
     if ((surface_met[word] & bit) == 0u && sum >= max(ray.mask.x, 0.5 / 255.0)) {
       surface_met[word] |= bit;
 #if LIT
-      vec3 shown = lit(colour, in_metres(slope_of(value, f), corner, p) * 1e6);
+      vec3 shown = lit(colour, in_metres(slope_of(value, f), corner, p) * 1e6, 1.0);
 #else
       vec3 shown = colour;
 #endif
-      rgb += through * ray.mask.z * shown;
-      through *= 1.0 - ray.mask.z;
+      lay_over(shown, ray.mask.z, t);
     }
     if (sum >= ray.mask.y) core += ray.mask.w * vec4(colour, 1.0);
   }

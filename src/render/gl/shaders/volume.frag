@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray through the sonar's own grid. MODE: 0 accumulate, 1 first hit, 2 maximum.
+// One ray through the sonar's own grid: what it does is ACCUMULATES, SURFACE (it ends there), MAXIMUM.
 uniform sampler2D optics_texture;  // r, g, b, extinction at fine steps of Sv
 layout(location = 0) out vec4 colour;
 
-vec3 rgb = vec3(0.0);
-float through = 1.0;
 float largest = -1e9;  // counts
+float largest_t = 0.0;
 float hit_low = 0.0;   // t of the last place below the level of first hit, and of the first one above
 float hit_high = FAR;
 
@@ -14,21 +13,11 @@ vec4 optics(float counts) {
   return texelFetch(optics_texture, ivec2(int(entry + 0.5), 0), 0);
 }
 
-// Emission and extinction that go on over a length, in front of what lies behind.
-void lay(vec4 emission, float length_m) {
-  float depth = emission.a * length_m;
-  // (1 - exp(-x)) / x without the loss of digits at small x, where haze lives.
-  float series = 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0 - depth * (1.0 / 120.0 - depth / 720.0))));
-  float mean = depth < 0.5 ? series : (1.0 - exp(-depth)) / max(depth, 0.5);
-  rgb += through * length_m * mean * emission.rgb;
-  through *= 1.0 - depth * mean;
-}
-
 void take_sample(float t, float length_m, uint flags, float before) {
   vec3 p = base + t * dir;
   vec3 g = index_of(p, sqrt(base2 + t * t));
 #if MASKS
-  vec4 sum = (flags & MASKED) != 0u ? meet_masks(g, p, rgb, through) : vec4(0.0);
+  vec4 sum = (flags & MASKED) != 0u ? meet_masks(g, p, t) : vec4(0.0);
 #else
   vec4 sum = vec4(0.0);
 #endif
@@ -39,23 +28,28 @@ void take_sample(float t, float length_m, uint flags, float before) {
 #else
   const float share = 1.0;
 #endif
-#if MODE == 0
-  vec4 seen = optics(counts);
-#if LIT
-  if (seen.a > 0.0) seen.rgb = lit(seen.rgb, sv_gradient(g, p));
-#endif
-  sum += share * seen.a * vec4(seen.rgb, 1.0);
-#elif MODE == 1
+#if SURFACE
   if (share >= 0.5 && counts >= ray.range.w) {
     hit_low = before;
     hit_high = t;
+    return;
   }
-#else
-  largest = share >= 0.5 ? max(largest, counts) : largest;
+#endif
+#if ACCUMULATES
+  vec4 seen = optics(counts);
+#if LIT
+  if (seen.a > 0.0) seen.rgb = lit(seen.rgb, sv_gradient(g, p), 1.0);
+#endif
+  sum += share * seen.a * vec4(seen.rgb, 1.0);
+#elif MAXIMUM
+  if (share >= 0.5 && counts > largest) {
+    largest = counts;
+    largest_t = t;
+  }
 #endif
 #endif
-#if MODE == 0 || MASKS
-  lay(sum, length_m);
+#if ACCUMULATES || MASKS
+  lay(sum, length_m, t);
 #endif
 }
 
@@ -71,18 +65,33 @@ void end_hit() {
   vec3 g = index_of(p, length(p));
   vec3 shown = optics(sv_at(g)).rgb;
 #if LIT
-  shown = lit(shown, sv_gradient(g, p));
+  vec3 gradient = sv_gradient(g, p);
+  shown = lit(shown, gradient, sky_over(p, gradient));
 #endif
-  rgb += through * shown;
-  through = 0.0;
+  lay_over(shown, 1.0, hit_high);
 }
 
-void end_maximum() {
-  vec4 seen = optics(largest);
-  if (largest > -1e9 && seen.a > 0.0) {
-    rgb += through * seen.rgb;
-    through = 0.0;
+void climb(float t) {
+  vec3 p = base + t * dir;
+  vec3 g = index_of(p, sqrt(base2 + t * t));
+  float counts = sv_at(g);
+  if (counts <= largest || !is_known(g, p)) return;
+  largest = counts;
+  largest_t = t;
+}
+
+void end_maximum(vec2 span) {
+  if (largest <= -1e9) return;
+  // The peak between samples.
+  float reach = ray.up.w;
+  for (int i = 0; i < CLIMBS; ++i) {
+    reach *= 0.5;
+    float middle = largest_t;
+    climb(max(middle - reach, span.x));
+    climb(min(middle + reach, span.y));
   }
+  vec4 seen = optics(largest);
+  if (seen.a > 0.0) lay_over(seen.rgb, 1.0, largest_t);
 }
 
 float phase_of(ivec2 pixel) {
@@ -122,7 +131,7 @@ void walk(vec2 span, float phase) {
     uvec2 state = texelFetch(state_texture, cell_texel(cell), 0).rg;
     float leave = block_exit(g, max(int(state.r) - 1, 0), at);
     leave = r < ray.cones.z ? min(leave, at + 4.0 * h) : leave;
-#if MODE == 2
+#if MAXIMUM
     bool empty = state.r > 0u || ((state.g & MASKED) == 0u && float(texelFetch(largest_texture, cell_texel(cell), 0).r) <= largest);
 #else
     bool empty = state.r > 0u;
@@ -133,10 +142,10 @@ void walk(vec2 span, float phase) {
       t = beyond;
       continue;
     }
-#if MODE == 0
+#if ACCUMULATES
     if ((state.g & THIN) != 0u && abs(at) <= ALONG_BEAMS * r) {
       float stop = min(max(next, floor(leave / h + 0.5) * h), end);
-      lay(texelFetch(means_texture, cell_texel(cell), 0), stop - t);
+      lay(texelFetch(means_texture, cell_texel(cell), 0), stop - t, 0.5 * (t + stop));
       t = stop;
       continue;
     }
@@ -154,17 +163,20 @@ void walk(vec2 span, float phase) {
 void main() {
   ivec2 pixel = min(ivec2(gl_FragCoord.xy) * ray.picture.z + ray.picture.z / 2, ray.picture.xy - 1);
   vec2 size = vec2(ray.picture.xy);
-  vec2 at = (vec2(pixel) + 0.5 - 0.5 * size) * (2.0 / size.y) * ray.right.w;
+  vec2 at = (vec2(pixel) + 0.5 + ray.frame.xy - 0.5 * size) * (2.0 / size.y) * ray.right.w;
   vec3 direction = normalize(ray.forward.xyz + at.x * ray.right.xyz - at.y * ray.up.xyz);
 #if MASKS
   for (int i = 0; i < MASK_WORDS; ++i) surface_met[i] = 0u;
 #endif
   vec2 span = ray_in_sector(ray.eye.xyz, direction, pixel);
+#if CUED
+  set_cue(dot(ray.eye.xyz, direction));
+#endif
   walk(span, phase_of(pixel));
-#if MODE == 1
+#if SURFACE
   end_hit();
-#elif MODE == 2
-  end_maximum();
+#elif MAXIMUM
+  end_maximum(span);
 #endif
   // A ray that ended early is opaque: what it had not yet seen is taken to look like what it had.
   colour = through > 0.01 ? vec4(rgb, 1.0 - through) : vec4(rgb / (1.0 - through), 1.0);

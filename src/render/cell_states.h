@@ -23,10 +23,12 @@ struct CellQuestion {
 /// A mean knows no gradient: under light no cell is thin.
 [[nodiscard]] CellQuestion cell_question(const VolumeView& view, const DrawQuality& quality);
 
+inline constexpr int kCellThin = 1, kCellGaps = 2, kCellMasked = 4;
+
 /// What a ray does in each cell.
 struct CellStates {
   std::vector<std::uint8_t> distance;       ///< to the next cell that counts
-  std::vector<std::uint8_t> flags;          ///< 1 thin, 2 gaps, 4 masked
+  std::vector<std::uint8_t> flags;          ///< kCellThin and its like
   std::vector<std::array<float, 4>> means;  ///< empty where no cell is thin
 };
 [[nodiscard]] CellStates cell_states(const CellQuestion& question, const FilledVolume& volume, const Macrocells& cells,
