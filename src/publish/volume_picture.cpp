@@ -65,6 +65,7 @@ Result<PictureOptions> with_standing_eye(const DrawnObservation& observation, co
   }
   const auto index = chosen_ping(observation, options);
   if (!index) return pass_on(index);
+  if (*index == of) return options;  // there and back is not the same to the last bit
   const auto sector = observation.sector();
   if (!sector) return pass_on(sector);
   const auto camera = volume_camera(*sector, options, place.rays);
