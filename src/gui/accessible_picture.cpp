@@ -11,14 +11,13 @@ namespace {
 
 class AccessiblePicture : public QAccessibleWidget {
  public:
-  explicit AccessiblePicture(PictureView& view) : QAccessibleWidget(&view, QAccessible::Graphic), view_(view) {}
+  explicit AccessiblePicture(PictureView& view) : QAccessibleWidget(&view, QAccessible::Graphic) {}
   [[nodiscard]] QString text(QAccessible::Text kind) const override {
-    if (kind == QAccessible::Description || kind == QAccessible::Value) return view_.sentence();
+    // Qt keeps this until the widget is no more than a QObject.
+    const auto* view = dynamic_cast<const PictureView*>(object());
+    if (view != nullptr && (kind == QAccessible::Description || kind == QAccessible::Value)) return view->sentence();
     return QAccessibleWidget::text(kind);
   }
-
- private:
-  PictureView& view_;
 };
 
 QAccessibleInterface* made(const QString& /*class_name*/, QObject* object) {

@@ -240,10 +240,20 @@ void PictureView::mousePressEvent(QMouseEvent* event) { forward(event, PointerAc
 void PictureView::mouseReleaseEvent(QMouseEvent* event) { forward(event, PointerAction::release); }
 void PictureView::mouseDoubleClickEvent(QMouseEvent* event) { forward(event, PointerAction::double_press); }
 
+namespace {
+
+/// Two fingers, not a wheel: under X11 some wheels have pixels too.
+bool by_fingers(const QWheelEvent& event) {
+  const bool touch = event.device() != nullptr && event.device()->type() == QInputDevice::DeviceType::TouchPad;
+  return !event.pixelDelta().isNull() && (event.phase() != Qt::NoScrollPhase || touch);
+}
+
+}  // namespace
+
 void PictureView::wheelEvent(QWheelEvent* event) {
+  if (event->pixelDelta().isNull() && event->angleDelta().isNull()) return;  // fingers put down or lifted
   const bool keys = (event->modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
-  if (!event->pixelDelta().isNull() && !keys && picture_.pans()) {
-    // Wheels have no pixels: these are two fingers.
+  if (by_fingers(*event) && !keys && picture_.pans()) {
     PointerEvent pan{PointerAction::pan, PointerButton::none, pixel_at(event->position())};
     pan.by = pixel_at(event->pixelDelta());
     return picture_.pointer(with_keys(pan, event->modifiers()));

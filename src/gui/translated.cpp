@@ -39,6 +39,8 @@ QString translated_menu(const std::string& path, const QString& between) {
 void load_language() {
   const QString chosen = qEnvironmentVariable("SONAR_LANGUAGE");
   const QLocale locale = chosen.isEmpty() ? QLocale() : QLocale(chosen);
+  // Qt goes on to a user's second language where there is no file for the first, and the program is in English as it is.
+  if (locale.uiLanguages().value(0).startsWith("en")) return;
   load(locale, "qtbase", {QLibraryInfo::path(QLibraryInfo::TranslationsPath)});
   QStringList folders = QStandardPaths::standardLocations(QStandardPaths::GenericDataLocation);
   folders.prepend(QCoreApplication::applicationDirPath() + "/../share");

@@ -306,6 +306,7 @@ Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::s
     if (!turn.replaced.empty()) rebuild();
     return pass_on(written);
   }
+  again.line.step = line.step;
   lines_read_.emplace(std::pair(line.n, line.decided), std::move(again));
   if (step != nullptr) step->first = line.step;
   turn.step = line.step;

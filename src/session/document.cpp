@@ -67,11 +67,11 @@ void Document::post(const CancelToken& token, std::function<void()> change) {
   });
 }
 
-void Document::run(std::function<void(Work&, const CancelToken&)> job) {
+void Document::run(std::function<void(Work&, const CancelToken&)> job, OpeningPtr opening) {
   cancel();
-  opening_.reset();  // one that was being read is read no more
+  opening_ = opening;
   work_ = std::make_shared<Work>(options_.threads);
-  background_.post_latest([this, work = work_, job = std::move(job)](const CancelToken& token) {
+  background_.post_latest([this, work = work_, job = std::move(job), opening](const CancelToken& token) {
     const auto show = [this, token](Progress now) {
       queue_.post_latest("document progress", [this, alive = std::weak_ptr<bool>(alive_), token, now = std::move(now)] {
         if (alive.expired() || token.cancelled()) return;
@@ -85,9 +85,12 @@ void Document::run(std::function<void(Work&, const CancelToken&)> job) {
           give_way();
         });
     if (const auto done = within_memory([&] { job(*work, token); }); !done) {
-      end_with(done.error(), token);
+      end_with(done.error(), token, opening);
     }
     show({});
+    post(token, [this] {
+      if (!opening_) survey_->go_on();
+    });
   });
 }
 
@@ -95,14 +98,16 @@ void Document::cancel() {
   if (work_) work_->cancel();
 }
 
-void Document::read(Opening opening) {
+void Document::read(Opening what) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
-  run([this, opening, none = survey() == nullptr, asked = asked_recipe_](Work& work, const CancelToken& token) {
-    if (const auto done = opening.first ? opening.first(work) : Result<void>{}; !done) {
-      return end_with(done.error(), token);
+  const auto opening = std::make_shared<const Opening>(std::move(what));
+  const auto job = [this, opening, none = survey() == nullptr, asked = asked_recipe_](Work& work,
+                                                                                      const CancelToken& token) {
+    if (const auto done = opening->first ? opening->first(work) : Result<void>{}; !done) {
+      return end_with(done.error(), token, opening);
     }
-    const auto named = told_apart(opening.paths);
-    if (!named) return end_with(named.error(), token);
+    const auto named = told_apart(opening->paths);
+    if (!named) return end_with(named.error(), token, opening);
     const auto folders = options_.journal_folders && !named->raw.empty() ? options_.journal_folders(named->raw.front())
                                                                          : std::vector<std::filesystem::path>{};
     Recipe recipe = asked ? *asked : recipe_of(folders, token);
@@ -110,7 +115,7 @@ void Document::read(Opening opening) {
     const bool of_run = !asked && take_recipe(named->recipe, recipe);
     if (none) glance_at(named->raw, recipe, work, token);
     auto survey = open_survey(named->raw, recipe.survey, recipe.navigation, options_.cache, work);
-    if (!survey) return end_with(survey.error(), token);
+    if (!survey) return end_with(survey.error(), token, opening);
     const auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
     auto place = place_journal(folders, head_of(*files, recipe), options_.operator_name);
     if ((asked || of_run) && place) {
@@ -122,18 +127,19 @@ void Document::read(Opening opening) {
                                            named->work_folders.front().string()));
     }
     const auto found = found_in(named->work_folders, *files, recipe, options_.program_version);
-    post(token, [this, asked, back_to = opening.back_to,
-                 read = SurveyRead{recipe, files, opening.paths, named->raw, named->work_folders, found, place}] {
+    post(token, [this, asked, opening,
+                 read = SurveyRead{recipe, files, opening->paths, named->raw, named->work_folders, found, place}] {
+      if (opening_ != opening) return;  // something else was asked for since
       if (asked == asked_recipe_) asked_recipe_.reset();
-      take(read, back_to);
+      take(read, opening->back_to);
     });
-  });
-  opening_ = std::move(opening);
+  };
+  run(job, opening);
 }
 
-void Document::end_with(const Error& error, const CancelToken& token) {
-  post(token, [this, line = to_line(error)] {
-    opening_.reset();
+void Document::end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening) {
+  post(token, [this, opening, line = to_line(error)] {
+    if (opening_ == opening) opening_.reset();
     tell(line);
   });
 }

@@ -81,7 +81,7 @@ class Document {
   /// Ends what runs in the background; what was there before stays.
   void cancel();
   /// Whether another survey is being read, or this one anew.
-  [[nodiscard]] bool opening() const { return opening_.has_value(); }
+  [[nodiscard]] bool opening() const { return opening_ != nullptr; }
   [[nodiscard]] const SurveyFiles* survey() const { return survey_files().get(); }
   /// The same, for whoever needs it beyond its end here.
   [[nodiscard]] const std::shared_ptr<const SurveyFiles>& survey_files() const { return survey_->read_.files; }
@@ -110,7 +110,7 @@ class Document {
   /// Whatever a user waits for: that, else a propagation, else the journal's lines, else measures.
   [[nodiscard]] Progress activity() const;
   /// Runs a job behind the window, with progress; one that runs is ended first. It must not touch the document.
-  void run(std::function<void(Work&, const CancelToken&)> job);
+  void run(std::function<void(Work&, const CancelToken&)> job) { run(std::move(job), nullptr); }
   /// Runs something short behind the window, beside what else runs there. It must not touch the document.
   void run_beside(std::function<void(const CancelToken&)> job) { (void)beside_.post(std::move(job)); }
   /// Taken by what a user waits for; what else runs behind the window gives way.
@@ -200,16 +200,19 @@ class Document {
     std::function<Result<void>(Work&)> first;                     ///< what must be done before; may be empty
     std::optional<std::pair<std::size_t, std::int64_t>> back_to;  ///< see OpenSurvey::begin()
   };
+  using OpeningPtr = std::shared_ptr<const Opening>;
   void read(Opening opening);
+  /// opening  that the job is; null = another job, and what was being read is read no more
+  void run(std::function<void(Work&, const CancelToken&)> job, OpeningPtr opening);
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
-  void end_with(const Error& error, const CancelToken& token);
+  void end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
   void take(SurveyRead read, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to);
 
   ChangeQueue& queue_;
   DocumentOptions options_;
-  std::optional<Opening> opening_;              ///< none = nothing is being read
+  OpeningPtr opening_;                          ///< null = nothing is being read
   std::shared_ptr<const Recipe> asked_recipe_;  ///< that the next survey is opened under
   Listeners<DocumentChange> changes_;
   std::shared_ptr<const SurveyFiles> glance_;

@@ -105,6 +105,10 @@ void OpenSurvey::replay_journal() {
   if (!undetected_.empty() && !document_.opening()) detect(std::exchange(undetected_, {}));
 }
 
+void OpenSurvey::go_on() {
+  if (staged_) replay_journal();
+}
+
 Result<void> OpenSurvey::show(std::size_t observation, std::int64_t ping) {
   if (!read_.files || observation >= read_.files->observations.size())
     return fail(ErrorCode::usage, "no such observation");

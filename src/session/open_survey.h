@@ -80,6 +80,8 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   [[nodiscard]] Recipe measuring_recipe() const;
   [[nodiscard]] Progress activity() const;
   Result<void> show(std::size_t observation, std::int64_t ping = 0);
+  /// With what waited for another survey that was being read and did not come.
+  void go_on();
   [[nodiscard]] OpenObservationPtr open_observation(std::size_t index) const;
   void open_all();
   void look_at(std::int64_t ping_index);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 #include <vector>
 
 #include "session/document.h"
@@ -94,6 +96,28 @@ TEST_F(OneSurveyAfterAnother, ASurveyThatIsBeingReadIsNotGivenUpForTheSchoolsOfT
   read_on.notify_all();
   document_.settle();
   EXPECT_EQ(document_.paths(), std::vector{other});
+}
+
+// What is read but not yet taken is given up for what is asked for then: its job has ended and can no longer be cancelled.
+TEST_F(OneSurveyAfterAnother, ASurveyThatWasReadIsNotTakenWhenSomethingElseWasAskedForSince) {
+  open_easy();
+  document_.settle();
+  const std::vector<std::filesystem::path> easy = document_.paths();
+  const std::filesystem::path other = TestSurvey::easy().fresh();
+  const auto read_other = [&] {
+    document_.open({other});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // an empty folder: it is read in no time
+  };
+  read_other();
+  document_.detect({0});
+  document_.settle();
+  EXPECT_EQ(document_.paths(), easy);
+  EXPECT_TRUE(document_.detected(0));
+  read_other();
+  open_easy();
+  document_.settle();
+  EXPECT_EQ(document_.paths(), easy);
+  EXPECT_FALSE(document_.opening());
 }
 
 }  // namespace

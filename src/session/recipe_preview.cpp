@@ -40,7 +40,12 @@ LivePicture::Build RecipePreview::build(const PictureLook& look) {
   wish.look = look;
   wish.room = std::make_shared<FlagRoom>();
   std::optional<Recipe> recipe;
-  if (edited_ != nullptr) recipe = edited_->recipe();
+  if (edited_ != nullptr) {
+    recipe = edited_->recipe();
+    // A calibration that was chosen for the survey holds whatever the recipe says.
+    const Recipe measuring = document.measuring_recipe();
+    if (recipe_hash(measuring) != recipe_hash(document.recipe())) recipe->calibration = measuring.calibration;
+  }
   return [wish = std::move(wish), recipe = std::move(recipe)](PixelSize size, const CancelToken& token,
                                                               const Show& show) mutable -> Result<void> {
     if (recipe) {
