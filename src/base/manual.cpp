@@ -50,6 +50,12 @@ fs::path guide_place(const fs::path& program) {
   return page_of(program, {"html/guide.html", "guide.md"}, "docs/guide.md");
 }
 
+fs::path tutorial_place() { return tutorial_place(this_program()); }
+
+fs::path tutorial_place(const fs::path& program) {
+  return page_of(program, {"html/tutorial.html", "tutorial.md"}, "docs/tutorial.md");
+}
+
 fs::path changes_place() { return changes_place(this_program()); }
 
 fs::path changes_place(const fs::path& program) {

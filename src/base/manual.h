@@ -16,6 +16,9 @@ namespace sonar {
 /// there is neither.
 [[nodiscard]] std::filesystem::path guide_place();
 [[nodiscard]] std::filesystem::path guide_place(const std::filesystem::path& program);
+/// The same of the tutorial.
+[[nodiscard]] std::filesystem::path tutorial_place();
+[[nodiscard]] std::filesystem::path tutorial_place(const std::filesystem::path& program);
 /// The same of what is new in each version.
 [[nodiscard]] std::filesystem::path changes_place();
 [[nodiscard]] std::filesystem::path changes_place(const std::filesystem::path& program);

@@ -57,6 +57,13 @@ TEST(Manual, TheGuideOfATreeIsItsPageAndElsewhereThereIsNone) {
   EXPECT_EQ(guide_place(""), "");
 }
 
+TEST(Manual, TheTutorialLiesBesideTheGuide) {
+  const fs::path whole = tree_with({"usr/share/doc/sonarx/html/tutorial.html", "usr/share/doc/sonarx/tutorial.md"});
+  EXPECT_EQ(tutorial_place(whole / "usr/bin/sonar-explorer"), whole / "usr/share/doc/sonarx/html/tutorial.html");
+  const fs::path root = tree_with({"docs/tutorial.md", "src/base/manual.h"});
+  EXPECT_EQ(tutorial_place(root / "build/dev/src/gui/sonar-explorer"), root / "docs/tutorial.md");
+}
+
 TEST(Manual, WhatIsNewLiesBesideTheGuideAndAboveItInATree) {
   const fs::path whole = tree_with({"usr/share/doc/sonarx/html/CHANGELOG.html", "usr/share/doc/sonarx/CHANGELOG.md"});
   EXPECT_EQ(changes_place(whole / "usr/bin/sonar-explorer"), whole / "usr/share/doc/sonarx/html/CHANGELOG.html");

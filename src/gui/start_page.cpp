@@ -29,12 +29,13 @@ struct Beginning {
   const char* text;
   const char* more;
 };
-constexpr std::array<Beginning, 4> kBeginnings{
+constexpr std::array<Beginning, 5> kBeginnings{
     {{"file.open_folder", to_translate("Open a folder"),
       to_translate("Raw files of a survey, or the results of a run with their schools")},
      {"file.open_files", to_translate("Open some files"), to_translate("A part of a survey")},
      {"file.demo", to_translate("Open the demo survey"),
       to_translate("Simulated; it takes a moment to make at the first time")},
+     {"help.tutorial", to_translate("Follow the tutorial"), to_translate("Ten steps through the demo survey")},
      {"help.guide", to_translate("Read the guide"),
       to_translate("From opening a survey to its map; [help.keys] shows all keys")}}};
 
@@ -58,7 +59,7 @@ class StartPage : public QWidget {
     setObjectName("start_page");
     setAutoFillBackground(true);
     auto* page = new QGridLayout(this);
-    page->setContentsMargins(56, 40, 56, 24);
+    page->setContentsMargins(56, 24, 56, 16);
     page->setHorizontalSpacing(64);
     page->setVerticalSpacing(16);
     page->setColumnStretch(0, 1);

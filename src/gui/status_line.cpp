@@ -2,6 +2,7 @@
 #include "gui/status_line.h"
 
 #include <QApplication>
+#include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
 #include <QProgressBar>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "gui/listening_of.h"
+#include "gui/notice_bar.h"
 #include "gui/own_keys.h"
 #include "gui/translated.h"
 #include "session/beyond_reach.h"
@@ -57,7 +59,9 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   bar.setVisible(running);
   cancel.setVisible(!document.progress().stage.empty() || document.busy());
   if (!running) return;
-  bar.setFormat(QString::fromStdString(progress.stage) + " %p %");
+  const QString stage = QString::fromStdString(progress.stage);
+  bar.setFormat(stage + " %p %");
+  bar.setToolTip(stage);  // a long one is cut
   bar.setRange(0, static_cast<int>(progress.total));
   bar.setValue(static_cast<int>(progress.done));
 }
@@ -89,11 +93,20 @@ void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const cha
   });
 }
 
+/// Where the notices before the last one stand.
+void show_diagnostics(const QMainWindow& window) {
+  auto* dock = window.findChild<QDockWidget*>("diagnostics");
+  if (dock == nullptr) return;
+  dock->show();
+  dock->raise();
+}
+
 }  // namespace
 
 void add_status_line(QMainWindow& window, AppModel& app) {
   Workspace& workspace = app.workspace;
-  QStatusBar* status = window.statusBar();
+  auto* status = new NoticeBar(&window, [&window] { show_diagnostics(window); });
+  window.setStatusBar(status);
   // A line of text, not a label: a label's new text has the whole window laid out anew.
   auto* cursor = new QLineEdit(status);
   cursor->setObjectName("read_out");
@@ -134,9 +147,7 @@ void add_status_line(QMainWindow& window, AppModel& app) {
     }
     cursor->setText(text_at_cursor(workspace));
     cursor->setCursorPosition(0);
-    // What a narrow window cuts off.
-    const bool cut = cursor->fontMetrics().horizontalAdvance(cursor->text()) > cursor->width();
-    cursor->setToolTip(cut ? cursor->text() : QString());
+    cursor->setToolTip(cursor->text());  // a narrow window cuts off some of it
   };
   Listening& listening = listening_of(*status);
   listening.to(workspace.cursor.changed(), read);

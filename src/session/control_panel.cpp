@@ -81,6 +81,8 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto select = std::make_shared<SourceOf<SelectParams>>(workspace.select);
   const auto volume = std::make_shared<SourceOf<VolumeParams>>(workspace.volume);
   const auto pictures = std::make_shared<SourceOf<PictureFileParams>>(workspace.picture_file);
+  const auto timelines = std::make_shared<SourceOf<TimelineLimits>>(workspace.timelines);
+  const auto own_limits = [&workspace] { return workspace.timelines.values().own_limits; };
   const auto views = std::make_shared<SourceOf<ViewSwitches>>(workspace.views);
   const auto core = [&workspace] { return in_db(workspace, workspace.display.values().core_at); };
   const auto fuzzy = [&workspace] { return in_db(workspace, workspace.display.values().fuzzy_above); };
@@ -120,6 +122,11 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
                 {"tilt_deg", [lies] { return lies() == PlaneSlice::Kind::oblique; }},
                 {"offset_m", [lies] { return lies() != PlaneSlice::Kind::horizontal; }}}},
       {"Volume", volume, {}, {}, false},
+      {.title = "Timelines",
+       .source = timelines,
+       .open = false,
+       .looks = {{"low_db", "", {-100.0, 0.0}}, {"span_db", "", {6.0, 80.0}}},
+       .uses = {{"low_db", own_limits}, {"span_db", own_limits}}},
       {.title = "Charts",
        .source = pictures,
        .names = {"chart.table", "chart.x", "chart.y", "chart.bins"},

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/manual.h"
 #include "session/test_app.h"
 
 namespace sonar {
@@ -42,6 +43,19 @@ TEST_F(DemoSurvey, IsOpenedFromTheMenuWhereItLiesInTheUsersCache) {
   document().settle();
   ASSERT_TRUE(document().staged());
   EXPECT_EQ(document().paths().front(), made);
+
+  app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
+  fs::path shown;
+  app_->dialogs.show_page = [&](const fs::path& page) {
+    shown = page;
+    return true;
+  };
+  press("help.tutorial");
+  document().settle();
+  ASSERT_TRUE(document().staged());
+  EXPECT_EQ(document().paths().front(), made);
+  EXPECT_EQ(shown, tutorial_place());
+  EXPECT_EQ(shown.filename(), "tutorial.md");
 }
 
 }  // namespace

@@ -91,6 +91,7 @@ void describe(Visitor& v, Preferences& p) {
   v.group("display", p.display, {});
   v.group("select", p.select, {});
   v.group("volume", p.volume, {});
+  v.group("timelines", p.timelines, {});
   v.group("views", p.views, {});
   v.group("picture_file", p.picture_file, {});
   v.group("reduce", p.reduce, {});
@@ -270,6 +271,7 @@ void Preferences::apply(Workspace& workspace) const {
   workspace.display.assign(display);
   workspace.select.assign(select);
   workspace.volume.assign(volume);
+  workspace.timelines.assign(timelines);
   workspace.views.assign(views);
   workspace.picture_file.assign(picture_file);
   workspace.reduce.assign(reduce);
@@ -288,6 +290,7 @@ void Preferences::take(const Workspace& workspace) {
   display = workspace.display.values();
   select = workspace.select.values();
   volume = workspace.volume.values();
+  timelines = workspace.timelines.values();
   views = workspace.views.values();
   picture_file = workspace.picture_file.values();
   reduce = workspace.reduce.values();

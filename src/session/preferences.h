@@ -48,6 +48,7 @@ struct Preferences {
   DisplayParams display;
   SelectParams select;
   VolumeParams volume;
+  TimelineLimits timelines;
   ViewSwitches views;
   PictureFileParams picture_file;
   ReduceParams reduce;

@@ -7,6 +7,7 @@
 
 #include "base/manual.h"
 #include "session/app_parts.h"
+#include "session/open_demo.h"
 
 namespace sonar {
 namespace {
@@ -90,6 +91,11 @@ void add_window_acts(AppModel& app) {
                    asked(app, &Dialogs::reset_layout)});
   app.actions.add(
       toggle("view.latencies", "Latencies", "F12", "How long each picture took, over it", app.workspace.latencies));
+  app.actions.add(
+      {"help.tutorial", kHelp, "Tutorial", {}, "Opens the demo survey, and a page with ten steps through it", [&app] {
+         open_demo(app);
+         show_page(app, tutorial_place(), "docs/tutorial.md");
+       }});
   app.actions.add(
       {"help.guide", kHelp, "Guide", {}, "The guide to the desktop, from opening a survey to its map", [&app] {
          show_page(app, guide_place(), "docs/guide.md");

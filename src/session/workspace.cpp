@@ -84,6 +84,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       display(changes),
       select(changes),
       volume(changes),
+      timelines(changes),
       views(changes),
       picture_file(changes),
       reduce(changes),

@@ -22,6 +22,7 @@
 #include "session/parameters.h"
 #include "session/picture_file.h"
 #include "session/slices/plane_place.h"
+#include "session/timelines/timeline_limits.h"
 #include "session/tools/measurement.h"
 #include "session/window_params.h"
 #include "view/figures/figure_params.h"
@@ -123,6 +124,7 @@ struct Workspace {
   Parameters<DisplayParams> display;
   Parameters<SelectParams> select;
   Parameters<VolumeParams> volume;
+  Parameters<TimelineLimits> timelines;
   Parameters<ViewSwitches> views;
   Parameters<PictureFileParams> picture_file;
   Parameters<ReduceParams> reduce;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "base/units.h"
+#include "signal/beam_hits.h"
 #include "signal/level_misfit.h"
 #include "signal/skyline.h"
 
@@ -25,17 +27,13 @@ constexpr double kShapeKnown = 3.0;
 /// Where Tukey's weights end, in standard deviations.
 constexpr double kTukey = 4.685;
 constexpr int kLeastBeams = 4;
-/// A beam was crossed where so many levels lie on all sides of its centre, by so much of a width.
-constexpr int kLeastHits = 8;
-constexpr double kAside = 0.25;
 /// Of a width: towards the ends of what the sphere crossed the scale of the directions is known no better, for it follows
 /// from beams whose form differs.
 constexpr double kScaleKnown = 0.03;
 constexpr double kSettled = 1e-3;  ///< dB and widths
 constexpr int kMostIterations = 40;
-constexpr int kUnguarded = 4;
-constexpr int kSettling =
-    8;  ///< iterations before whole pings are left out, for good  ///< iterations before outliers are left out: the start may be some dB off
+constexpr int kUnguarded = 4;  ///< iterations before outliers are left out: the start may be some dB off
+constexpr int kSettling = 8;   ///< iterations before whole pings are left out, for good
 
 double square(double x) { return x * x; }
 
@@ -189,27 +187,9 @@ class Fitter {
   }
 
   void count_hits() {
-    struct Sides {
-      double least_across = 0.0, most_across = 0.0, least_up = 0.0, most_up = 0.0;
-    };
-    std::vector<Sides> sides(stated_.size());
-    fit_.hits.assign(stated_.size(), 0);
-    for (std::size_t i = 0; i < heard_.size(); ++i) {
-      if (misfits_[i].weight <= 0.0 || misfits_[i].under_top_db < -kEdge_db) continue;
-      ++fit_.hits[beam(i)];
-      const FittedBeam& of = fit_.beams[beam(i)];
-      const FaceDirection& from = fit_.directions[static_cast<std::size_t>(heard_[i].ping)];
-      const double across = (from.across - of.centre.across) / of.width_across;
-      const double up = (from.up - of.centre.up) / of.width_up;
-      Sides& s = sides[beam(i)];
-      s = {std::min(s.least_across, across), std::max(s.most_across, across), std::min(s.least_up, up),
-           std::max(s.most_up, up)};
-    }
-    for (std::size_t b = 0; b < stated_.size(); ++b) {
-      const Sides& s = sides[b];
-      fit_.crossed[b] = fit_.hits[b] >= kLeastHits && s.least_across < -kAside && s.most_across > kAside &&
-                        s.least_up < -kAside && s.most_up > kAside;
-    }
+    BeamHits hits = hits_of(fit_.beams, heard_, misfits_, fit_.directions);
+    fit_.hits = std::move(hits.count);
+    fit_.crossed = std::move(hits.crossed);
   }
 
   /// Figures of a ping's beams and of the form, each with what ties it to the ping's direction.

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QLineEdit>
+#include <QPushButton>
 #include <QStatusBar>
+#include <QTest>
 #include <fstream>
 
 #include "base/manual.h"
@@ -58,6 +61,32 @@ TEST_F(Surroundings, AJournalThatMustGoElsewhereIsTold) {
   document().act(EventCommand{"other", document().shown()->context().times[1], "kept"});
   settle();
   EXPECT_TRUE(fs::exists(own / "session.jsonl"));
+}
+
+TEST_F(Surroundings, NothingInTheStatusLineIsCutWithoutBeingWholeUnderThePointer) {
+  window_->resize(1280, 800);
+  look_at_school();
+  move("top_slice", {100.0, 100.0});
+  QStatusBar* status = window_->statusBar();
+  auto* read_out = window_->findChild<QLineEdit*>("read_out");
+  ASSERT_FALSE(read_out->text().isEmpty());
+  EXPECT_EQ(read_out->toolTip(), read_out->text());
+  for (const auto* button : status->findChildren<QPushButton*>()) {
+    if (!button->isVisible()) continue;
+    EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text())) << button->text().toStdString();
+  }
+  const std::string notice = "written: " + std::string(300, 'x') + "/survey-out";
+  document().tell(notice);
+  settle();
+  EXPECT_LT(status->width(), status->fontMetrics().horizontalAdvance(QString::fromStdString(notice)));
+  EXPECT_EQ(status->toolTip().toStdString(), notice);
+  keep_picture("notice-cut");
+  dock("diagnostics")->close();
+  QTest::mouseClick(status, Qt::LeftButton, {}, {20, status->height() / 2});
+  settle();
+  EXPECT_TRUE(dock("diagnostics")->isVisible()) << "the history of notices";
+  status->clearMessage();
+  EXPECT_TRUE(status->toolTip().isEmpty());
 }
 
 TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {

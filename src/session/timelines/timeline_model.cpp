@@ -41,6 +41,7 @@ TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> ec
   listening_.to(workspace.school.changed(), [this] { update(); });
   listening_.to(workspace.echo.changed(), [this] { update(); });
   listening_.to(workspace.display, [this] { update(); });
+  listening_.to(workspace.timelines, [this] { update(); });
   listening_.to(workspace.marked_interval.changed(), [this] { changed().tell(); });
   listening_.to(workspace.mark.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
@@ -130,7 +131,7 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
   }
   echograms_->want_all_beams(this, fill);
   wish.transects = workspace_.transects().periods;
-  wish.sv = workspace_.display.values().scale;
+  wish.sv = workspace_.timelines.values().scale(workspace_.display.values().scale);
   wish.shown = shown_;
   wish.look = look;
   return [painter = look.panel ? std::make_shared<TimelinePainter>() : painter_, wish = std::move(wish)](

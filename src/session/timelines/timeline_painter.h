@@ -28,7 +28,7 @@ struct TimelineWish {
   std::vector<Observation> observations;
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   std::vector<Transect> transects;        ///< flags tell where each begins
-  SvScale sv;                             ///< of a beam's own Sv, as in slices
+  SvScale sv;                             ///< of the maximum of all beams
   bool rejected = true;
   PictureLook look;
 };

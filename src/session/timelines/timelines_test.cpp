@@ -4,6 +4,7 @@
 
 #include "publish/echogram_cache.h"
 #include "session/app_parts.h"
+#include "session/exports.h"
 #include "session/listening.h"
 #include "session/maps/test_maps.h"
 #include "session/timelines/timeline_painter.h"
@@ -67,6 +68,47 @@ TEST(TimelineModel, TheEchogramIsThatOfEveryPingReadAtOnce) {
   for (int level = 0; level < whole.levels(); ++level) EXPECT_EQ(filled->level(level), whole.level(level));
   maps.see(maps.survey_timeline, {900, 300});
   EXPECT_TRUE(maps.echograms->complete(1));
+}
+
+TEST(TimelineModel, OwnLimitsAreTheSlicesUntilTheyAreSwitchedOnAndThenNotTheirs) {
+  TestMaps maps;
+  Workspace& workspace = maps.workspace;
+  maps.see(maps.timeline);
+  const auto seen = [&] {
+    maps.settle();
+    return maps.timeline.image();
+  };
+  const Image usual = seen();
+  ASSERT_TRUE(workspace.timelines.set("low_db", -75.0));
+  EXPECT_EQ(seen(), usual) << "off";
+  ASSERT_TRUE(workspace.timelines.set("own_limits", true));
+  const Image own = seen();
+  EXPECT_NE(own, usual);
+  DisplayParams display = workspace.display.values();
+  display.scale.low_db = -75.0;
+  workspace.display.assign(display);
+  EXPECT_EQ(seen(), own) << "the slices' limits are not its own";
+  ASSERT_TRUE(workspace.timelines.set("own_limits", false));
+  EXPECT_EQ(seen(), own) << "the same limits, now of the slices";
+}
+
+TEST(TimelineLimits, AreThoseOfAPictureInAFileAndOfNoOtherKind) {
+  TestMaps maps;
+  Workspace& workspace = maps.workspace;
+  ASSERT_TRUE(workspace.timelines.set("own_limits", true));
+  ASSERT_TRUE(workspace.timelines.set("low_db", -80.0));
+  ASSERT_TRUE(workspace.timelines.set("span_db", 50.0));
+  const auto timeline = picture_options(workspace, PictureKind::timeline);
+  const auto slice = picture_options(workspace, PictureKind::slice_top);
+  ASSERT_TRUE(timeline && slice);
+  EXPECT_EQ(timeline->display.scale.low_db, -80.0);
+  EXPECT_EQ(timeline->display.scale.high_db(), -30.0);
+  EXPECT_EQ(slice->display.scale, workspace.display.values().scale);
+  Preferences kept;
+  kept.take(workspace);
+  Workspace next(maps.queue, {});
+  kept.apply(next);
+  EXPECT_EQ(next.timelines.values().low_db, -80.0);
 }
 
 TEST(TimelineModel, AClickMovesPlayheadsMapAndStripBeforeThePingHasArrived) {
