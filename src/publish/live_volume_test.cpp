@@ -94,6 +94,37 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   EXPECT_NE(settled(live, tinted), line);
 }
 
+/// The words of the best picture.
+std::vector<std::string> words_of(LiveVolume& live, const LiveVolumeInput& input) {
+  Work work(1);
+  std::vector<std::string> out;
+  EXPECT_TRUE(live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& picture) {
+    out.clear();
+    for (const auto& item : picture.frame.items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) out.push_back(text->text);
+    }
+  }));
+  return out;
+}
+
+// The block's echoes are of -30 dB: no ray meets a surface of more, which the picture says instead of being empty. Where
+// a school is outlined it is not empty.
+TEST(LiveVolume, AFirstHitThatNothingReachesSaysSo) {
+  LiveVolume live;
+  LiveVolumeInput input = block_of_echo();
+  input.options.volume.mode = RayMode::first_hit;
+  const auto said = [&](double level_db) {
+    input.options.volume.first_hit_db = level_db;
+    const std::vector<std::string> words = words_of(live, input);
+    return std::ranges::count(words, "nothing reaches \u221220 dB here");
+  };
+  EXPECT_EQ(said(-20.0), 0);
+  input.masks.clear();
+  input.legend.clear();
+  EXPECT_EQ(said(-20.0), 1);
+  EXPECT_EQ(said(-40.0), 0);
+}
+
 // The coarse picture that is seen while something moves has a school's line where the picture at rest has it, to within
 // two of its coarse pixels, however many schools there are.
 TEST(LiveVolume, OutlinesSchoolsWhileSomethingMoves) {
