@@ -264,7 +264,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
         silhouettes = std::move(*seen);
       }
       lay_outlines(frame->image, figure.masks, *silhouettes,
-                   static_cast<int>(std::lround(1.5 * place.theme.line_px * place.scale)), place.theme.text);
+                   static_cast<int>(std::lround(1.5 * place.theme.line_px * place.scale)), place.theme);
     }
     if (work == &first || worth_showing(*frame)) {
       auto shown = std::make_shared<LiveVolumeShown>(LiveVolumeShown{

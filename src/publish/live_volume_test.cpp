@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -65,7 +66,8 @@ Image settled(LiveVolume& live, const LiveVolumeInput& input) {
 TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   LiveVolume live;
   const LiveVolumeInput input = block_of_echo();
-  const Rgba8 rim = theme_of(input.options).text;
+  const Theme theme = theme_of(input.options);
+  const std::array<Rgba8, 3> colours{Rgba8{255, 0, 255, 255}, theme.text, theme.background};
   for (const RayMode mode : {RayMode::maximum, RayMode::first_hit}) {
     LiveVolumeInput with = input;
     with.options.volume.mode = mode;
@@ -79,7 +81,7 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
     for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
       if (bare.pixels[i] == lined.pixels[i]) continue;
       ++lines;
-      ASSERT_TRUE(lined.pixels[i] == (Rgba8{255, 0, 255, 255}) || lined.pixels[i] == rim) << i;
+      ASSERT_TRUE(std::ranges::count(colours, lined.pixels[i]) > 0) << i;
     }
     EXPECT_GT(lines, 100);
     EXPECT_LT(lines, static_cast<int>(bare.pixels.size()) / 10);
@@ -90,6 +92,37 @@ TEST(LiveVolume, OutlinesSchoolsWhereAColourIsOneSv) {
   const Image line = settled(live, tinted);
   tinted.options.display.tint = true;
   EXPECT_NE(settled(live, tinted), line);
+}
+
+/// The words of the best picture.
+std::vector<std::string> words_of(LiveVolume& live, const LiveVolumeInput& input) {
+  Work work(1);
+  std::vector<std::string> out;
+  EXPECT_TRUE(live.draw(input, CancelToken{}, work, [&](const LiveVolume::Picture& picture) {
+    out.clear();
+    for (const auto& item : picture.frame.items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) out.push_back(text->text);
+    }
+  }));
+  return out;
+}
+
+// The block's echoes are of -30 dB: no ray meets a surface of more, which the picture says instead of being empty. Where
+// a school is outlined it is not empty.
+TEST(LiveVolume, AFirstHitThatNothingReachesSaysSo) {
+  LiveVolume live;
+  LiveVolumeInput input = block_of_echo();
+  input.options.volume.mode = RayMode::first_hit;
+  const auto said = [&](double level_db) {
+    input.options.volume.first_hit_db = level_db;
+    const std::vector<std::string> words = words_of(live, input);
+    return std::ranges::count(words, "nothing reaches \u221220 dB here");
+  };
+  EXPECT_EQ(said(-20.0), 0);
+  input.masks.clear();
+  input.legend.clear();
+  EXPECT_EQ(said(-20.0), 1);
+  EXPECT_EQ(said(-40.0), 0);
 }
 
 // The coarse picture that is seen while something moves has a school's line where the picture at rest has it, to within

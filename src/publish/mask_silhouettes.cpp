@@ -19,6 +19,10 @@ std::uint8_t number_of(const std::array<float, 4>& pixel) {
   return pixel[3] < 0.5F ? std::uint8_t{0} : static_cast<std::uint8_t>(std::lround(255.0F * pixel[0] / pixel[3]));
 }
 
+std::array<float, 4> opaque(Rgba8 c) {
+  return {static_cast<float>(c.r) / 255.0F, static_cast<float>(c.g) / 255.0F, static_cast<float>(c.b) / 255.0F, 1.0F};
+}
+
 /// Whose mask is seen from a confidence on. Rays of a smaller picture stand for those beside them.
 Result<std::vector<std::uint8_t>> seen_from(VolumeRenderer& renderer, VolumeView view, float confidence, Work& work,
                                             int divisor) {
@@ -54,24 +58,36 @@ class Drawing {
 
   /// Pixels of a silhouette with another's or none's nearer than the line's width.
   void lines(const std::vector<std::uint8_t>& of, bool broken) {
-    const int dash = 4 * line_px_;
-    for_each_near_edge(of, [&](int x, int y, std::uint8_t own, int distance2) {
+    for_each_near_edge(of, widest_px(), [&](int x, int y, std::uint8_t own, int distance2) {
       const int width = width_of(own);
       if (own == 0 || own > masks_.size() || distance2 > width * width) return;
-      if (broken && ((x + y) / dash) % 2 != 0) return;
+      if (broken && in_gap(x, y)) return;
       const auto& c = masks_[own - 1U].rgb;
       pixel(x, y) = {c[0], c[1], c[2], 1.0F};
     });
   }
   /// Pixels of none that touch a silhouette.
   void rim(const std::vector<std::uint8_t>& of, std::array<float, 4> colour) {
-    const int width = std::max(1, line_px_ / 2);
-    for_each_near_edge(of, [&](int x, int y, std::uint8_t own, int distance2) {
+    const int width = rim_px();
+    for_each_near_edge(of, width, [&](int x, int y, std::uint8_t own, int distance2) {
       if (own == 0 && distance2 <= width * width) pixel(x, y) = colour;
+    });
+  }
+  /// Pixels on both sides of a silhouette's broken line.
+  void rims_of_broken(const std::vector<std::uint8_t>& of, std::array<float, 4> outside, std::array<float, 4> inside) {
+    for_each_near_edge(of, widest_px() + rim_px(), [&](int x, int y, std::uint8_t own, int distance2) {
+      if (in_gap(x, y)) return;
+      const int reach = own == 0 ? rim_px() : width_of(own) + rim_px();
+      if (distance2 <= reach * reach) pixel(x, y) = own == 0 ? outside : inside;
     });
   }
 
  private:
+  [[nodiscard]] bool in_gap(int x, int y) const { return (x + y) / (4 * line_px_) % 2 != 0; }
+  [[nodiscard]] int rim_px() const { return std::max(1, line_px_ / 2); }
+  [[nodiscard]] int widest_px() const {
+    return std::ranges::any_of(masks_, &MaskLayer::selected) ? selected_px() : line_px_;
+  }
   /// Half as wide again: twice would hide a small school.
   [[nodiscard]] int selected_px() const { return line_px_ + (line_px_ + 1) / 2; }
   [[nodiscard]] int width_of(std::uint8_t number) const {
@@ -83,14 +99,13 @@ class Drawing {
   }
 
   /// act  (x, y, number there, square of the distance to the nearest pixel of another number) of pixels that have one
-  ///      within the widest line
+  ///      within reach, pixels
   template <class Act>
-  void for_each_near_edge(const std::vector<std::uint8_t>& of, const Act& act) {
+  void for_each_near_edge(const std::vector<std::uint8_t>& of, int reach, const Act& act) {
     const auto [width, height] = rays_.size;
     const auto place = [w = width](int x, int y) {
       return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
     };
-    const int reach = std::ranges::any_of(masks_, &MaskLayer::selected) ? selected_px() : line_px_;
     std::vector<int> nearest2(of.size(), reach * reach + 1);
     // The nearest pixel of another number has a neighbour that is nearer still, and so lies on an edge itself.
     const auto on_edge = [&](int x, int y) {
@@ -140,10 +155,10 @@ Result<MaskSilhouettes> mask_silhouettes(VolumeRenderer& renderer, std::span<con
 }
 
 void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, const MaskSilhouettes& silhouettes, int line_px,
-                  Rgba8 rim) {
+                  const Theme& theme) {
   Drawing drawing(rays, masks, line_px);
-  drawing.rim(silhouettes.fuzzy, {static_cast<float>(rim.r) / 255.0F, static_cast<float>(rim.g) / 255.0F,
-                                  static_cast<float>(rim.b) / 255.0F, 1.0F});
+  drawing.rim(silhouettes.fuzzy, opaque(theme.text));
+  drawing.rims_of_broken(silhouettes.core, opaque(theme.text), opaque(theme.background));
   drawing.lines(silhouettes.core, true);
   drawing.lines(silhouettes.fuzzy, false);
 }

@@ -9,6 +9,7 @@
 #include "base/work.h"
 #include "render/volume_renderer.h"
 #include "view/image.h"
+#include "view/theme.h"
 
 namespace sonar {
 
@@ -28,8 +29,9 @@ struct MaskSilhouettes {
 
 /// Draws silhouettes as lines in their schools' colours: a whole one with a rim round the fuzzy area, a broken one
 /// round the core; the selected school's are wider by half. Inside, the rays keep their colours, so that Sv can be read
-/// off the colour bar.
+/// off the colour bar. A core lies in data of any colour: its line has a rim of the theme's text outside and one of its
+/// background inside, of which one stands out.
 void lay_outlines(RayImage& rays, std::span<const MaskLayer> masks, const MaskSilhouettes& silhouettes, int line_px,
-                  Rgba8 rim);
+                  const Theme& theme);
 
 }  // namespace sonar

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "render/test_scenes.h"
+#include "view/contrast_example.h"
 
 namespace sonar {
 namespace {
@@ -22,11 +23,18 @@ std::vector<std::uint8_t> square(int first, int last) {
   return out;
 }
 
+Theme black_on_white() {
+  Theme theme;
+  theme.text = {0, 0, 0, 255};
+  theme.background = {255, 255, 255, 255};
+  return theme;
+}
+
 // A square from 5 to 14 with a line of 2 pixels: 5 and 6 are the line, 4 the rim, all else is as it was.
 TEST(MaskOutlines, AreLinesAndLeaveWhatLiesInside) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const MaskLayer layer{nullptr, {1.0F, 0.0F, 0.0F}};
-  lay_outlines(rays, std::span(&layer, 1), {square(5, 14), square(9, 8)}, 2, {0, 0, 0, 255});
+  lay_outlines(rays, std::span(&layer, 1), {square(5, 14), square(9, 8)}, 2, black_on_white());
   const auto at = [&](int x) { return rays.rgba[static_cast<std::size_t>(9 * kSize.width + x)]; };
   const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F};
   const std::array<float, 4> black{0.0F, 0.0F, 0.0F, 1.0F};
@@ -36,15 +44,47 @@ TEST(MaskOutlines, AreLinesAndLeaveWhatLiesInside) {
   }
 }
 
-// A core's line is broken: of every eight pixels along a side four are drawn.
+// A core's line is broken: of every eight pixels along a side four are drawn, with a dark rim outside and a light one
+// inside.
 TEST(MaskOutlines, AreBrokenRoundTheCore) {
   RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), kData), {}};
   const MaskLayer layer{nullptr, {1.0F, 0.0F, 0.0F}};
   lay_outlines(rays, std::span(&layer, 1), {std::vector<std::uint8_t>(kSize.count(), 1), square(2, 17)}, 1,
-               {0, 0, 0, 255});
+               black_on_white());
+  const auto count = [&](int y, std::array<float, 4> colour) {
+    const auto row = rays.rgba.begin() + std::ptrdiff_t{y} * kSize.width;
+    return std::count(row + 4, row + 16, colour);  // off the corners
+  };
+  EXPECT_EQ(count(1, {0.0F, 0.0F, 0.0F, 1.0F}), count(2, {1.0F, 0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(count(3, {1.0F, 1.0F, 1.0F, 1.0F}), count(2, {1.0F, 0.0F, 0.0F, 1.0F}));
   int drawn = 0;
   for (int x = 2; x <= 17; ++x) drawn += rays.rgba[static_cast<std::size_t>(2 * kSize.width + x)] == kData ? 0 : 1;
   EXPECT_EQ(drawn, 8);
+}
+
+// Law: across each dash of a core's line, in data of whatever colour, there is something with a contrast of 3 or more.
+TEST(MaskOutlines, ACoresLineStandsOutFromEveryColour) {
+  const MaskSilhouettes silhouettes{std::vector<std::uint8_t>(kSize.count(), 1), square(4, 15)};
+  const auto part = [](int v) { return static_cast<float>(v) / 255.0F; };
+  const auto check = [&](const Theme& theme, const contrast_example::DataColour& data, int number) {
+    const std::array<float, 4> under{part(data.colour.r), part(data.colour.g), part(data.colour.b), 1.0F};
+    RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), under), {}};
+    const Rgba8 c = school_colour(number);
+    const MaskLayer layer{nullptr, {part(c.r), part(c.g), part(c.b)}};
+    lay_outlines(rays, std::span(&layer, 1), silhouettes, 1, theme);
+    const Image image = over(rays, theme.plot);
+    for (int x = 6; x < 14; ++x) {
+      if ((x + 4) / 4 % 2 != 0) continue;  // a gap
+      double most = 0.0;
+      for (int y = 3; y <= 5; ++y) most = std::max(most, contrast_example::contrast(image.at(x, y), data.colour));
+      ASSERT_GE(most, 3.0) << data.map << ", school " << number << ", at " << x;
+    }
+  };
+  for (const Theme& theme : contrast_example::both_themes({640, 480})) {
+    for (const auto& data : contrast_example::data_colours()) {
+      for (int number = 0; number < kSchoolColours; ++number) check(theme, data, number);
+    }
+  }
 }
 
 PingMask block(const Shape3& shape, int fan0, int beam0, int sample0, int size) {
@@ -69,7 +109,7 @@ TEST(MaskOutlines, OfTheSelectedSchoolAreWide) {
   for (int y = 2; y <= 17; ++y) {
     for (int x = 10; x <= 17; ++x) both.fuzzy[static_cast<std::size_t>(y * kSize.width + x)] = 2;
   }
-  lay_outlines(rays, selected, both, 2, {0, 0, 0, 255});
+  lay_outlines(rays, selected, both, 2, black_on_white());
   const auto at = [&](int x) { return rays.rgba[static_cast<std::size_t>(9 * kSize.width + x)]; };
   const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F};
   const std::array<float, 4> green{0.0F, 1.0F, 0.0F, 1.0F};

@@ -37,6 +37,9 @@ std::string seabed_words(const SeabedPatch& bed, double room_px, double text_px)
   return text_width_px(lines.c_str(), text_px) < room_px ? lines : std::string();
 }
 
+/// What a level is called: "-50 dB".
+std::string level_text(double db) { return fmt::format("{}{:g} dB", db < 0.0 ? "\u2212" : "", std::abs(db)); }
+
 /// How the picture was made and what its bearings start from, for its second line.
 /// place  whose title has to hold it
 std::string view_line(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
@@ -49,8 +52,7 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
     if (options.volume.mode == RayMode::volume_and_surface) line += ", accumulated up to the";
     if (options.volume.mode == RayMode::first_hit) line += ",";
     if (ends_at_surface(options.volume.mode)) {
-      line += fmt::format(" surface at {}{:g} dB", options.volume.first_hit_db < 0.0 ? "\u2212" : "",
-                          std::abs(options.volume.first_hit_db));
+      line += fmt::format(" surface at {}", level_text(options.volume.first_hit_db));
     }
     if (options.volume.lighting) line += ", lit";
     if (options.volume.depth_cue) line += ", paler with distance";
@@ -70,6 +72,18 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
     line += seabed_words(*figure.seabed, place.layout.title.width - text_width_px(line.c_str(), text_px), text_px);
   }
   return line;
+}
+
+/// Why there is nothing in the picture; empty where something is.
+std::string nothing_shown(const VolumeFigure& figure, const PictureOptions& options, const VolumeView& view,
+                          const RayImage& rays) {
+  if (!view.masks.data_too) {
+    if (!figure.masks.empty()) return {};
+    return !figure.searched ? "no masks: schools not detected" : "no masks: no school in this ping";
+  }
+  const bool met = std::any_of(rays.rgba.begin(), rays.rgba.end(), [](const auto& pixel) { return pixel[3] > 0.0F; });
+  if (met || view.mode != RayMode::first_hit) return {};
+  return fmt::format("nothing reaches {} here", level_text(options.volume.first_hit_db));
 }
 
 /// Sv above, the seabed's depths below it; where only one is drawn it takes all the room.
@@ -260,9 +274,8 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   if (options.volume.context) add_labels(frame, figure, options, place, view, legend);
   add_refused(frame, figure, place, view);
   add_volume_legend(frame, legend, place.rect, theme);
-  if (!view.masks.data_too && figure.masks.empty()) {
+  if (const std::string words = nothing_shown(figure, options, view, rays); !words.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
-    const char* words = !figure.searched ? "no masks: schools not detected" : "no masks: no school in this ping";
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
   }

@@ -163,7 +163,7 @@ Result<RayImage> traced_by(RendererChoice choice, const VolumeFigure& figure, co
   if (!rays) return rays;
   const Theme theme = theme_of(options);
   lay_outlines(*rays, figure.masks, *silhouettes, static_cast<int>(std::lround(1.5 * theme.line_px * options.scale)),
-               theme.text);
+               theme);
   return rays;
 }
 

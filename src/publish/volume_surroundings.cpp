@@ -51,7 +51,10 @@ std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines dro
     place->selected = layer.selected;
     place->name = figure.names[i];
     place->drop_line = drop_lines == DropLines::all || (drop_lines == DropLines::selected && layer.selected);
-    if (place->drop_line) place->seabed_z_m = seabed_z_m(figure, place->middle);
+    if (place->drop_line) {
+      place->seabed_z_m = seabed_z_m(figure, place->middle);
+      for (Point<Sonar>& p : place->footprint) p.z = seabed_z_m(figure, p);
+    }
     if (place->selected) {
       place->name += fmt::format(": {:.0f} m deep", place->middle.z + figure.navigation.transducer_depth_m);
     }

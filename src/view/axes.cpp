@@ -104,12 +104,16 @@ void add_tick_marks(PathItem& marks, const PlotFrame& plot, const std::vector<do
   }
 }
 
+/// A tick's number as an axis says it.
+std::string number_text(const PlotAxis& axis, double value, int decimals) {
+  return tick_text(axis.both_ways ? std::abs(value) : value, decimals) + (axis.degrees ? "\u00B0" : "");
+}
+
 void add_x_texts(FrameDescription& frame, const PlotFrame& plot, const Theme& theme, const Ticks& ticks) {
   const double base = plot.place.y + plot.place.height + tick_lengths(theme).major;
-  const std::string unit = plot.x.degrees ? "\u00B0" : "";
   for (const double v : ticks.major) {
     frame.items.emplace_back(text_item({plot.at(v, plot.y.first).x, base + 0.75 * theme.text_px},
-                                       tick_text(v, ticks.decimals) + unit, theme.text_px, theme.text,
+                                       number_text(plot.x, v, ticks.decimals), theme.text_px, theme.text,
                                        TextAnchor::centre));
   }
   frame.items.emplace_back(text_item({plot.place.x + plot.place.width / 2, base + 2.15 * theme.text_px}, plot.x.label,
@@ -118,10 +122,9 @@ void add_x_texts(FrameDescription& frame, const PlotFrame& plot, const Theme& th
 
 void add_y_texts(FrameDescription& frame, const PlotFrame& plot, const Theme& theme, const Ticks& ticks) {
   const double base = plot.place.x - tick_lengths(theme).major - 0.3 * theme.text_px;
-  const std::string unit = plot.y.degrees ? "\u00B0" : "";
   double widest = 0.0;
   for (const double v : ticks.major) {
-    const std::string text = tick_text(v, ticks.decimals) + unit;
+    const std::string text = number_text(plot.y, v, ticks.decimals);
     widest = std::max(widest, text_width_px(text.c_str(), theme.text_px));
     frame.items.emplace_back(
         text_item({base, plot.at(plot.x.first, v).y}, text, theme.text_px, theme.text, TextAnchor::right));

@@ -33,6 +33,7 @@ struct PlotAxis {
   double last = 1.0;
   std::string label;  ///< with unit
   bool degrees = false;
+  bool both_ways = false;  ///< distances to either side of 0, which the label names: ticks have no sign
   friend bool operator==(const PlotAxis&, const PlotAxis&) = default;
 };
 

@@ -266,6 +266,14 @@ class Files(sonarx.Case):
         if first > 1:
             self.assertIn(f"1 of {schools(first)}", " ".join(self.words("observation-map", sonarx.OUT, "--schools", "1")))
 
+    def test_without_masks_the_same_slice_is_shown(self):
+        """Ping, fan or beam, and time stand in the title: they are those of the picture with its schools."""
+        for kind, begins in (("slice-top", "Top: fan"), ("slice-side", "Side: beam")):
+            titles = [[text for text in self.words(kind, *BOTH, *options) if text.startswith(begins) or "   ping " in text or text.endswith("UTC")]
+                      for options in ([], ["--no-masks"])]
+            self.assertGreaterEqual(len(titles[0]), 3, titles)
+            self.assertEqual(titles[0], titles[1])
+
     def test_the_first_ping_keeps_its_place_among_five(self):
         said = self.words("propagation", sonarx.OUT, "--ping", "0")
         self.assertEqual(said.count("before the first ping"), 2)

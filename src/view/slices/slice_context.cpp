@@ -214,8 +214,9 @@ std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const Sli
     return fmt::format("Vertical plane, true bearing {:.1f}\u00B0 to the right",
                        wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
   }
-  return fmt::format("Oblique plane through {} m ahead, {} m to starboard, depth {} m", tick_text(plane.origin.x, 1),
-                     tick_text(plane.origin.y, 1), tick_text(depth, 1));
+  return fmt::format("Oblique plane through {} m {}, {} m to {}, depth {} m", tick_text(std::abs(plane.origin.x), 1),
+                     plane.origin.x < 0.0 ? "astern" : "ahead", tick_text(std::abs(plane.origin.y), 1),
+                     plane.origin.y < 0.0 ? "port" : "starboard", tick_text(depth, 1));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ class MaskVoxels {
 class MaskPixels {
  public:
   /// reach   of an outline: its width
-  /// window  of runs_across(), not below reach
+  /// window  of runs_across(), above reach
   MaskPixels(const SliceMap& map, const MaskVoxels& masks, int reach, int window)
       : map_(&map),
         masks_(&masks),
@@ -239,6 +239,27 @@ Rgba8 layer_colour(const MaskLayer& layer) {
   return {channel(layer.rgb[0]), channel(layer.rgb[1]), channel(layer.rgb[2]), 255};
 }
 
+/// Whether a core's line is drawn here, where it goes through the pixel.
+bool has_dot(int x, int y, int line_px) { return (x + y) / line_px % 4 == 0; }
+
+/// Rims the dot of a core's line: dark on one side of the line and light on the other, because one colour alone would be
+/// lost in data of some other. Other dots and the school's outline stay as they are.
+template <class IsCore>
+void rim_dot(Image& image, MaskPixels& pixels, int x, int y, int line_px, const IsCore& is_core, const Theme& theme) {
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, std::pair{1, 0}, std::pair{0, -1}, std::pair{0, 1}}) {
+    const int nx = x + dx;
+    const int ny = y + dy;
+    if (nx < 0 || ny < 0 || nx >= image.size.width || ny >= image.size.height) continue;
+    const MaskWord word = pixels.at(nx, ny);
+    if (word == 0 || pixels.on_edge(nx, ny)) continue;
+    if (!is_core(word)) {
+      image.at(nx, ny) = with_alpha(theme.text, 255);
+    } else if (!has_dot(nx, ny, line_px)) {
+      image.at(nx, ny) = with_alpha(theme.background, 255);
+    }
+  }
+}
+
 /// Darkens (on a light theme) the unselected neighbours of an outline's pixel: a line in one colour would be lost over
 /// data of the same colour.
 void rim(Image& image, MaskPixels& pixels, int x, int y, const Theme& theme) {
@@ -273,7 +294,8 @@ Result<void> blend_masks(Image& image, const SliceMap& map, const std::vector<Ma
   const auto is_core = [&](MaskWord word) { return static_cast<double>(word % 256) / 255.0 >= style.core_at; };
   const Dashes dashes(masks, theme);
   const int line_px = std::max(1, static_cast<int>(std::lround(theme.line_px)));
-  MaskPixels pixels(map, voxels, line_px, dashes.any() ? std::max(line_px, kWindow_px) : line_px);
+  // The neighbours of a pixel look as far as it does.
+  MaskPixels pixels(map, voxels, line_px, dashes.any() ? std::max(line_px + 1, kWindow_px) : line_px + 1);
   for (int y = 0; y < image.size.height; ++y) {
     if (!pixels.move_to(y)) continue;
     const std::span<const MaskWord> row = pixels.row(y);
@@ -282,10 +304,11 @@ Result<void> blend_masks(Image& image, const SliceMap& map, const std::vector<Ma
       if (word == 0) continue;
       const bool edged = style.outline && pixels.on_edge(x, y) && dashes.drawn(word / 256 - 1, pixels, x, y);
       Rgba8& pixel = image.at(x, y);
-      const bool dotted = !style.tint && style.outline && !edged && (x + y) / line_px % 4 == 0 && is_core(word) &&
+      const bool dotted = !style.tint && style.outline && !edged && has_dot(x, y, line_px) && is_core(word) &&
                           pixels.beside(x, y, [&](MaskWord other) { return !is_core(other); });
       pixel = mixed(pixel, colours[word / 256 - 1], edged || dotted ? 255 : strength[word % 256]);
       if (edged) rim(image, pixels, x, y, theme);
+      if (dotted) rim_dot(image, pixels, x, y, line_px, is_core, theme);
     }
   }
   return {};

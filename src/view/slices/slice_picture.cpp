@@ -25,20 +25,40 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   return plot;
 }
 
-void label_from_above(PlotFrame& plot, bool north_up, double up_rad) {
+/// Distances to the side that the sonar looks to, the bow up; to both sides without a sign where it looks to both.
+void label_sides(PlotAxis& x, const Sector& sector) {
+  bool port = false;
+  bool starboard = false;
+  for (int beam = 0; beam < sector.beams(); ++beam) {
+    const double aside = std::sin(sector.azimuth_rad(beam));
+    port = port || aside < -1e-9;
+    starboard = starboard || aside > 1e-9;
+  }
+  if (port == starboard) {
+    x.label = "port | starboard (m)";
+    x.both_ways = true;
+  } else if (port) {
+    x = {-x.first, -x.last, "port (m)", false};
+  } else {
+    x.label = "starboard (m)";
+  }
+}
+
+void label_from_above(PlotFrame& plot, const Sector& sector, bool north_up, double up_rad) {
   const char* upwards = north_up ? "north (m)" : up_rad == 0.0 ? "ahead (m)" : "up (m)";
   plot.y = {-plot.y.first, -plot.y.last, upwards, false};
-  plot.x.label = north_up ? "east (m)" : up_rad == 0.0 ? "starboard (m)" : "right (m)";
+  if (!north_up && up_rad == 0.0) return label_sides(plot.x, sector);
+  plot.x.label = north_up ? "east (m)" : "right (m)";
 }
 
 /// Slice coordinates to what people read: depths below the water line, north upwards, elevations upwards.
-void label_axes(PlotFrame& plot, const SliceView& view, const SlicePing& ping, bool north_up) {
+void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, const SlicePing& ping, bool north_up) {
   const auto depths = [&](double origin_z) {
     plot.y.first += origin_z + ping.transducer_depth_m;
     plot.y.last += origin_z + ping.transducer_depth_m;
     plot.y.label = "depth (m)";
   };
-  if (std::holds_alternative<TopSlice>(view.slice)) return label_from_above(plot, north_up, view.up_rad);
+  if (std::holds_alternative<TopSlice>(view.slice)) return label_from_above(plot, sector, north_up, view.up_rad);
   if (std::holds_alternative<SideSlice>(view.slice)) {
     depths(0.0);
     plot.x.label = "horizontal distance (m)";
@@ -51,7 +71,7 @@ void label_axes(PlotFrame& plot, const SliceView& view, const SlicePing& ping, b
     return;
   }
   const auto& plane = std::get<PlaneSlice>(view.slice);
-  if (plane.kind == PlaneSlice::Kind::horizontal) return label_from_above(plot, north_up, view.up_rad);
+  if (plane.kind == PlaneSlice::Kind::horizontal) return label_from_above(plot, sector, north_up, view.up_rad);
   plot.x.label = "along (m)";
   plot.y.label = "down the plane (m)";
   if (plane.kind == PlaneSlice::Kind::vertical) depths(plane.origin.z);
@@ -169,7 +189,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     out.plot = std::move(whole->plot);
     out.map = std::move(whole->map);
   }
-  label_axes(out.plot, view, ping, style.north_up);
+  label_axes(out.plot, sector, view, ping, style.north_up);
   auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);
   if (!image) return pass_on(image);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "view/school_look.h"
+#include "view/slices/slice_context.h"
 #include "view/slices/slice_example.h"
 
 namespace sonar {
@@ -229,6 +230,53 @@ TEST(SlicePicture, NorthUpReadsEastAndNorth) {
   }
 }
 
+// Law: seen from above with the bow up, a place's number along the axis is its distance to the side that the axis names;
+// where the sonar looks to both sides there is no sign.
+TEST(SlicePicture, TheSideIsTheOneThatTheSonarLooksTo) {
+  const PixelSize size{800, 600};
+  for (const auto& [name, sector] : slice_example::sectors()) {
+    const bool port = name == "port" || name == "uneven" || name == "one beam";
+    const Voxel lit{0, sector.beams() - 1, 60};
+    const LitVolume volume(sector, lit, -30.0, -90.0);
+    const double y = sector.centre(lit.fan, lit.beam, lit.sample).y;
+    for (const SliceView& view : {SliceView{TopSlice{0}}, SliceView{horizontal_plane(20.0, 0.0)}}) {
+      const auto top = slice_picture(sector, volume.data(), {}, view, {}, light_theme(size), size);
+      ASSERT_TRUE(top.has_value()) << name;
+      const PlotAxis& x = top->plot.x;
+      EXPECT_EQ(x.label, port ? "port (m)" : name == "starboard" ? "starboard (m)" : "port | starboard (m)") << name;
+      if (std::holds_alternative<TopSlice>(view.slice)) {
+        EXPECT_NEAR(top->plot.x_at(top->place_of(lit)->x), port ? -y : y, 1e-6) << name;
+      }
+      if (x.both_ways) {
+        FrameDescription frame;
+        PlotFrame alone = top->plot;
+        alone.y = {100.0, 10.0, "", false};
+        add_axes(frame, alone, light_theme(size));
+        for (const auto& item : frame.items) {
+          const auto* text = std::get_if<TextItem>(&item);
+          EXPECT_TRUE(text == nullptr || text->text.find("\u2212") == std::string::npos) << name;
+        }
+        EXPECT_LT(x.first, 0.0) << name;
+        EXPECT_GT(x.last, 0.0) << name;
+      }
+    }
+  }
+}
+
+// By hand: an origin 30 m astern and 40 m to port, and its mirror image.
+TEST(SlicePicture, AnObliquePlanesPlaceIsNamedByItsSide) {
+  const Sector sector = hand_sector();
+  SlicePing ping;
+  ping.transducer_depth_m = 7.0;
+  PlaneSlice plane = vertical_plane(rad_from_deg(270.0));
+  plane.kind = PlaneSlice::Kind::oblique;
+  plane.origin = {-30.0, -40.0, 50.0};
+  EXPECT_EQ(slice_text(sector, {plane}, ping, {}), "Oblique plane through 30.0 m astern, 40.0 m to port, depth 57.0 m");
+  plane.origin = {30.0, 40.0, 50.0};
+  EXPECT_EQ(slice_text(sector, {plane}, ping, {}),
+            "Oblique plane through 30.0 m ahead, 40.0 m to starboard, depth 57.0 m");
+}
+
 // No sample is known: the sector is drawn in the colour of "no data" with all its decorations, in every slice.
 TEST(SlicePicture, APingWithoutDataIsDrawnAsNoData) {
   const Sector sector = hand_sector();
@@ -277,7 +325,7 @@ TEST(SlicePicture, TitlesNameThePingAndTheSlice) {
   const std::vector<std::string> texts = texts_of(*top);
   for (const std::string expected :
        {"obs-0001   ping 12", "2026-11-21 19:57:26.123 UTC",
-        "Top: fan 4, elevation \u221230.0\u00B0, 75.0 kHz; bearings from the bow", "starboard (m)", "ahead (m)",
+        "Top: fan 4, elevation \u221230.0\u00B0, 75.0 kHz; bearings from the bow", "port (m)", "ahead (m)",
         "Sv (dB re 1 m\u207B\u00B9)", "100 m", "270\u00B0", "N"}) {
     EXPECT_NE(std::find(texts.begin(), texts.end(), expected), texts.end()) << expected;
   }

@@ -49,8 +49,8 @@ struct DepthAxis {
 /// A muted plane where the seabed was seen, with a grid and an edge.
 void add_fitted_seabed(ContextScene& scene, const FittedSeabed& bed, const Theme& theme);
 
-/// Lines straight up and down from the schools that have them, with a ring at each end.
-void add_drop_lines(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme);
+/// Lines straight up and down from the schools that have them, with the school's footprint at each end.
+void add_drop_lines(ContextScene& scene, const ContextParams& params, const Theme& theme);
 
 /// A straight line in pieces: farther ones are drawn paler.
 void add_straight(ContextScene& scene, const Point<Sonar>& from, const Point<Sonar>& to, Rgba8 colour, double width_px);

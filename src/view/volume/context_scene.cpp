@@ -138,7 +138,7 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (params.fitted_seabed) add_fitted_seabed(scene, *params.fitted_seabed, theme);
   if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
   add_slices(scene, sector, params, theme);
-  add_drop_lines(scene, sector, params, theme);
+  add_drop_lines(scene, params, theme);
   if (params.trails) scene.under = *params.trails;
   return scene;
 }

@@ -1,41 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "view/volume/context_layout.h"
 
 namespace sonar {
 namespace {
 
-constexpr double kRing = 0.012;  ///< radius of a drop line's ring, of the sonar's range
-constexpr int kCorners = 16;
+constexpr int kMuted = 150;  ///< alpha of a footprint, of 255
 
-void add_ring(ContextScene& scene, const Point<Sonar>& middle, double radius_m, Rgba8 colour, double width_px) {
-  Point<Sonar> before = middle + Point<Sonar>{radius_m, 0.0, 0.0};
-  for (int i = 1; i <= kCorners; ++i) {
-    const double turned = 2.0 * std::numbers::pi * i / kCorners;
-    const Point<Sonar> here = middle + Point<Sonar>{radius_m * std::cos(turned), radius_m * std::sin(turned), 0.0};
-    scene.lines.push_back({before, here, colour, width_px});
-    before = here;
+/// What a school covers, drawn on a level.
+void add_footprint(ContextScene& scene, const SchoolPlace& school, const auto& z_at, double width_px) {
+  const std::size_t corners = school.footprint.size();
+  const auto at = [&](std::size_t i) {
+    const Point<Sonar>& p = school.footprint[i % corners];
+    return Point<Sonar>{p.x, p.y, z_at(p)};
+  };
+  for (std::size_t i = 0; i < corners; ++i) {
+    scene.lines.push_back({at(i), at(i + 1), with_alpha(school.colour, kMuted), width_px});
   }
 }
 
 }  // namespace
 
-void add_drop_lines(ContextScene& scene, const Sector& sector, const ContextParams& params, const Theme& theme) {
-  const double radius_m = kRing * far_range_m(sector);
+void add_drop_lines(ContextScene& scene, const ContextParams& params, const Theme& theme) {
   for (const SchoolPlace& school : params.schools) {
     if (!school.drop_line) continue;
     const double width_px = (school.selected ? 2.0 : 1.2) * theme.line_px;
-    const auto drop = [&](double z_m) {
-      const Point<Sonar> end{school.middle.x, school.middle.y, z_m};
-      add_straight(scene, school.middle, end, school.colour, width_px);
-      add_ring(scene, end, radius_m, school.colour, width_px);
+    const auto drop = [&](double z_m, const auto& z_at) {
+      add_straight(scene, school.middle, {school.middle.x, school.middle.y, z_m}, school.colour, width_px);
+      add_footprint(scene, school, z_at, theme.line_px);
     };
-    drop(-params.transducer_depth_m);
+    const double surface_z_m = -params.transducer_depth_m;
+    drop(surface_z_m, [&](const Point<Sonar>&) { return surface_z_m; });
     // Echoes below a fitted plane have no way down to it.
-    if (school.seabed_z_m > school.middle.z) drop(school.seabed_z_m);
+    if (!(school.seabed_z_m > school.middle.z)) continue;
+    drop(school.seabed_z_m, [&](const Point<Sonar>& p) { return std::isnan(p.z) ? school.seabed_z_m : p.z; });
   }
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
+#include "geo/geodesic.h"
 #include "model/mask_middle.h"
 
 namespace sonar {
@@ -42,6 +44,26 @@ void add_box(std::vector<Point<Sonar>>& edge, const Sector& sector, int fan, con
   }
 }
 
+/// Of a mask's cells at their beams' elevations.
+std::vector<Point<Sonar>> footprint_of(const Sector& sector, const PingMask& mask) {
+  std::vector<PlanePoint> corners;
+  for (const Run& run : mask.runs) {
+    const AngleBounds bounds = sector.azimuth_bounds(run.row % sector.beams());
+    const double elevation = sector.elevation_rad(run.row / sector.beams());
+    for (const double azimuth : {bounds.lower, bounds.upper}) {
+      for (const double sample : {run.first_sample - 0.5, run.end() - 0.5}) {
+        const Point<Sonar> p = Sector::direction(elevation, azimuth) * sector.range().range_m(sample);
+        corners.push_back({p.x, p.y});
+      }
+    }
+  }
+  std::vector<Point<Sonar>> out;
+  for (const PlanePoint& p : convex_hull(std::move(corners))) {
+    out.push_back({p.x, p.y, std::numeric_limits<double>::quiet_NaN()});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<SchoolPlace> school_place(const Sector& sector, const PingMask& mask) {
@@ -55,6 +77,7 @@ std::optional<SchoolPlace> school_place(const Sector& sector, const PingMask& ma
   const auto& [highest, highest_box] = *boxes.rbegin();
   if (lowest > 0) add_box(out.edge, sector, lowest - 1, lowest_box);
   if (highest + 1 < sector.fans()) add_box(out.edge, sector, highest + 1, highest_box);
+  out.footprint = footprint_of(sector, mask);
   return out;
 }
 

@@ -22,6 +22,8 @@ struct SchoolPlace {
   bool selected = false;
   bool drop_line = false;  ///< from its middle to the sea surface, and to the seabed where that is known
   double seabed_z_m = std::numeric_limits<double>::quiet_NaN();  ///< under its middle
+  /// What its voxels cover, seen from above: the convex hull, in order. z of the seabed there; NaN = as under its middle.
+  std::vector<Point<Sonar>> footprint;
   friend bool operator==(const SchoolPlace&, const SchoolPlace&) = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -74,8 +75,10 @@ TEST(DropLines, GoStraightUpToTheSeaAndDownToTheBed) {
     double top = 1e9;
     double low = -1e9;
     for (const SceneLine& line : context_scene(sector, params, light_theme(kSize)).lines) {
-      // The rings are 1.2 % of the range of 200 m.
-      EXPECT_LT(std::hypot(line.to.x - place->middle.x, line.to.y - place->middle.y), 2.4 + 1e-9);
+      // Straight up and down, or level.
+      if (line.from.z != line.to.z) {
+        EXPECT_LT(std::hypot(line.to.x - place->middle.x, line.to.y - place->middle.y), 1e-9);
+      }
       top = std::min({top, line.from.z, line.to.z});
       low = std::max({low, line.from.z, line.to.z});
     }
@@ -88,6 +91,48 @@ TEST(DropLines, GoStraightUpToTheSeaAndDownToTheBed) {
   ContextParams params = nothing_else();
   params.schools = {*place};
   EXPECT_TRUE(context_scene(sector, params, light_theme(kSize)).lines.empty());
+}
+
+// A ball of 12 m, 100 m away, in beams of 1 degree and samples of 1 m: seen from above its footprint reaches 12 m in every
+// direction, to within a beam's width, and lies within the school's box; it is drawn level on the surface and on the bed.
+TEST(DropLines, EndInTheSchoolsFootprint) {
+  using slice_example::even_deg;
+  using slice_example::radians;
+  const Sector sector(radians(even_deg(-60, 1, 41)), radians(even_deg(250, 1, 41)), {0.5, 1.0, 200});
+  const Point<Sonar> centre = Sector::direction(rad_from_deg(-40.0), rad_from_deg(270.0)) * 100.0;
+  constexpr double kRadius_m = 12.0;
+  const double beam_m = rad_from_deg(1.0) * (100.0 + kRadius_m);
+  PingMask ball;
+  for (int row = 0; row < sector.fans() * sector.beams(); ++row) {
+    for (int s = 0; s < sector.range().count; ++s) {
+      if (norm(sector.centre(row / sector.beams(), row % sector.beams(), s) - centre) > kRadius_m) continue;
+      ball.runs.push_back({row, s, 1});
+      ball.confidence.push_back(255);
+    }
+  }
+  auto place = school_place(sector, ball);
+  ASSERT_TRUE(place);
+  const auto reach = [](const std::vector<Point<Sonar>>& places, const Point<Sonar>& way) {
+    double most = -1e9;
+    for (const Point<Sonar>& p : places) most = std::max(most, p.x * way.x + p.y * way.y);
+    return most;
+  };
+  for (int deg = 0; deg < 360; deg += 10) {
+    const Point<Sonar> way = Sector::direction(0.0, rad_from_deg(deg));
+    EXPECT_NEAR(reach(place->footprint, way) - (centre.x * way.x + centre.y * way.y), kRadius_m, beam_m) << deg;
+  }
+  for (const Point<Sonar>& way : {Point<Sonar>{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}) {
+    EXPECT_LE(reach(place->footprint, way), reach(place->edge, way));
+  }
+  place->drop_line = true;
+  place->seabed_z_m = 113.0;
+  ContextParams params = nothing_else();
+  params.schools = {*place};
+  std::map<double, std::size_t> level;
+  for (const SceneLine& line : context_scene(sector, params, light_theme(kSize)).lines) {
+    if (line.from.z == line.to.z) ++level[line.from.z];
+  }
+  EXPECT_EQ(level, (std::map<double, std::size_t>{{-7.0, place->footprint.size()}, {113.0, place->footprint.size()}}));
 }
 
 TEST(SchoolPlaces, AnEmptyMaskHasNone) { EXPECT_FALSE(school_place(slice_example::hand_sector(), PingMask{})); }
