@@ -68,7 +68,8 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 30> kBegin{"edit.undo",
+constexpr std::array<Id, 31> kBegin{"edit.undo",
+                                    "transects.open",
                                     "file.calibration",
                                     "file.run_surveys",
                                     "file.save_view",

@@ -118,7 +118,7 @@ TEST_F(SeedToolAtWork, TheSameActByAnotherHandIsNotTakenForItsOwn) {
 TEST_F(SeedToolAtWork, WhatIsDoneInsteadOfALineIsRefusedWhereAnotherHasComeSince) {
   press();
   app_.settle();
-  const std::int64_t grown = document().choices().done_line;
+  const std::int64_t grown = document().choices().lines->back().n;
   const PingMask before = mask_of(0);
   Decision decision;
   decision.school = key_of(document().state().schools[0]->masks, document().shown()->context());

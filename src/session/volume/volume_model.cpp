@@ -246,7 +246,7 @@ void VolumeModel::pointer(const PointerEvent& pointed) {
     case PointerAction::wheel:
       return zoom(event.at, std::pow(kWheelStep, event.wheel_steps));
     case PointerAction::zoom:
-      return zoom(event.at, event.factor);
+      return zoom(event.at, 1.0 / event.factor);
     case PointerAction::pan:
       return orbit(in_frame(event.by));
     case PointerAction::leave:
