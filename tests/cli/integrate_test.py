@@ -239,6 +239,12 @@ class Integrate(Case):
         self.one_line_error("integrate", SURVEY, "--out", self.out, "--recipe", self.folder / "recipe.json", code=2,
                             names=self.out)
 
+    def test_reduced_raw_files_are_refused(self):
+        """What they leave out would count as water without echo."""
+        reduced = self.fresh("integrate-reduced")
+        self.sonarx("export", self.out, "--to", "raw-reduced", "--survey", SURVEY, "--dest", reduced)
+        self.one_line_error("integrate", reduced, "--out", self.fresh("integrate-reduced-out"), code=1, names="raw-reduced")
+
 
 if __name__ == "__main__":
     sonarx.main()

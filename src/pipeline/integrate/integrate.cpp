@@ -126,6 +126,22 @@ ProductOf products_in(const fs::path& out) {
   };
 }
 
+/// In reduced files most of the water was left out, and reads as silence.
+Result<void> require_whole_pings(const SurveyFiles& survey, const Effort& effort) {
+  for (const ObservationEffort& own : effort.observations) {
+    for (const SurveyPing& ping : survey.observations[own.observation].pings) {
+      for (const SurveyPing& part : survey.parts(ping)) {
+        if (!survey.entry(part).reduced) continue;
+        return fail(ErrorCode::unsupported,
+                    "a reduced raw file (raw-reduced) lacks the water between schools; expected the raw files that it "
+                    "was made from",
+                    {.file = survey.files[part.file].path.string()});
+      }
+    }
+  }
+  return {};
+}
+
 /// That of the run whose products lie in OUT.
 Result<Recipe> recipe_in(const IntegrateOptions& options) {
   const auto chosen = [&] { return options.recipe ? options.recipe() : Result<Recipe>(Recipe{}); };
@@ -154,6 +170,7 @@ Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& rec
   if (effort.observations.empty()) {
     return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams: there is nothing to integrate");
   }
+  if (auto whole = require_whole_pings(survey, effort); !whole) return pass_on(whole);
   std::vector<UnitSums> sums(effort.units.size());
   Integrated out;
   out.left_out = effort.left_out;

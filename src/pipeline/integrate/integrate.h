@@ -33,8 +33,8 @@ struct Integrated {
 /// nothing.
 /// recipe      of the products, where there are some
 /// product_of  asked for one observation after the other
-/// errors      bad_parameter; mismatch: a product of other pings; unsupported: no observation has a grid; io, not_found: the
-///             system did not let a ping be read; cancelled; those of product_of
+/// errors      bad_parameter; mismatch: a product of other pings; unsupported: no observation has a grid, or raw files are
+///             reduced; io, not_found: the system did not let a ping be read; cancelled; those of product_of
 /// threads     pings side by side, added up in their order: the same bits for any number
 /// memory      a few pings per thread, the sums, and one observation's masks
 [[nodiscard]] Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& recipe,
