@@ -97,6 +97,17 @@ TEST(Effort, what_is_off_is_cut_out_and_the_units_go_on_behind_it) {
   EXPECT_EQ(effort.units[1].stratum, "s");
 }
 
+TEST(Effort, a_ping_at_which_one_transect_stops_and_another_begins_is_of_the_later_one) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 10));
+  const std::vector<Transect> transects{period("A", EffortType::transect, 0, 4),
+                                        period("B", EffortType::transect, 4, 9)};
+  const Effort effort = sailed_effort(survey, transects, 1e6);
+  EXPECT_THAT(pings_of(effort), ElementsAre(4, 6));
+  EXPECT_EQ(effort.units[1].transect, "B");
+  EXPECT_NEAR(sailed_m(effort, "A") + sailed_m(effort, "B"), 8 * kStep_m, 1e-6);
+}
+
 TEST(Effort, the_first_sonar_with_a_grid_is_integrated_and_the_others_are_named) {
   SurveyFiles survey;
   survey.observations.push_back(northward("obs-0001", 0, 3));
