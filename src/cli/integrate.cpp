@@ -43,6 +43,10 @@ void print_result(const Integrated& done, const std::string& out) {
     print_note(
         fmt::format("not-integrated: {}: it is of another sounder, or has no grid of fans and beams", printable(name)));
   }
+  for (const std::string& name : done.without_pings) {
+    print_note(fmt::format("transect-without-pings: {}: no ping lies in it, so that the tables have no row of it",
+                           printable(name)));
+  }
   for (const std::string& name : done.without_schools) {
     print_note(fmt::format("no-product: {}: {} has none, so that columns of schools are empty; sonarx run makes it",
                            printable(name), out));

@@ -108,6 +108,17 @@ TEST(Effort, a_ping_at_which_one_transect_stops_and_another_begins_is_of_the_lat
   EXPECT_NEAR(sailed_m(effort, "A") + sailed_m(effort, "B"), 8 * kStep_m, 1e-6);
 }
 
+TEST(Effort, transects_without_pings_are_named) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 10));
+  const std::vector<Transect> transects{
+      period("A", EffortType::transect, 0, 3), period("B", EffortType::transect, 4, 9),
+      period("trawl", EffortType::off, 4, 9),  // all of B
+      period("C", EffortType::transect, 20, 30), period("D", EffortType::off, 31, 40)};
+  EXPECT_THAT(sailed_effort(survey, transects, 1e6).without_pings, ElementsAre("B", "C"));
+  EXPECT_TRUE(sailed_effort(survey, {}, 1e6).without_pings.empty());
+}
+
 TEST(Effort, the_first_sonar_with_a_grid_is_integrated_and_the_others_are_named) {
   SurveyFiles survey;
   survey.observations.push_back(northward("obs-0001", 0, 3));

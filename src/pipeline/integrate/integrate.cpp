@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -142,6 +143,21 @@ Result<void> require_whole_pings(const SurveyFiles& survey, const Effort& effort
   return {};
 }
 
+Result<void> require_transects(const Effort& effort, std::span<const Transect> transects) {
+  const auto sailed = [](const EffortUnit& unit) { return unit.type == EffortType::transect; };
+  if (transects.empty() || std::any_of(effort.units.begin(), effort.units.end(), sailed)) return {};
+  TimeNs first = std::numeric_limits<TimeNs>::max();
+  TimeNs last = std::numeric_limits<TimeNs>::min();
+  for (const EffortUnit& unit : effort.units) {
+    const auto [least, most] = std::minmax_element(unit.times.begin(), unit.times.end());
+    first = std::min(first, *least);
+    last = std::max(last, *most);
+  }
+  return fail(ErrorCode::mismatch,
+              fmt::format("no transect of the transects table has a ping; expected periods between {} and {}",
+                          iso_time(first), iso_time(last)));
+}
+
 /// That of the run whose products lie in OUT.
 Result<Recipe> recipe_in(const IntegrateOptions& options) {
   const auto chosen = [&] { return options.recipe ? options.recipe() : Result<Recipe>(Recipe{}); };
@@ -171,8 +187,10 @@ Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& rec
     return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams: there is nothing to integrate");
   }
   if (auto whole = require_whole_pings(survey, effort); !whole) return pass_on(whole);
+  if (auto some = require_transects(effort, transects); !some) return pass_on(some);
   std::vector<UnitSums> sums(effort.units.size());
   Integrated out;
+  out.without_pings = effort.without_pings;
   out.left_out = effort.left_out;
   for (const ObservationEffort& own : effort.observations) {
     const ObservationFiles& observation = survey.observations[own.observation];
