@@ -38,6 +38,18 @@ struct IntegrateArguments {
 
 constexpr std::array<OptionOf, 1> kOptions{{{"layer_bottom_m", "--layer-bottom-m"}}};
 
+std::string with_error(double nasc, double se) {
+  return fmt::format("{} m2 nmi-2, standard error {}", std::isfinite(nasc) ? fmt::format("{:.4g}", nasc) : "unknown",
+                     std::isfinite(se) ? fmt::format("{:.2g}", se) : "unknown");
+}
+
+/// Of a layer also what it is if all fish are in it.
+std::string nasc_text(const StratumRow& row) {
+  const std::string heard = "NASC " + with_error(row.nasc_m2_nmi2, row.nasc_se_m2_nmi2);
+  if (!std::isfinite(row.nasc_layer_m2_nmi2)) return heard;
+  return heard + "; corrected for beam filling " + with_error(row.nasc_layer_m2_nmi2, row.nasc_layer_se_m2_nmi2);
+}
+
 void print_result(const Integrated& done, const std::string& out) {
   for (const std::string& name : done.left_out) {
     print_note(
@@ -56,9 +68,7 @@ void print_result(const Integrated& done, const std::string& out) {
     const std::string of = row.level == "survey" ? "survey"
                            : row.stratum.empty() ? "no stratum"
                                                  : "stratum " + printable(row.stratum);
-    fmt::print("{}: NASC {} m2 nmi-2, standard error {} ({} over {:.2f} nmi)\n", of,
-               std::isfinite(row.nasc_m2_nmi2) ? fmt::format("{:.4g}", row.nasc_m2_nmi2) : "unknown",
-               std::isfinite(row.nasc_se_m2_nmi2) ? fmt::format("{:.2g}", row.nasc_se_m2_nmi2) : "unknown",
+    fmt::print("{}: {} ({} over {:.2f} nmi)\n", of, nasc_text(row),
                count_of(static_cast<std::size_t>(row.n_transects), "transect"), row.distance_nmi);
   }
   for (const char* table : {"effort.csv", "nasc.csv", "strata.csv"}) {

@@ -16,6 +16,7 @@ struct CellLayout {
   double channel_m = 10.0;
   int max_channels = std::numeric_limits<int>::max();  ///< 1 = the one layer and nothing else
 
+  [[nodiscard]] bool is_layer() const { return max_channels == 1; }
   [[nodiscard]] double depth_m(int channel) const { return depth_from_m + channel * channel_m; }
 };
 
