@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -62,6 +63,14 @@ void print_result(const Integrated& done, const std::string& out) {
   for (const std::string& name : done.without_schools) {
     print_note(fmt::format("no-product: {}: {} has none, so that columns of schools are empty; sonarx run makes it",
                            printable(name), out));
+  }
+  std::int64_t reckoned = 0;
+  for (const EffortRow& row : done.tables.effort) reckoned += row.edsu > 0 ? row.n_pings_without_position : 0;
+  if (reckoned > 0) {
+    print_note(
+        fmt::format("distance-reckoned: {} on transects without a position; the distance sailed over them is dead "
+                    "reckoning, see n_pings_without_position in effort.csv",
+                    count_of(static_cast<std::size_t>(reckoned), "ping")));
   }
   for (const StratumRow& row : done.tables.strata) {
     if (row.level == "transect") continue;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geo/geodesic.h"
+#include "pipeline/integrate/integration_rows.h"
 
 namespace sonar {
 namespace {
@@ -117,6 +118,19 @@ TEST(Effort, transects_without_pings_are_named) {
       period("C", EffortType::transect, 20, 30), period("D", EffortType::off, 31, 40)};
   EXPECT_THAT(sailed_effort(survey, transects, 1e6).without_pings, ElementsAre("B", "C"));
   EXPECT_TRUE(sailed_effort(survey, {}, 1e6).without_pings.empty());
+}
+
+TEST(Effort, pings_without_a_position_are_sailed_over_and_counted) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 11));
+  for (const std::size_t lost : {4U, 5U, 6U})
+    survey.observations[0].navigation[lost].transducer = PingNavigation{}.transducer;
+  const Effort effort = sailed_effort(survey, {}, 1e6);
+  const std::vector<UnitSums> sums(effort.units.size());
+  const IntegrationTables tables = integration_tables(effort.units, sums, {});
+  ASSERT_EQ(tables.effort.size(), 1U);
+  EXPECT_EQ(tables.effort[0].n_pings_without_position, 3);
+  EXPECT_NEAR(sailed_m(effort, "obs-0001"), 500.0, 1.0);
 }
 
 TEST(Effort, the_first_sonar_with_a_grid_is_integrated_and_the_others_are_named) {

@@ -123,6 +123,8 @@ EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums, const CellLay
   row.distance_nmi = unit.sailed_m / kMetresPerNauticalMile;
   row.n_pings = std::ssize(unit.times);
   row.n_pings_used = sums.pings;
+  row.n_pings_without_position = std::count_if(unit.transducers.begin(), unit.transducers.end(),
+                                               [](const Geographic& place) { return std::isnan(place.latitude_deg); });
   if (unit.type == EffortType::off) return row;
   if (sums.schools_known && sums.pings > 0) row.n_schools = static_cast<double>(sums.schools.size());
   add_column(sums, layout, row);
