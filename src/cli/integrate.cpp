@@ -37,7 +37,7 @@ struct IntegrateArguments {
   int jobs = 0;
 };
 
-constexpr std::array<OptionOf, 1> kOptions{{{"layer_bottom_m", "--layer-bottom-m"}}};
+constexpr std::array<OptionOf, 2> kOptions{{{"layer_bottom_m", "--layer-bottom-m"}, {"depth_max_m", "--depth-max-m"}}};
 
 std::string with_error(double nasc, double se) {
   return fmt::format("{} m2 nmi-2, standard error {}", std::isfinite(nasc) ? fmt::format("{:.4g}", nasc) : "unknown",

@@ -236,6 +236,8 @@ class Integrate(Case):
         self.one_line_error("integrate", SURVEY, "--out", SURVEY / "out", code=2, names=SURVEY)
         self.one_line_error("integrate", SURVEY, "--out", self.out, "--layer-top-m", 50, "--layer-bottom-m", 40, code=2,
                             names="--layer-bottom-m")
+        self.one_line_error("integrate", SURVEY, "--out", self.out, "--depth-min-m", 50, "--depth-max-m", 51, code=2,
+                            names="--depth-max-m")
         self.one_line_error("integrate", SURVEY, "--out", self.out, "--recipe", self.folder / "recipe.json", code=2,
                             names=self.out)
 

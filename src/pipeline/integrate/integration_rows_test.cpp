@@ -148,6 +148,18 @@ TEST(CellLayout, is_channels_of_one_height_or_one_layer) {
   params.layer_bottom_m = 30.0;
   EXPECT_EQ(cell_layout(params).error().code, ErrorCode::bad_parameter);
   params = {};
+  params.depth_min_m = 15.0;
+  EXPECT_EQ(cell_layout(params)->depth_m(0), 15.0);
+  EXPECT_GT(cell_layout(params)->max_channels, 1000);
+  params.depth_max_m = 88.0;  // channels of 10 m to 85 m
+  EXPECT_EQ(cell_layout(params)->max_channels, 7);
+  params.depth_max_m = 24.0;
+  EXPECT_EQ(cell_layout(params).error().code, ErrorCode::bad_parameter);
+  params = {};
+  params.depth_channel_m = 12.3;
+  params.depth_max_m = 36.9;
+  EXPECT_EQ(cell_layout(params)->max_channels, 3);
+  params = {};
   params.edsu_nmi = 0.0;
   EXPECT_FALSE(cell_layout(params));
 }
