@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -36,25 +37,47 @@ struct IntegrateArguments {
   int jobs = 0;
 };
 
-constexpr std::array<OptionOf, 1> kOptions{{{"layer_bottom_m", "--layer-bottom-m"}}};
+constexpr std::array<OptionOf, 2> kOptions{{{"layer_bottom_m", "--layer-bottom-m"}, {"depth_max_m", "--depth-max-m"}}};
+
+std::string with_error(double nasc, double se) {
+  return fmt::format("{} m2 nmi-2, standard error {}", std::isfinite(nasc) ? fmt::format("{:.4g}", nasc) : "unknown",
+                     std::isfinite(se) ? fmt::format("{:.2g}", se) : "unknown");
+}
+
+/// Of a layer also what it is if all fish are in it.
+std::string nasc_text(const StratumRow& row) {
+  const std::string heard = "NASC " + with_error(row.nasc_m2_nmi2, row.nasc_se_m2_nmi2);
+  if (!std::isfinite(row.nasc_layer_m2_nmi2)) return heard;
+  return heard + "; corrected for beam filling " + with_error(row.nasc_layer_m2_nmi2, row.nasc_layer_se_m2_nmi2);
+}
 
 void print_result(const Integrated& done, const std::string& out) {
   for (const std::string& name : done.left_out) {
     print_note(
         fmt::format("not-integrated: {}: it is of another sounder, or has no grid of fans and beams", printable(name)));
   }
+  for (const std::string& name : done.without_pings) {
+    print_note(fmt::format("transect-without-pings: {}: no ping lies in it, so that the tables have no row of it",
+                           printable(name)));
+  }
   for (const std::string& name : done.without_schools) {
     print_note(fmt::format("no-product: {}: {} has none, so that columns of schools are empty; sonarx run makes it",
                            printable(name), out));
+  }
+  std::int64_t reckoned = 0;
+  for (const EffortRow& row : done.tables.effort) reckoned += row.edsu > 0 ? row.n_pings_without_position : 0;
+  if (reckoned > 0) {
+    print_note(
+        fmt::format("distance-reckoned: {} on transects without a position; the distance sailed over them is dead "
+                    "reckoning, see n_pings_without_position in effort.csv",
+                    count_of(static_cast<std::size_t>(reckoned), "ping")));
   }
   for (const StratumRow& row : done.tables.strata) {
     if (row.level == "transect") continue;
     const std::string of = row.level == "survey" ? "survey"
                            : row.stratum.empty() ? "no stratum"
                                                  : "stratum " + printable(row.stratum);
-    fmt::print("{}: NASC {} m2 nmi-2, standard error {} ({} over {:.2f} nmi)\n", of,
-               std::isfinite(row.nasc_m2_nmi2) ? fmt::format("{:.4g}", row.nasc_m2_nmi2) : "unknown",
-               std::isfinite(row.nasc_se_m2_nmi2) ? fmt::format("{:.2g}", row.nasc_se_m2_nmi2) : "unknown",
+    fmt::print("{}: {} ({} over {:.2f} nmi)\n", of, nasc_text(row),
                count_of(static_cast<std::size_t>(row.n_transects), "transect"), row.distance_nmi);
   }
   for (const char* table : {"effort.csv", "nasc.csv", "strata.csv"}) {

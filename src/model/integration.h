@@ -33,6 +33,8 @@ struct EffortRow {
   double nasc_school_m2_nmi2 = kUnknown;
   double nasc_school_se_m2_nmi2 = kUnknown;
   double nasc_rest_m2_nmi2 = kUnknown;
+  double nasc_layer_m2_nmi2 = kUnknown;       ///< only of one layer
+  std::int64_t n_pings_without_position = 0;  ///< whose way is reckoned
 };
 
 /// One range bin and depth channel of an EDSU: a row of nasc.csv.
@@ -78,6 +80,8 @@ struct StratumRow {
   double nasc_se_m2_nmi2 = kUnknown;
   double nasc_school_m2_nmi2 = kUnknown;
   double nasc_school_se_m2_nmi2 = kUnknown;
+  double nasc_layer_m2_nmi2 = kUnknown;  ///< only of one layer
+  double nasc_layer_se_m2_nmi2 = kUnknown;
 };
 
 template <class Visitor>
@@ -103,6 +107,8 @@ void columns(Visitor& v, EffortRow& r) {
   v("nasc_school_m2_nmi2", "m2 nmi-2", r.nasc_school_m2_nmi2);
   v("nasc_school_se_m2_nmi2", "m2 nmi-2", r.nasc_school_se_m2_nmi2);
   v("nasc_rest_m2_nmi2", "m2 nmi-2", r.nasc_rest_m2_nmi2);
+  v("nasc_layer_m2_nmi2", "m2 nmi-2", r.nasc_layer_m2_nmi2);
+  v("n_pings_without_position", "1", r.n_pings_without_position);
 }
 
 template <class Visitor>
@@ -148,6 +154,8 @@ void columns(Visitor& v, StratumRow& r) {
   v("nasc_se_m2_nmi2", "m2 nmi-2", r.nasc_se_m2_nmi2);
   v("nasc_school_m2_nmi2", "m2 nmi-2", r.nasc_school_m2_nmi2);
   v("nasc_school_se_m2_nmi2", "m2 nmi-2", r.nasc_school_se_m2_nmi2);
+  v("nasc_layer_m2_nmi2", "m2 nmi-2", r.nasc_layer_m2_nmi2);
+  v("nasc_layer_se_m2_nmi2", "m2 nmi-2", r.nasc_layer_se_m2_nmi2);
 }
 
 }  // namespace sonar

@@ -23,7 +23,7 @@ struct Transect {
   std::string stratum;
   EffortType type = EffortType::transect;
   TimeNs start_utc = 0;
-  TimeNs stop_utc = 0;  ///< not before start_utc; pings at both belong to it
+  TimeNs stop_utc = 0;  ///< not before start_utc; a ping at it belongs to the transect that begins there, if one does
   [[nodiscard]] bool holds(TimeNs time) const { return start_utc <= time && time <= stop_utc; }
   friend bool operator==(const Transect&, const Transect&) = default;
 };

@@ -236,8 +236,31 @@ class Integrate(Case):
         self.one_line_error("integrate", SURVEY, "--out", SURVEY / "out", code=2, names=SURVEY)
         self.one_line_error("integrate", SURVEY, "--out", self.out, "--layer-top-m", 50, "--layer-bottom-m", 40, code=2,
                             names="--layer-bottom-m")
+        self.one_line_error("integrate", SURVEY, "--out", self.out, "--depth-min-m", 50, "--depth-max-m", 51, code=2,
+                            names="--depth-max-m")
         self.one_line_error("integrate", SURVEY, "--out", self.out, "--recipe", self.folder / "recipe.json", code=2,
                             names=self.out)
+
+    def test_transects_without_pings_are_named(self):
+        self.integrate()
+        units = sonarx.read_csv(self.out / "effort.csv")
+        empty = "lost,north,transect,1999-01-01T00:00:00Z,1999-01-01T01:00:00Z\n"
+        table = self.folder / "lost.csv"
+        table.write_text("name,stratum,type,start_utc,stop_utc\n" + empty +
+                         f"kept,north,transect,{units[0]['first_time_utc']},{units[0]['last_time_utc'][:-1]}9Z\n")
+        out = self.fresh("integrate-lost")
+        code, _, notes = sonarx.run("integrate", SURVEY, "--out", out, "--transects", table)
+        self.assertEqual(code, 0, notes)
+        self.assertIn("transect-without-pings: lost", notes)
+        self.assertNotIn("transect-without-pings: kept", notes)
+        table.write_text("name,stratum,type,start_utc,stop_utc\n" + empty)
+        self.one_line_error("integrate", SURVEY, "--out", out, "--transects", table, code=1, names="no transect")
+
+    def test_reduced_raw_files_are_refused(self):
+        """What they leave out would count as water without echo."""
+        reduced = self.fresh("integrate-reduced")
+        self.sonarx("export", self.out, "--to", "raw-reduced", "--survey", SURVEY, "--dest", reduced)
+        self.one_line_error("integrate", reduced, "--out", self.fresh("integrate-reduced-out"), code=1, names="raw-reduced")
 
 
 if __name__ == "__main__":

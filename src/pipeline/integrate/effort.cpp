@@ -86,6 +86,19 @@ class Cutter {
   Geographic last_place_;
 };
 
+std::vector<std::string> transects_without_pings(std::span<const Transect> transects,
+                                                 std::span<const EffortUnit> units) {
+  std::vector<std::string> names;
+  for (const Transect& one : transects) {
+    if (one.type != EffortType::transect) continue;
+    const bool sailed = std::any_of(units.begin(), units.end(), [&](const EffortUnit& unit) {
+      return unit.type == EffortType::transect && unit.transect == one.name;
+    });
+    if (!sailed) names.push_back(one.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 Effort sailed_effort(const SurveyFiles& survey, std::span<const Transect> transects, double edsu_m) {
@@ -112,6 +125,7 @@ Effort sailed_effort(const SurveyFiles& survey, std::span<const Transect> transe
     }
     effort.observations.push_back(std::move(own));
   }
+  effort.without_pings = transects_without_pings(transects, effort.units);
   return effort;
 }
 

@@ -34,7 +34,8 @@ struct ObservationEffort {
 struct Effort {
   std::vector<EffortUnit> units;  ///< in the order in which they begin
   std::vector<ObservationEffort> observations;
-  std::vector<std::string> left_out;  ///< observations of other sounders, or without a grid
+  std::vector<std::string> left_out;       ///< observations of other sounders, or without a grid
+  std::vector<std::string> without_pings;  ///< transects that no ping of the observations belongs to
 };
 
 /// Cuts what was sailed into units of equal distance along each transect. Distance is that between the positions of

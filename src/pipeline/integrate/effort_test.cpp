@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geo/geodesic.h"
+#include "pipeline/integrate/integration_rows.h"
 
 namespace sonar {
 namespace {
@@ -95,6 +96,41 @@ TEST(Effort, what_is_off_is_cut_out_and_the_units_go_on_behind_it) {
   EXPECT_NEAR(sailed_m(effort, "trawl"), 3 * kStep_m, 1e-6);
   EXPECT_EQ(effort.units[2].edsu, 0);
   EXPECT_EQ(effort.units[1].stratum, "s");
+}
+
+TEST(Effort, a_ping_at_which_one_transect_stops_and_another_begins_is_of_the_later_one) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 10));
+  const std::vector<Transect> transects{period("A", EffortType::transect, 0, 4),
+                                        period("B", EffortType::transect, 4, 9)};
+  const Effort effort = sailed_effort(survey, transects, 1e6);
+  EXPECT_THAT(pings_of(effort), ElementsAre(4, 6));
+  EXPECT_EQ(effort.units[1].transect, "B");
+  EXPECT_NEAR(sailed_m(effort, "A") + sailed_m(effort, "B"), 8 * kStep_m, 1e-6);
+}
+
+TEST(Effort, transects_without_pings_are_named) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 10));
+  const std::vector<Transect> transects{
+      period("A", EffortType::transect, 0, 3), period("B", EffortType::transect, 4, 9),
+      period("trawl", EffortType::off, 4, 9),  // all of B
+      period("C", EffortType::transect, 20, 30), period("D", EffortType::off, 31, 40)};
+  EXPECT_THAT(sailed_effort(survey, transects, 1e6).without_pings, ElementsAre("B", "C"));
+  EXPECT_TRUE(sailed_effort(survey, {}, 1e6).without_pings.empty());
+}
+
+TEST(Effort, pings_without_a_position_are_sailed_over_and_counted) {
+  SurveyFiles survey;
+  survey.observations.push_back(northward("obs-0001", 0, 11));
+  for (const std::size_t lost : {4U, 5U, 6U})
+    survey.observations[0].navigation[lost].transducer = PingNavigation{}.transducer;
+  const Effort effort = sailed_effort(survey, {}, 1e6);
+  const std::vector<UnitSums> sums(effort.units.size());
+  const IntegrationTables tables = integration_tables(effort.units, sums, {});
+  ASSERT_EQ(tables.effort.size(), 1U);
+  EXPECT_EQ(tables.effort[0].n_pings_without_position, 3);
+  EXPECT_NEAR(sailed_m(effort, "obs-0001"), 500.0, 1.0);
 }
 
 TEST(Effort, the_first_sonar_with_a_grid_is_integrated_and_the_others_are_named) {

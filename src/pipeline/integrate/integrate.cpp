@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -126,6 +127,37 @@ ProductOf products_in(const fs::path& out) {
   };
 }
 
+/// In reduced files most of the water was left out, and reads as silence.
+Result<void> require_whole_pings(const SurveyFiles& survey, const Effort& effort) {
+  for (const ObservationEffort& own : effort.observations) {
+    for (const SurveyPing& ping : survey.observations[own.observation].pings) {
+      for (const SurveyPing& part : survey.parts(ping)) {
+        if (!survey.entry(part).reduced) continue;
+        return fail(ErrorCode::unsupported,
+                    "a reduced raw file (raw-reduced) lacks the water between schools; expected the raw files that it "
+                    "was made from",
+                    {.file = survey.files[part.file].path.string()});
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> require_transects(const Effort& effort, std::span<const Transect> transects) {
+  const auto sailed = [](const EffortUnit& unit) { return unit.type == EffortType::transect; };
+  if (transects.empty() || std::any_of(effort.units.begin(), effort.units.end(), sailed)) return {};
+  TimeNs first = std::numeric_limits<TimeNs>::max();
+  TimeNs last = std::numeric_limits<TimeNs>::min();
+  for (const EffortUnit& unit : effort.units) {
+    const auto [least, most] = std::minmax_element(unit.times.begin(), unit.times.end());
+    first = std::min(first, *least);
+    last = std::max(last, *most);
+  }
+  return fail(ErrorCode::mismatch,
+              fmt::format("no transect of the transects table has a ping; expected periods between {} and {}",
+                          iso_time(first), iso_time(last)));
+}
+
 /// That of the run whose products lie in OUT.
 Result<Recipe> recipe_in(const IntegrateOptions& options) {
   const auto chosen = [&] { return options.recipe ? options.recipe() : Result<Recipe>(Recipe{}); };
@@ -154,8 +186,11 @@ Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& rec
   if (effort.observations.empty()) {
     return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams: there is nothing to integrate");
   }
+  if (auto whole = require_whole_pings(survey, effort); !whole) return pass_on(whole);
+  if (auto some = require_transects(effort, transects); !some) return pass_on(some);
   std::vector<UnitSums> sums(effort.units.size());
   Integrated out;
+  out.without_pings = effort.without_pings;
   out.left_out = effort.left_out;
   for (const ObservationEffort& own : effort.observations) {
     const ObservationFiles& observation = survey.observations[own.observation];

@@ -25,6 +25,7 @@ using ProductOf = std::function<Result<std::optional<ObservationProduct>>(const 
 struct Integrated {
   IntegrationTables tables;
   std::vector<std::string> left_out;         ///< observations of other sounders, or without a grid
+  std::vector<std::string> without_pings;    ///< transects of the table
   std::vector<std::string> without_schools;  ///< observations without a product: nobody looked for schools in them
 };
 
@@ -33,8 +34,8 @@ struct Integrated {
 /// nothing.
 /// recipe      of the products, where there are some
 /// product_of  asked for one observation after the other
-/// errors      bad_parameter; mismatch: a product of other pings; unsupported: no observation has a grid; io, not_found: the
-///             system did not let a ping be read; cancelled; those of product_of
+/// errors      bad_parameter; mismatch: a product of other pings, or no transect has any; unsupported: no observation has a grid, or raw files are
+///             reduced; io, not_found: the system did not let a ping be read; cancelled; those of product_of
 /// threads     pings side by side, added up in their order: the same bits for any number
 /// memory      a few pings per thread, the sums, and one observation's masks
 [[nodiscard]] Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& recipe,

@@ -13,6 +13,8 @@ struct IntegrateParams {
   double range_bin_m = 50.0;
   double depth_channel_m = 10.0;
   double max_range_m = 0.0;
+  double depth_min_m = 0.0;
+  double depth_max_m = 0.0;
   double layer_top_m = 0.0;
   double layer_bottom_m = 0.0;
 };
@@ -41,6 +43,20 @@ void describe(Visitor& v, IntegrateParams& p) {
            .min = 0,
            .max = 100000,
            .text = "Samples from this range on are left out, m; 0 takes all. Lower it where sv_limit_db is too high."});
+  v.field(
+      "depth_min_m", p.depth_min_m,
+      {.unit = "m",
+       .min = 0,
+       .max = 10000,
+       .text = "Depth at which the first channel begins, m; raise it to leave out bubbles and what side lobes hear of "
+               "the surface."});
+  v.field(
+      "depth_max_m", p.depth_max_m,
+      {.unit = "m",
+       .min = 0,
+       .max = 10000,
+       .text = "Channels that reach below this depth are left out, m; 0 takes all. Set it above the shallowest seabed "
+               "where the seabed is not found."});
   v.field("layer_top_m", p.layer_top_m,
           {.unit = "m",
            .min = 0,
@@ -52,10 +68,10 @@ void describe(Visitor& v, IntegrateParams& p) {
            .min = 0,
            .max = 10000,
            .text = "Depth at which that layer ends, m: it is the only depth channel then. 0 = channels of one height, "
-                   "from the surface down."});
+                   "from depth_min_m down."});
 }
 
-/// errors  bad_parameter: out of range, or a layer that ends above its top
+/// errors  bad_parameter: out of range, a layer that ends above its top, or no channel between the depths
 [[nodiscard]] Result<CellLayout> cell_layout(const IntegrateParams& params);
 
 }  // namespace sonar

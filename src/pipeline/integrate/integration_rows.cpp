@@ -78,8 +78,9 @@ std::map<int, Channel> channels_of(const UnitSums& sums) {
   return channels;
 }
 
-/// NASC of a unit: its channels' mean s_v over all ranges times their heights.
-void add_column(const UnitSums& sums, EffortRow& row) {
+/// NASC of a unit: its channels' mean s_v over all ranges times their heights. That of one layer which all fish are in has
+/// the mean s_v sum s_v V / sum F V, where F is the share of the beam in the layer; channels corrected so do not add up.
+void add_column(const UnitSums& sums, const CellLayout& layout, EffortRow& row) {
   const std::map<int, Channel> channels = channels_of(sums);
   if (channels.empty()) return;
   CellSums all;
@@ -99,6 +100,7 @@ void add_column(const UnitSums& sums, EffortRow& row) {
   row.snr_db = all.noise_m2 > 0.0 ? db_or_unknown(all.echo_m2 / all.noise_m2) : kUnknown;
   row.nasc_m2_nmi2 = nasc;
   row.nasc_se_m2_nmi2 = std::sqrt(variance);
+  if (layout.is_layer()) row.nasc_layer_m2_nmi2 = nasc * ratio(all.heard_m3, all.beam_m3);
   if (!sums.schools_known) return;
   row.filled_fraction = all.school_m3 / all.heard_m3;
   row.nasc_school_m2_nmi2 = school;
@@ -106,7 +108,7 @@ void add_column(const UnitSums& sums, EffortRow& row) {
   row.nasc_rest_m2_nmi2 = nasc - school;
 }
 
-EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums) {
+EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums, const CellLayout& layout) {
   EffortRow row;
   row.stratum = unit.stratum;
   row.transect = unit.transect;
@@ -121,9 +123,11 @@ EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums) {
   row.distance_nmi = unit.sailed_m / kMetresPerNauticalMile;
   row.n_pings = std::ssize(unit.times);
   row.n_pings_used = sums.pings;
+  row.n_pings_without_position = std::count_if(unit.transducers.begin(), unit.transducers.end(),
+                                               [](const Geographic& place) { return std::isnan(place.latitude_deg); });
   if (unit.type == EffortType::off) return row;
   if (sums.schools_known && sums.pings > 0) row.n_schools = static_cast<double>(sums.schools.size());
-  add_column(sums, row);
+  add_column(sums, layout, row);
   return row;
 }
 
@@ -131,15 +135,18 @@ EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums) {
 struct Figures {
   std::vector<WeightedValue> all;
   std::vector<WeightedValue> school;
+  std::vector<WeightedValue> layer;
 };
 
 MeanWithError mean_alone(const std::vector<WeightedValue>& values) { return {transect_mean(values).mean, kUnknown}; }
 
-void put(StratumRow& row, const MeanWithError& all, const MeanWithError& school) {
+void put(StratumRow& row, const MeanWithError& all, const MeanWithError& school, const MeanWithError& layer) {
   row.nasc_m2_nmi2 = all.mean;
   row.nasc_se_m2_nmi2 = all.se;
   row.nasc_school_m2_nmi2 = school.mean;
   row.nasc_school_se_m2_nmi2 = school.se;
+  row.nasc_layer_m2_nmi2 = layer.mean;
+  row.nasc_layer_se_m2_nmi2 = layer.se;
 }
 
 /// A transect's mean over its EDSUs by their lengths. Neighbouring ones are alike, so they tell no error of it.
@@ -158,9 +165,10 @@ std::vector<StratumRow> transect_rows(std::span<const EffortRow> effort) {
     rows[at].distance_nmi += unit.distance_nmi;
     figures[at].all.push_back({unit.distance_nmi, unit.nasc_m2_nmi2});
     figures[at].school.push_back({unit.distance_nmi, unit.nasc_school_m2_nmi2});
+    figures[at].layer.push_back({unit.distance_nmi, unit.nasc_layer_m2_nmi2});
   }
   for (std::size_t at = 0; at < rows.size(); ++at) {
-    put(rows[at], mean_alone(figures[at].all), mean_alone(figures[at].school));
+    put(rows[at], mean_alone(figures[at].all), mean_alone(figures[at].school), mean_alone(figures[at].layer));
   }
   return rows;
 }
@@ -176,10 +184,11 @@ std::vector<StratumRow> stratum_rows(std::span<const StratumRow> transects) {
     row.distance_nmi += transect.distance_nmi;
     figures.all.push_back({transect.distance_nmi, transect.nasc_m2_nmi2});
     figures.school.push_back({transect.distance_nmi, transect.nasc_school_m2_nmi2});
+    figures.layer.push_back({transect.distance_nmi, transect.nasc_layer_m2_nmi2});
   }
   std::vector<StratumRow> rows;
   for (auto& [stratum, one] : strata) {
-    put(one.first, transect_mean(one.second.all), transect_mean(one.second.school));
+    put(one.first, transect_mean(one.second.all), transect_mean(one.second.school), transect_mean(one.second.layer));
     rows.push_back(std::move(one.first));
   }
   return rows;
@@ -190,14 +199,16 @@ StratumRow survey_row(std::span<const StratumRow> strata) {
   row.level = "survey";
   std::vector<WeightedMean> all;
   std::vector<WeightedMean> school;
+  std::vector<WeightedMean> layer;
   for (const StratumRow& stratum : strata) {
     row.n_transects += stratum.n_transects;
     row.n_edsu += stratum.n_edsu;
     row.distance_nmi += stratum.distance_nmi;
     all.push_back({stratum.distance_nmi, {stratum.nasc_m2_nmi2, stratum.nasc_se_m2_nmi2}});
     school.push_back({stratum.distance_nmi, {stratum.nasc_school_m2_nmi2, stratum.nasc_school_se_m2_nmi2}});
+    layer.push_back({stratum.distance_nmi, {stratum.nasc_layer_m2_nmi2, stratum.nasc_layer_se_m2_nmi2}});
   }
-  put(row, stratified_mean(all), stratified_mean(school));
+  put(row, stratified_mean(all), stratified_mean(school), stratified_mean(layer));
   return row;
 }
 
@@ -207,7 +218,7 @@ IntegrationTables integration_tables(std::span<const EffortUnit> units, std::spa
                                      const CellLayout& layout) {
   IntegrationTables tables;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    tables.effort.push_back(effort_row(units[i], sums[i]));
+    tables.effort.push_back(effort_row(units[i], sums[i], layout));
     if (units[i].type == EffortType::off) continue;
     for (const auto& [key, cell] : sums[i].cells) {
       tables.nasc.push_back(nasc_row(units[i], sums[i], layout, key, cell));

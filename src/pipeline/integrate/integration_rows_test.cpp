@@ -80,6 +80,30 @@ TEST(IntegrationRows, a_channel_of_a_unit_is_its_mean_over_all_ranges_as_high_as
   EXPECT_NEAR(tables.effort.at(0).nasc_m2_nmi2, kNasc * 2.5e-6 * 10.0, 1e-6);
 }
 
+TEST(IntegrationRows, a_layer_is_corrected_for_the_beam_that_misses_it_at_each_range) {
+  // The layer's sv is 8e-6; half of the beam is in it near by, a quarter farther off.
+  constexpr double kLayerSv = 8e-6;
+  UnitSums sums;
+  sums.pings = 1;
+  sums.area_m2[0] = 100.0;
+  sums.area_m2[1] = 300.0;
+  sums.cells[{0, 0}] = cell(1000.0, 1000.0, 0.5 * kLayerSv);
+  sums.cells[{1, 0}] = cell(3000.0, 3000.0, 0.25 * kLayerSv);
+  sums.cells[{1, 0}].beam_m3 = 0.25 * 3000.0;
+  CellLayout layer;
+  layer.max_channels = 1;
+  const std::vector<EffortUnit> units{unit("A", 1, 100.0), unit("B", 1, 300.0)};
+  const std::vector both{sums, sums};
+  const IntegrationTables tables = integration_tables(units, both, layer);
+  const double nasc = kNasc * kLayerSv * 10.0;
+  EXPECT_NEAR(tables.effort.at(0).nasc_layer_m2_nmi2, nasc, 1e-9 * nasc);
+  EXPECT_LT(tables.effort[0].nasc_m2_nmi2, 0.5 * nasc);
+  ASSERT_EQ(tables.strata.size(), 4U);
+  for (const StratumRow& row : tables.strata) EXPECT_NEAR(row.nasc_layer_m2_nmi2, nasc, 1e-9 * nasc) << row.level;
+  // Channels of one height each hear the others' fish: corrected ones have no sum.
+  EXPECT_TRUE(std::isnan(integration_tables(units, both, {}).effort.at(0).nasc_layer_m2_nmi2));
+}
+
 TEST(IntegrationRows, water_in_which_nothing_was_heard_and_units_without_pings_have_their_rows) {
   UnitSums empty;
   UnitSums lost;
@@ -123,6 +147,18 @@ TEST(CellLayout, is_channels_of_one_height_or_one_layer) {
   EXPECT_EQ(cell_layout(params)->depth_m(1), 47.0);
   params.layer_bottom_m = 30.0;
   EXPECT_EQ(cell_layout(params).error().code, ErrorCode::bad_parameter);
+  params = {};
+  params.depth_min_m = 15.0;
+  EXPECT_EQ(cell_layout(params)->depth_m(0), 15.0);
+  EXPECT_GT(cell_layout(params)->max_channels, 1000);
+  params.depth_max_m = 88.0;  // channels of 10 m to 85 m
+  EXPECT_EQ(cell_layout(params)->max_channels, 7);
+  params.depth_max_m = 24.0;
+  EXPECT_EQ(cell_layout(params).error().code, ErrorCode::bad_parameter);
+  params = {};
+  params.depth_channel_m = 12.3;
+  params.depth_max_m = 36.9;
+  EXPECT_EQ(cell_layout(params)->max_channels, 3);
   params = {};
   params.edsu_nmi = 0.0;
   EXPECT_FALSE(cell_layout(params));

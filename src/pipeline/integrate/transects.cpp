@@ -69,7 +69,7 @@ Result<void> require_one_at_a_time(const CsvTable& table, const std::vector<Told
   const Told* before = nullptr;
   for (const Told& one : told) {
     if (one.transect.type != EffortType::transect) continue;
-    if (before != nullptr && one.transect.start_utc <= before->transect.stop_utc) {
+    if (before != nullptr && one.transect.start_utc < before->transect.stop_utc) {
       return refused(table, one.line,
                      fmt::format("transect '{}' begins before '{}' of line {} ends; a ping belongs to one transect",
                                  one.transect.name, before->transect.name, before->line));

@@ -65,6 +65,11 @@ TEST(Transects, what_is_wrong_is_told_with_its_line) {
   }
 }
 
+TEST(Transects, one_may_begin_where_another_stops) {
+  EXPECT_TRUE(read(kHeader + "A,s,transect,2026-11-21T10:00:00Z,2026-11-21T11:00:00Z\n"
+                             "B,s,transect,2026-11-21T11:00:00Z,2026-11-21T12:00:00Z\n"));
+}
+
 TEST(Transects, off_effort_needs_no_name_and_may_lie_anywhere) {
   EXPECT_TRUE(read(kHeader + ",,off,2026-11-21T10:00:00Z,2026-11-21T11:00:00Z\n"
                              ",,off,2026-11-21T10:30:00Z,2026-11-21T11:30:00Z\n"));

@@ -14,8 +14,9 @@ struct CellLayout {
   double max_range_m = std::numeric_limits<double>::infinity();  ///< samples from here on are left out
   double depth_from_m = 0.0;                                     ///< top of channel 0
   double channel_m = 10.0;
-  int max_channels = std::numeric_limits<int>::max();  ///< 1 = the one layer and nothing else
+  int max_channels = std::numeric_limits<int>::max();  ///< deeper ones are left out; 1 = the one layer and nothing else
 
+  [[nodiscard]] bool is_layer() const { return max_channels == 1; }
   [[nodiscard]] double depth_m(int channel) const { return depth_from_m + channel * channel_m; }
 };
 

@@ -17,7 +17,8 @@ struct DeadReckoning {
   std::int64_t without_heading = 0;
 };
 
-/// Fills what the navigation lacks, so that the ship never seems to jump; only for tracking, never for a table.
+/// Fills what the navigation lacks, so that the ship never seems to jump; for tracking, and for the distance sailed
+/// in echo integration, which counts such pings; no other table has it.
 /// heading    over the shorter arc between the pings round it, held at the ends; where no ping has one the course, else 0
 /// position   from the last fix on with speed and course (the heading where there is no course; of the pings round it
 ///            where a ping has neither), the misclosure at the next fix spread over the gap by time; before the first
