@@ -200,8 +200,8 @@ void CalibrationTables::note_impossible_psi(Diagnostics& notes) const {
 
 void CalibrationTables::note_computed_absorption(std::span<const std::size_t> channels, Diagnostics& notes) const {
   if (params_.absorption != AbsorptionSource::file) return;
-  const auto computed =
-      std::count_if(channels.begin(), channels.end(), [&](std::size_t c) { return !tells_absorption(first_head(observation_, c)); });
+  const auto computed = std::count_if(channels.begin(), channels.end(),
+                                      [&](std::size_t c) { return !tells_absorption(first_head(observation_, c)); });
   if (computed == 0) return;
   const WaterProperties& water = params_.water;
   notes.push_back(
