@@ -113,7 +113,7 @@ MainWindow::MainWindow(AppModel& app, std::optional<QSize> at_first) : app_(app)
     view->set_sentence([&app, id = dock.id] { return QString::fromStdString(picture_sentence(app, id)); });
   }
   for (RowsDock& dock : app.lists) add_list(*this, dock);
-  add_dock(*this, "controls", "Controls", new ControlPanelView(*app.transfer, app.workspace, app.panel));
+  add_dock(*this, "controls", to_translate("Controls"), new ControlPanelView(*app.transfer, app.workspace, app.panel));
   add_menus(*this, app.actions);
   for (const PictureDock& dock : app.pictures) {
     view_of<PictureView>(*this, dock.id).set_menu(add_context_menu(*this, dock.id, app.actions));

@@ -165,7 +165,7 @@ double luminance(const QColor& colour) {
 
 /// WCAG 2.1, contrast ratio.
 double contrast(const QColor& a, const QColor& b) {
-  const auto [low, high] = std::minmax(luminance(a), luminance(b));
+  const auto [low, high] = std::minmax({luminance(a), luminance(b)});
   return (high + 0.05) / (low + 0.05);
 }
 
@@ -284,7 +284,12 @@ TEST_F(InAnotherLanguage, MenusAndDocksSpeakIt) {
   for (auto* one : window_->findChildren<QDockWidget*>()) {
     EXPECT_TRUE(in_language(one->windowTitle())) << one->windowTitle().toStdString();
   }
-  EXPECT_THAT(english(*window_), IsEmpty());
+  Lines left = english(*window_);
+  for (const Action& action : app_->actions.list()) {
+    if (!action.text_now) continue;  // else a button says what was made now: "Play (2 pings/s)"
+    std::erase_if(left, [&](const std::string& one) { return one.ends_with(": " + action.text_now()); });
+  }
+  EXPECT_THAT(left, IsEmpty());
 }
 
 /// What a translator is given.
