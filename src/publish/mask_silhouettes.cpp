@@ -59,9 +59,7 @@ class Drawing {
   /// Pixels of a silhouette with another's or none's nearer than the line's width.
   void lines(const std::vector<std::uint8_t>& of, bool broken) {
     for_each_near_edge(of, widest_px(), [&](int x, int y, std::uint8_t own, int distance2) {
-      const int width = width_of(own);
-      if (own == 0 || own > masks_.size() || distance2 > width * width) return;
-      if (broken && in_gap(x, y)) return;
+      if (!on_line(own, distance2) || (broken && in_gap(x, y))) return;
       const auto& c = masks_[own - 1U].rgb;
       pixel(x, y) = {c[0], c[1], c[2], 1.0F};
     });
@@ -73,16 +71,34 @@ class Drawing {
       if (own == 0 && distance2 <= width * width) pixel(x, y) = colour;
     });
   }
-  /// Pixels on both sides of a silhouette's broken line.
+  /// Pixels straight across from each dash of a silhouette's broken line, on both sides: its ends too have both.
   void rims_of_broken(const std::vector<std::uint8_t>& of, std::array<float, 4> outside, std::array<float, 4> inside) {
-    for_each_near_edge(of, widest_px() + rim_px(), [&](int x, int y, std::uint8_t own, int distance2) {
-      if (in_gap(x, y)) return;
-      const int reach = own == 0 ? rim_px() : width_of(own) + rim_px();
-      if (distance2 <= reach * reach) pixel(x, y) = own == 0 ? outside : inside;
+    enum Part : std::uint8_t { elsewhere, gap, dash };
+    std::vector<Part> line(of.size(), elsewhere);
+    for_each_near_edge(of, widest_px(), [&](int x, int y, std::uint8_t own, int distance2) {
+      if (on_line(own, distance2)) line[place(x, y)] = in_gap(x, y) ? gap : dash;
     });
+    const auto put = [&](int x, int y) {
+      if (x < 0 || y < 0 || x >= rays_.size.width || y >= rays_.size.height) return;
+      const std::size_t at = place(x, y);
+      if (line[at] == elsewhere) rays_.rgba[at] = of[at] == 0 ? outside : inside;
+    };
+    for (int y = 0; y < rays_.size.height; ++y) {
+      for (int x = 0; x < rays_.size.width; ++x) {
+        if (line[place(x, y)] != dash) continue;
+        for (int d = -rim_px(); d <= rim_px(); ++d) {
+          put(x + d, y);
+          put(x, y + d);
+        }
+      }
+    }
   }
 
  private:
+  [[nodiscard]] bool on_line(std::uint8_t own, int distance2) const {
+    const int width = width_of(own);
+    return own != 0 && own <= masks_.size() && distance2 <= width * width;
+  }
   [[nodiscard]] bool in_gap(int x, int y) const { return (x + y) / (4 * line_px_) % 2 != 0; }
   [[nodiscard]] int rim_px() const { return std::max(1, line_px_ / 2); }
   [[nodiscard]] int widest_px() const {
@@ -93,19 +109,16 @@ class Drawing {
   [[nodiscard]] int width_of(std::uint8_t number) const {
     return number > 0 && number <= masks_.size() && masks_[number - 1U].selected ? selected_px() : line_px_;
   }
-  [[nodiscard]] std::array<float, 4>& pixel(int x, int y) {
-    return rays_
-        .rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.size.width) + static_cast<std::size_t>(x)];
+  [[nodiscard]] std::size_t place(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.size.width) + static_cast<std::size_t>(x);
   }
+  [[nodiscard]] std::array<float, 4>& pixel(int x, int y) { return rays_.rgba[place(x, y)]; }
 
   /// act  (x, y, number there, square of the distance to the nearest pixel of another number) of pixels that have one
   ///      within reach, pixels
   template <class Act>
   void for_each_near_edge(const std::vector<std::uint8_t>& of, int reach, const Act& act) {
     const auto [width, height] = rays_.size;
-    const auto place = [w = width](int x, int y) {
-      return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-    };
     std::vector<int> nearest2(of.size(), reach * reach + 1);
     // The nearest pixel of another number has a neighbour that is nearer still, and so lies on an edge itself.
     const auto on_edge = [&](int x, int y) {

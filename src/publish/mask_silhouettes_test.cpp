@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "render/test_scenes.h"
+#include "view/contrast_example.h"
 
 namespace sonar {
 namespace {
@@ -54,14 +55,38 @@ TEST(MaskOutlines, AreBrokenRoundTheCore) {
     const auto row = rays.rgba.begin() + std::ptrdiff_t{y} * kSize.width;
     return std::count(row + 4, row + 16, colour);  // off the corners
   };
-  EXPECT_LE(std::abs(count(1, {0.0F, 0.0F, 0.0F, 1.0F}) - count(2, {1.0F, 0.0F, 0.0F, 1.0F})), 1);
-  EXPECT_LE(std::abs(count(3, {1.0F, 1.0F, 1.0F, 1.0F}) - count(2, {1.0F, 0.0F, 0.0F, 1.0F})), 1);
+  EXPECT_EQ(count(1, {0.0F, 0.0F, 0.0F, 1.0F}), count(2, {1.0F, 0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(count(3, {1.0F, 1.0F, 1.0F, 1.0F}), count(2, {1.0F, 0.0F, 0.0F, 1.0F}));
   int drawn = 0;
   for (int x = 2; x <= 17; ++x) drawn += rays.rgba[static_cast<std::size_t>(2 * kSize.width + x)] == kData ? 0 : 1;
   EXPECT_EQ(drawn, 8);
 }
 
 // Law: across each dash of a core's line, in data of whatever colour, there is something with a contrast of 3 or more.
+TEST(MaskOutlines, ACoresLineStandsOutFromEveryColour) {
+  const MaskSilhouettes silhouettes{std::vector<std::uint8_t>(kSize.count(), 1), square(4, 15)};
+  const auto part = [](int v) { return static_cast<float>(v) / 255.0F; };
+  const auto check = [&](const Theme& theme, const contrast_example::DataColour& data, int number) {
+    const std::array<float, 4> under{part(data.colour.r), part(data.colour.g), part(data.colour.b), 1.0F};
+    RayImage rays{kSize, std::vector<std::array<float, 4>>(kSize.count(), under), {}};
+    const Rgba8 c = school_colour(number);
+    const MaskLayer layer{nullptr, {part(c.r), part(c.g), part(c.b)}};
+    lay_outlines(rays, std::span(&layer, 1), silhouettes, 1, theme);
+    const Image image = over(rays, theme.plot);
+    for (int x = 6; x < 14; ++x) {
+      if ((x + 4) / 4 % 2 != 0) continue;  // a gap
+      double most = 0.0;
+      for (int y = 3; y <= 5; ++y) most = std::max(most, contrast_example::contrast(image.at(x, y), data.colour));
+      ASSERT_GE(most, 3.0) << data.map << ", school " << number << ", at " << x;
+    }
+  };
+  for (const Theme& theme : contrast_example::both_themes({640, 480})) {
+    for (const auto& data : contrast_example::data_colours()) {
+      for (int number = 0; number < kSchoolColours; ++number) check(theme, data, number);
+    }
+  }
+}
+
 PingMask block(const Shape3& shape, int fan0, int beam0, int sample0, int size) {
   PingMask mask;
   for (int fan = fan0; fan < fan0 + size; ++fan) {
