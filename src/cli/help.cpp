@@ -30,10 +30,11 @@ constexpr std::array kExamples = {
              "  sonarx info SURVEY --json --checksum     the same for scripts\n"},
     Examples{"simulate",
              "  sonarx simulate SYNTHETIC --preset standard --seed 1\n"
-             "  sonarx simulate SYNTHETIC --physics array --waters random --seed 7\n"},
+             "  sonarx simulate SYNTHETIC --physics array --waters random --seed 7\n"
+             "  sonarx simulate SPHERE --physics array --sphere wc38.1 --pings 200\n"},
     Examples{"calibrate",
              "  sonarx calibrate SPHERE --sphere wc38.1 -o calibration.csv\n"
-             "  sonarx calibrate SPHERE --sphere cu60 --water 7.5,35.1,20 --range 40,70 -o calibration.csv\n"},
+             "  sonarx calibrate SPHERE --sphere wc38.1 --water 7.5,35.1,20 --range 40,90 -o calibration.csv\n"},
     Examples{"run",
              "  sonarx run SURVEY -o OUT\n"
              "  sonarx run SURVEY -o OUT --recipe R.json -j 4\n"

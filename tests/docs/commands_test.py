@@ -15,12 +15,10 @@ import sonarx
 from sonarx import SURVEY, VERBS, WORK, Case
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
-# Left out: what takes another program or another machine, or many pings with a sphere. tests/cluster hands surveys in to a
-# real Slurm, cli/calibrate_test.py calibrates.
-ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)|^sonarx calibrate |^sonarx simulate .* --sphere "
-                       + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
+# Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
+ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
 # What the reader brings.
-BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n", "calibration.csv": "channel,gain_db\n0,14.6\n",
+BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
            "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n"}
 
 
@@ -85,7 +83,7 @@ class Commands(Case):
                     command = command.replace("SYNTHETIC", f"SYNTHETIC-{simulated}")
                 # The truth of the survey that was run.
                 command = command.replace("SYNTHETIC/truth", "SURVEY/truth")
-                self.execute(command + shorter.get(verb, ""), folder, f"{verb} --help")
+                self.execute(command if "--pings" in command else command + shorter.get(verb, ""), folder, f"{verb} --help")
 
 
 if __name__ == "__main__":
