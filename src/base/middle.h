@@ -18,4 +18,7 @@ template <class Value>
   return *middle;
 }
 
+/// Standard deviation of normal values over the middle of their distances from their middle.
+inline constexpr double kStandardOverMiddleDeviation = 1.4826;
+
 }  // namespace sonar

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "render/volume_renderer.h"
 #include "view/volume/volume_scene.h"
 
 namespace sonar::scenes {
@@ -90,6 +91,20 @@ inline Camera looking(const Point<Sonar>& eye, const Point<Sonar>& target) {
   Camera out;
   out.eye = eye;
   out.target = target;
+  return out;
+}
+
+/// Every n by n pixels as one: n * n rays a pixel.
+inline RayImage reduced(const RayImage& large, int n) {
+  RayImage out{{large.size.width / n, large.size.height / n}, {}, {}};
+  out.rgba.resize(out.size.count());
+  for (int y = 0; y < large.size.height; ++y) {
+    for (int x = 0; x < large.size.width; ++x) {
+      const auto& from = large.rgba[static_cast<std::size_t>(y * large.size.width + x)];
+      auto& to = out.rgba[static_cast<std::size_t>(y / n * out.size.width + x / n)];
+      for (std::size_t c = 0; c < 4; ++c) to[c] += from[c] / static_cast<float>(n * n);
+    }
+  }
   return out;
 }
 

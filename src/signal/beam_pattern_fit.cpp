@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "base/middle.h"
 #include "base/units.h"
 #include "signal/beam_hits.h"
 #include "signal/level_misfit.h"
@@ -161,9 +162,7 @@ class Fitter {
       sorted.push_back(misfit_of[p]);
     }
     if (sorted.empty()) return;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double most = kMuchWorse * std::max(1.0, *middle);
+    const double most = kMuchWorse * std::max(1.0, middle_of(std::move(sorted)));
     for (std::size_t p = 0; p < of_ping_.size(); ++p) {
       if (misfit_of[p] <= most) continue;
       disturbed_[p] = true;
@@ -180,10 +179,8 @@ class Fitter {
       sizes.push_back(std::abs(m.residual_db) / std::hypot(heard_[i].se_db, form_se_db(m.under_top_db)));
     }
     if (sizes.empty()) return;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
     // Never below what is known of the errors: what a direction takes away of them would leave out ever more levels.
-    scale_ = std::max(1.0, 1.4826 * *middle);
+    scale_ = std::max(1.0, kStandardOverMiddleDeviation * middle_of(std::move(sizes)));
   }
 
   void count_hits() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/middle.h"
 #include "base/units.h"
 
 namespace sonar {
@@ -14,21 +15,16 @@ namespace {
 constexpr int kGap = 2;      ///< samples between the window and those that tell the noise
 constexpr int kBeside = 10;  ///< of these on either side
 constexpr std::size_t kLeastInGroup = 5;
-constexpr double kNormal = 1.4826;         ///< standard over middle deviation
 constexpr double kErrorOfMiddle = 1.2533;  ///< over that of a mean
 
 /// The middle, and its standard error by the middle deviation: one echo beside another's does not count.
-EchoTop middle_of(std::vector<double>& shares_db) {
+EchoTop top_of(std::vector<double> shares_db) {
   if (shares_db.empty()) return {};
-  const auto half = static_cast<std::ptrdiff_t>(shares_db.size() / 2);
-  const auto middle = [half](std::vector<double>& values) {
-    std::nth_element(values.begin(), values.begin() + half, values.end());
-    return values[static_cast<std::size_t>(half)];
-  };
-  const double share_db = middle(shares_db);
+  const double share_db = middle_of(shares_db);
   for (double& share : shares_db) share = std::abs(share - share_db);
   const double n = static_cast<double>(shares_db.size());
-  return {share_db, kErrorOfMiddle * kNormal * middle(shares_db) / std::sqrt(n), static_cast<int>(shares_db.size())};
+  return {share_db, kErrorOfMiddle * kStandardOverMiddleDeviation * middle_of(shares_db) / std::sqrt(n),
+          static_cast<int>(shares_db.size())};
 }
 
 /// Sums over a group, to take its mean off.
@@ -78,10 +74,10 @@ std::vector<EchoTop> tops_of(std::span<const OffTop> echoes, const PulseForm& fo
     tops[e.group].push_back(form.top_db(e));
     tops[groups].push_back(form.top_db(e));
   }
-  const EchoTop all = middle_of(tops[groups]);
+  const EchoTop all = top_of(tops[groups]);
   std::vector<EchoTop> out;
   for (std::size_t g = 0; g < groups; ++g) {
-    out.push_back(tops[g].size() >= kLeastInGroup ? middle_of(tops[g]) : all);
+    out.push_back(tops[g].size() >= kLeastInGroup ? top_of(tops[g]) : all);
     out.back().echoes = static_cast<int>(tops[g].size());
   }
   return out;
@@ -100,9 +96,7 @@ PointEcho point_echo(std::span<const std::int16_t> counts, int around, int half_
   for (int i = std::max(0, begin - kGap - kBeside); i < begin - kGap; ++i) beside.push_back(power(i));
   for (int i = end + kGap; i < std::min(size, end + kGap + kBeside); ++i) beside.push_back(power(i));
   if (!beside.empty()) {
-    const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-    std::nth_element(beside.begin(), middle, beside.end());
-    echo.noise_w = *middle / std::numbers::ln2;
+    echo.noise_w = middle_of(std::move(beside)) / std::numbers::ln2;
   }
   double moment = 0.0;
   for (int i = begin; i < end; ++i) {
@@ -127,9 +121,9 @@ std::vector<EchoTop> echo_tops(std::span<const OffTop> echoes, std::size_t group
     tops = tops_of(sound, form, groups);
     std::vector<double> off;
     for (const OffTop& e : sound) off.push_back(std::abs(form.top_db(e) - tops[e.group].share_db));
-    const double spread_db = middle_of(off).share_db;
+    const double spread_db = middle_of(off);
     std::erase_if(sound, [&](const OffTop& e) {
-      return std::abs(form.top_db(e) - tops[e.group].share_db) > kFar * kNormal * spread_db;
+      return std::abs(form.top_db(e) - tops[e.group].share_db) > kFar * kStandardOverMiddleDeviation * spread_db;
     });
   }
   return tops;

@@ -28,6 +28,7 @@
 
 #include "gui/action_menus.h"
 #include "gui/palette.h"
+#include "view/contrast_example.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -158,15 +159,12 @@ TEST_F(Access, TabsOfDocksHaveWholeWords) {
       << "the window is no wider for it";
 }
 
-double luminance(const QColor& colour) {
-  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-  return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) + 0.0722 * linear(colour.blueF());
-}
-
-/// WCAG 2.1, contrast ratio.
 double contrast(const QColor& a, const QColor& b) {
-  const auto [low, high] = std::minmax({luminance(a), luminance(b)});
-  return (high + 0.05) / (low + 0.05);
+  const auto plain = [](const QColor& c) {
+    const auto part = [](int value) { return static_cast<std::uint8_t>(value); };
+    return Rgba8{part(c.red()), part(c.green()), part(c.blue()), 255};
+  };
+  return contrast_example::contrast(plain(a), plain(b));
 }
 
 TEST_F(Access, TextStandsOutInBothThemes) {

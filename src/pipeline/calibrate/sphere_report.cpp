@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/middle.h"
 #include "base/number_text.h"
 #include "io/csv_table.h"
 #include "pipeline/survey/calibration_json.h"
@@ -46,15 +47,19 @@ double rms_of(const SphereCalibration& made, const CalibratedBeam& beam) {
   return n > 0 ? std::sqrt(sum / n) : kUnknown;
 }
 
-/// What of a fan's beams was crossed, in means.
+/// What of a fan's beams was crossed; changes are medians.
 struct FanLine {
   std::vector<int> left;  ///< beams that were not
   int crossed = 0;
-  double gain_change_db = 0.0, most_change_db = 0.0, sa_change_db = 0.0, psi_change_db = 0.0, gain_se_db = 0.0;
+  double gain_change_db = 0.0, most_change_db = 0.0, sa_change_db = 0.0, psi_change_db = 0.0;
+  double largest_se_db = 0.0;  ///< of a gain
 };
 
 FanLine fan_line(const SphereCalibration& made, int fan) {
   FanLine line;
+  std::vector<double> gain_db;
+  std::vector<double> sa_db;
+  std::vector<double> psi_db;
   for (const CalibratedBeam& b : made.beams) {
     if (b.fan != fan) continue;
     if (!b.crossed) {
@@ -63,21 +68,23 @@ FanLine fan_line(const SphereCalibration& made, int fan) {
     }
     ++line.crossed;
     const double change = b.after.gain_db - b.before.gain_db;
-    line.gain_change_db += change;
+    gain_db.push_back(change);
     if (std::abs(change) > std::abs(line.most_change_db)) line.most_change_db = change;
-    line.sa_change_db += b.after.sa_correction_db - b.before.sa_correction_db;
-    line.psi_change_db += b.after.psi_db - b.before.psi_db;
-    line.gain_se_db += b.after.gain_db_se;
+    sa_db.push_back(b.after.sa_correction_db - b.before.sa_correction_db);
+    psi_db.push_back(b.after.psi_db - b.before.psi_db);
+    line.largest_se_db = std::max(line.largest_se_db, b.after.gain_db_se);
   }
-  for (double* sum : {&line.gain_change_db, &line.sa_change_db, &line.psi_change_db, &line.gain_se_db}) {
-    *sum /= std::max(1, line.crossed);
-  }
+  if (line.crossed == 0) return line;
+  line.gain_change_db = middle_of(gain_db);
+  line.sa_change_db = middle_of(sa_db);
+  line.psi_change_db = middle_of(psi_db);
   return line;
 }
 
 std::string fan_lines(const SphereCalibration& made) {
   std::string text =
-      "\n fan  elevation  frequency  sphere TS  beams   gain change (most)   sa change  psi change  gain se\n";
+      "\n fan  elevation  frequency  sphere TS  beams  median gain change (most)  sa change  psi change  largest gain "
+      "se\n";
   std::string left;
   const int fans = made.beams.back().fan + 1;
   for (int fan = 0; fan < fans; ++fan) {
@@ -86,9 +93,9 @@ std::string fan_lines(const SphereCalibration& made) {
         std::find_if(made.beams.begin(), made.beams.end(), [fan](const CalibratedBeam& b) { return b.fan == fan; });
     if (line.crossed == 0) continue;
     text += fmt::format(
-        "{:4} {:6.1f} deg {:6.1f} kHz {:7.2f} dB {:6} {:+10.2f} ({:+.2f}) dB {:+8.2f} dB {:+8.2f} dB {:6.3f} dB\n", fan,
-        beam->elevation_deg, beam->frequency_hz / 1e3, beam->ts_db, line.crossed, line.gain_change_db,
-        line.most_change_db, line.sa_change_db, line.psi_change_db, line.gain_se_db);
+        "{:4} {:6.1f} deg {:6.1f} kHz {:7.2f} dB {:6} {:+16.2f} ({:+.2f}) dB {:+7.2f} dB {:+8.2f} dB {:14.3f} dB\n",
+        fan, beam->elevation_deg, beam->frequency_hz / 1e3, beam->ts_db, line.crossed, line.gain_change_db,
+        line.most_change_db, line.sa_change_db, line.psi_change_db, line.largest_se_db);
     if (!line.left.empty()) left += fmt::format("; fan {}: {}", fan, spans(line.left));
   }
   std::vector<int> whole;

@@ -33,8 +33,18 @@ constexpr double kAround_widths = 2.0;
 
 double square(double x) { return x * x; }
 
+/// Samples, not more than there are: what a file tells of its pulse may be anything.
 int half_window(const ObservationFiles& o) {
-  return std::max(2, static_cast<int>(std::ceil(kPulsesInWindow * o.pulse_length_s / o.sample_interval_s)));
+  const double samples = std::max(2.0, std::ceil(kPulsesInWindow * o.pulse_length_s / o.sample_interval_s));
+  return static_cast<int>(std::min(samples, static_cast<double>(o.range.count)));
+}
+
+/// Whether a file tells a frequency and a pulse that a sounder may have: how long the sphere's series are, and over what
+/// band they are averaged, follows from them.
+bool is_of_a_sounder(const ChannelCalibration& c) {
+  constexpr double kLeastCycles = 4.0;  // of a pulse
+  return c.frequency_hz >= 1e3 && c.frequency_hz <= 2e6 && c.pulse_length_s <= 0.1 &&
+         c.pulse_length_s * c.frequency_hz >= kLeastCycles;
 }
 
 double spreading_db(const ChannelCalibration& c, double range_m) {
@@ -246,15 +256,15 @@ SphereBeams sphere_beams(const ObservationFiles& observation, const CalibrationP
     const ChannelCalibration c =
         channel_calibration(observation.config.beams[channel], first_head(observation, channel), calibration, nullptr,
                             observation.sound_speed_given ? observation.sound_speed_mps : 0.0);
-    const double elevation = rad_from_deg(grid.elevation_deg[row / static_cast<std::size_t>(grid.beams())]);
-    const double azimuth =
+    const double elevation_rad = rad_from_deg(grid.elevation_deg[row / static_cast<std::size_t>(grid.beams())]);
+    const double from_mounting_rad =
         rad_from_deg(grid.azimuth_deg[row % static_cast<std::size_t>(grid.beams())] - grid.mounting_azimuth_deg);
     FittedBeam stated;
     stated.level_db = 2.0 * (c.gain_db + c.sa_correction_db);
-    stated.width_across = rad_from_deg(grid.horizontal_width_deg[row]) * std::cos(azimuth);
-    stated.width_up = rad_from_deg(grid.vertical_width_deg[row]) * std::cos(elevation);
-    stated.centre = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
-    const bool sound = is_sound(c) && stated.width_across > 0.0 && stated.width_up > 0.0;
+    stated.width_across = rad_from_deg(grid.horizontal_width_deg[row]) * std::cos(from_mounting_rad);
+    stated.width_up = rad_from_deg(grid.vertical_width_deg[row]) * std::cos(elevation_rad);
+    stated.centre = {std::cos(elevation_rad) * std::sin(from_mounting_rad), std::sin(elevation_rad)};
+    const bool sound = is_sound(c) && is_of_a_sounder(c) && stated.width_across > 0.0 && stated.width_up > 0.0;
     out.calibration.push_back(c);
     out.sound.push_back(sound);
     out.ts_db.push_back(sound ? sphere_ts_db(params.sphere, params.water, c.frequency_hz, c.pulse_length_s) : kUnknown);

@@ -322,19 +322,6 @@ TEST_P(Surfaces, AgreesWithTheReference) {
   }
 }
 
-/// Every n by n pixels as one.
-RayImage reduced(const RayImage& large, int n) {
-  RayImage out{{large.size.width / n, large.size.height / n}, {}, {}};
-  out.rgba.resize(out.size.count());
-  for (int y = 0; y < large.size.height; ++y) {
-    for (int x = 0; x < large.size.width; ++x) {
-      auto& to = out.rgba[static_cast<std::size_t>(y / n * out.size.width + x / n)];
-      for (std::size_t c = 0; c < 4; ++c) to[c] += pixel(large, x, y)[c] / static_cast<float>(n * n);
-    }
-  }
-  return out;
-}
-
 /// The mean of sixteen frames is a picture of sixteen rays a pixel.
 TEST_P(Surfaces, FramesAtRestSmoothEdges) {
   VolumeRenderer& r = *renderer_;
@@ -345,7 +332,7 @@ TEST_P(Surfaces, FramesAtRestSmoothEdges) {
     VolumeView fine = seen;
     fine.size = {768, 768};
     const Rgba8 black{0, 0, 0, 255};
-    const Image truth = over(reduced(drawn(r, volume, table(0.0F, 1.0F), fine), 4), black);
+    const Image truth = over(scenes::reduced(drawn(r, volume, table(0.0F, 1.0F), fine), 4), black);
     const Image mean = over(mean_of(r, volume, table(0.0F, 1.0F), seen, 16), black);
     EXPECT_GT(psnr_db(mean, truth), 45.0) << static_cast<int>(mode);
     EXPECT_GT(worst_tile_psnr_db(mean, truth), 35.0) << static_cast<int>(mode);
@@ -356,7 +343,7 @@ TEST_P(Surfaces, FramesAtRestSmoothEdges) {
 
 /// Both back-ends look for the same light in the same frame.
 TEST_P(Surfaces, AgreesWithTheProcessorFrameByFrame) {
-  if (!GetParam()) return;  // it is the processor
+  if (!GetParam()) GTEST_SKIP() << "the processor against itself";
   const auto cpu = make_cpu_renderer();
   VolumeView seen = view(45.0, RayMode::volume_and_surface);
   seen.lighting = sky_alone(10.0F);

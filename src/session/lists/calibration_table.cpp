@@ -25,19 +25,6 @@ std::string absorption_from(const CalibrationParams& params, double recorded_db_
   return params.absorption == AbsorptionSource::file && recorded ? kRawFile : "Francois & Garrison";
 }
 
-/// As the first ping was sent.
-ChannelPing first_head(const ObservationFiles& observation, int channel) {
-  const ChannelTransmit& sent = observation.transmit[static_cast<std::size_t>(channel)];
-  ChannelPing head;
-  head.channel = channel;
-  head.frequency_hz = sent.frequency_hz;
-  head.transmit_power_w = sent.transmit_power_w;
-  head.pulse_length_s = sent.pulse_length_s;
-  head.sound_speed_mps = sent.sound_speed_mps;
-  head.absorption_db_per_m = sent.absorption_db_per_m;
-  return head;
-}
-
 const std::vector<ColumnOf<BeamInForce>>& calibration_columns() {
   using B = BeamInForce;
   static const std::vector<ColumnOf<B>> kColumns{
@@ -79,7 +66,7 @@ std::vector<BeamInForce> calibration_in_force(const ObservationFiles& observatio
   for (std::size_t row = 0; row < observation.grid->channel.size(); ++row) {
     const int channel = observation.grid->channel[row];
     if (channel < 0) continue;
-    const ChannelPing head = first_head(observation, channel);
+    const ChannelPing head = first_head(observation, static_cast<std::size_t>(channel));
     const BeamCalibration* line = table.of(channel);
     const ChannelCalibration figures =
         channel_calibration(observation.config.beams[static_cast<std::size_t>(channel)], head, params, line, given_mps);
