@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/middle.h"
 #include "base/units.h"
@@ -121,7 +122,8 @@ std::vector<EchoTop> echo_tops(std::span<const OffTop> echoes, std::size_t group
     tops = tops_of(sound, form, groups);
     std::vector<double> off;
     for (const OffTop& e : sound) off.push_back(std::abs(form.top_db(e) - tops[e.group].share_db));
-    const double spread_db = middle_of(off);
+    if (off.empty()) break;
+    const double spread_db = middle_of(std::move(off));
     std::erase_if(sound, [&](const OffTop& e) {
       return std::abs(form.top_db(e) - tops[e.group].share_db) > kFar * kStandardOverMiddleDeviation * spread_db;
     });

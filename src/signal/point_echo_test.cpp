@@ -67,5 +67,9 @@ TEST(EchoTops, TheTopIsFoundFromSamplesThatMissIt) {
   EXPECT_EQ(tops[0].echoes, 20);
 }
 
+TEST(EchoTops, OfNoEchoesNothingIsKnown) {
+  for (const EchoTop& top : echo_tops({}, 3)) EXPECT_EQ(top.echoes, 0);
+}
+
 }  // namespace
 }  // namespace sonar
