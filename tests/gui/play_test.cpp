@@ -61,5 +61,33 @@ TEST_F(Playing, SpaceShowsTwoPingsASecondPlusFiveAndTheEndStops) {
   EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
 }
 
+TEST_F(Playing, NGoesToASchoolAndStopsIt) {
+  press(Qt::Key_D, Qt::ControlModifier);
+  press(Qt::Key_Space);
+  ASSERT_TRUE(app_->playback->playing());
+  press(Qt::Key_N);
+  EXPECT_FALSE(app_->playback->playing());
+  ASSERT_TRUE(workspace().selected());
+  const std::int64_t ping = document().ping();
+  EXPECT_NE(in_ping(document().state().schools[*workspace().selected()]->masks, ping), nullptr);
+  tick(0.0);
+  tick(100.0);
+  EXPECT_EQ(document().ping(), ping);
+}
+
+TEST_F(Playing, CtrlSpaceHasTheFirstPingComeAfterTheLast) {
+  press(Qt::Key_Space, Qt::ControlModifier);
+  press(Qt::Key_End);
+  press(Qt::Key_Left);
+  press(Qt::Key_Space);
+  for (const std::int64_t next : {TestSurvey::kPings - 1, std::int64_t{0}, std::int64_t{1}}) {
+    tick(0.0);  // the ping is seen from now on
+    tick(0.55);
+    EXPECT_EQ(document().ping(), next);
+  }
+  EXPECT_TRUE(app_->playback->playing());
+  press(Qt::Key_Space);
+}
+
 }  // namespace
 }  // namespace sonar
