@@ -101,11 +101,11 @@ class ViewKeys : public QObject {
                        [&](const QAction* action) { return action->shortcuts().contains(asked); });
   }
 
-  /// The keyboard goes back to a view from a field that is done with, and from a view that is closed.
+  /// The keyboard goes back to a view from a field that is done with, and from what is closed: a view, the start page.
   void follow(const QWidget* before, QWidget* now) {
     if (QWidget* view = view_of(now)) last_ = view;
     if (QApplication::activeWindow() != &window_ || view_of(now) != nullptr) return;
-    const bool closed = before != nullptr && before == last_ && !before->isVisible();
+    const bool closed = before != nullptr && !before->isVisible();
     if (now != nullptr && !closed) return;
     QMetaObject::invokeMethod(
         this, [this] { give_to_view(); }, Qt::QueuedConnection);

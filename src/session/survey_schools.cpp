@@ -187,7 +187,8 @@ void go_to_ping(Workspace& workspace, std::size_t observation, std::int64_t ping
 
 void go_to_school(Workspace& workspace, const SurveySchool& school) {
   go_to_ping(workspace, school.name.observation, school.middle_ping());
-  if (const auto* there = in_ping(school.state->masks, school.middle_ping())) {
+  const auto* there = in_ping(school.state->masks, school.middle_ping());
+  if (there != nullptr && !workspace.slices_locked()) {
     lay_slices_through(workspace, middle_of(there->mask, school.observation->sector().beams()));
   }
   workspace.school.set(school.name);
