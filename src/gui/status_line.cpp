@@ -73,8 +73,8 @@ void add_offer(QStatusBar& status, AppModel& app, std::string_view id, const cha
   button->setObjectName(name);
   button->setToolTip(translated(action.tip));
   keep_own_keys(*button);
-  button->setFocusPolicy(
-      Qt::TabFocus);  // a click leaves the keyboard with the view: what follows is decided by letters
+  // A click leaves the keyboard with the view: what follows is decided by letters.
+  button->setFocusPolicy(Qt::TabFocus);
   status.addPermanentWidget(button);
   const auto show = [button, waits = std::move(waits), now = action.text_now] {
     const std::string text = now ? now() : std::string{};
