@@ -2,12 +2,16 @@
 #include "signal/background.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/check.h"
+#include "base/middle.h"
 #include "base/units.h"
 #include "signal/flag_kernels.h"
+#include "signal/noise_beside_water.h"
 #include "signal/row_kernels.h"
 
 namespace sonar {
@@ -18,72 +22,121 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using Row = std::span<const std::int16_t>;
 
-/// The far part of a row, and its last half and quarter.
-constexpr std::size_t kFarParts = 3;
+struct Block {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// The blocks of a row that levels are told of.
+std::vector<Block> blocks_of(std::size_t samples, const BackgroundParams& params) {
+  std::vector<Block> blocks;
+  if (params.method == BackgroundMethod::de_robertis) {
+    const auto length = static_cast<std::size_t>(params.block_samples);
+    for (std::size_t first = 0; first < samples; first += length) {
+      blocks.push_back({first, std::min(length, samples - first)});
+    }
+    return blocks;
+  }
+  const auto far = static_cast<std::size_t>(std::ceil(params.far_fraction * static_cast<double>(samples)));
+  const auto edge = [&](std::size_t k) { return samples - far + k * far / kFarBlocks; };
+  for (std::size_t k = 0; k < kFarBlocks; ++k) blocks.push_back({edge(k), edge(k + 1) - edge(k)});
+  return blocks;
+}
+
+/// Share of the samples of an exponential below the one of a rank, half of the times more and half less: levels of single
+/// pings enter a median.
+double share_at_rank(std::size_t rank, std::size_t data) {
+  return (static_cast<double>(rank) + 0.7) / (static_cast<double>(data) + 0.4);  // Benard's
+}
 
 /// in  samples with kNoData where they are flagged; it lies below all data, so ranks are shifted by its number
-double low_quantile_db(Row used, const BackgroundParams& params) {
-  const std::size_t data = count_data(used);
-  if (data == 0 || data < static_cast<std::size_t>(params.minimum_samples)) return kUnknown;
-  const auto rank = std::min(data - 1, static_cast<std::size_t>(params.quantile * static_cast<double>(data)));
-  const std::int16_t value = select_rank(used, used.size() - data + rank);
-  // The sample of this rank lies on average at this quantile of the distribution.
-  const double p = static_cast<double>(rank + 1) / static_cast<double>(data + 1);
-  return db_from_counts(value) - 10.0 * std::log10(-std::log1p(-p));
+std::int16_t low_quantile_level(Row block, std::size_t data, double quantile) {
+  const auto rank = std::min(data - 1, static_cast<std::size_t>(quantile * static_cast<double>(data)));
+  const std::int16_t value = select_rank(block, block.size() - data + rank);
+  return count_from_linear(linear_from_count(value) / -std::log1p(-share_at_rank(rank, data)));
 }
 
-void far_levels_db(Row row, const BackgroundParams& params, std::span<double> level_db) {
-  std::size_t recorded = row.size();
-  while (recorded > 0 && row[recorded - 1] == kNoData) --recorded;
-  double share = params.far_fraction;
-  for (double& level : level_db) {
-    const auto far = static_cast<std::size_t>(std::ceil(share * static_cast<double>(recorded)));
-    level = low_quantile_db(row.first(recorded).last(std::min(far, recorded)), params);
-    share /= 2.0;
-  }
-}
-
-/// Mean power of each block of a row, of which half at least is sound.
-void block_means_db(Row row, std::size_t block, std::span<double> level_db) {
-  std::size_t index = 0;
-  for (std::size_t first = 0; first < row.size(); first += block, ++index) {
-    double sum = 0.0;
-    std::size_t data = 0;
-    for (const std::int16_t count : row.subspan(first, std::min(block, row.size() - first))) {
-      if (count == kNoData) continue;
-      sum += linear_from_count(count);
-      ++data;
-    }
-    level_db[index] = 2 * data > block && sum > 0.0 ? db_from_linear(sum / static_cast<double>(data)) : kUnknown;
-  }
-}
-
-double median_level_db(std::vector<double>& known) {
-  if (known.empty()) return kUnknown;
-  std::sort(known.begin(), known.end());
-  const double high_db = known[known.size() / 2];
-  if (known.size() % 2 == 1) return high_db;
-  const double low_db = known[known.size() / 2 - 1];
-  return db_from_linear(0.5 * (linear_from_db(low_db) + linear_from_db(high_db)));
-}
-
-double linear_mean_db(std::span<const double> known_db) {
+std::int16_t mean_level(Row block, std::size_t data) {
   double sum = 0.0;
-  for (const double db : known_db) sum += linear_from_db(db);
-  return db_from_linear(sum / static_cast<double>(known_db.size()));
+  for (const std::int16_t count : block) sum += linear_from_count(count);
+  return sum > 0.0 ? count_from_linear(sum / static_cast<double>(data)) : kNoData;
 }
 
-/// Whether most beams go down that far from the whole of their far part to its weakest end. One beam may have heard a
-/// school or the surface before it was quiet; what all hear is water.
-bool falls(std::span<const double> whole_db, std::span<const double> weakest_db, double fall_db) {
-  std::size_t known = 0;
-  std::size_t falling = 0;
-  for (std::size_t row = 0; row < whole_db.size(); ++row) {
-    if (std::isnan(whole_db[row])) continue;
-    ++known;
-    falling += weakest_db[row] < whole_db[row] - fall_db ? 1U : 0U;
+std::int16_t median_level(std::span<std::int16_t> known) {
+  std::ranges::sort(known);
+  const std::int16_t high = known[known.size() / 2];
+  if (known.size() % 2 == 1) return high;
+  return count_from_linear(0.5 * (linear_from_count(high) + linear_from_count(known[known.size() / 2 - 1])));
+}
+
+/// Relative standard deviation of a level of several pings that holds noise alone: that of an exponential's quantile, and
+/// of a median over pings.
+double level_spread(std::size_t pings, int samples, const BackgroundParams& params) {
+  const double p = params.quantile;
+  const double data = std::max(1.0, params.far_fraction * samples / kFarBlocks);
+  const double single = std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p);
+  const double over_pings =
+      pings > 2 ? std::numbers::pi / 2.0 / static_cast<double>(pings) : 1.0 / static_cast<double>(pings);
+  return single * std::sqrt(over_pings);
+}
+
+/// Sv of each block that half of a fan's beams lie below, and their gain there; 0 where none is known.
+struct FanLevels {
+  std::array<double, kFarBlocks> sv{};
+  std::array<double, kFarBlocks> gain{};
+};
+
+FanLevels fan_levels(View3<const std::int16_t> levels, View3<const double> gain, int fan) {
+  FanLevels out;
+  std::vector<double> sv;
+  std::vector<double> gains;
+  for (int k = 0; k < levels.shape().samples; ++k) {
+    sv.clear();
+    gains.clear();
+    for (int beam = 0; beam < levels.shape().beams; ++beam) {
+      if (levels(fan, beam, k) == kNoData || !(gain(fan, beam, k) > 0.0)) continue;
+      sv.push_back(linear_from_count(levels(fan, beam, k)) * gain(fan, beam, k));
+      gains.push_back(gain(fan, beam, k));
+    }
+    if (sv.empty()) continue;
+    out.sv[static_cast<std::size_t>(k)] = middle_of(sv);
+    out.gain[static_cast<std::size_t>(k)] = middle_of(gains);
   }
-  return 2 * falling > known;
+  return out;
+}
+
+double fan_water_sv(const FanLevels& fan) {
+  std::vector<double> sv;
+  std::vector<double> gain;
+  for (std::size_t k = 0; k < kFarBlocks; ++k) {
+    if (!(fan.sv[k] > 0.0)) continue;
+    sv.push_back(fan.sv[k]);
+    gain.push_back(fan.gain[k]);
+  }
+  return uniform_water_sv(sv, gain);
+}
+
+/// Noise power of one row, linear; 0 where no level is known.
+double row_noise(Row levels, std::span<const double> gain, const FanLevels& fan, double water_sv, double spread) {
+  std::vector<double> power;
+  std::vector<double> water;
+  std::vector<double> usual;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (levels[k] == kNoData) continue;
+    const bool calibrated = gain[k] > 0.0;
+    power.push_back(linear_from_count(levels[k]));
+    water.push_back(calibrated ? water_sv / gain[k] : 0.0);
+    usual.push_back(calibrated ? fan.sv[k] / gain[k] : power.back());
+  }
+  return power.empty() ? 0.0 : noise_beside_water(power, water, usual, spread);
+}
+
+std::int16_t weakest_level(Row levels) {
+  std::int16_t weakest = kNoData;
+  for (const std::int16_t level : levels) {
+    if (level != kNoData && (weakest == kNoData || level < weakest)) weakest = level;
+  }
+  return weakest;
 }
 
 /// The count at or just above a level; outside the range of counts its end.
@@ -93,56 +146,95 @@ std::int16_t count_from_db(double db) {
 
 }  // namespace
 
-std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
-                                        const BackgroundParams& params) {
+Array3<std::int16_t> background_levels(View3<const std::int16_t> power, View3<const SampleFlags> flags,
+                                       const BackgroundParams& params) {
   SONAR_CHECK(power.shape() == flags.shape());
-  const std::size_t rows = power.shape().rows();
-  const auto samples = static_cast<std::size_t>(power.shape().samples);
-  const bool by_blocks = params.method == BackgroundMethod::de_robertis;
-  const auto block = static_cast<std::size_t>(params.block_samples);
-  const std::size_t figures = by_blocks ? (samples + block - 1) / block : kFarParts;
-  std::vector<double> level_db(rows * figures, kUnknown);
-  std::vector<std::int16_t> sound(samples);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const int index = static_cast<int>(row);
-    copy_unflagged(power.row(index), flags.row(index), kNotFiltered, 0, sound);
-    const std::span<double> out = std::span(level_db).subspan(row * figures, figures);
-    if (!by_blocks) {
-      far_levels_db(sound, params, out);
-    } else if (count_data(sound) >= static_cast<std::size_t>(params.minimum_samples)) {
-      block_means_db(sound, block, out);
+  const auto [fans, beams, samples] = power.shape();
+  const std::vector<Block> blocks = blocks_of(static_cast<std::size_t>(samples), params);
+  Array3<std::int16_t> levels({fans, beams, static_cast<int>(blocks.size())}, kNoData);
+  std::vector<std::int16_t> sound(static_cast<std::size_t>(samples));
+  for (int row = 0; row < fans * beams; ++row) {
+    copy_unflagged(power.row(row), flags.row(row), kNotFiltered, 0, sound);
+    const std::size_t before = blocks.empty() ? 0 : blocks.front().first;
+    if (count_data(std::span(sound).subspan(before)) < static_cast<std::size_t>(params.minimum_samples)) continue;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const Row block = std::span(sound).subspan(blocks[k].first, blocks[k].count);
+      const std::size_t data = count_data(block);
+      if (data == 0 || 2 * data < block.size()) continue;
+      levels.view().row(row)[k] = params.method == BackgroundMethod::de_robertis
+                                      ? mean_level(block, data)
+                                      : low_quantile_level(block, data, params.quantile);
+    }
+  }
+  return levels;
+}
+
+Array3<std::int16_t> levels_over_pings(std::span<const Array3<std::int16_t>* const> pings,
+                                       const BackgroundParams& params) {
+  SONAR_CHECK(!pings.empty());
+  Array3<std::int16_t> out(pings.front()->shape(), kNoData);
+  std::vector<std::int16_t> known;
+  for (std::size_t i = 0; i < out.all().size(); ++i) {
+    known.clear();
+    for (const auto* ping : pings) {
+      SONAR_CHECK(ping->shape() == out.shape());
+      if (ping->all()[i] != kNoData) known.push_back(ping->all()[i]);
+    }
+    if (known.empty()) continue;
+    out.all()[i] =
+        params.method == BackgroundMethod::de_robertis ? mean_level(known, known.size()) : median_level(known);
+  }
+  return out;
+}
+
+void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int16_t> levels) {
+  SONAR_CHECK(own.shape() == levels.shape());
+  for (int row = 0; row < static_cast<int>(own.shape().rows()); ++row) {
+    const std::int16_t own_weakest = weakest_level(own.row(row));
+    const std::int16_t weakest = weakest_level(levels.row(row));
+    if (own_weakest == kNoData || weakest == kNoData) continue;
+    if (own_weakest < weakest - counts_from_db(quiet_db)) std::ranges::copy(own.row(row), levels.row(row).begin());
+  }
+}
+
+Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParams& params) {
+  const auto [fans, beams, samples] = table.shape();
+  const std::vector<Block> blocks = blocks_of(static_cast<std::size_t>(samples), params);
+  Array3<double> gain({fans, beams, static_cast<int>(blocks.size())});
+  for (int row = 0; row < fans * beams; ++row) {
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const Row block = table.row(row).subspan(blocks[k].first, blocks[k].count);
+      double sum = 0.0;
+      for (const std::int16_t count : block) sum += linear_from_count(count);
+      if (count_data(block) == block.size() && !block.empty()) {
+        gain.view().row(row)[k] = sum / static_cast<double>(block.size());
+      }
+    }
+  }
+  return gain;
+}
+
+std::vector<double> noise_power_db(View3<const std::int16_t> levels, std::size_t pings, View3<const double> gain,
+                                   int samples, const BackgroundParams& params) {
+  std::vector<double> level_db;
+  if (params.method == BackgroundMethod::de_robertis) {
+    for (int row = 0; row < static_cast<int>(levels.shape().rows()); ++row) {
+      const std::int16_t weakest = weakest_level(levels.row(row));
+      level_db.push_back(weakest == kNoData ? kUnknown : std::min(db_from_counts(weakest), params.maximum_db));
+    }
+    return level_db;
+  }
+  SONAR_CHECK(gain.shape() == levels.shape() && levels.shape().samples == kFarBlocks);
+  const double spread = level_spread(pings, samples, params);
+  for (int fan = 0; fan < levels.shape().fans; ++fan) {
+    const FanLevels of_fan = fan_levels(levels, gain, fan);
+    const double water_sv = fan_water_sv(of_fan);
+    for (int beam = 0; beam < levels.shape().beams; ++beam) {
+      const double noise = row_noise(levels.row(fan, beam), gain.row(fan, beam), of_fan, water_sv, spread);
+      level_db.push_back(noise > 0.0 ? db_from_linear(noise) : kUnknown);
     }
   }
   return level_db;
-}
-
-std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
-                                       const BackgroundParams& params) {
-  if (pings.empty() || rows == 0) return {};
-  const std::size_t figures = pings.front().size() / rows;
-  const bool by_blocks = params.method == BackgroundMethod::de_robertis;
-  std::vector<double> weakest(rows, kUnknown);
-  std::vector<double> whole(rows, kUnknown);
-  std::vector<double> known;
-  for (std::size_t i = 0; i < rows * figures; ++i) {
-    known.clear();
-    for (const auto& ping : pings) {
-      SONAR_CHECK(ping.size() == rows * figures);
-      if (!std::isnan(ping[i])) known.push_back(ping[i]);
-    }
-    if (known.empty()) continue;
-    const double level_db = by_blocks ? std::min(linear_mean_db(known), params.maximum_db) : median_level_db(known);
-    weakest[i / figures] = std::fmin(weakest[i / figures], level_db);
-    if (i % figures == 0) whole[i / figures] = level_db;
-  }
-  return by_blocks || falls(whole, weakest, params.fall_db) ? weakest : whole;
-}
-
-void keep_quieter(std::span<const double> own_db, double quiet_db, std::span<double> level_db) {
-  SONAR_CHECK(own_db.size() == level_db.size());
-  for (std::size_t row = 0; row < own_db.size(); ++row) {
-    if (own_db[row] < level_db[row] - quiet_db) level_db[row] = own_db[row];
-  }
 }
 
 std::vector<double> noise_sv_db(double level_db, std::span<const std::int16_t> table) {

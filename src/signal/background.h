@@ -19,7 +19,6 @@ struct BackgroundParams {
   BackgroundMethod method = BackgroundMethod::low_quantile;
   double quantile = 0.2;
   double far_fraction = 0.75;
-  double fall_db = 1.5;
   int minimum_samples = 64;
   int block_samples = 26;
   double maximum_db = 0.0;
@@ -27,29 +26,24 @@ struct BackgroundParams {
 
 template <class Visitor>
 void describe(Visitor& v, BackgroundParams& p) {
-  v.choice("method", p.method, kBackgroundMethodNames,
-           "How background noise is estimated: low_quantile from the weak samples of a beam's far part, de_robertis "
-           "from its weakest block averaged over pings (De Robertis & Higginbottom 2007). Choose de_robertis where "
-           "echo fills the far part.");
-  v.field("quantile", p.quantile,
-          {.unit = "",
-           .min = 0.01,
-           .max = 0.9,
-           .text = "Method low_quantile: quantile of the power in a beam's far part from which noise is worked out; "
-                   "lower it where echo fills more of the far part."});
+  v.choice(
+      "method", p.method, kBackgroundMethodNames,
+      "How background noise is estimated: low_quantile from the weak samples of a beam's far part, where what fades "
+      "with range as uniform water does is water and what does not fade is noise; de_robertis from the beam's "
+      "weakest block averaged over pings (De Robertis & Higginbottom 2007), whatever made it.");
+  v.field(
+      "quantile", p.quantile,
+      {.unit = "",
+       .min = 0.01,
+       .max = 0.9,
+       .text = "Method low_quantile: quantile of the power in each block of a beam's far part from which its level is "
+               "worked out; lower it where schools fill more of a block."});
   v.field("far_fraction", p.far_fraction,
           {.unit = "",
            .min = 0.05,
            .max = 1,
-           .text = "Method low_quantile: share of a beam, counted from its far end, from which noise is estimated; "
-                   "lower it where echo reaches far out."});
-  v.field("fall_db", p.fall_db,
-          {.unit = "dB",
-           .min = 0,
-           .max = 100,
-           .text = "Method low_quantile: where most beams weaken by more than this towards their far end, noise is "
-                   "taken from the end alone, since echo fades with range and noise does not; lower it where "
-                   "reverberation reaches far out."});
+           .text = "Method low_quantile: share of a beam, counted from its far end, in which noise and water are told "
+                   "apart; lower it where the water near the ship is unlike that farther out."});
   v.field("minimum_samples", p.minimum_samples,
           {.unit = "samples",
            .min = 1,
@@ -70,31 +64,40 @@ void describe(Visitor& v, BackgroundParams& p) {
                    "where seabed or fish fill whole beams."});
 }
 
-/// What one ping tells of each beam's background, without the flagged samples: with low_quantile the levels of its far
-/// part and of that part's last half and last quarter, with de_robertis the mean power of each block of range, block by
-/// block. Only combine_background() makes levels of both: the weakest block of a single ping is weak by chance (4 dB
-/// below the mean, of blocks of 10 m).
+/// What one ping tells of the power in each beam without the flagged samples: with low_quantile that of kFarBlocks blocks
+/// of its far part, by the weak samples in each, with de_robertis the mean power of each block of range. A block half of
+/// which is flagged tells nothing, nor does a beam of too few samples.
 /// in      power [fan][beam][sample], counts re 1 W; flags, same shape
-/// out     [fan * beams + beam][block], dB re 1 W; NaN where too few samples are sound
+/// out     [fan][beam][block], counts re 1 W; kNoData where nothing is told
 /// source  noise power is exponentially distributed, so its mean is q_p / ln(1 / (1 - p)): Holmin et al. 2016 (low
 ///         quantile); De Robertis & Higginbottom 2007
-[[nodiscard]] std::vector<double> background_power_db(View3<const std::int16_t> power, View3<const SampleFlags> flags,
-                                                      const BackgroundParams& params);
+[[nodiscard]] Array3<std::int16_t> background_levels(View3<const std::int16_t> power, View3<const SampleFlags> flags,
+                                                     const BackgroundParams& params);
+inline constexpr int kFarBlocks = 12;
 
-/// Level of each row over pings. low_quantile: the median, of the whole far part unless most beams' ends lie lower;
-/// de_robertis: blocks averaged over pings, and of these the weakest, not above maximum_db. NaN are left out, a row
-/// without any stays NaN.
-/// in      one estimate per ping, all of one length, as background_power_db() gives them with the same params
-/// rows    of the grid
-/// out     [row]
-[[nodiscard]] std::vector<double> combine_background(std::span<const std::vector<double>> pings, std::size_t rows,
+/// The same over several pings: with low_quantile the median of each block, with de_robertis its mean (of single pings'
+/// blocks of 10 m the weakest lies 4 dB below the mean, by chance).
+/// in      at least one ping's levels, all of one shape, made with the same params
+[[nodiscard]] Array3<std::int16_t> levels_over_pings(std::span<const Array3<std::int16_t>* const> pings,
                                                      const BackgroundParams& params);
 
-/// Where a ping's own level lies so much below that of the pings round it, these were disturbed (a beam full of corrupted
-/// packets) and its own stands.
-/// in      own_db [row], of the ping alone; NaN tells nothing
-/// out     level_db [row]
-void keep_quieter(std::span<const double> own_db, double quiet_db, std::span<double> level_db);
+/// Where a ping's own weakest level of a beam lies so much below that of the pings round it, these were disturbed (a beam
+/// full of corrupted packets) and its own levels stand.
+/// in      own, as levels; beams of which it knows nothing are left as they are
+void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int16_t> levels);
+
+/// Mean over each block of levels of what the sonar equation adds to power, linear: noise of power N there has a mean Sv of N
+/// times this, and uniform water of Sv s a power of s over it.
+/// in      table [fan][beam][sample], sv_table() of each row
+/// out     [fan][beam][block] as background_levels() makes them with low_quantile; 0 where the table holds kNoData
+[[nodiscard]] Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParams& params);
+
+/// Noise power of each row, dB re 1 W. low_quantile: what is left of its levels when the water is taken off that its fan
+/// hears (noise_beside_water.h); de_robertis: the weakest level, not above maximum_db.
+/// in      levels of several pings; gain = block_gain(), not asked for with de_robertis; samples of a beam
+/// out     [row]; NaN where no level is known
+[[nodiscard]] std::vector<double> noise_power_db(View3<const std::int16_t> levels, std::size_t pings,
+                                                 View3<const double> gain, int samples, const BackgroundParams& params);
 
 /// Sv of the background at each sample: its power plus what the sonar equation adds there.
 /// in      level_db of the row, table = sv_table() of the row

@@ -8,7 +8,8 @@
 namespace sonar {
 namespace {
 
-constexpr std::array<std::string_view, 119> kGone = {
+constexpr std::array<std::string_view, 120> kGone = {
+    "background.fall_db",
     "detect.background_margin_db",
     "detect.background_rest_db",
     "detect.connectivity",

@@ -61,7 +61,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       tables_(observation, recipe.calibration),
       reckoned_(dead_reckoning(observation.navigation)),
       known_(known),
-      estimates_(observation.pings.size()),
+      levels_(observation.pings.size()),
       given_(observation.pings.size()) {
   for (std::size_t i = 0; i < reckoned_.pings.size(); ++i) {
     const Placement recorded = placement(static_cast<std::int64_t>(i));
@@ -137,12 +137,12 @@ PingGeometry Engine::ping_geometry(std::int64_t ping_index) const {
   return geometry;
 }
 
-std::vector<double> Engine::estimate(const PowerVolume& power) const {
+Array3<std::int16_t> Engine::levels_of(const PowerVolume& power) const {
   // Crops alone: interference, corrupted packets and schools are a minority of a beam's far samples, and the median over pings sees to
   // the rest.
   Array3<SampleFlags> flags = power.volume.flags;
   flag_near_field(ping_geometry(0), recipe_.flags.near_field, flags.view());
-  return background_power_db(power.volume.counts.view(), flags.view(), recipe_.background);
+  return background_levels(power.volume.counts.view(), flags.view(), recipe_.background);
 }
 
 KnownPings::Background Engine::background_of(std::int64_t ping_index) {
@@ -155,7 +155,7 @@ KnownPings::Background Engine::background_of(std::int64_t ping_index) {
   if (is_reduced((*loaded)->heads)) {
     background.given = reduced_background_db((*loaded)->heads, grid().row_of_channel());
   } else {
-    background.estimated = estimate(**loaded);
+    background.levels = levels_of(**loaded);
   }
   if (known_ != nullptr) {
     known_->backgrounds.put(keys().background(ping_index), std::make_shared<KnownPings::Background>(background));
@@ -165,15 +165,18 @@ KnownPings::Background Engine::background_of(std::int64_t ping_index) {
 
 Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, Work& work) {
   if (!recipe_.background_window.enabled) return {};
+  if (block_gain_.all().empty()) {
+    block_gain_ = block_gain(std::as_const(*tables_.of_first_ping()).view(), recipe_.background);
+  }
   const std::int64_t from = std::max<std::int64_t>(0, first - recipe_.background_window.pings_each_side);
   const std::int64_t to = std::min(pings() - 1, last + recipe_.background_window.pings_each_side);
   std::atomic<std::int64_t> done{0};
   work.for_each(to - from + 1, [&](std::int64_t i) {
-    auto& estimated = estimates_[static_cast<std::size_t>(from + i)];
+    auto& levels = levels_[static_cast<std::size_t>(from + i)];
     auto& given = given_[static_cast<std::size_t>(from + i)];
-    if (estimated.empty() && given.empty() && !is_bad(from + i)) {
+    if (levels.all().empty() && given.empty() && !is_bad(from + i)) {
       KnownPings::Background background = background_of(from + i);
-      estimated = std::move(background.estimated);
+      levels = std::move(background.levels);
       given = std::move(background.given);
     }
     work.progress("background", ++done, to - from + 1);
@@ -190,19 +193,18 @@ std::vector<float> Engine::background_db(std::int64_t ping_index) const {
   if (!recipe_.background_window.enabled) return {};
   if (const auto& given = given_[static_cast<std::size_t>(ping_index)]; !given.empty()) return given;
   const std::int64_t side = recipe_.background_window.pings_each_side;
-  std::vector<std::vector<double>> window;
+  std::vector<const Array3<std::int16_t>*> window;
   for (std::int64_t i = std::max<std::int64_t>(0, ping_index - side); i <= std::min(pings() - 1, ping_index + side);
        ++i) {
-    const auto& estimated = estimates_[static_cast<std::size_t>(i)];
-    if (!estimated.empty()) window.push_back(estimated);
+    const auto& of_ping = levels_[static_cast<std::size_t>(i)];
+    if (!of_ping.all().empty()) window.push_back(&of_ping);
   }
   if (window.empty()) return {};
-  const auto rows = static_cast<std::size_t>(grid().fans() * grid().beams());
-  std::vector<double> combined = combine_background(window, rows, recipe_.background);
-  const auto& own = estimates_[static_cast<std::size_t>(ping_index)];
-  if (!own.empty()) {
-    keep_quieter(combine_background({&own, 1}, rows, recipe_.background), recipe_.background_window.quiet_db, combined);
-  }
+  Array3<std::int16_t> levels = levels_over_pings(window, recipe_.background);
+  const auto& own = levels_[static_cast<std::size_t>(ping_index)];
+  if (!own.all().empty()) keep_quieter(own.view(), recipe_.background_window.quiet_db, levels.view());
+  const std::vector<double> combined = noise_power_db(std::as_const(levels).view(), window.size(), block_gain_.view(),
+                                                      observation_.range.count, recipe_.background);
   std::vector<float> rounded(combined.size());
   std::transform(combined.begin(), combined.end(), rounded.begin(), [](double v) { return static_cast<float>(v); });
   return rounded;

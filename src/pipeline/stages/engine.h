@@ -107,7 +107,7 @@ class Engine {
   using Power = std::shared_ptr<const PowerVolume>;
   [[nodiscard]] MedianParams filter_box() const;
   [[nodiscard]] Result<Power> power(std::int64_t ping_index);
-  [[nodiscard]] std::vector<double> estimate(const PowerVolume& power) const;
+  [[nodiscard]] Array3<std::int16_t> levels_of(const PowerVolume& power) const;
   [[nodiscard]] KnownPings::Background background_of(std::int64_t ping_index);
   [[nodiscard]] PingGeometry ping_geometry(std::int64_t ping_index) const;
   [[nodiscard]] Volume calibrated(std::int64_t ping_index, const PowerVolume& power, const Array3<std::int16_t>& table);
@@ -123,7 +123,8 @@ class Engine {
   DeadReckoning reckoned_;
   KnownPings* known_;
   std::optional<PingKeys> keys_;
-  std::vector<std::vector<double>> estimates_;  ///< [ping], empty = not estimated
+  Array3<double> block_gain_;                 ///< by the observation's first settings
+  std::vector<Array3<std::int16_t>> levels_;  ///< [ping] background_levels(), empty = not known
   std::vector<std::vector<float>>
       given_;  ///< [ping] background that a reduced file or a product brings along; else empty
   mutable std::mutex mutex_;

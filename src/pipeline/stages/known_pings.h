@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/array.h"
 #include "base/hash.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
@@ -59,8 +60,8 @@ class KeptByKey {
 /// What the stages up to detection made of an observation's pings.
 struct KnownPings {
   struct Background {
-    std::vector<double> estimated;  ///< by row, power, dB re 1 W
-    std::vector<float> given;       ///< by row, where a reduced file brings it
+    Array3<std::int16_t> levels;  ///< background_levels(); empty = none
+    std::vector<float> given;     ///< by row, where a reduced file brings it
   };
   /// What was found in the pings of a group (group_water.h).
   struct Group {

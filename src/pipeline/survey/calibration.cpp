@@ -120,6 +120,14 @@ CalibrationTables::Table CalibrationTables::of(std::span<const ChannelPing> head
   return tables_.emplace(key, std::move(table)).first->second;
 }
 
+CalibrationTables::Table CalibrationTables::of_first_ping() {
+  std::vector<ChannelPing> heads;
+  for (std::size_t channel = 0; channel < observation_.transmit.size(); ++channel) {
+    heads.push_back(first_head(observation_, channel));
+  }
+  return of(heads);
+}
+
 CalibrationTables::Table CalibrationTables::make(std::span<const ChannelPing> heads) const {
   const RangeAxis& range = observation_.range;
   auto table = std::make_shared<Array3<std::int16_t>>(

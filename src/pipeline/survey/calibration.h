@@ -41,6 +41,8 @@ class CalibrationTables {
 
   /// heads  RAW0 heads of a ping; a channel without one, or whose calibration is not sound, has kNoData in its row
   [[nodiscard]] Table of(std::span<const ChannelPing> heads);
+  /// With what the observation's first ping set.
+  [[nodiscard]] Table of_first_ping();
   /// From the observation's first settings: channels that cannot be calibrated, each named once, and whether pulses are
   /// in the gain tables; whether the stated beam angles can be.
   [[nodiscard]] Diagnostics diagnostics() const;
