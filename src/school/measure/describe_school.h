@@ -11,7 +11,7 @@ namespace sonar {
 /// Fills the columns of SchoolDescriptors and those of the box and the centre of mass, but for incidence_deg, which
 /// correct_sizes() knows. The row has its other columns already.
 /// shape  of the mask, its weight above 0
-/// cost   n log n in the mask's voxels
+/// cost   linear in the mask's voxels
 void describe_school(const MeasureInput& ping, const PingMask& mask, const MaskShape& shape, SchoolPingRow& row);
 
 /// Relative size of an echo across the beam: its width over that of the beam at the echo's own level. Below 1.5 or so the

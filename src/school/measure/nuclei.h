@@ -12,7 +12,7 @@ namespace sonar {
 /// through echo of half the strength or less. The highest one counts in any case.
 /// filtered  Sv counts; a voxel without data is passed over
 /// out       0 = no member has data
-/// cost      n log n in the mask's voxels at worst
+/// cost      linear in the mask's voxels, but for a factor below 5
 [[nodiscard]] int count_nuclei(const PingMask& mask, View3<const std::int16_t> filtered);
 
 }  // namespace sonar

@@ -118,6 +118,7 @@ std::string column_words(const ChartColumn& column) {
   std::replace(text.begin(), text.end(), '_', ' ');
   replace_beginning(text, "sv ", "Sv ");
   if (text == "snr") return "SNR";
+  if (text == "nasc") return "NASC";
   return text;
 }
 
