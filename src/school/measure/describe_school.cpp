@@ -55,7 +55,7 @@ void describe_form(const MeasureInput& ping, const PingMask& mask, const MaskSha
   row.box_thickness_m = box.thickness_m;
   row.box_bearing_deg = box.bearing_deg;
   row.box_tilt_deg = box.tilt_deg;
-  row.area_m2 = area_from_above_m2(body, *ping.sector);
+  row.area_m2 = area_from_above_m2(mask.runs, *ping.sector);
   row.equivalent_radius_m = std::cbrt(row.volume_m3 / (4.0 / 3.0 * std::numbers::pi));
   row.n_vacuoles = inside.vacuoles;
   row.vacuole_fraction = inside.vacuoles_m3 / (row.volume_m3 + inside.volume_m3);

@@ -198,7 +198,7 @@ TEST(PrincipalAxes, OfATurnedBody) {
       {{2 / 3.0, 2 / 3.0, 1 / 3.0}, {-2 / 3.0, 1 / 3.0, 2 / 3.0}, {1 / 3.0, -2 / 3.0, 2 / 3.0}}};
   const std::array<double, 3> variance{9.0, 4.0, 1.0};
   Covariance3 c{};
-  for (const std::size_t k : {2, 0, 1}) add_square(c, axes[k], variance[k]);
+  for (const std::size_t k : {2U, 0U, 1U}) add_square(c, axes[k], variance[k]);
   const PrincipalAxes found = principal_axes(c);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(found.variance[k], variance[k], 1e-12);
