@@ -19,7 +19,8 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
   with the filtered volume at faults and nothing at the seabed. What follows from them is: volume_corrected_m3 (the
   ellipsoid of these extents), sv_corrected_db.
 - surface_m2, sphericity, roughness, n_vacuoles, vacuole_fraction, n_nuclei, core_edge_db: not recounted. Their tests are
-  bodies whose figures are known. Nor are diner_nb_across, diner_nb_height and mass_latitude, mass_longitude; incidence_deg is of the extents that are not recounted.
+  bodies whose figures are known. Nor are diner_nb_across, diner_nb_height, bottom_distance_m, mass_latitude and
+  mass_longitude in school_pings.csv. incidence_deg is of the extents that are not recounted.
 - threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and
   confidences follow from it, not the other way round.
 - bottom_depth_m: not recounted. It is a plane through echoes of the seabed, no sample of which is a member.
@@ -303,6 +304,12 @@ def slope_covariance(t, xy):
     return best[1]
 
 
+MEDIANS = ("surface_m2", "area_m2", "equivalent_radius_m", "box_length_m", "box_width_m", "box_thickness_m", "sphericity",
+           "roughness", "n_vacuoles", "vacuole_fraction", "n_nuclei", "sv_variation", "sv_skewness", "sv_kurtosis",
+           "core_edge_db", "surface_distance_m", "bottom_distance_m", "horizontal_range_m", "incidence_deg",
+           "diner_nb_across", "diner_nb_height")
+
+
 def summary(o, rows):
     whole = [r for r in rows if r["touches_edge"] == 0]
     used = whole or rows
@@ -319,8 +326,11 @@ def summary(o, rows):
            "backscatter_calibration_se_db": math.nan, "backscatter_total_m2": mean("backscatter_total_m2")}
     errors = values("backscatter_total_se_m2")
     out["backscatter_total_se_m2"] = math.sqrt((errors**2).sum()) / len(errors) if len(errors) else math.nan
-    for name in ("volume_m3", "length_m", "width_m", "height_m"):
+    for name in ("volume_m3", "length_m", "width_m", "height_m", *MEDIANS):
         out[name] = median(name)
+    for name in ("sv_p5_db", "sv_p50_db", "sv_robust_mean_db"):
+        out[name] = db(name)
+    out["nasc_m2_nmi2"] = mean("nasc_m2_nmi2")
     if echo:
         sums = np.array([r["backscatter_m2"] for r in echo])
         out["backscatter_m2"] = sums.mean()

@@ -193,7 +193,7 @@ inline constexpr auto kDescriptorColumns = std::to_array<DescriptorColumn>({
     {"sv_skewness", "1", &SchoolDescriptors::sv_skewness},
     {"sv_kurtosis", "1", &SchoolDescriptors::sv_kurtosis},
     {"core_edge_db", "dB", &SchoolDescriptors::core_edge_db},
-    {"nasc_m2_nmi2", "m2 nmi-2", &SchoolDescriptors::nasc_m2_nmi2},
+    {"nasc_m2_nmi2", "m2 nautical_mile-2", &SchoolDescriptors::nasc_m2_nmi2},
     {"surface_distance_m", "m", &SchoolDescriptors::surface_distance_m},
     {"bottom_distance_m", "m", &SchoolDescriptors::bottom_distance_m},
     {"horizontal_range_m", "m", &SchoolDescriptors::horizontal_range_m},

@@ -51,7 +51,7 @@ TEST(ChartColumns, LabelsHaveUnitsAsPeopleWriteThem) {
   EXPECT_EQ(label("latitude"), "latitude (degrees north)");
   EXPECT_EQ(label("n_voxels"), "number of voxels");
   EXPECT_EQ(label("snr_db"), "SNR (dB)");
-  EXPECT_EQ(label("nasc_m2_nmi2"), "NASC (m² nmi⁻²)");
+  EXPECT_EQ(label("nasc_m2_nmi2"), "NASC (m² nautical mile⁻²)");
   EXPECT_EQ(label("surface_m2"), "surface (m²)");
   EXPECT_EQ(label("sv_variation"), "Sv variation");
 }
