@@ -18,6 +18,9 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
 - length_corrected_m, width_corrected_m, height_corrected_m: not recounted. They are moments of the echo round the mask,
   with the filtered volume at faults and nothing at the seabed. What follows from them is: volume_corrected_m3 (the
   ellipsoid of these extents), sv_corrected_db.
+- surface_m2, sphericity, roughness, n_vacuoles, vacuole_fraction, n_nuclei, core_edge_db: not recounted. Their tests are
+  bodies whose figures are known. Nor are diner_nb_across, diner_nb_height, bottom_distance_m, mass_latitude and
+  mass_longitude in school_pings.csv. incidence_deg is of the extents that are not recounted.
 - threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and
   confidences follow from it, not the other way round.
 - bottom_depth_m: not recounted. It is a plane through echoes of the seabed, no sample of which is a member.
@@ -71,11 +74,38 @@ def geometry(o, school, ping):
     length, width, depths = np.ptp(along), np.ptp(across), np.array(depths)
     axis = math.degrees(bearing) + (90 if width > length else 0)
     where = travel(lat, lon, math.hypot(e, n), math.atan2(e, n))
-    return {"n_voxels": len(fan), "n_beams": len(set(beam.tolist())), "n_fans": len(set(fan.tolist())),
+    corners = [rr * np.array([np.cos(el) * np.sin(a), np.cos(el) * np.cos(a), -np.sin(el)])
+               for el in (o.e[fan], o.e[fan + 1]) for a in (o.a[beam] + heading, o.a[beam + 1] + heading)
+               for rr in (near, far)]
+    return form(o, fan, beam, near, far, (e, n, z), np.stack((east, north, down)), w, corners) | {
+            "equivalent_radius_m": (volume.sum() / (4 / 3 * math.pi))**(1 / 3), "surface_distance_m": depths.min(),
+            "n_voxels": len(fan), "n_beams": len(set(beam.tolist())), "n_fans": len(set(fan.tolist())),
             "volume_m3": volume.sum(), "latitude": where[0], "longitude": where[1], "depth_m": depth + z,
             "range_m": math.sqrt(e * e + n * n + z * z), "bearing_deg": math.degrees(math.atan2(e, n)) % 360,
             "length_m": max(length, width), "width_m": min(length, width), "axis_deg": axis % 180,
             "depth_min_m": depths.min(), "depth_max_m": depths.max(), "height_m": np.ptp(depths)}
+
+
+def form(o, fan, beam, near, far, centre, places, weight, corners):
+    """The oriented box, and what is seen from above and from the sonar."""
+    off = places - np.array(centre)[:, None]
+    _, axes = np.linalg.eigh(weight * off @ off.T)
+    sides = sorted(((np.ptp([axis @ c for c in corners]), axis) for axis in axes.T), key=lambda s: -s[0])
+    east, north, down = sides[0][1]
+    bearing = math.degrees(math.atan2(east, north)) % 360
+    tilt = math.degrees(math.atan2(-down, math.hypot(east, north)))
+    cosines = np.stack((np.cos(o.e[fan]), np.cos(o.e[fan + 1])))
+    least, most = near * cosines.min(0), far * np.where(o.e[fan] * o.e[fan + 1] <= 0, 1, cosines.max(0))
+    area = 0.0
+    for b in set(beam.tolist()):
+        covered = 0.0
+        for start, end in sorted(zip(least[beam == b].tolist(), most[beam == b].tolist())):
+            start = max(start, covered)
+            area += (o.a[b + 1] - o.a[b]) * max(end**2 - start**2, 0) / 2
+            covered = max(covered, end)
+    return {"box_length_m": sides[0][0], "box_width_m": sides[1][0], "box_thickness_m": sides[2][0],
+            "box_bearing_deg": bearing % 180, "box_tilt_deg": -tilt if bearing >= 180 else tilt, "area_m2": area,
+            "horizontal_range_m": math.hypot(centre[0], centre[1])}
 
 
 FORE, AFT, TOP, BOTTOM, NEAR, FAR, SEABED, SURFACE, FLAGGED = (1 << i for i in range(9))
@@ -191,7 +221,8 @@ def echo(o, row, beams, channels):
     volume = o.cell_volumes(fan, beam, sample)
     whole, valid = volume.sum(), o.valid(school, ping)
     columns = ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "sv_corrected_db",
-               "backscatter_psi_error_db", "backscatter_calibration_se_db")
+               "backscatter_psi_error_db", "backscatter_calibration_se_db", "sv_p5_db", "sv_p50_db", "sv_robust_mean_db",
+               "sv_variation", "sv_skewness", "sv_kurtosis", "nasc_m2_nmi2", "mass_depth_m")
     out = dict.fromkeys(columns, math.nan)
     if valid is not None:
         channel, sample, volume = channel[valid], sample[valid], volume[valid]
@@ -221,7 +252,20 @@ def echo(o, row, beams, channels):
     out |= {"sv_mean_db": db(mean), "sv_p95_db": db(p95), "sv_max_db": db(rest.max()), "backscatter_m2": mean * whole}
     if noise.any():
         out["snr_db"] = db((rest * volume).sum() / (noise * volume).sum())
+    rank = lambda share: np.sort(rest)[math.ceil(share * len(rest)) - 1]
+    out |= {"sv_p5_db": db(rank(0.05)), "sv_p50_db": db(rank(0.5)), "nasc_m2_nmi2":
+            4 * math.pi * 1852**2 * out["backscatter_m2"] / row["area_m2"]}
     echo_m2 = rest * volume
+    if mean > 0:
+        middle = (rest >= rank(0.05)) & (rest <= rank(0.95))
+        share = lambda p: (1 - math.log(1 - p)) * (1 - p)  # of an exponential's mean, above its quantile
+        kept = (share(0.05) - share(0.95)) / 0.9
+        out["sv_robust_mean_db"] = db(echo_m2[middle].sum() / volume[middle].sum() / kept)
+        moment = lambda k: ((rest - mean)**k * volume).sum() / volume.sum()
+        out["sv_variation"] = math.sqrt(moment(2)) / mean
+        out["sv_skewness"], out["sv_kurtosis"] = moment(3) / moment(2)**1.5, moment(4) / moment(2)**2 - 3
+        down = -(o.first + sample * o.dr) * np.sin(o.elevation[fan if valid is None else fan[valid]])
+        out["mass_depth_m"] = float(o.pings["transducer_depth"][ping]) + (echo_m2 * down).sum() / echo_m2.sum()
     if echo_m2.sum() > 0:
         out["backscatter_psi_error_db"] = db(echo_m2.sum() / (echo_m2 * other).sum())
         out["backscatter_calibration_se_db"] = (echo_m2 * error).sum() / echo_m2.sum()
@@ -260,6 +304,12 @@ def slope_covariance(t, xy):
     return best[1]
 
 
+MEDIANS = ("surface_m2", "area_m2", "equivalent_radius_m", "box_length_m", "box_width_m", "box_thickness_m", "sphericity",
+           "roughness", "n_vacuoles", "vacuole_fraction", "n_nuclei", "sv_variation", "sv_skewness", "sv_kurtosis",
+           "core_edge_db", "surface_distance_m", "bottom_distance_m", "horizontal_range_m", "incidence_deg",
+           "diner_nb_across", "diner_nb_height")
+
+
 def summary(o, rows):
     whole = [r for r in rows if r["touches_edge"] == 0]
     used = whole or rows
@@ -276,8 +326,11 @@ def summary(o, rows):
            "backscatter_calibration_se_db": math.nan, "backscatter_total_m2": mean("backscatter_total_m2")}
     errors = values("backscatter_total_se_m2")
     out["backscatter_total_se_m2"] = math.sqrt((errors**2).sum()) / len(errors) if len(errors) else math.nan
-    for name in ("volume_m3", "length_m", "width_m", "height_m"):
+    for name in ("volume_m3", "length_m", "width_m", "height_m", *MEDIANS):
         out[name] = median(name)
+    for name in ("sv_p5_db", "sv_p50_db", "sv_robust_mean_db"):
+        out[name] = db(name)
+    out["nasc_m2_nmi2"] = mean("nasc_m2_nmi2")
     if echo:
         sums = np.array([r["backscatter_m2"] for r in echo])
         out["backscatter_m2"] = sums.mean()

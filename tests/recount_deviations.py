@@ -8,8 +8,9 @@ import math
 TOLERANCE = {"latitude": 2e-9, "longitude": 4e-9, "axis_deg": 1e-4, "bearing_deg": 1e-6, "speed_mps": 1e-5,
              "speed_se_mps": 1e-5, "course_deg": 1e-2, "vertical_speed_mps": 1e-6, "sv_mean_db": 1e-6,
              "sv_p95_db": 1e-6, "sv_max_db": 1e-6, "snr_db": 1e-6, "sv_corrected_db": 1e-6,
+             "sv_p5_db": 1e-6, "sv_p50_db": 1e-6, "sv_robust_mean_db": 1e-6, "box_bearing_deg": 1e-3, "box_tilt_deg": 1e-3,
              "backscatter_psi_error_db": 1e-6, "backscatter_calibration_se_db": 1e-6}
-TURN = {"bearing_deg": 360, "course_deg": 360, "axis_deg": 180, "longitude": 360}
+TURN = {"bearing_deg": 360, "course_deg": 360, "axis_deg": 180, "box_bearing_deg": 180, "longitude": 360}
 
 
 class Deviations:

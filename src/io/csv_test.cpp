@@ -20,14 +20,23 @@ TEST(Csv, header_is_the_published_one) {
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,"
             "speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,"
             "decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school\n");
+            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+            "surface_m2,area_m2,equivalent_radius_m,box_length_m,box_width_m,box_thickness_m,sphericity,"
+            "roughness,n_vacuoles,vacuole_fraction,n_nuclei,sv_p5_db,sv_p50_db,sv_robust_mean_db,"
+            "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
+            "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height\n");
   EXPECT_EQ(csv_text(std::vector<SchoolPingRow>{}),
             "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,"
             "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"
             "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
             "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
             "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,survey_school\n");
+            "backscatter_total_m2,backscatter_total_se_m2,survey_school,"
+            "surface_m2,area_m2,equivalent_radius_m,box_length_m,box_width_m,box_thickness_m,sphericity,"
+            "roughness,n_vacuoles,vacuole_fraction,n_nuclei,sv_p5_db,sv_p50_db,sv_robust_mean_db,"
+            "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
+            "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height,"
+            "box_bearing_deg,box_tilt_deg,mass_latitude,mass_longitude,mass_depth_m\n");
 }
 
 TEST(Csv, rows_read_back) {
@@ -60,9 +69,13 @@ TEST(Csv, a_table_from_before_a_column_came_is_whole) {
   // As it was written before schools had names: the last columns are not there.
   const std::string later =
       ",name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-      "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school\n";
+      "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+      "surface_m2,area_m2,equivalent_radius_m,box_length_m,box_width_m,box_thickness_m,sphericity,"
+      "roughness,n_vacuoles,vacuole_fraction,n_nuclei,sv_p5_db,sv_p50_db,sv_robust_mean_db,"
+      "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
+      "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height\n";
   text.replace(text.find(later), later.size() - 1, "");
-  text.replace(text.find("last,,,,,,,0\n"), 12, "last");
+  text.replace(text.find("last,,,,,,,0,"), text.size() - text.find("last,,,,,,,0,") - 1, "last");
   const auto table = parse_csv(text, "old.csv");
   ASSERT_TRUE(table);
   const auto back = csv_rows<SchoolRow>(*table);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -30,8 +32,37 @@ inline constexpr std::int32_t kTouchesEdge = 255;
 /// The centre of a mask cut here is not the school's centre along the ship or along range.
 inline constexpr std::int32_t kCutsCentre = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
 
+/// Form, echo, place and resolution of a school, in one ping or as a median over several. NaN = unknown.
+struct SchoolDescriptors {
+  double surface_m2 = kUnknown;
+  double area_m2 = kUnknown;
+  double equivalent_radius_m = kUnknown;
+  double box_length_m = kUnknown;
+  double box_width_m = kUnknown;
+  double box_thickness_m = kUnknown;
+  double sphericity = kUnknown;
+  double roughness = kUnknown;
+  double n_vacuoles = kUnknown;  ///< a count; a number that may be unknown, as in products of older versions
+  double vacuole_fraction = kUnknown;
+  double n_nuclei = kUnknown;  ///< the same
+  double sv_p5_db = kUnknown;
+  double sv_p50_db = kUnknown;
+  double sv_robust_mean_db = kUnknown;
+  double sv_variation = kUnknown;
+  double sv_skewness = kUnknown;
+  double sv_kurtosis = kUnknown;
+  double core_edge_db = kUnknown;
+  double nasc_m2_nmi2 = kUnknown;
+  double surface_distance_m = kUnknown;
+  double bottom_distance_m = kUnknown;
+  double horizontal_range_m = kUnknown;
+  double incidence_deg = kUnknown;
+  double diner_nb_across = kUnknown;
+  double diner_nb_height = kUnknown;
+};
+
 /// One school in one ping: a row of school_pings.csv. NaN = unknown.
-struct SchoolPingRow {
+struct SchoolPingRow : SchoolDescriptors {
   std::string observation;
   std::int64_t school_id = 0;
   std::int64_t ping_index = 0;
@@ -73,6 +104,12 @@ struct SchoolPingRow {
   double backscatter_total_m2 = kUnknown;
   double backscatter_total_se_m2 = kUnknown;
   std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
+  // beside the descriptors
+  double box_bearing_deg = kUnknown;
+  double box_tilt_deg = kUnknown;
+  double mass_latitude = kUnknown;
+  double mass_longitude = kUnknown;
+  double mass_depth_m = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -81,7 +118,7 @@ inline constexpr std::array<std::string_view, 4> kEndNames{"", "first", "last", 
 [[nodiscard]] constexpr bool ends_last(std::string_view ends) { return ends == kEndNames[2] || ends == kEndNames[3]; }
 
 /// One school track: a row of schools.csv.
-struct SchoolRow {
+struct SchoolRow : SchoolDescriptors {
   std::string observation;
   std::int64_t school_id = 0;
   std::string continues;
@@ -130,6 +167,41 @@ struct DegreesColumn {
   double& value;
 };
 
+/// A column of SchoolDescriptors.
+struct DescriptorColumn {
+  std::string_view name;
+  std::string_view unit;
+  double SchoolDescriptors::*value;
+};
+/// In the order of the tables.
+inline constexpr auto kDescriptorColumns = std::to_array<DescriptorColumn>({
+    {"surface_m2", "m2", &SchoolDescriptors::surface_m2},
+    {"area_m2", "m2", &SchoolDescriptors::area_m2},
+    {"equivalent_radius_m", "m", &SchoolDescriptors::equivalent_radius_m},
+    {"box_length_m", "m", &SchoolDescriptors::box_length_m},
+    {"box_width_m", "m", &SchoolDescriptors::box_width_m},
+    {"box_thickness_m", "m", &SchoolDescriptors::box_thickness_m},
+    {"sphericity", "1", &SchoolDescriptors::sphericity},
+    {"roughness", "1", &SchoolDescriptors::roughness},
+    {"n_vacuoles", "1", &SchoolDescriptors::n_vacuoles},
+    {"vacuole_fraction", "1", &SchoolDescriptors::vacuole_fraction},
+    {"n_nuclei", "1", &SchoolDescriptors::n_nuclei},
+    {"sv_p5_db", "dB re 1 m-1", &SchoolDescriptors::sv_p5_db},
+    {"sv_p50_db", "dB re 1 m-1", &SchoolDescriptors::sv_p50_db},
+    {"sv_robust_mean_db", "dB re 1 m-1", &SchoolDescriptors::sv_robust_mean_db},
+    {"sv_variation", "1", &SchoolDescriptors::sv_variation},
+    {"sv_skewness", "1", &SchoolDescriptors::sv_skewness},
+    {"sv_kurtosis", "1", &SchoolDescriptors::sv_kurtosis},
+    {"core_edge_db", "dB", &SchoolDescriptors::core_edge_db},
+    {"nasc_m2_nmi2", "m2 nautical_mile-2", &SchoolDescriptors::nasc_m2_nmi2},
+    {"surface_distance_m", "m", &SchoolDescriptors::surface_distance_m},
+    {"bottom_distance_m", "m", &SchoolDescriptors::bottom_distance_m},
+    {"horizontal_range_m", "m", &SchoolDescriptors::horizontal_range_m},
+    {"incidence_deg", "degrees", &SchoolDescriptors::incidence_deg},
+    {"diner_nb_across", "1", &SchoolDescriptors::diner_nb_across},
+    {"diner_nb_height", "1", &SchoolDescriptors::diner_nb_height},
+});
+
 /// Visits the columns of a row in their fixed order: v(name, unit, member) with member std::string&, std::int64_t&,
 /// double&, TimeColumn or DegreesColumn. CSV, netCDF and map layers are visitors of this one list.
 template <class Visitor>
@@ -175,6 +247,13 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("backscatter_total_m2", "m2", r.backscatter_total_m2);
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
   v("survey_school", "1", r.survey_school);
+  // form, echo, place and resolution
+  for (const DescriptorColumn& d : kDescriptorColumns) v(d.name, d.unit, r.*d.value);
+  v("box_bearing_deg", "degrees", r.box_bearing_deg);
+  v("box_tilt_deg", "degrees", r.box_tilt_deg);
+  v("mass_latitude", "degrees_north", DegreesColumn{r.mass_latitude});
+  v("mass_longitude", "degrees_east", DegreesColumn{r.mass_longitude});
+  v("mass_depth_m", "m", r.mass_depth_m);
 }
 
 template <class Visitor>
@@ -215,13 +294,27 @@ void columns(Visitor& v, SchoolRow& r) {
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
   v("ended_at_reach", "", r.ended_at_reach);
   v("survey_school", "1", r.survey_school);
+  // form, echo, place and resolution
+  for (const DescriptorColumn& d : kDescriptorColumns) v(d.name, d.unit, r.*d.value);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
-  return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db" ||
-         column == "backscatter_total_m2" || column == "backscatter_total_se_m2" || column == "ended_at_reach" ||
-         column == "survey_school";
+  constexpr std::string_view kLater[] = {"name",
+                                         "backscatter_psi_error_db",
+                                         "backscatter_calibration_se_db",
+                                         "backscatter_total_m2",
+                                         "backscatter_total_se_m2",
+                                         "ended_at_reach",
+                                         "survey_school",
+                                         "box_bearing_deg",
+                                         "box_tilt_deg",
+                                         "mass_latitude",
+                                         "mass_longitude",
+                                         "mass_depth_m"};
+  return std::find(std::begin(kLater), std::end(kLater), column) != std::end(kLater) ||
+         std::any_of(kDescriptorColumns.begin(), kDescriptorColumns.end(),
+                     [&](const DescriptorColumn& one) { return one.name == column; });
 }
 
 }  // namespace sonar

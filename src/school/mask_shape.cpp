@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "school/mask_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -49,6 +50,39 @@ MaskShape shape_of(const PingMask& mask, const Sector& sector) {
     for (std::size_t b = a; b < 3; ++b, ++k) shape.covariance[k] = square[k] / shape.weight - c[a] * c[b];
   }
   return shape;
+}
+
+PrincipalAxes principal_axes(const Covariance3& c) {
+  constexpr int kSweeps = 12;  // each squares what is left off the diagonal
+  std::array<Vector3, 3> m{{{c[0], c[1], c[2]}, {c[1], c[3], c[4]}, {c[2], c[4], c[5]}}};
+  std::array<Vector3, 3> columns{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // the axes, so far
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (std::size_t p = 0; p < 2; ++p) {
+      for (std::size_t q = p + 1; q < 3; ++q) {
+        if (m[p][q] == 0.0) continue;
+        const double angle = 0.5 * std::atan2(2.0 * m[p][q], m[p][p] - m[q][q]);
+        const double cosine = std::cos(angle);
+        const double sine = std::sin(angle);
+        const auto turn = [&](double& a, double& b) {
+          const double old = a;
+          a = cosine * old + sine * b;
+          b = cosine * b - sine * old;
+        };
+        for (std::size_t k = 0; k < 3; ++k) turn(m[k][p], m[k][q]);
+        for (std::size_t k = 0; k < 3; ++k) turn(m[p][k], m[q][k]);
+        for (std::size_t k = 0; k < 3; ++k) turn(columns[p][k], columns[q][k]);
+        m[p][q] = m[q][p] = 0.0;
+      }
+    }
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
+  PrincipalAxes out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.variance[k] = m[order[k]][order[k]];
+    out.axis[k] = columns[order[k]];
+  }
+  return out;
 }
 
 HorizontalAxes horizontal_axes(const Covariance3& covariance, double heading_rad) {

@@ -25,6 +25,14 @@ struct MaskShape {
 };
 [[nodiscard]] MaskShape shape_of(const PingMask& mask, const Sector& sector);
 
+/// Axes along which a covariance has no mixed terms.
+struct PrincipalAxes {
+  std::array<double, 3> variance{};  ///< falling
+  std::array<Vector3, 3> axis{};     ///< unit vectors, each square to the others
+};
+/// source  Jacobi's method (Golub & Van Loan, Matrix Computations, section 8.5)
+[[nodiscard]] PrincipalAxes principal_axes(const Covariance3& covariance);
+
 /// The horizontal part of a covariance of the sonar frame, turned to east and north.
 struct HorizontalAxes {
   double major_variance = 0.0;

@@ -78,6 +78,19 @@ NeighbourRows neighbour_rows(int row, const Shape3& shape, Connectivity connecti
   return rows;
 }
 
+std::vector<Run> merged_runs(std::span<const Run> runs) {
+  std::vector<Run> apart;
+  for (const Run& run : runs) {
+    Run* last = apart.empty() ? nullptr : &apart.back();
+    if (last != nullptr && last->row == run.row && run.first_sample <= last->end()) {
+      last->count = std::max(last->end(), run.end()) - last->first_sample;
+    } else {
+      apart.push_back(run);
+    }
+  }
+  return apart;
+}
+
 std::vector<int> index_rows(std::span<const Run> runs, std::size_t rows) {
   std::vector<int> first(rows + 1, 0);
   for (const Run& run : runs) ++first[static_cast<std::size_t>(run.row) + 1];

@@ -80,7 +80,24 @@ struct Components {
 };
 [[nodiscard]] Components label_runs(std::span<const Run> runs, const Shape3& shape, Connectivity connectivity);
 
+/// Sorted runs that may overlap or touch, as runs that do not.
+[[nodiscard]] std::vector<Run> merged_runs(std::span<const Run> runs);
+
 /// Row -> range of its runs in a sorted list: first[row] .. first[row + 1].
 [[nodiscard]] std::vector<int> index_rows(std::span<const Run> runs, std::size_t rows);
+
+/// Calls visit(first, end) for each stretch of a run that another row's runs leave uncovered.
+/// other  runs of one row, sorted
+template <class Visit>
+void for_each_uncovered(const Run& run, std::span<const Run> other, Visit visit) {
+  int s = run.first_sample;
+  for (const Run& cover : other) {
+    if (cover.end() <= s) continue;
+    if (cover.first_sample >= run.end()) break;
+    if (cover.first_sample > s) visit(s, cover.first_sample);
+    s = cover.end();
+  }
+  if (s < run.end()) visit(s, run.end());
+}
 
 }  // namespace sonar

@@ -186,6 +186,10 @@ PING_FAMILIES = {
     "sizes": ("volume_m3", "length_m", "width_m", "height_m", "axis_deg", "depth_min_m", "depth_max_m"),
     "echo": ("sv_mean_db", "sv_p95_db", "sv_max_db", "backscatter_m2", "snr_db", "valid_fraction",
              "backscatter_psi_error_db"),
+    "form": ("equivalent_radius_m", "box_length_m", "box_width_m", "box_thickness_m", "box_bearing_deg", "box_tilt_deg",
+             "surface_distance_m", "horizontal_range_m"),
+    "spread": ("sv_p5_db", "sv_p50_db", "sv_robust_mean_db", "sv_variation", "sv_skewness", "sv_kurtosis", "nasc_m2_nmi2",
+               "mass_depth_m"),
     "corrected": ("volume_corrected_m3", "sv_corrected_db"),
     "edges": ("edge_flags", "edge_fraction", "touches_edge"),
     "others": ("provisional",),
@@ -196,10 +200,11 @@ SCHOOL_FAMILIES = {
     "sizes": ("volume_m3", "volume_corrected_m3", "length_m", "width_m", "height_m"),
     "echo": ("sv_mean_db", "sv_corrected_db", "backscatter_m2", "backscatter_psi_error_db",
              "backscatter_total_m2", "backscatter_total_se_m2"),
+    "form": ("surface_m2", "area_m2", "box_length_m", "sphericity", "n_nuclei", "sv_robust_mean_db", "nasc_m2_nmi2"),
     "motion": ("speed_mps", "speed_se_mps", "course_deg", "vertical_speed_mps"),
 }
 # Changes that matter to somebody: 1 cm on the map, a tenth of a degree, 1 mm/s; all others a ten-thousandth.
-CHANGE = {"latitude": 1e-7, "longitude": 2e-7, "course_deg": 0.1, "axis_deg": 0.1, "speed_mps": 1e-3, "speed_se_mps": 1e-3,
+CHANGE = {"latitude": 1e-7, "longitude": 2e-7, "course_deg": 0.1, "axis_deg": 0.1, "box_bearing_deg": 0.1, "box_tilt_deg": 0.1, "speed_mps": 1e-3, "speed_se_mps": 1e-3,
           "vertical_speed_mps": 1e-3, "edge_flags": 128}
 
 

@@ -21,13 +21,22 @@ SCHOOL_PINGS = (
     "valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,height_corrected_m,sv_corrected_db,snr_db,"
     "threshold_db,edge_flags,edge_fraction,touches_edge,bottom_depth_m,provisional,backscatter_psi_error_db,"
     "backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,survey_school,"
+    "surface_m2,area_m2,equivalent_radius_m,box_length_m,box_width_m,box_thickness_m,sphericity,roughness,"
+    "n_vacuoles,vacuole_fraction,n_nuclei,sv_p5_db,sv_p50_db,sv_robust_mean_db,sv_variation,sv_skewness,"
+    "sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,bottom_distance_m,horizontal_range_m,"
+    "incidence_deg,diner_nb_across,diner_nb_height,box_bearing_deg,box_tilt_deg,mass_latitude,mass_longitude,"
+    "mass_depth_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
     "comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+    "surface_m2,area_m2,equivalent_radius_m,box_length_m,box_width_m,box_thickness_m,sphericity,roughness,"
+    "n_vacuoles,vacuole_fraction,n_nuclei,sv_p5_db,sv_p50_db,sv_robust_mean_db,sv_variation,sv_skewness,"
+    "sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,bottom_distance_m,horizontal_range_m,"
+    "incidence_deg,diner_nb_across,diner_nb_height").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

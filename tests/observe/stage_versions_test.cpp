@@ -43,8 +43,8 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 15, "377014ec67318b80c167d6dd11887fbb"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 15, "45b5f5895a2d648286b5ad367d7c2f1f"},
-    {"summarise", 5, "76cf4fd3ac0c877036cdd8919c04b4da"},
+    {"measure", 16, "45b5f5895a2d648286b5ad367d7c2f1f"},
+    {"summarise", 6, "76cf4fd3ac0c877036cdd8919c04b4da"},
 }};
 
 class Digest {

@@ -76,7 +76,10 @@ MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std
   SchoolPingRow& row = school.row;
   const PingNavigation& at = observation.navigation[static_cast<std::size_t>(ping.ping_index)];
   // Whoever does not know which way the ship lay knows neither bearing nor place.
-  if (std::isnan(at.heading_deg)) row.latitude = row.longitude = row.bearing_deg = row.axis_deg = kUnknown;
+  if (std::isnan(at.heading_deg)) {
+    row.latitude = row.longitude = row.bearing_deg = row.axis_deg = kUnknown;
+    row.mass_latitude = row.mass_longitude = row.box_bearing_deg = row.box_tilt_deg = kUnknown;
+  }
   row.observation = observation.name;
   row.school_id = all[index].school->decided.school_id;
   row.ping_index = ping.ping_index;

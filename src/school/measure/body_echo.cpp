@@ -20,20 +20,6 @@ namespace {
 /// Standard deviation of a two-way Gaussian beam from its one-way -3 dB width.
 double two_way_sigma_rad(double width_deg) { return rad_from_deg(width_deg) / (4.0 * std::sqrt(std::numbers::ln2)); }
 
-/// Sorted runs that may overlap or touch, as runs that do not.
-std::vector<Run> merged(const std::vector<Run>& runs) {
-  std::vector<Run> apart;
-  for (const Run& run : runs) {
-    Run* last = apart.empty() ? nullptr : &apart.back();
-    if (last != nullptr && last->row == run.row && run.first_sample <= last->end()) {
-      last->count = std::max(last->end(), run.end()) - last->first_sample;
-    } else {
-      apart.push_back(run);
-    }
-  }
-  return apart;
-}
-
 PingMask with_confidence(std::vector<Run> runs) {
   PingMask mask;
   std::size_t voxels = 0;
@@ -51,7 +37,7 @@ PingMask with_beam_edges(const PingMask& mask, const Shape3& shape) {
     for (int n = 0; n < rows.count; ++n) all.push_back({rows.row[n], run.first_sample, run.count});
   }
   std::sort(all.begin(), all.end());
-  return with_confidence(merged(all));
+  return with_confidence(merged_runs(all));
 }
 
 /// Leaves out the beam-edge seabed echo, but for members.
@@ -83,7 +69,7 @@ std::vector<Run> surroundings(const MeasureInput& ping, const PingMask& mask, co
     }
   }
   std::sort(columns.begin(), columns.end());
-  const std::vector<Run> wide = merged(columns);
+  const std::vector<Run> wide = merged_runs(columns);
   PingMask united;
   const int first_fan = std::max(0, box.first_fan - params.reach_fans);
   const int last_fan = std::min(shape.fans - 1, box.last_fan + params.reach_fans);

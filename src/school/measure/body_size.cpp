@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "base/units.h"
 #include "school/mask_shape.h"
 #include "school/measure/vertical_fit.h"
 
@@ -62,6 +63,7 @@ std::optional<BodySighting> body_sighting(const BodyEcho& echo, const HeightLike
   BodySighting out;
   out.length_variance = axes.major_variance;
   out.width_variance = axes.minor_variance;
+  out.length_axis_rad = axes.major_bearing_rad;
   out.length = along(axes.major_bearing_rad);
   out.width = along(axes.major_bearing_rad + std::numbers::pi / 2.0);
   out.line_of_sight = along(std::atan2(echo.centre.y, echo.centre.x));
@@ -70,14 +72,22 @@ std::optional<BodySighting> body_sighting(const BodyEcho& echo, const HeightLike
   return out;
 }
 
-BodySize body_size(const BodySighting& body, const BodyShape& shape, const MeasureParams& params) {
+BodySize body_size(const BodySighting& body, const BodyShape& shape, const Point<Sonar>& centre,
+                   const MeasureParams& params) {
   const auto extent = [&](double variance, double by_shape, double least_variance) {
     const double size_m = 2.0 * std::sqrt(by_shape * std::max(variance, 0.0));
     return variance > least_variance && size_m >= params.min_extent_m ? size_m : kUnknown;
   };
   const double least_variance = params.min_level_share * body.blur_variance;
-  return {extent(body.length_variance, shape.length, least_variance),
-          extent(body.width_variance, shape.width, least_variance), extent(body.height_variance, shape.height, 0.0)};
+  BodySize out;
+  out.length_m = extent(body.length_variance, shape.length, least_variance);
+  out.width_m = extent(body.width_variance, shape.width, least_variance);
+  out.height_m = extent(body.height_variance, shape.height, 0.0);
+  if (std::isfinite(out.length_m)) {
+    const double along = centre.x * std::cos(body.length_axis_rad) + centre.y * std::sin(body.length_axis_rad);
+    out.incidence_deg = deg_from_rad(std::acos(std::min(std::abs(along) / norm(centre), 1.0)));
+  }
+  return out;
 }
 
 }  // namespace sonar

@@ -17,8 +17,9 @@ struct BodySighting {
   double length_variance = 0.0;  ///< of the body, m^2
   double width_variance = 0.0;
   double height_variance = kUnknown;
-  double blur_variance = 0.0;  ///< of beam and pulse, level
-  AxisSighting length;         ///< how its density changes
+  double blur_variance = 0.0;    ///< of beam and pulse, level
+  double length_axis_rad = 0.0;  ///< of the length, from the bow towards starboard
+  AxisSighting length;           ///< how its density changes
   AxisSighting width;
   AxisSighting line_of_sight;  ///< along it, where the sonar sees most sharply: so it is taken to change upright
 };
@@ -35,6 +36,7 @@ struct BodySize {
   double length_m = kUnknown;
   double width_m = kUnknown;
   double height_m = kUnknown;
+  double incidence_deg = kUnknown;  ///< between the beam and the length, 0 = end on, 90 = broadside
 };
 
 /// Squares of half axes over the variances along them, by density_profile.h.
@@ -44,6 +46,8 @@ struct BodyShape {
   double height = 5.0;
 };
 
-[[nodiscard]] BodySize body_size(const BodySighting& body, const BodyShape& shape, const MeasureParams& params);
+/// centre  of the body, sonar frame
+[[nodiscard]] BodySize body_size(const BodySighting& body, const BodyShape& shape, const Point<Sonar>& centre,
+                                 const MeasureParams& params);
 
 }  // namespace sonar

@@ -27,6 +27,7 @@ void measure_body(const BodySize& body, SchoolPingRow& row) {
   if ((row.edge_flags & kCutsLevel) == 0) {
     row.length_corrected_m = body.length_m;
     row.width_corrected_m = body.width_m;
+    row.incidence_deg = body.incidence_deg;
   }
   if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
   row.volume_corrected_m3 =
@@ -73,7 +74,7 @@ class BodyThroughPings {
     if (!sightings_[ping]) return {};
     const BodyShape shape = {density(ping, &BodySighting::length), density(ping, &BodySighting::width),
                              density(ping, &BodySighting::line_of_sight)};
-    return body_size(*sightings_[ping], shape, params_);
+    return body_size(*sightings_[ping], shape, pings_[ping]->body.centre, params_);
   }
 
  private:

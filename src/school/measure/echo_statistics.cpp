@@ -4,44 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "base/units.h"
+#include "school/measure/mask_corners.h"
 
 namespace sonar {
 namespace {
 
 double db_or_unknown(double linear) { return linear > 0.0 ? db_from_linear(linear) : kUnknown; }
-
-struct Span {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
-  void add(double v) {
-    least = std::min(least, v);
-    most = std::max(most, v);
-  }
-  [[nodiscard]] double size() const { return most - least; }
-};
-
-/// Calls visit(corner) for the corners of the cells at both ends of each run: all others lie between.
-template <class Visit>
-void for_each_corner(const PingMask& mask, const Sector& sector, Visit visit) {
-  const RangeAxis& axis = sector.range();
-  for (const Run& run : mask.runs) {
-    const AngleBounds e = sector.elevation_bounds(run.row / sector.beams());
-    const AngleBounds a = sector.azimuth_bounds(run.row % sector.beams());
-    const double near_m = std::max(axis.range_m(run.first_sample - 0.5), 0.0);
-    const double far_m = std::max(axis.range_m(run.end() - 0.5), 0.0);
-    for (const double elevation : {e.lower, e.upper}) {
-      for (const double azimuth : {a.lower, a.upper}) {
-        const Point<Sonar> u = Sector::direction(elevation, azimuth);
-        visit(u * near_m);
-        visit(u * far_m);
-      }
-    }
-  }
-}
 
 /// Levels that so many of the values do not surpass, by partial sorting from above.
 void rank_levels(std::vector<double>& values, EchoStatistics& out) {
@@ -111,10 +82,10 @@ MaskExtents mask_extents(const PingMask& mask, const Covariance3& covariance, co
   const HorizontalAxes axes = horizontal_axes(covariance, placement.heading_rad);
   const double s = std::sin(axes.major_bearing_rad);
   const double c = std::cos(axes.major_bearing_rad);
-  Span along;
-  Span across;
-  Span depth;
-  Span range;
+  Extent along;
+  Extent across;
+  Extent depth;
+  Extent range;
   for_each_corner(mask, sector, [&](const Point<Sonar>& in_sector) {
     const Point<Sonar> corner = levelled(in_sector, placement);
     const Point<Enu> p = to_enu(corner, placement.heading_rad);

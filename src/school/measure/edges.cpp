@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "model/school.h"
@@ -66,15 +67,12 @@ class FaceCount {
     const std::int32_t outside = cropped(row) ? static_cast<std::int32_t>(border) : 0;
     const auto flags = flags_.row(row);
     const auto r = static_cast<std::size_t>(row);
-    int s = run.first_sample;
-    for (int i = rows_[r]; i <= rows_[r + 1] && s < run.end(); ++i) {
-      const bool past = i == rows_[r + 1];
-      const Run* other = past ? nullptr : &mask_.runs[static_cast<std::size_t>(i)];
-      if (!past && other->end() <= s) continue;
-      const int uncovered_end = past ? run.end() : std::min(run.end(), other->first_sample);
-      for (; s < uncovered_end; ++s) classify(flags[static_cast<std::size_t>(s)], outside);
-      if (!past) s = std::max(s, static_cast<int>(other->end()));
-    }
+    const auto others =
+        std::span(mask_.runs)
+            .subspan(static_cast<std::size_t>(rows_[r]), static_cast<std::size_t>(rows_[r + 1] - rows_[r]));
+    for_each_uncovered(run, others, [&](int first, int end) {
+      for (int s = first; s < end; ++s) classify(flags[static_cast<std::size_t>(s)], outside);
+    });
   }
 
   bool cropped(int row) {

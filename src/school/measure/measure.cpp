@@ -12,6 +12,7 @@
 #include "geo/geodesic.h"
 #include "school/mask_shape.h"
 #include "school/measure/body_echo.h"
+#include "school/measure/describe_school.h"
 #include "school/measure/echo_statistics.h"
 #include "school/measure/edges.h"
 #include "school/measure/total_echo.h"
@@ -92,6 +93,8 @@ void measure_echo(const MeasureInput& ping, const PingMask& mask, SchoolPingRow&
   row.backscatter_m2 = echo.mean_sv_per_m * row.volume_m3;
   doubt.tell(row);
   row.snr_db = echo.snr_db;
+  row.sv_p5_db = echo.sv_p5_db;
+  row.sv_p50_db = echo.sv_p50_db;
   row.sv_p95_db = echo.sv_p95_db;
   row.sv_max_db = echo.sv_max_db;
 }
@@ -139,6 +142,7 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
     const Point<Sonar> bottom{shape.centre.x, shape.centre.y, depth - ping.placement.transducer_depth_m};
     row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
   }
+  describe_school(ping, mask, shape, row);
   out.body = body_echo(ping, mask, params);
   return out;
 }

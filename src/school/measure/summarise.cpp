@@ -118,6 +118,15 @@ void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams
   out.vertical_speed_mps = fit_line(t, down, down).slope_x;  // positive down, as depth
 }
 
+/// Levels as linear means, sizes and all else as medians, as the other columns are.
+void summarise_descriptors(const Rows& used, SchoolRow& out) {
+  for (const DescriptorColumn& one : kDescriptorColumns) {
+    const bool is_level = one.name.starts_with("sv_") && one.name.ends_with("_db");
+    out.*one.value = is_level ? linear_mean_db(used, one.value) : median_of(used, one.value);
+  }
+  out.nasc_m2_nmi2 = mean_of(used, &SchoolPingRow::nasc_m2_nmi2);
+}
+
 /// Mean place of the rows; longitudes are averaged as distances, so that the date line does no harm.
 void summarise_place(const Rows& rows, SchoolRow& out) {
   Geographic origin;
@@ -195,6 +204,7 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   out.sv_mean_db = linear_mean_db(used, &SchoolPingRow::sv_mean_db);
   summarise_echo(used, out);
   summarise_total(used, out);
+  summarise_descriptors(used, out);
   summarise_motion(rows, params, out);
   return out;
 }

@@ -110,6 +110,25 @@ TEST(Summarise, TheCalibrationsErrorsAreWeightedAsBackscatterIs) {
   EXPECT_TRUE(std::isnan(summarise(rows, {}).backscatter_psi_error_db));
 }
 
+// Form and place as medians, levels and NASC as linear means; what a ping does not know is left out.
+TEST(Summarise, DescriptorsAreMediansAndLevelsLinearMeans) {
+  auto rows = swimming(3, {60, 4});
+  const double sizes[] = {10.0, 90.0, 20.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows[i].surface_m2 = sizes[i];
+    rows[i].nasc_m2_nmi2 = sizes[i];
+    rows[i].n_vacuoles = i == 1 ? kUnknown : sizes[i];
+    rows[i].sv_robust_mean_db = i == 0 ? -40.0 : kUnknown;
+  }
+  rows[2].sv_robust_mean_db = -50.0;
+  const SchoolRow row = summarise(rows, {});
+  EXPECT_DOUBLE_EQ(row.surface_m2, 20.0);
+  EXPECT_DOUBLE_EQ(row.nasc_m2_nmi2, 40.0);
+  EXPECT_DOUBLE_EQ(row.n_vacuoles, 15.0);
+  EXPECT_NEAR(row.sv_robust_mean_db, db_from_linear((1e-4 + 1e-5) / 2.0), 1e-9);
+  EXPECT_TRUE(std::isnan(row.incidence_deg));
+}
+
 /// Standard normal numbers from an integer hash.
 double normal(std::uint64_t seed) {
   return std::sqrt(-2.0 * std::log(test::uniform(2 * seed))) *

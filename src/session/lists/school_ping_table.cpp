@@ -19,6 +19,11 @@ Cell figure(const SchoolInPing& one) {
   return number_cell(one.row->*member, decimals);
 }
 
+template <double SchoolDescriptors::*member, int decimals>
+Cell descriptor(const SchoolInPing& one) {
+  return number_cell(one.row->*member, decimals);
+}
+
 std::string edge_text(std::int64_t flags) {
   constexpr std::array<std::string_view, 9> kNames{"fore", "aft",    "top fan", "bottom fan", "near",
                                                    "far",  "seabed", "surface", "flagged"};
@@ -33,6 +38,7 @@ std::string edge_text(std::int64_t flags) {
 const std::vector<ColumnOf<SchoolInPing>>& ping_columns() {
   using S = SchoolInPing;
   using R = SchoolPingRow;
+  using D = SchoolDescriptors;
   static const std::vector<ColumnOf<S>> kColumns{
       {{"School", "", "number of the school in its observation", true},
        [](const S& s) { return count_cell(s.name.number); }},
@@ -63,6 +69,26 @@ const std::vector<ColumnOf<SchoolInPing>>& ping_columns() {
       {{"Seabed", "m", "depth of the seabed below it", true}, figure<&R::bottom_depth_m, 1>},
       {{"Latitude", "", "of its centre", true}, [](const S& s) { return latitude_cell(s.row->latitude); }},
       {{"Longitude", "", "of its centre", true}, [](const S& s) { return longitude_cell(s.row->longitude); }},
+      {{"Surface", "m\u00B2", "area of its outer surface", true}, descriptor<&D::surface_m2, 0>},
+      {{"Sphericity", "", "surface of the sphere of the same volume over its surface", true},
+       descriptor<&D::sphericity, 2>},
+      {{"Roughness", "", "surface over that of a smooth ellipsoid of the same volume and spread", true},
+       descriptor<&D::roughness, 2>},
+      {{"Vacuoles", "", "voids that it encloses on all sides", true}, descriptor<&D::n_vacuoles, 0>},
+      {{"Nuclei", "", "dense parts, with half the echo or less between any two", true}, descriptor<&D::n_nuclei, 0>},
+      {{"Sv robust", "dB re 1 m\u207B\u00B9", "mean without the highest and lowest 5 % of its voxels", true},
+       descriptor<&D::sv_robust_mean_db, 1>},
+      {{"Variation", "", "coefficient of variation of sv: 1 for fading alone", true}, descriptor<&D::sv_variation, 2>},
+      {{"Core - edge", "dB", "mean Sv of its core less that of its edge", true}, descriptor<&D::core_edge_db, 1>},
+      {{"NASC", "m\u00B2 nmi\u207B\u00B2", "over its own area, seen from above", true},
+       [](const S& s) { return broad_cell(s.row->nasc_m2_nmi2); }},
+      {{"Above seabed", "m", "of its deepest point", true}, descriptor<&D::bottom_distance_m, 1>},
+      {{"Incidence", "\u00B0", "between beam and length: 0 end on, 90 broadside", true},
+       descriptor<&D::incidence_deg, 0>},
+      {{"Nb across", "", "Diner's relative size across the beam; doubt widths below 1.5", true},
+       descriptor<&D::diner_nb_across, 1>},
+      {{"Nb height", "", "Diner's relative size upright; doubt heights below 1.5", true},
+       descriptor<&D::diner_nb_height, 1>},
   };
   return kColumns;
 }

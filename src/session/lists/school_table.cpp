@@ -17,9 +17,15 @@ double figure(const SurveySchool& school) {
   return school.row == nullptr ? kUnknown : school.row->*member;
 }
 
+template <double SchoolDescriptors::*member, int decimals>
+Cell descriptor(const SurveySchool& school) {
+  return number_cell(school.row == nullptr ? kUnknown : school.row->*member, decimals);
+}
+
 std::vector<ColumnOf<SurveySchool>> made_columns() {
   using S = SurveySchool;
   using R = SchoolRow;
+  using D = SchoolDescriptors;
   return {
       {{"School", "", "number of the school in its observation", true},
        [](const S& s) { return count_cell(s.name.number); }},
@@ -61,6 +67,16 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Origin", "", "who found it", false}, [](const S& s) { return text_cell(s.decided().origin); }},
       {{"Operator", "", "who decided last", false}, [](const S& s) { return text_cell(s.decided().operator_name); }},
       {{"Comment", "", "", false}, [](const S& s) { return text_cell(s.decided().comment); }},
+      {{"Surface", "m\u00B2", "area of its outer surface", true}, descriptor<&D::surface_m2, 0>},
+      {{"Sphericity", "", "surface of the sphere of the same volume over its surface", true},
+       descriptor<&D::sphericity, 2>},
+      {{"Vacuoles", "", "voids that it encloses on all sides", true}, descriptor<&D::n_vacuoles, 0>},
+      {{"Nuclei", "", "dense parts, with half the echo or less between any two", true}, descriptor<&D::n_nuclei, 0>},
+      {{"NASC", "m\u00B2 nmi\u207B\u00B2", "over its own area, seen from above", true},
+       [](const S& s) { return broad_cell(s.row == nullptr ? kUnknown : s.row->nasc_m2_nmi2); }},
+      {{"Above seabed", "m", "of its deepest point", true}, descriptor<&D::bottom_distance_m, 1>},
+      {{"Incidence", "\u00B0", "between beam and length: 0 end on, 90 broadside", true},
+       descriptor<&D::incidence_deg, 0>},
   };
 }
 

@@ -107,7 +107,7 @@ std::string unit_text(std::string_view unit) {
 }
 
 std::string column_words(const ChartColumn& column) {
-  constexpr std::array<std::string_view, 7> kUnits{"_utc", "_db", "_mps", "_m3", "_m2", "_m", "_deg"};
+  constexpr std::array<std::string_view, 8> kUnits{"_m2_nmi2", "_utc", "_db", "_mps", "_m3", "_m2", "_m", "_deg"};
   std::string text(column.name);
   for (const std::string_view unit : kUnits) {
     if (!text.ends_with(unit)) continue;
@@ -118,6 +118,7 @@ std::string column_words(const ChartColumn& column) {
   std::replace(text.begin(), text.end(), '_', ' ');
   replace_beginning(text, "sv ", "Sv ");
   if (text == "snr") return "SNR";
+  if (text == "nasc") return "NASC";
   return text;
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 // Those of INTERFACES section 3 without its columns of words.
 TEST(ChartColumns, AreTheTablesNumbersAndTimes) {
-  EXPECT_EQ(chart_columns(ChartTable::school_pings).size(), 41U - 1U);
-  EXPECT_EQ(chart_columns(ChartTable::schools).size(), 36U - 9U);
+  EXPECT_EQ(chart_columns(ChartTable::school_pings).size(), 71U - 1U);
+  EXPECT_EQ(chart_columns(ChartTable::schools).size(), 61U - 9U);
   EXPECT_EQ(chart_column(ChartTable::schools, "species"), nullptr);
   EXPECT_EQ(chart_column(ChartTable::schools, "ping_index"), nullptr);
   EXPECT_TRUE(chart_column(ChartTable::school_pings, "time_utc")->time);
@@ -51,6 +51,9 @@ TEST(ChartColumns, LabelsHaveUnitsAsPeopleWriteThem) {
   EXPECT_EQ(label("latitude"), "latitude (degrees north)");
   EXPECT_EQ(label("n_voxels"), "number of voxels");
   EXPECT_EQ(label("snr_db"), "SNR (dB)");
+  EXPECT_EQ(label("nasc_m2_nmi2"), "NASC (m² nautical mile⁻²)");
+  EXPECT_EQ(label("surface_m2"), "surface (m²)");
+  EXPECT_EQ(label("sv_variation"), "Sv variation");
 }
 
 TEST(ChartColumns, ValuesAreToldWithTheirUnits) {
