@@ -20,14 +20,20 @@ TEST(Csv, header_is_the_published_one) {
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,"
             "speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,"
             "decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school\n");
+            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+            "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
+            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps\n");
   EXPECT_EQ(csv_text(std::vector<SchoolPingRow>{}),
             "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,"
             "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"
             "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
             "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
             "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,survey_school\n");
+            "backscatter_total_m2,backscatter_total_se_m2,survey_school,"
+            "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
+            "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,"
+            "course_away_deg,speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,"
+            "wake_distance_m\n");
 }
 
 TEST(Csv, rows_read_back) {
@@ -60,7 +66,9 @@ TEST(Csv, a_table_from_before_a_column_came_is_whole) {
   // As it was written before schools had names: the last columns are not there.
   const std::string later =
       ",name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-      "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school\n";
+      "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+      "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
+      "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps\n";
   text.replace(text.find(later), later.size() - 1, "");
   text.replace(text.find("last,,,,,,,0\n"), 12, "last");
   const auto table = parse_csv(text, "old.csv");

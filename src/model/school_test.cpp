@@ -31,8 +31,12 @@ TEST(SchoolColumns, OfPings) {
             "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
             "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
             "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,survey_school");
-  EXPECT_EQ(names.seen.size(), 41U);
+            "backscatter_total_m2,backscatter_total_se_m2,survey_school,"
+            "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
+            "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,"
+            "course_away_deg,speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,"
+            "wake_distance_m");
+  EXPECT_EQ(names.seen.size(), 56U);
 }
 
 TEST(SchoolColumns, OfTracks) {
@@ -44,8 +48,10 @@ TEST(SchoolColumns, OfTracks) {
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,"
             "backscatter_m2,speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,"
             "operator,decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school");
-  EXPECT_EQ(names.seen.size(), 36U);
+            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+            "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
+            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps");
+  EXPECT_EQ(names.seen.size(), 47U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

@@ -21,13 +21,18 @@ SCHOOL_PINGS = (
     "valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,height_corrected_m,sv_corrected_db,snr_db,"
     "threshold_db,edge_flags,edge_fraction,touches_edge,bottom_depth_m,provisional,backscatter_psi_error_db,"
     "backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,survey_school,"
+    "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
+    "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,course_away_deg,"
+    "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
     "comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,"
+    "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
+    "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):
