@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/time.h"
@@ -25,5 +26,9 @@ struct CurrentProfile {
   std::vector<CurrentAt> bins;                                 ///< by rising depth; only what is known
 };
 using CurrentProfiles = std::vector<CurrentProfile>;  ///< by rising time
+
+/// The velocity at a depth of one profile, linear between its bins, the first and the last holding beyond; empty where
+/// the nearest bin is farther than max_gap_m.
+[[nodiscard]] std::optional<CurrentAt> current_in(const CurrentProfile& profile, double depth_m, double max_gap_m);
 
 }  // namespace sonar

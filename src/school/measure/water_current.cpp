@@ -26,26 +26,11 @@ std::optional<Told> told_by(const CurrentProfiles& profiles, std::size_t i, cons
   const CurrentProfile& one = profiles[i];
   const bool placed = std::isfinite(one.place.latitude_deg) && std::isfinite(one.place.longitude_deg);
   if (placed && geodesic(one.place, place).distance_m > params.max_distance_m) return std::nullopt;
-  const auto value = current_in(one, depth_m, params);
+  const auto value = current_in(one, depth_m, params.max_depth_gap_m);
   return value ? std::optional(Told{i, *value}) : std::nullopt;
 }
 
 }  // namespace
-
-std::optional<CurrentAt> current_in(const CurrentProfile& profile, double depth_m, const CurrentParams& params) {
-  const std::vector<CurrentAt>& bins = profile.bins;
-  if (bins.empty()) return std::nullopt;
-  const auto below =
-      std::find_if(bins.begin(), bins.end(), [&](const CurrentAt& bin) { return bin.depth_m >= depth_m; });
-  const CurrentAt& lower = below == bins.end() ? bins.back() : *below;
-  const CurrentAt& upper = below == bins.begin() ? bins.front() : *(below - 1);
-  const double nearest_m = std::min(std::abs(lower.depth_m - depth_m), std::abs(depth_m - upper.depth_m));
-  if (nearest_m > params.max_depth_gap_m) return std::nullopt;
-  if (!(lower.depth_m > upper.depth_m)) return CurrentAt{depth_m, lower.east_mps, lower.north_mps};
-  const double share = (depth_m - upper.depth_m) / (lower.depth_m - upper.depth_m);
-  return CurrentAt{depth_m, upper.east_mps + share * (lower.east_mps - upper.east_mps),
-                   upper.north_mps + share * (lower.north_mps - upper.north_mps)};
-}
 
 std::optional<CurrentHere> current_at(const CurrentProfiles& profiles, TimeNs time, const Geographic& place,
                                       double depth_m, const CurrentParams& params) {
@@ -76,7 +61,7 @@ std::optional<CurrentHere> current_at(const CurrentProfiles& profiles, TimeNs ti
 double current_noise_mps(const CurrentProfiles& profiles, const CurrentParams& params) {
   double sum = 0.0;
   double count = 0.0;
-  const CurrentParams within{params.max_gap_s, 0.5, params.max_distance_m};  // the same bins, give or take their heave
+  constexpr double kSameBin_m = 0.5;  // bins heave with the ship
   for (std::size_t i = 1; i + 1 < profiles.size(); ++i) {
     const CurrentProfile& before = profiles[i - 1];
     const CurrentProfile& after = profiles[i + 1];
@@ -85,8 +70,8 @@ double current_noise_mps(const CurrentProfiles& profiles, const CurrentParams& p
     const double w = seconds(profiles[i].time - before.time) / apart_s;
     const double variances = 1.0 + w * w + (1.0 - w) * (1.0 - w);
     for (const CurrentAt& bin : profiles[i].bins) {
-      const auto a = current_in(before, bin.depth_m, within);
-      const auto b = current_in(after, bin.depth_m, within);
+      const auto a = current_in(before, bin.depth_m, kSameBin_m);
+      const auto b = current_in(after, bin.depth_m, kSameBin_m);
       if (!a || !b) continue;
       const double east = bin.east_mps - (1.0 - w) * a->east_mps - w * b->east_mps;
       const double north = bin.north_mps - (1.0 - w) * a->north_mps - w * b->north_mps;

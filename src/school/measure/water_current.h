@@ -51,11 +51,6 @@ struct WaterCurrents {
   double noise_mps = kUnknown;  ///< standard error of a profile's velocity, each way: current_noise_mps()
 };
 
-/// The velocity at a depth of one profile, linear between its bins, the first and the last holding beyond; empty where
-/// the nearest bin is farther than max_depth_gap_m.
-[[nodiscard]] std::optional<CurrentAt> current_in(const CurrentProfile& profile, double depth_m,
-                                                  const CurrentParams& params);
-
 /// What a velocity is made of: profiles, and their shares, which sum up to 1.
 struct CurrentHere {
   double east_mps = 0.0;

@@ -26,14 +26,14 @@ CurrentProfile profile(double after_s, std::vector<CurrentAt> bins, const Geogra
 // By hand: half way between 10 and 30 m; the first bin above, the last below, none more than 20 m off.
 TEST(CurrentIn, IsLinearInDepthAndHoldsBeyond) {
   const CurrentProfile one = profile(0, {{10, 0.2, 0.0}, {30, 0.4, -0.2}});
-  const CurrentParams params;
-  EXPECT_NEAR(current_in(one, 20, params)->east_mps, 0.3, 1e-12);
-  EXPECT_NEAR(current_in(one, 20, params)->north_mps, -0.1, 1e-12);
-  EXPECT_NEAR(current_in(one, 15, params)->east_mps, 0.25, 1e-12);
-  EXPECT_NEAR(current_in(one, 2, params)->east_mps, 0.2, 1e-12);
-  EXPECT_NEAR(current_in(one, 49, params)->east_mps, 0.4, 1e-12);
-  EXPECT_FALSE(current_in(one, 51, params));
-  EXPECT_FALSE(current_in(profile(0, {}), 20, params));
+  constexpr double kGap_m = 20.0;
+  EXPECT_NEAR(current_in(one, 20, kGap_m)->east_mps, 0.3, 1e-12);
+  EXPECT_NEAR(current_in(one, 20, kGap_m)->north_mps, -0.1, 1e-12);
+  EXPECT_NEAR(current_in(one, 15, kGap_m)->east_mps, 0.25, 1e-12);
+  EXPECT_NEAR(current_in(one, 2, kGap_m)->east_mps, 0.2, 1e-12);
+  EXPECT_NEAR(current_in(one, 49, kGap_m)->east_mps, 0.4, 1e-12);
+  EXPECT_FALSE(current_in(one, 51, kGap_m));
+  EXPECT_FALSE(current_in(profile(0, {}), 20, kGap_m));
 }
 
 // By hand: a quarter of the way from 0.1 to 0.5 m/s.
