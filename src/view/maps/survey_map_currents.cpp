@@ -109,20 +109,22 @@ std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profi
   std::vector<std::string> told;
   for (std::size_t k = 0; k < depths.size(); ++k) {
     const Rgba8 colour = colour_of(k, depths.size());
-    bool named = false;
+    std::vector<PixelPoint> ends;
     for (const Placed& place : places) {
       const auto current = current_in(*place.profile, depths[k], kDepthGap_m);
       if (!current || speed(*current) < kLeast_mps) continue;
       const auto end = tip(d, place, *current, kLongest_em * d.em * speed(*current) / fastest);
       if (!end) continue;
       d.frame.items.emplace_back(arrow(place.at, *end, d.em, {colour, 1.4 * d.theme.line_px, {}}));
-      if (std::exchange(named, true)) continue;
-      told.push_back(fmt::format("{:.0f}", depths[k]));
-      TextItem name =
-          text_item({end->x, end->y - 0.5 * d.em}, told.back() + " m", 0.8 * d.em, colour, TextAnchor::centre);
-      name.halo = d.theme.halo;
-      d.frame.items.emplace_back(std::move(name));
+      ends.push_back(*end);
     }
+    if (ends.empty()) continue;
+    told.push_back(fmt::format("{:.0f}", depths[k]));
+    // Not the first: there stands the observation's name.
+    const PixelPoint& end = ends[ends.size() / 2];
+    TextItem name = text_item({end.x, end.y - 0.5 * d.em}, told.back() + " m", 0.8 * d.em, colour, TextAnchor::centre);
+    name.halo = d.theme.halo;
+    d.frame.items.emplace_back(std::move(name));
   }
   return told.empty() ? std::string{}
                       : fmt::format("Arrows: current at {} m depth, a colour for each; the longest is {:.2f} m/s",
