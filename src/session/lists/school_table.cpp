@@ -61,6 +61,12 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Origin", "", "who found it", false}, [](const S& s) { return text_cell(s.decided().origin); }},
       {{"Operator", "", "who decided last", false}, [](const S& s) { return text_cell(s.decided().operator_name); }},
       {{"Comment", "", "", false}, [](const S& s) { return text_cell(s.decided().comment); }},
+      {{"Speed through water", "kn", "where a run was told the current", true},
+       [](const S& s) { return number_cell(figure<&R::speed_water_mps>(s) / kKnot_mps, 1); }},
+      {{"Course through water", "\u00B0", "true, where a run was told the current", true},
+       [](const S& s) { return number_cell(figure<&R::course_water_deg>(s), 0); }},
+      {{"Tortuosity", "", "length of its path over the distance from beginning to end; 1 = straight", true},
+       [](const S& s) { return number_cell(figure<&R::tortuosity>(s), 2); }},
   };
 }
 
