@@ -75,7 +75,8 @@ class Movement(Case):
             self.assertLessEqual(float(row["cpa_m"]), float(row["range_m"]) + 1)
             self.assertAlmostEqual(float(row["ship_speed_mps"]), 3 * 1852 / 3600, delta=0.3)
             if row["speed_away_mps"]:
-                self.assertLessEqual(abs(float(row["speed_away_mps"])), float(row["speed_smoothed_mps"]) + 0.2)
+                slack = 0.2 + 3 * float(row["speed_away_se_mps"])  # the speed is freed of noise, its part is not
+                self.assertLessEqual(abs(float(row["speed_away_mps"])), float(row["speed_smoothed_mps"]) + slack)
 
     def test_pooled_table(self):
         dest = self.fresh("movement-export")
