@@ -22,6 +22,7 @@ Error of_file(Error error) {
 void add_measured_options(CLI::App& verb, Measured& measured) {
   verb.add_option("--calibration", measured.calibration, kCalibrationHelp)->check(named_file());
   verb.add_option("--sound-speed", measured.sound_speed, kSoundSpeedHelp)->check(named_path("X|FILE"));
+  verb.add_option("--currents", measured.currents, kCurrentsHelp)->check(named_file());
 }
 
 Result<Recipe> chosen_recipe(const std::string& recipe, const Measured& measured) {
@@ -40,6 +41,10 @@ Result<Recipe> with_measured(Recipe recipe, const Measured& measured) {
     auto taken = take_sound_speed(recipe, measured.sound_speed);
     if (!taken && !taken.error().where.file.empty()) return tl::unexpected(of_file(std::move(taken.error())));
     if (!taken) return pass_on(taken);
+  }
+  if (!measured.currents.empty()) {
+    auto taken = take_currents(recipe, measured.currents);
+    if (!taken) return tl::unexpected(of_file(std::move(taken.error())));
   }
   return recipe;
 }

@@ -111,6 +111,14 @@ class Reader {
   [[nodiscard]] std::int64_t whole(int group, const std::string& name);
   [[nodiscard]] std::vector<std::string> texts(int group, const std::string& name);
 
+  /// Names of a group's variables.
+  [[nodiscard]] std::vector<std::string> variables(int group);
+  /// Names of a variable's dimensions, slowest first.
+  [[nodiscard]] std::vector<std::string> dimensions_of(int group, const std::string& variable);
+  /// Attribute of a variable; empty, or NaN, without failure, where there is none of that kind.
+  [[nodiscard]] std::string text_of(int group, const std::string& variable, const std::string& name);
+  [[nodiscard]] double number_of(int group, const std::string& variable, const std::string& name);
+
   /// The whole variable, converted to T; refused where it has not exactly `expected` values.
   template <class T>
   [[nodiscard]] std::vector<T> values(int group, const std::string& name, std::size_t expected);

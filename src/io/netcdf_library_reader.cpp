@@ -6,6 +6,7 @@
 #include <netcdf_mem.h>
 
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace sonar::netcdf {
@@ -136,6 +137,63 @@ int LibraryReader::find_variable(int group, const std::string& name) {
   int id = -1;
   if (status_) check(nc_inq_varid(group, name.c_str(), &id), name);
   return id;
+}
+
+std::vector<std::string> LibraryReader::variables(int group) {
+  int count = 0;
+  if (!status_ || !check(nc_inq_nvars(group, &count), "variables")) return {};
+  std::vector<int> ids(static_cast<std::size_t>(count));
+  if (!check(nc_inq_varids(group, &count, ids.data()), "variables")) return {};
+  std::vector<std::string> names;
+  for (const int id : ids) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    if (!check(nc_inq_varname(group, id, name.data()), "variables")) return {};
+    names.emplace_back(name.data());
+  }
+  return names;
+}
+
+std::vector<std::string> LibraryReader::dimensions_of(int group, const std::string& variable) {
+  const int id = find_variable(group, variable);
+  int count = 0;
+  std::array<int, NC_MAX_VAR_DIMS> ids{};
+  if (!status_ || !check(nc_inq_var(group, id, nullptr, nullptr, &count, ids.data(), nullptr), variable)) return {};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    if (!check(nc_inq_dimname(group, ids[i], name.data()), variable)) return {};
+    names.emplace_back(name.data());
+  }
+  return names;
+}
+
+std::string LibraryReader::text_of(int group, const std::string& variable, const std::string& name) {
+  const int id = find_variable(group, variable);
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (!status_ || nc_inq_att(group, id, name.c_str(), &type, &length) != NC_NOERR) return {};
+  if (type == NC_CHAR && length <= file_size_) {
+    std::string value(length, '\0');
+    if (length > 0) check(nc_get_att_text(group, id, name.c_str(), value.data()), name);
+    return value;
+  }
+  if (type != NC_STRING || length != 1) return {};
+  char* pointer = nullptr;
+  if (!check(nc_get_att_string(group, id, name.c_str(), &pointer), name)) return {};
+  std::string value(pointer != nullptr ? pointer : "");
+  nc_free_string(1, &pointer);
+  return value;
+}
+
+double LibraryReader::number_of(int group, const std::string& variable, const std::string& name) {
+  const int id = find_variable(group, variable);
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (!status_ || nc_inq_att(group, id, name.c_str(), &type, &length) != NC_NOERR) return value;
+  if (is_text(type) || type > NC_STRING || length != 1) return value;
+  check(nc_get_att_double(group, id, name.c_str(), &value), name);
+  return value;
 }
 
 std::size_t LibraryReader::size(int group, const std::string& name) {

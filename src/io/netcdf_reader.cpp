@@ -22,6 +22,10 @@ enum What : int {
   attribute_text,
   attribute_texts,
   attribute_whole,
+  variable_names,
+  variable_dimensions,
+  variable_text,
+  variable_number,
   variable_size,
   room,
   doubles,
@@ -59,6 +63,20 @@ Bytes values(LibraryReader& in, const Question& asked, const std::string& name) 
   return encoded(in.values<T>(asked.group, name, asked.number));
 }
 
+/// What is asked of a variable's attribute: no name in netCDF holds a slash.
+constexpr char kBetween = '/';
+std::string joined(const std::string& variable, const std::string& attribute) {
+  return variable + kBetween + attribute;
+}
+
+Bytes answer_of_variable(LibraryReader& in, const Question& asked, const std::string& name) {
+  const std::size_t between = std::min(name.find(kBetween), name.size());
+  const std::string variable = name.substr(0, between);
+  const std::string attribute = name.substr(std::min(between + 1, name.size()));
+  if (asked.what == variable_text) return encoded(in.text_of(asked.group, variable, attribute));
+  return encoded(in.number_of(asked.group, variable, attribute));
+}
+
 Bytes answer(LibraryReader& in, const Question& asked, const std::string& name) {
   switch (asked.what) {
     case find_group:
@@ -75,6 +93,13 @@ Bytes answer(LibraryReader& in, const Question& asked, const std::string& name) 
       return encoded(in.texts(asked.group, name));
     case attribute_whole:
       return encoded(in.whole(asked.group, name));
+    case variable_names:
+      return encoded(in.variables(asked.group));
+    case variable_dimensions:
+      return encoded(in.dimensions_of(asked.group, name));
+    case variable_text:
+    case variable_number:
+      return answer_of_variable(in, asked, name);
     case variable_size:
       return encoded(in.size(asked.group, name));
     case room:
@@ -221,6 +246,19 @@ std::size_t Reader::size(int group, const std::string& name) { return ask<std::s
 
 std::vector<std::string> Reader::texts(int group, const std::string& name) {
   return ask<std::vector<std::string>>(attribute_texts, group, name);
+}
+
+std::vector<std::string> Reader::variables(int group) {
+  return ask<std::vector<std::string>>(variable_names, group, {});
+}
+std::vector<std::string> Reader::dimensions_of(int group, const std::string& variable) {
+  return ask<std::vector<std::string>>(variable_dimensions, group, variable);
+}
+std::string Reader::text_of(int group, const std::string& variable, const std::string& name) {
+  return ask<std::string>(variable_text, group, joined(variable, name));
+}
+double Reader::number_of(int group, const std::string& variable, const std::string& name) {
+  return ask<double>(variable_number, group, joined(variable, name));
 }
 
 bool Reader::can_hold(std::size_t rows, std::size_t bytes_a_row) {

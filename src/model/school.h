@@ -110,6 +110,22 @@ struct SchoolPingRow : SchoolDescriptors {
   double mass_latitude = kUnknown;
   double mass_longitude = kUnknown;
   double mass_depth_m = kUnknown;
+  // Movement, of a line through the centres of a window about the ping, and against the ship (school/measure/movement.h).
+  double speed_smoothed_mps = kUnknown;
+  double speed_smoothed_se_mps = kUnknown;
+  double course_smoothed_deg = kUnknown;
+  double vertical_speed_smoothed_mps = kUnknown;
+  double speed_water_smoothed_mps = kUnknown;
+  double course_water_smoothed_deg = kUnknown;
+  double relative_bearing_deg = kUnknown;
+  double ship_speed_mps = kUnknown;
+  double course_away_deg = kUnknown;
+  double speed_away_mps = kUnknown;
+  double speed_away_se_mps = kUnknown;
+  double speed_away_water_mps = kUnknown;
+  double time_to_cpa_s = kUnknown;
+  double cpa_m = kUnknown;
+  double wake_distance_m = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -156,6 +172,18 @@ struct SchoolRow : SchoolDescriptors {
   /// kEndNames: ends of the track that a propagation by hand left only because it was asked no farther.
   std::string ended_at_reach;
   std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
+  // Movement beside speed and course over ground (school/measure/summarise.h).
+  double course_se_deg = kUnknown;
+  double vertical_speed_se_mps = kUnknown;
+  double tortuosity = kUnknown;
+  double tortuosity_se = kUnknown;
+  double speed_water_mps = kUnknown;
+  double speed_water_se_mps = kUnknown;
+  double course_water_deg = kUnknown;
+  double course_water_se_deg = kUnknown;
+  double current_east_mps = kUnknown;
+  double current_north_mps = kUnknown;
+  double current_se_mps = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -254,6 +282,21 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("mass_latitude", "degrees_north", DegreesColumn{r.mass_latitude});
   v("mass_longitude", "degrees_east", DegreesColumn{r.mass_longitude});
   v("mass_depth_m", "m", r.mass_depth_m);
+  v("speed_smoothed_mps", "m s-1", r.speed_smoothed_mps);
+  v("speed_smoothed_se_mps", "m s-1", r.speed_smoothed_se_mps);
+  v("course_smoothed_deg", "degrees", r.course_smoothed_deg);
+  v("vertical_speed_smoothed_mps", "m s-1", r.vertical_speed_smoothed_mps);
+  v("speed_water_smoothed_mps", "m s-1", r.speed_water_smoothed_mps);
+  v("course_water_smoothed_deg", "degrees", r.course_water_smoothed_deg);
+  v("relative_bearing_deg", "degrees", r.relative_bearing_deg);
+  v("ship_speed_mps", "m s-1", r.ship_speed_mps);
+  v("course_away_deg", "degrees", r.course_away_deg);
+  v("speed_away_mps", "m s-1", r.speed_away_mps);
+  v("speed_away_se_mps", "m s-1", r.speed_away_se_mps);
+  v("speed_away_water_mps", "m s-1", r.speed_away_water_mps);
+  v("time_to_cpa_s", "s", r.time_to_cpa_s);
+  v("cpa_m", "m", r.cpa_m);
+  v("wake_distance_m", "m", r.wake_distance_m);
 }
 
 template <class Visitor>
@@ -296,7 +339,46 @@ void columns(Visitor& v, SchoolRow& r) {
   v("survey_school", "1", r.survey_school);
   // form, echo, place and resolution
   for (const DescriptorColumn& d : kDescriptorColumns) v(d.name, d.unit, r.*d.value);
+  v("course_se_deg", "degrees", r.course_se_deg);
+  v("vertical_speed_se_mps", "m s-1", r.vertical_speed_se_mps);
+  v("tortuosity", "1", r.tortuosity);
+  v("tortuosity_se", "1", r.tortuosity_se);
+  v("speed_water_mps", "m s-1", r.speed_water_mps);
+  v("speed_water_se_mps", "m s-1", r.speed_water_se_mps);
+  v("course_water_deg", "degrees", r.course_water_deg);
+  v("course_water_se_deg", "degrees", r.course_water_se_deg);
+  v("current_east_mps", "m s-1", r.current_east_mps);
+  v("current_north_mps", "m s-1", r.current_north_mps);
+  v("current_se_mps", "m s-1", r.current_se_mps);
 }
+
+/// Columns of movement, of both tables.
+inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smoothed_mps",
+                                                                   "speed_smoothed_se_mps",
+                                                                   "course_smoothed_deg",
+                                                                   "vertical_speed_smoothed_mps",
+                                                                   "speed_water_smoothed_mps",
+                                                                   "course_water_smoothed_deg",
+                                                                   "relative_bearing_deg",
+                                                                   "ship_speed_mps",
+                                                                   "course_away_deg",
+                                                                   "speed_away_mps",
+                                                                   "speed_away_se_mps",
+                                                                   "speed_away_water_mps",
+                                                                   "time_to_cpa_s",
+                                                                   "cpa_m",
+                                                                   "wake_distance_m",
+                                                                   "course_se_deg",
+                                                                   "vertical_speed_se_mps",
+                                                                   "tortuosity",
+                                                                   "tortuosity_se",
+                                                                   "speed_water_mps",
+                                                                   "speed_water_se_mps",
+                                                                   "course_water_deg",
+                                                                   "course_water_se_deg",
+                                                                   "current_east_mps",
+                                                                   "current_north_mps",
+                                                                   "current_se_mps"};
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
@@ -314,7 +396,8 @@ void columns(Visitor& v, SchoolRow& r) {
                                          "mass_depth_m"};
   return std::find(std::begin(kLater), std::end(kLater), column) != std::end(kLater) ||
          std::any_of(kDescriptorColumns.begin(), kDescriptorColumns.end(),
-                     [&](const DescriptorColumn& one) { return one.name == column; });
+                     [&](const DescriptorColumn& one) { return one.name == column; }) ||
+         std::find(kMovementColumns.begin(), kMovementColumns.end(), column) != kMovementColumns.end();
 }
 
 }  // namespace sonar

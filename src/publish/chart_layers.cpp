@@ -7,6 +7,7 @@
 
 #include "io/depth_raster.h"
 #include "io/mask_outlines.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 namespace {
@@ -44,6 +45,12 @@ ObservationOutlines school_outlines(const ObservationProduct& product, const Obs
 }
 
 GeoArea swept_area(const ObservationProduct& product) { return swept_outline(product); }
+
+std::shared_ptr<const CurrentProfiles> map_currents(const ObservationProduct& product) {
+  auto recipe = recipe_from_text(product.recipe_json);
+  if (!recipe || recipe->current_profiles.empty()) return nullptr;
+  return std::make_shared<const CurrentProfiles>(std::move(recipe->current_profiles));
+}
 
 Result<DepthGrid> map_depths(const std::filesystem::path& raster, const GeoExtent& extent) {
   return read_depth_raster(raster, extent);

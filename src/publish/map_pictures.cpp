@@ -11,6 +11,7 @@
 #include "io/mask_outlines.h"
 #include "model/school_totals.h"
 #include "pipeline/integrate/transects.h"
+#include "publish/chart_layers.h"
 #include "publish/drawn_schools.h"
 #include "view/maps/observation_map.h"
 #include "view/maps/survey_map.h"
@@ -98,6 +99,8 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   style.sv_high_db = options.display.scale.high_db();
   style.unsearched = static_cast<int>(std::count_if(observations.begin(), observations.end(),
                                                     [](const DrawnObservation& o) { return !o.has_product(); }));
+  // Products of one survey have one recipe.
+  if (!products.empty()) style.currents = map_currents(products.front());
   if (!options.transects.empty()) {
     auto transects = read_transects(options.transects);
     if (!transects) return pass_on(transects);

@@ -68,6 +68,7 @@ std::size_t RecipeEditor::changed() const {
   // Tables and curves are no parameters with a control, but they are changes.
   const std::size_t tables = static_cast<std::size_t>(!recipe().calibration.beams.empty()) +
                              static_cast<std::size_t>(!recipe().survey.sound_speed_profile.empty()) +
+                             static_cast<std::size_t>(!recipe().current_profiles.empty()) +
                              static_cast<std::size_t>(!(recipe().growth_curve == usual.growth_curve));
   return tables + static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [this](const Property& one) {
            return *parameters_.value(one.name) != *defaults_.value(one.name);

@@ -165,7 +165,9 @@ class Placer {
     return elevation_rad;
   }
 
-  [[nodiscard]] Body body_at(const Spot& spot, const Point<Enu>& velocity) {
+  /// own  velocity through the water
+  [[nodiscard]] Body body_at(const Spot& spot, const Point<Enu>& own) {
+    const Point<Enu> velocity = own + Point<Enu>{params_.current_east_mps, params_.current_north_mps, 0.0};
     Body body;
     const std::uint64_t high = random_.next();
     const std::uint64_t seed = high << 32U | random_.next();

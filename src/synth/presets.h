@@ -37,6 +37,8 @@ struct SurveyParams {
   double above_background_db = 10.0;  ///< a school's core is at least this much above the background
   double own_speed_min_mps = 0.2;
   double own_speed_max_mps = 1.5;
+  double current_east_mps = 0.0;
+  double current_north_mps = 0.0;
   double raggedness = 0.15;
   int nuclei = 3;
   double nucleus_db = 6.0;
@@ -177,6 +179,14 @@ void describe(Visitor& v, SurveyParams& p) {
            .max = 5,
            .text = "Speed of the fastest school. Raise it to test tracks of schools that move far between pings; set "
                    "it and own_speed_min_mps to 0 for schools that stand still."});
+  v.field("current_east_mps", p.current_east_mps,
+          {.unit = "m s-1",
+           .min = -3,
+           .max = 3,
+           .text = "Eastward velocity of the water, which carries all schools beside their own speed. Set it to test "
+                   "speeds through the water."});
+  v.field("current_north_mps", p.current_north_mps,
+          {.unit = "m s-1", .min = -3, .max = 3, .text = "Northward velocity of the water; see current_east_mps."});
   v.field("raggedness", p.raggedness,
           {.unit = "1",
            .min = 0,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every sonarx command of README, manual and --help, executed in the order of the page, on the survey that the page tells to
 make. A folder, a recipe or a picture that a page names is that of the page; those of --help have the tests' survey."""
+import datetime
 import os
 import re
 import shutil
@@ -11,12 +12,14 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+import movement_test
 import sonarx
 from sonarx import SURVEY, VERBS, WORK, Case
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
 # Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
-ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
+ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4")
+                       + ("" if movement_test.netCDF4 else r"|^sonarx run .*--currents"))
 # What the reader brings.
 BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
            "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n"}
@@ -48,6 +51,9 @@ class Commands(Case):
         folder = self.fresh(f"commands-{Path(page).stem}")
         for name, text in BROUGHT.items():
             (folder / name).write_text(text)
+        if movement_test.netCDF4:
+            noon = datetime.datetime(2020, 1, 1, 12, tzinfo=datetime.timezone.utc)
+            movement_test.write_adcp(folder / "adcp.nc", noon, noon + datetime.timedelta(hours=1))
         done = 0
         for number, command in commands(page):
             if not ELSEWHERE.match(command):

@@ -12,6 +12,7 @@
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
+#include "pipeline/exports/avoidance.h"
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
@@ -23,12 +24,15 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 6> kFormats = {{
+constexpr std::array<ExportFormat, 7> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
+    {"avoidance",
+     "avoidance.csv: speed, direction, depth and density of schools against range, bearing and time to closest "
+     "approach"},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
 
@@ -81,6 +85,14 @@ Result<Exported> export_csv(const Source& source, const fs::path& dest, CsvTexts
   auto written = write_csv_rows(files[0], source.survey.schools, texts);
   if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
   if (!written) return pass_on(written);
+  return Exported{std::move(files)};
+}
+
+Result<Exported> export_avoidance(const Source& source, const fs::path& dest) {
+  Files files = {dest / "avoidance.csv"};
+  if (auto written = write_csv_rows(files[0], avoidance_table(source.survey.observations)); !written) {
+    return pass_on(written);
+  }
   return Exported{std::move(files)};
 }
 
@@ -212,6 +224,7 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
                 {.file = options.dest.string()});
   }
   if (format->name == "csv") return export_csv(*source, options.dest, options.texts);
+  if (format->name == "avoidance") return export_avoidance(*source, options.dest);
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);

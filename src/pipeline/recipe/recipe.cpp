@@ -16,10 +16,12 @@
 #include "base/hash.h"
 #include "io/atomic_file.h"
 #include "io/csv_table.h"
+#include "io/current_file.h"
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/json_parameters.h"
 #include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/survey/calibration_json.h"
+#include "pipeline/survey/currents_json.h"
 
 namespace sonar {
 namespace {
@@ -34,6 +36,7 @@ nlohmann::json recipe_to_json(const Recipe& recipe) {
   json["recipe_version"] = kRecipeVersion;
   json["growth_curve"] = to_json(recipe.growth_curve);
   json["sound_speed_profile"] = to_json(recipe.survey.sound_speed_profile);
+  json["current_profiles"] = to_json(recipe.current_profiles);
   json["beam_calibration"] = beams_to_json(recipe.calibration.beams);
   return json;
 }
@@ -97,7 +100,8 @@ Result<Recipe> recipe_from_text(std::string_view text) {
   Recipe recipe;
   JsonReader reader(*json);
   describe(reader, recipe);
-  for (const char* member : {"recipe_version", "growth_curve", "beam_calibration", "sound_speed_profile"})
+  for (const char* member :
+       {"recipe_version", "growth_curve", "beam_calibration", "sound_speed_profile", "current_profiles"})
     reader.skip(member);
   reader.finish();
   if (!reader.problem().empty()) return fail(ErrorCode::format, reader.problem());
@@ -116,6 +120,11 @@ Result<Recipe> recipe_from_text(std::string_view text) {
     auto profile = profile_from_json(*list);
     if (!profile) return pass_on(profile);
     recipe.survey.sound_speed_profile = std::move(*profile);
+  }
+  if (const auto list = json->find("current_profiles"); list != json->end()) {
+    auto profiles = currents_from_json(*list);
+    if (!profiles) return pass_on(profiles);
+    recipe.current_profiles = std::move(*profiles);
   }
   if (auto valid = validate_recipe(recipe); !valid) return pass_on(valid);
   return recipe;
@@ -221,6 +230,13 @@ Result<void> take_sound_speed(Recipe& recipe, const std::string& value_or_path) 
   if (!profile) return pass_on(profile);
   recipe.survey.sound_speed_mps = 0.0;
   recipe.survey.sound_speed_profile = std::move(*profile);
+  return {};
+}
+
+Result<void> take_currents(Recipe& recipe, const std::string& path) {
+  auto profiles = read_currents(path);
+  if (!profiles) return pass_on(profiles);
+  recipe.current_profiles = std::move(*profiles);
   return {};
 }
 

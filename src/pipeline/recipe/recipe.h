@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "io/csv_table.h"
 #include "io/ping_navigation.h"
+#include "model/current.h"
 #include "model/transfer_function.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/merge_params.h"
@@ -19,6 +20,7 @@
 #include "school/grow/propagate_tracked.h"
 #include "school/measure/measure_params.h"
 #include "school/measure/summarise.h"
+#include "school/measure/water_current.h"
 #include "school/seabed/seabed.h"
 #include "school/track/track.h"
 #include "signal/absorption.h"
@@ -147,12 +149,14 @@ struct Recipe {
   TrackParams track;
   MeasureParams measure;
   SummariseParams summarise;
+  CurrentParams currents;
   MergeParams merge;
   GrowParams grow;
   PaperPropagationParams propagate_paper;
   TrackedPropagationParams propagate_tracked;
-  TransferFunction growth_curve;   ///< in the JSON as growth_curve
-  std::vector<std::string> notes;  ///< on parameters that the text names as earlier versions did, a line each
+  TransferFunction growth_curve;     ///< in the JSON as growth_curve
+  CurrentProfiles current_profiles;  ///< stand in the recipe by content; empty = none are known
+  std::vector<std::string> notes;    ///< on parameters that the text names as earlier versions did, a line each
 };
 
 template <class Visitor>
@@ -171,6 +175,7 @@ void describe(Visitor& v, Recipe& r) {
   v.group("track", r.track, "schools followed over pings");
   v.group("measure", r.measure, "a school's figures in one ping");
   v.group("summarise", r.summarise, "a school's figures over its pings");
+  v.group("currents", r.currents, "where the water's velocity holds");
   v.group("merge", r.merge, "schools over the cuts between observations");
   v.group("grow", r.grow, "growing from one click");
   v.group("propagate_paper", r.propagate_paper, "following a selected school as the 2007 paper did");
@@ -208,5 +213,9 @@ void describe(Visitor& v, Recipe& r) {
 /// Takes a user's sound speed into the recipe: a number, m/s, or a file of depth_m,sound_speed_mps (sound_profile.h).
 /// errors  bad_parameter, format, not_found, io
 [[nodiscard]] Result<void> take_sound_speed(Recipe& recipe, const std::string& value_or_path);
+
+/// Takes the water's velocities from an ADCP's netCDF file (io/current_file.h) into the recipe.
+/// errors  as read_currents()
+[[nodiscard]] Result<void> take_currents(Recipe& recipe, const std::string& path);
 
 }  // namespace sonar

@@ -16,9 +16,11 @@
 #include "pipeline/survey/beam_figures.h"
 #include "school/measure/correct_sizes.h"
 #include "school/measure/measure.h"
+#include "school/measure/movement.h"
 #include "school/measure/summarise.h"
 #include "school/measure/total_echo.h"
 #include "school/measure/two_way_beam.h"
+#include "school/measure/water_current.h"
 
 namespace sonar {
 namespace {
@@ -124,11 +126,31 @@ std::vector<SchoolPingRow> rows_of(const ObservationProduct& product, std::int64
   return rows;
 }
 
-void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
+/// Rows of one school stand together.
+void move_schools(const Recipe& recipe, const WaterCurrents* water, ObservationProduct& product) {
+  const ShipWay ship(product.pings);
+  const std::span<SchoolPingRow> all(product.school_pings);
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t last = first;
+    while (last < all.size() && all[last].school_id == all[first].school_id) ++last;
+    add_movement(all.subspan(first, last - first), ship, recipe.summarise, water);
+    first = last;
+  }
+}
+
+/// Empty where no current was given.
+std::optional<WaterCurrents> currents_of(const Recipe& recipe) {
+  if (recipe.current_profiles.empty()) return std::nullopt;
+  return WaterCurrents{&recipe.current_profiles, recipe.currents,
+                       current_noise_mps(recipe.current_profiles, recipe.currents)};
+}
+
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, const WaterCurrents* water,
+                       ObservationProduct& product) {
   for (const SchoolMasks& school : schools) {
     const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
     if (rows.empty()) continue;
-    SchoolRow row = summarise(rows, recipe.summarise);
+    SchoolRow row = summarise(rows, recipe.summarise, water);
     row.observation = product.observation;
     row.school_id = school.decided.school_id;
     row.origin = school.decided.origin;
@@ -257,7 +279,10 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   }
   product.grid = grid_record(engine.observation(), engine.recipe().calibration);
   product.school_pings = corrected_rows(rows, engine.recipe().measure);
-  summarise_schools(schools, engine.recipe(), product);
+  const auto currents = currents_of(engine.recipe());
+  const WaterCurrents* water = currents ? &*currents : nullptr;
+  move_schools(engine.recipe(), water, product);
+  summarise_schools(schools, engine.recipe(), water, product);
   take_masks(schools, faults, product);
   return {};
 }

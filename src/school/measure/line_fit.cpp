@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "base/check.h"
 
@@ -36,9 +35,11 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-double median_interval(const std::vector<double>& t) {
+double median_interval(std::span<const TimedPlaces> pieces) {
   std::vector<double> intervals;
-  for (std::size_t i = 1; i < t.size(); ++i) intervals.push_back(t[i] - t[i - 1]);
+  for (const TimedPlaces& piece : pieces) {
+    for (std::size_t i = 1; i < piece.t.size(); ++i) intervals.push_back(piece.t[i] - piece.t[i - 1]);
+  }
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return *middle;
@@ -61,15 +62,17 @@ std::vector<double> whitened(const std::vector<double>& values, const std::vecto
   return out;
 }
 
-/// Generalised least squares under one correlation.
+/// Generalised least squares under one correlation: sums over pieces.
 struct Judged {
-  double likelihood = -std::numeric_limits<double>::infinity();
-  double xx = 0.0;  ///< variances of the deviations
+  double log_determinants = 0.0;
+  double freedom = 0.0;
+  double xx = 0.0;  ///< squares of what is new in the deviations
   double xy = 0.0;
   double yy = 0.0;
+  [[nodiscard]] double likelihood() const { return -log_determinants - freedom * std::log((xx + yy) / freedom); }
 };
 
-Judged judge(const Centred& in, const std::vector<double>& phi) {
+void judge(const Centred& in, const std::vector<double>& phi, Judged& sum) {
   const std::size_t n = in.t.size();
   const std::vector<double> one = whitened(std::vector<double>(n, 1.0), phi);
   const std::vector<double> t = whitened(in.t, phi);
@@ -88,12 +91,12 @@ Judged judge(const Centred& in, const std::vector<double>& phi) {
   };
   const std::vector<double> x = residual(in.x);
   const std::vector<double> y = residual(in.y);
-  const double freedom = static_cast<double>(n) - 2.0;
-  Judged out{0.0, dot(x, x) / freedom, dot(x, y) / freedom, dot(y, y) / freedom};
-  double log_variances = 0.0;
-  for (const double p : phi) log_variances += std::log(1.0 - p * p);
-  out.likelihood = -log_variances - std::log(determinant) - freedom * std::log(out.xx + out.yy);
-  return out;
+  sum.freedom += static_cast<double>(n) - 2.0;
+  sum.xx += dot(x, x);
+  sum.xy += dot(x, y);
+  sum.yy += dot(y, y);
+  sum.log_determinants += std::log(determinant);
+  for (const double p : phi) sum.log_determinants += std::log(1.0 - p * p);
 }
 
 /// Variance of the plain line's slope for deviations of variance 1.
@@ -107,30 +110,46 @@ double slope_variance(const Centred& in, const std::vector<double>& phi) {
   return sum / (in.tt * in.tt);
 }
 
-}  // namespace
-
-LineFit fit_line(const std::vector<double>& t, const std::vector<double>& x, const std::vector<double>& y) {
-  SONAR_CHECK(t.size() >= 3 && x.size() == t.size() && y.size() == t.size());
-  Centred in{centred(t), centred(x), centred(y), 0.0};
+Centred centred(const TimedPlaces& places) {
+  Centred in{centred(places.t), centred(places.x), centred(places.y), 0.0};
   in.tt = dot(in.t, in.t);
   SONAR_CHECK(in.tt > 0.0);
-  LineFit line;
-  line.slope_x = dot(in.t, in.x) / in.tt;
-  line.slope_y = dot(in.t, in.y) / in.tt;
-  const double interval = median_interval(t);
-  Judged best;
-  for (const double intervals : kIntervals) {
-    const std::vector<double> phi = correlations(t, intervals * interval);
-    const Judged judged = judge(in, phi);
-    // Places that lie on the line to the last digit have no likelihood, and no error.
-    if (intervals > 0.0 && !(judged.likelihood > best.likelihood)) continue;
-    best = judged;
-    const double variance = slope_variance(in, phi);
-    line.variance_xx = judged.xx * variance;
-    line.variance_xy = judged.xy * variance;
-    line.variance_yy = judged.yy * variance;
+  return in;
+}
+
+}  // namespace
+
+Scatter common_scatter(std::span<const TimedPlaces> pieces) {
+  SONAR_CHECK(!pieces.empty());
+  std::vector<Centred> all;
+  for (const TimedPlaces& piece : pieces) {
+    SONAR_CHECK(piece.t.size() >= 3 && piece.x.size() == piece.t.size() && piece.y.size() == piece.t.size());
+    all.push_back(centred(piece));
   }
-  return line;
+  const double interval = median_interval(pieces);
+  Scatter out;
+  double best = 0.0;
+  for (const double intervals : kIntervals) {
+    Judged sum;
+    for (const Centred& piece : all) judge(piece, correlations(piece.t, intervals * interval), sum);
+    // Places that lie on the line to the last digit have no likelihood, and no error.
+    if (intervals > 0.0 && !(sum.likelihood() > best)) continue;
+    best = sum.likelihood();
+    out = {intervals * interval, sum.xx / sum.freedom, sum.xy / sum.freedom, sum.yy / sum.freedom};
+  }
+  return out;
+}
+
+LineFit fit_line(const TimedPlaces& places, const Scatter& scatter) {
+  const Centred in = centred(places);
+  const double variance = slope_variance(in, correlations(in.t, scatter.tau_s));
+  return {dot(in.t, in.x) / in.tt, dot(in.t, in.y) / in.tt, scatter.variance_xx * variance,
+          scatter.variance_xy * variance, scatter.variance_yy * variance};
+}
+
+LineFit fit_line(const std::vector<double>& t, const std::vector<double>& x, const std::vector<double>& y) {
+  const TimedPlaces places{t, x, y};
+  return fit_line(places, common_scatter(std::span(&places, 1)));
 }
 
 }  // namespace sonar

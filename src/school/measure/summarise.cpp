@@ -8,7 +8,8 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
-#include "school/measure/line_fit.h"
+#include "school/measure/centre_track.h"
+#include "school/measure/tortuosity.h"
 
 namespace sonar {
 namespace {
@@ -73,49 +74,40 @@ double linear_mean_db(const Rows& rows, double SchoolPingRow::*column) {
   return n > 0 ? db_from_linear(sum / n) : kUnknown;
 }
 
-/// Speed and its standard error out of the slopes' noise. The length of a noisy vector is longer than the vector: by half
-/// the variance across it over the length, so that the square less that variance is free of it but where the speed is lost
-/// in its error. There the length is 0.
-/// source  Wardle & Kronberg 1974, ApJ 194, 249, for the length of a polarisation vector
-void take_speed(const LineFit& line, SchoolRow& out) {
-  const double length = std::hypot(line.slope_x, line.slope_y);
-  const double x = length > 0.0 ? line.slope_x / length : std::sqrt(0.5);
-  const double y = length > 0.0 ? line.slope_y / length : std::sqrt(0.5);
-  const double cross = 2.0 * x * y * line.variance_xy;
-  const double along = x * x * line.variance_xx + cross + y * y * line.variance_yy;
-  const double across = y * y * line.variance_xx - cross + x * x * line.variance_yy;
-  out.speed_mps = std::sqrt(std::max(length * length - across, 0.0));
-  out.speed_se_mps = std::sqrt(std::max(along, 0.0));
-  if (out.speed_mps > 0.0 && out.speed_mps >= 2.0 * out.speed_se_mps) {
-    out.course_deg = wrap_360(deg_from_rad(std::atan2(line.slope_x, line.slope_y)));
-  }
+/// Through the water, over the whole track.
+void summarise_water(const CentreTrack& track, std::span<const SchoolPingRow> rows, const LineFit& line,
+                     const WaterCurrents& water, SchoolRow& out) {
+  const auto drifted = drifted_water(track, rows, water);
+  if (!drifted) return;
+  const CurrentAlong current = drifted->along(0, track.size());
+  const Speed speed = speed_through_water(line, current);
+  out.speed_water_mps = speed.speed_mps;
+  out.speed_water_se_mps = speed.speed_se_mps;
+  out.course_water_deg = speed.course_deg;
+  out.course_water_se_deg = speed.course_se_deg;
+  out.current_east_mps = current.east_mps;
+  out.current_north_mps = current.north_mps;
+  out.current_se_mps = current.error_mps;
 }
 
-void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams& params, SchoolRow& out) {
-  std::vector<double> t;
-  std::vector<double> east;
-  std::vector<double> north;
-  std::vector<double> down;
-  Geographic origin;
-  TimeNs start = 0;
-  for (const SchoolPingRow& row : rows) {
-    if ((row.edge_flags & kCutsCentre) != 0) continue;
-    if (!std::isfinite(row.latitude) || !std::isfinite(row.longitude) || !std::isfinite(row.depth_m)) continue;
-    if (t.empty()) {
-      origin = {row.latitude, row.longitude};
-      start = row.time_utc;
-    }
-    const Point<Enu> place = to_enu(Geographic{row.latitude, row.longitude}, origin);
-    t.push_back(static_cast<double>(row.time_utc - start) / static_cast<double>(kSecondNs));
-    east.push_back(place.x);
-    north.push_back(place.y);
-    down.push_back(row.depth_m);
-  }
-  if (t.size() < static_cast<std::size_t>(std::max(params.min_speed_pings, 3))) return;
-  if (t.back() - t.front() < params.min_speed_span_s) return;
-  if (!(t.back() > t.front())) return;
-  take_speed(fit_line(t, east, north), out);
-  out.vertical_speed_mps = fit_line(t, down, down).slope_x;  // positive down, as depth
+void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams& params, const WaterCurrents* water,
+                      SchoolRow& out) {
+  const CentreTrack track = uncut_track(rows);
+  if (track.size() < static_cast<std::size_t>(std::max(params.min_speed_pings, 3))) return;
+  if (track.span_s() < params.min_speed_span_s || !(track.span_s() > 0.0)) return;
+  const LineFit line = fit_line(track.places.t, track.places.x, track.places.y);
+  const Speed speed = speed_of(line);
+  out.speed_mps = speed.speed_mps;
+  out.speed_se_mps = speed.speed_se_mps;
+  out.course_deg = speed.course_deg;
+  out.course_se_deg = speed.course_se_deg;
+  const LineFit down = fit_line(track.places.t, track.depth_m, track.depth_m);
+  out.vertical_speed_mps = down.slope_x;  // positive down, as depth
+  out.vertical_speed_se_mps = std::sqrt(std::max(down.variance_xx, 0.0));
+  const Tortuosity winding = tortuosity(track, params.movement_window_s);
+  out.tortuosity = winding.ratio;
+  out.tortuosity_se = winding.se;
+  if (water != nullptr) summarise_water(track, rows, line, *water, out);
 }
 
 /// Levels as linear means, sizes and all else as medians, as the other columns are.
@@ -178,7 +170,7 @@ void summarise_echo(const Rows& used, SchoolRow& out) {
 
 }  // namespace
 
-SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& params) {
+SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& params, const WaterCurrents* water) {
   SONAR_CHECK(!rows.empty());
   Rows all;
   Rows whole;
@@ -205,7 +197,7 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   summarise_echo(used, out);
   summarise_total(used, out);
   summarise_descriptors(used, out);
-  summarise_motion(rows, params, out);
+  summarise_motion(rows, params, water, out);
   return out;
 }
 

@@ -89,6 +89,14 @@ const std::vector<ColumnOf<SchoolInPing>>& ping_columns() {
        descriptor<&D::diner_nb_across, 1>},
       {{"Nb height", "", "Diner's relative size upright; doubt heights below 1.5", true},
        descriptor<&D::diner_nb_height, 1>},
+      {{"Speed", "m/s", "over ground, smoothed over a window", true}, figure<&R::speed_smoothed_mps, 2>},
+      {{"From the bow", "\u00B0", "bearing from the bow, positive to starboard", true},
+       figure<&R::relative_bearing_deg, 0>},
+      {{"Speed away", "m/s", "over ground, away from the ship; negative = towards it", true},
+       figure<&R::speed_away_mps, 2>},
+      {{"To closest", "s", "time to the ship's closest point of approach; negative = past", true},
+       figure<&R::time_to_cpa_s, 0>},
+      {{"Closest", "m", "distance at the closest point of approach", true}, figure<&R::cpa_m, 0>},
   };
   return kColumns;
 }

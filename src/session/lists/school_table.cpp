@@ -77,6 +77,12 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Above seabed", "m", "of its deepest point", true}, descriptor<&D::bottom_distance_m, 1>},
       {{"Incidence", "\u00B0", "between beam and length: 0 end on, 90 broadside", true},
        descriptor<&D::incidence_deg, 0>},
+      {{"Speed through water", "kn", "where a run was told the current", true},
+       [](const S& s) { return number_cell(figure<&R::speed_water_mps>(s) / kKnot_mps, 1); }},
+      {{"Course through water", "\u00B0", "true, where a run was told the current", true},
+       [](const S& s) { return number_cell(figure<&R::course_water_deg>(s), 0); }},
+      {{"Tortuosity", "", "length of its path over the distance from beginning to end; 1 = straight", true},
+       [](const S& s) { return number_cell(figure<&R::tortuosity>(s), 2); }},
   };
 }
 

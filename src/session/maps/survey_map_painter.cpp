@@ -52,6 +52,8 @@ bool SurveyMapPainter::know(const SurveyMapWish& wish) {
     outlines_.assign(count, {});
     swept_known_.assign(count, false);
     raster_extent_.reset();
+    recipe_.clear();
+    currents_.reset();
   }
   if (products_ != wish.products || numbers_ != wish.numbers) take_products(wish);
   bool more = false;
@@ -73,8 +75,20 @@ void SurveyMapPainter::take_products(const SurveyMapWish& wish) {
     light.cut_after = products_[i]->cut_after;
     light.recipe_json = products_[i]->recipe_json;
   }
+  take_currents();
   join_over_cuts(light_);
   number_known(light_, numbers_, wish.all_measured);
+}
+
+/// Of the first that is measured: all are measured by one recipe.
+void SurveyMapPainter::take_currents() {
+  for (std::size_t i = 0; i < light_.size(); ++i) {
+    if (!products_[i]) continue;
+    if (recipe_ == light_[i].recipe_json) return;
+    recipe_ = light_[i].recipe_json;
+    currents_ = map_currents(light_[i]);
+    return;
+  }
 }
 
 bool SurveyMapPainter::know_more(const SurveyMapWish& wish, const CancelToken& token) {
@@ -113,6 +127,7 @@ const DepthGrid* SurveyMapPainter::depths(const SurveyMapWish& wish, const MapFr
 Result<SurveyMapPainter::Painted> SurveyMapPainter::painted(const SurveyMapWish& wish, PixelSize size) {
   const Theme theme = dock_theme(size, wish.look);
   SurveyMapStyle style = wish.style;
+  style.currents = currents_;
   style.legend = size.width > kLegendFrom_em * theme.text_px;
   if (!style.legend) style.margin = kSmallMargin;
   auto map = survey_chart(light_, outlines_, style, size, theme);

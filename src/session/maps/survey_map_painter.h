@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/task_thread.h"
+#include "model/current.h"
 #include "model/depth_grid.h"
 #include "model/map_outlines.h"
 #include "session/document.h"
@@ -45,6 +47,7 @@ class SurveyMapPainter {
  private:
   [[nodiscard]] bool know(const SurveyMapWish& wish);
   void take_products(const SurveyMapWish& wish);
+  void take_currents();
   bool know_more(const SurveyMapWish& wish, const CancelToken& token);
   [[nodiscard]] Result<Painted> painted(const SurveyMapWish& wish, PixelSize size);
   const DepthGrid* depths(const SurveyMapWish& wish, const MapFrame& map, std::string& note);
@@ -56,6 +59,8 @@ class SurveyMapPainter {
   std::vector<ProductPtr> outlined_;           ///< that outlines_ was made from
   std::vector<ObservationOutlines> outlines_;  ///< [observation]
   std::vector<bool> swept_known_;
+  std::string recipe_;  ///< that currents_ was read from
+  std::shared_ptr<const CurrentProfiles> currents_;
   std::filesystem::path raster_;
   std::optional<GeoExtent> raster_extent_;
   std::optional<DepthGrid> depths_;

@@ -107,7 +107,7 @@ std::string unit_text(std::string_view unit) {
 }
 
 std::string column_words(const ChartColumn& column) {
-  constexpr std::array<std::string_view, 8> kUnits{"_m2_nmi2", "_utc", "_db", "_mps", "_m3", "_m2", "_m", "_deg"};
+  constexpr std::array<std::string_view, 9> kUnits{"_m2_nmi2", "_utc", "_db", "_mps", "_m3", "_m2", "_m", "_deg", "_s"};
   std::string text(column.name);
   for (const std::string_view unit : kUnits) {
     if (!text.ends_with(unit)) continue;

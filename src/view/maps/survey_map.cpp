@@ -17,6 +17,7 @@
 #include "view/maps/graticule.h"
 #include "view/maps/map_frame.h"
 #include "view/maps/map_items.h"
+#include "view/maps/survey_map_currents.h"
 #include "view/maps/survey_map_labels.h"
 #include "view/maps/survey_map_legend.h"
 #include "view/maps/survey_map_transects.h"
@@ -245,6 +246,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   for (const ObservationProduct& product : observations) {
     frame.items.emplace_back(track_item(map, product.pings, {theme.track, 1.6 * theme.line_px, {}}));
   }
+  const std::string currents = style.currents ? add_currents(d, *style.currents) : std::string{};
   // A school may lie where the ship ended: it is what the map is for, and stays seen.
   if (ship) add_ship(d, *last, *ship);
   for (const ObservationProduct& product : observations) {
@@ -262,8 +264,9 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   add_graticule(frame, map, theme);
   add_scale_and_north(frame, map, theme);
   if (style.legend)
-    add_survey_legend(d, p.legend, bands, style, depths, schools,
-                      {left_out_text(left_out), left_out_text(names.left_out, "names"), transects_text(style), note});
+    add_survey_legend(
+        d, p.legend, bands, style, depths, schools,
+        {left_out_text(left_out), left_out_text(names.left_out, "names"), transects_text(style), currents, note});
   if (!theme.bars) frame.bars = survey_bars(d, bands, style, schools);
   Layout layout;
   layout.title = p.title;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "base/describe.h"
 #include "base/result.h"
 #include "geo/map_projection.h"
+#include "model/current.h"
 #include "model/depth_grid.h"
 #include "model/map_outlines.h"
 #include "model/product.h"
@@ -42,6 +44,7 @@ struct SurveyMapStyle {
   std::size_t left_out = 0;  ///< schools that there are and that nobody wants to see
   int unsearched = 0;        ///< observations whose schools nobody looked for: that they show none says nothing
   std::vector<Transect> transects = {};  ///< drawn along the track, with their names; empty = none are known
+  std::shared_ptr<const CurrentProfiles> currents = nullptr;  ///< arrows of the water's velocity; null = none are known
   friend bool operator==(const SurveyMapStyle&, const SurveyMapStyle&) = default;
 };
 
