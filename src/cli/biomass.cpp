@@ -65,7 +65,7 @@ void print_notes(const Biomass& done) {
                            count_of(static_cast<std::size_t>(done.without_numbers), "school")));
   }
   if (!done.integrated) {
-    print_note("not-integrated: no strata.csv of sonarx integrate: only the schools that were seen are counted");
+    print_note("no-strata: there is no strata.csv of sonarx integrate: only the schools that were seen are counted");
   }
 }
 
