@@ -17,7 +17,7 @@ constexpr int kHeadings = 360;  ///< of fish that head anywhere
 
 /// Standard deviations from the mean, and their weights: a normal distribution at equal steps.
 struct Normal {
-  static constexpr int kParts = 41;  ///< a narrow echo of a long fish falls off within 6 degrees
+  static constexpr int kParts = 55;  ///< a narrow echo of a long fish falls off within 6 degrees
   std::array<double, kParts> at{};
   std::array<double, kParts> weight{};
 };
@@ -26,7 +26,7 @@ Normal normal_parts() {
   Normal parts;
   double sum = 0.0;
   for (std::size_t i = 0; i < parts.at.size(); ++i) {
-    parts.at[i] = -3.0 + 6.0 * static_cast<double>(i) / (Normal::kParts - 1);
+    parts.at[i] = -4.0 + 8.0 * static_cast<double>(i) / (Normal::kParts - 1);
     parts.weight[i] = std::exp(-0.5 * parts.at[i] * parts.at[i]);
     sum += parts.weight[i];
   }

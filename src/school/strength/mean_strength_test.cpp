@@ -73,7 +73,7 @@ TEST(MeanStrength, of_fish_that_stand_alike_is_a_line) {
 
 /// Mean over fish, by vectors and many steps.
 double by_vectors(double bearing_deg, double elevation_deg, double heading_sd_deg, double tilt_sd_deg, bool anywhere) {
-  constexpr int kSteps = 300;
+  constexpr int kSteps = 200;
   const double e = rad_from_deg(elevation_deg);
   const double b = rad_from_deg(bearing_deg);
   double sum = 0.0;
