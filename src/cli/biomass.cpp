@@ -60,6 +60,10 @@ void print_notes(const Biomass& done) {
     print_note(fmt::format("ts-any-heading: {} without a known course; fish of any heading are meant there",
                            count_of(static_cast<std::size_t>(done.without_course), "school")));
   }
+  if (done.cut > 0) {
+    print_note(fmt::format("cut-schools: {} cut off by an edge in every ping: more fish than counted",
+                           count_of(static_cast<std::size_t>(done.cut), "school")));
+  }
   if (done.without_numbers > 0) {
     print_note(fmt::format("no-numbers: {} without numbers: backscatter or place is unknown",
                            count_of(static_cast<std::size_t>(done.without_numbers), "school")));

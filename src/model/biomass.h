@@ -18,6 +18,7 @@ struct BiomassRow {
   std::string species;
   std::string ts_preset;
   std::int64_t n_pings = 0;
+  std::int64_t n_pings_whole = 0;
   double depth_m = kUnknown;
   double course_deg = kUnknown;
   double incidence_deg = kUnknown;
@@ -46,6 +47,7 @@ void columns(Visitor& v, BiomassRow& r) {
   v("species", "", r.species);
   v("ts_preset", "", r.ts_preset);
   v("n_pings", "1", r.n_pings);
+  v("n_pings_whole", "1", r.n_pings_whole);
   v("depth_m", "m", r.depth_m);
   v("course_deg", "degrees", r.course_deg);
   v("incidence_deg", "degrees", r.incidence_deg);

@@ -166,7 +166,7 @@ TEST(SchoolNumbers, count_fish_of_known_directivity) {
   EXPECT_LT(row.numbers_high / row.numbers_low, 1.25);  // a factor 4 pi, or a dB, lies far outside
   EXPECT_NEAR(row.biomass_t, kFish * 0.005 * 27.0 * 27.0 * 27.0 * 1e-6, 0.005 * row.biomass_t);
   EXPECT_NEAR(row.fish_per_m3, 5.0, 0.03);
-  EXPECT_EQ(row.band, "fading calibration lengths");
+  EXPECT_EQ(row.band, "fading calibration lengths aspect");
   for (const BiomassPingRow& ping : schools[0].pings) {
     EXPECT_NEAR(ping.numbers, kFish, 0.02 * kFish) << ping.incidence_deg;
     EXPECT_NEAR(ping.incidence_deg, std::abs(30.0 - 3.0 * static_cast<double>(ping.ping_index)), 1e-6);
@@ -181,6 +181,29 @@ TEST(SchoolNumbers, without_aspect_are_told_wrong) {
   EXPECT_LT(schools[0].row.numbers_high, 0.7 * kFish);
 }
 
+// A course that nobody knows may be any: fish end on echo a tenth, and broadside most.
+TEST(SchoolNumbers, of_an_unknown_course_have_a_wide_band) {
+  const ObservationProduct product = passing_school(kUnknown);
+  const auto schools = school_numbers({&product, 1}, line_fish());
+  const BiomassRow& row = schools[0].row;
+  EXPECT_LT(row.numbers_low, kFish);
+  EXPECT_GT(row.numbers_high, kFish);
+  EXPECT_NEAR(row.ts_span_db, 10.0, 0.1);
+  EXPECT_TRUE(std::isnan(row.incidence_deg));
+}
+
+// A course known to 10 degrees of a school seen 30 degrees off broadside and less.
+TEST(SchoolNumbers, hold_the_doubt_of_the_course) {
+  ObservationProduct product = passing_school(0.0);
+  product.schools[0].speed_mps = 1.0;
+  product.schools[0].speed_se_mps = std::tan(rad_from_deg(10.0)) / 1.96;
+  const auto doubted = school_numbers({&product, 1}, line_fish());
+  product.schools[0].speed_se_mps = 0.0;
+  const auto sure = school_numbers({&product, 1}, line_fish());
+  EXPECT_EQ(sure[0].row.ts_span_db, 0.0);
+  EXPECT_GT(doubted[0].row.ts_span_db, 0.1);
+}
+
 TEST(SchoolNumbers, span_the_choices) {
   const ObservationProduct product = passing_school(0.0);
   FishChoice fish = line_fish();
@@ -193,7 +216,7 @@ TEST(SchoolNumbers, span_the_choices) {
   EXPECT_NEAR(row.ts_strongest_db - row.ts_mean_db, 3.0, 1e-9);
   EXPECT_LT(row.numbers_low, row.numbers / std::pow(10.0, 0.3));
   EXPECT_GT(row.numbers_high, row.numbers * std::pow(10.0, 0.4));
-  EXPECT_EQ(row.band, "fading calibration lengths ts");
+  EXPECT_EQ(row.band, "fading calibration lengths aspect ts");
 }
 
 TEST(SchoolNumbers, take_only_the_pings_that_tell_backscatter) {
@@ -202,6 +225,7 @@ TEST(SchoolNumbers, take_only_the_pings_that_tell_backscatter) {
   product.school_pings[3].backscatter_total_m2 *= 0.1;
   const auto schools = school_numbers({&product, 1}, line_fish());
   EXPECT_EQ(schools[0].row.n_pings, 20);
+  EXPECT_EQ(schools[0].row.n_pings_whole, 20);
   EXPECT_EQ(schools[0].pings[3].used, 0);
   EXPECT_NEAR(schools[0].row.numbers, kFish, 0.005 * kFish);
 }

@@ -2,6 +2,7 @@
 #include "pipeline/biomass/school_numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,11 +43,20 @@ BeamToSchool look_of(const ObservationProduct& product, const SchoolPingRow& row
   return {row.bearing_deg, deg_from_rad(std::asin(std::clamp(sine, -1.0, 1.0))), course_deg};
 }
 
+/// Courses between which a school's lies with 95 %, by the error of its speed; of an unknown course end on and broadside.
+std::array<double, 2> doubted_courses(const SchoolRow& school, double bearing_deg) {
+  if (std::isnan(school.course_deg)) return {bearing_deg, bearing_deg + 90.0};
+  const double off = std::isfinite(school.speed_se_mps) && school.speed_mps > 0.0
+                         ? deg_from_rad(std::atan(1.96 * school.speed_se_mps / school.speed_mps))
+                         : 0.0;
+  return {school.course_deg - off, school.course_deg + off};
+}
+
 /// What the rows of one school have in one ping together.
 struct InPing {
   double echo_m2 = 0.0;
   double variance_m4 = 0.0;
-  std::vector<double> sigma_m2;  ///< [relation], mean over the rows
+  std::vector<double> sigma_m2;  ///< mean over the rows: chosen, choices, chosen at both doubted courses
   int rows = 0;
   bool known = true;
   bool touches_edge = false;
@@ -103,10 +113,10 @@ class SchoolCounter {
     for (const SchoolPingRow* row : rows->second) {
       const BeamToSchool look = look_of(products_[product], *row, school.course_deg);
       InPing& ping = pings[{product, row->ping_index}];
-      ping.sigma_m2.resize(strengths_[product].size());
-      for (std::size_t i = 0; i < ping.sigma_m2.size(); ++i) {
-        const double sigma = strengths_[product][i].sigma_bs_m2(row->depth_m, look);
-        ping.sigma_m2[i] = (ping.sigma_m2[i] * ping.rows + sigma) / (ping.rows + 1);
+      const std::vector<double> sigma = sigmas_of(school, *row, look, strengths_[product]);
+      ping.sigma_m2.resize(sigma.size());
+      for (std::size_t i = 0; i < sigma.size(); ++i) {
+        ping.sigma_m2[i] = (ping.sigma_m2[i] * ping.rows + sigma[i]) / (ping.rows + 1);
       }
       ++ping.rows;
       ping.echo_m2 += echo_m2(*row);
@@ -116,6 +126,18 @@ class SchoolCounter {
       ping.at.push_back(out.pings.size());
       out.pings.push_back(ping_row(*row, look, strengths_[product].front()));
     }
+  }
+
+  static std::vector<double> sigmas_of(const SchoolRow& school, const SchoolPingRow& row, const BeamToSchool& look,
+                                       const std::vector<MeanStrength>& strengths) {
+    std::vector<double> sigma;
+    for (const MeanStrength& strength : strengths) sigma.push_back(strength.sigma_bs_m2(row.depth_m, look));
+    for (const double course_deg : doubted_courses(school, row.bearing_deg)) {
+      BeamToSchool doubted = look;
+      doubted.course_deg = course_deg;
+      sigma.push_back(strengths.front().sigma_bs_m2(row.depth_m, doubted));
+    }
+    return sigma;
   }
 
   static BiomassPingRow ping_row(const SchoolPingRow& row, const BeamToSchool& look, const MeanStrength& strength) {
@@ -143,6 +165,7 @@ class SchoolCounter {
     for (const auto& [key, ping] : pings) {
       if (!ping.known || (whole && ping.touches_edge)) continue;
       ++out.row.n_pings;
+      if (!ping.touches_edge) ++out.row.n_pings_whole;
       sums.echo_m2 += ping.echo_m2;
       sums.variance_m4 += ping.variance_m4;
       sums.sigma_m2.resize(ping.sigma_m2.size());
@@ -184,7 +207,7 @@ class SchoolCounter {
     of_biomass.lengths = of_lengths.biomass;
     put_biomass(banded(numbers * tonnes, out.strongest * tonnes, out.weakest * tonnes, of_biomass.together()), row);
     if (school.rows.size() == 1) row.fish_per_m3 = numbers / school.rows.front()->volume_corrected_m3;
-    row.band = contents(out.errors, row.ts_span_db);
+    row.band = contents(out.errors);
   }
 
   static void put(const Banded& numbers, BiomassRow& row) {
@@ -200,7 +223,7 @@ class SchoolCounter {
     row.biomass_high_t = biomass.high;
   }
 
-  static std::string contents(const NumberErrors& errors, double span_db) {
+  [[nodiscard]] std::string contents(const NumberErrors& errors) const {
     std::string text;
     const auto add = [&text](bool there, const char* word) {
       if (there) text += (text.empty() ? "" : " ") + std::string(word);
@@ -208,7 +231,8 @@ class SchoolCounter {
     add(std::isfinite(errors.own), "fading");
     add(std::isfinite(errors.calibration), "calibration");
     add(std::isfinite(errors.lengths), "lengths");
-    add(span_db > 0.0, "ts");
+    add(fish_.chosen.directivity.known(), "aspect");
+    add(fish_.choices.size() > 1, "ts");
     return text;
   }
 
