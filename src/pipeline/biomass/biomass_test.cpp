@@ -192,9 +192,10 @@ TEST(SchoolNumbers, of_an_unknown_course_have_a_wide_band) {
   EXPECT_TRUE(std::isnan(row.incidence_deg));
 }
 
-// A course known to 10 degrees of a school seen 30 degrees off broadside and less.
+// Seen from one side of broadside only, a course known to 10 degrees makes a difference; from both it evens out.
 TEST(SchoolNumbers, hold_the_doubt_of_the_course) {
   ObservationProduct product = passing_school(0.0);
+  product.school_pings.resize(11);
   product.schools[0].speed_mps = 1.0;
   product.schools[0].speed_se_mps = std::tan(rad_from_deg(10.0)) / 1.96;
   const auto doubted = school_numbers({&product, 1}, line_fish());
