@@ -82,7 +82,10 @@ void print_result(const Biomass& done, const std::string& out) {
     fmt::print("the band spans {}\n", printable(names));
   }
   for (const BiomassStratumRow& row : done.strata) {
-    fmt::print("{}: {} seen, {} fish, {} t", row.level == "survey" ? "survey" : "stratum " + printable(row.stratum),
+    fmt::print("{}: {} seen, {} fish, {} t",
+               row.level == "survey" ? "survey"
+               : row.stratum.empty() ? "no stratum"
+                                     : "stratum " + printable(row.stratum),
                count_of(static_cast<std::size_t>(row.n_schools), "school"),
                with_band(row.numbers_seen, row.numbers_seen_low, row.numbers_seen_high),
                with_band(row.biomass_seen_t, row.biomass_seen_low_t, row.biomass_seen_high_t));

@@ -20,8 +20,7 @@ ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("
 # What the reader brings.
 BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
            "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n",
-           "lengths.csv": "length_cm,count\n25,20\n27,50\n29,30\n",
-           "areas.csv": "stratum,area_nmi2\nnorth,120\n"}
+           "lengths.csv": "length_cm,count\n25,20\n27,50\n29,30\n"}
 
 
 def commands(page):
