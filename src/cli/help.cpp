@@ -49,6 +49,10 @@ constexpr std::array kExamples = {
     Examples{"integrate",
              "  sonarx integrate SURVEY -o OUT\n"
              "  sonarx integrate SURVEY -o OUT --edsu-nmi 0.1 --range-bin-m 25 --depth-channel-m 20\n"},
+    Examples{"biomass",
+             "  sonarx biomass --list-ts\n"
+             "  sonarx biomass --print-ts > TS.csv\n"
+             "  sonarx biomass OUT --lengths lengths.csv --ts herring-side --weight-a 0.0048 --weight-b 3.2\n"},
     Examples{"propagate",
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
     Examples{"export",

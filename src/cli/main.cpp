@@ -49,6 +49,7 @@ int run_program(int argc, char** argv) {
   add_submit(app, run);
   add_status(app, run);
   add_integrate(app, run);
+  add_biomass(app, run);
   add_propagate(app, run);
   add_export(app, run);
   add_score(app, run);

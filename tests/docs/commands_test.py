@@ -22,7 +22,8 @@ ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("
                        + ("" if movement_test.netCDF4 else r"|^sonarx run .*--currents"))
 # What the reader brings.
 BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
-           "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n"}
+           "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n",
+           "lengths.csv": "length_cm,count\n25,20\n27,50\n29,30\n"}
 
 
 def commands(page):
@@ -74,6 +75,7 @@ class Commands(Case):
         folder = self.fresh("commands-help")
         (folder / "SURVEY").symlink_to(SURVEY)
         shutil.copy(SURVEY / "truth" / "depth.tif", folder)
+        (folder / "lengths.csv").write_text(BROUGHT["lengths.csv"])
         shutil.copytree(WORK / "out", folder / "OTHER")
         # Whatever the survey, the example is the same with fewer pings; one that follows ends when all is over.
         shorter = {"simulate": " --pings 2", "follow": " --idle-exit 1"}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/biomass/biomass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "io/csv.h"
+#include "io/product_file.h"
+#include "model/integration.h"
+#include "pipeline/biomass/biomass_strata.h"
+#include "pipeline/biomass/length_table.h"
+#include "pipeline/biomass/ts_table.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/survey_numbers.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<Survey> survey_in(const fs::path& out, Work& work) {
+  const auto files = product_files(out);
+  if (!files) return pass_on(files);
+  if (files->empty()) return fail(ErrorCode::not_found, "holds no products; sonarx run makes them", {out.string()});
+  std::vector<ObservationProduct> products;
+  for (const fs::path& file : *files) {
+    work.progress("reading products", std::ssize(products), std::ssize(*files));
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    auto product = read_product(file);
+    if (!product) return pass_on(product);
+    product->masks.clear();
+    product->background_db.clear();
+    products.push_back(std::move(*product));
+  }
+  auto survey = merge(std::move(products));
+  if (survey) number_as_merged(*survey, out);
+  return survey;
+}
+
+Result<FishChoice> fish_of(const BiomassOptions& options, const FrequencyBand& sonar) {
+  const auto table = read_ts_table(options.ts_table);
+  if (!table) return pass_on(table);
+  auto chosen = ts_relation_named(*table, options.ts);
+  if (!chosen) return pass_on(chosen);
+  auto lengths = read_fish_lengths(options.lengths);
+  if (!lengths) return pass_on(lengths);
+  FishChoice fish;
+  fish.choices = ts_choices(*table, *chosen, sonar.from_khz, sonar.to_khz);
+  fish.chosen = std::move(*chosen);
+  fish.lengths = std::move(*lengths);
+  fish.weight = options.weight;
+  fish.species = options.species;
+  return fish;
+}
+
+/// Tables of echo integration.
+struct Integration {
+  std::vector<EffortRow> effort;
+  std::vector<StratumRow> strata;
+};
+
+/// Empty where there are none.
+Result<Integration> integration_in(const fs::path& out) {
+  Integration tables;
+  std::error_code absent;
+  if (!fs::exists(out / "strata.csv", absent) || !fs::exists(out / "effort.csv", absent)) return tables;
+  auto effort = read_csv_rows<EffortRow>(out / "effort.csv");
+  if (!effort) return pass_on(effort);
+  auto strata = read_csv_rows<StratumRow>(out / "strata.csv");
+  if (!strata) return pass_on(strata);
+  tables.effort = std::move(*effort);
+  tables.strata = std::move(*strata);
+  return tables;
+}
+
+Result<std::map<std::string, double>> areas_for(const BiomassOptions& options, const Integration& tables) {
+  if (options.areas.empty()) return std::map<std::string, double>{};
+  auto areas = read_stratum_areas(options.areas);
+  if (!areas) return areas;
+  for (const auto& [stratum, area] : *areas) {
+    const bool known = std::any_of(tables.strata.begin(), tables.strata.end(), [&](const StratumRow& row) {
+      return row.level == "stratum" && row.stratum == stratum;
+    });
+    if (known) continue;
+    return fail(ErrorCode::mismatch,
+                fmt::format("stratum '{}' is none of those in {}; sonarx integrate --transects writes it",
+                            stratum.substr(0, 40), (options.out / "strata.csv").string()),
+                {options.areas.string()});
+  }
+  return areas;
+}
+
+void take_schools(std::vector<NumberedSchool>&& schools, Biomass& out) {
+  for (NumberedSchool& school : schools) {
+    if (!school.counted) continue;
+    if (std::isnan(school.row.numbers)) ++out.without_numbers;
+    if (school.row.n_pings > 0 && school.row.n_pings_whole == 0) ++out.cut;
+    if (std::isnan(school.row.incidence_deg)) ++out.without_course;
+    out.schools.push_back(std::move(school.row));
+    out.pings.insert(out.pings.end(), school.pings.begin(), school.pings.end());
+  }
+}
+
+}  // namespace
+
+Result<Biomass> biomass_folder(const BiomassOptions& options, Work& work) {
+  const auto survey = survey_in(options.out, work);
+  if (!survey) return pass_on(survey);
+  Biomass done;
+  done.sonar = frequencies_of(survey->observations);
+  auto fish = fish_of(options, done.sonar);
+  if (!fish) return pass_on(fish);
+  done.fish = std::move(*fish);
+  const auto tables = integration_in(options.out);
+  if (!tables) return pass_on(tables);
+  auto areas = areas_for(options, *tables);
+  if (!areas) return pass_on(areas);
+  std::vector<NumberedSchool> schools = school_numbers(survey->observations, done.fish);
+  done.integrated = !tables->strata.empty();
+  done.strata = biomass_strata(schools, done.fish, {tables->effort, tables->strata, std::move(*areas)});
+  take_schools(std::move(schools), done);
+  if (!options.species.empty() && done.schools.empty()) {
+    return fail(ErrorCode::mismatch, fmt::format("has no school of the species '{}'", options.species),
+                {options.out.string()});
+  }
+  auto written = write_csv_rows(options.out / "biomass.csv", done.schools);
+  if (written) written = write_csv_rows(options.out / "biomass_pings.csv", done.pings);
+  if (written) written = write_csv_rows(options.out / "biomass_strata.csv", done.strata);
+  if (!written) return pass_on(written);
+  return done;
+}
+
+}  // namespace sonar
