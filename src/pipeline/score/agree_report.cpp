@@ -67,7 +67,7 @@ std::string kappa_text(const Kappa& kappa, std::string_view unit) {
   if (std::isfinite(kappa.kappa)) {
     out += fmt::format("  Cohen's kappa {}, standard error {}\n", cell(kappa.kappa, 3), cell(kappa.kappa_se, 3));
   } else {
-    out += "  Cohen's kappa is not defined: both gave one answer only\n";
+    out += "  Cohen's kappa is not defined: a reader gave one answer only\n";
   }
   return out;
 }

@@ -88,6 +88,7 @@ TEST(Kappa, chance_perfection_and_what_cannot_be_told) {
   EXPECT_NEAR(perfect.kappa_se, 0.0, 1e-12);
   EXPECT_TRUE(std::isnan(cohen_kappa({{{9, 0}, {0, 0}}}).kappa)) << "chance alone agrees as well";
   EXPECT_EQ(cohen_kappa({{{9, 0}, {0, 0}}}).agreed_fraction, 1.0);
+  EXPECT_TRUE(std::isnan(cohen_kappa({{{1, 3}, {0, 0}}}).kappa)) << "whatever B says it would be 0";
   EXPECT_TRUE(std::isnan(cohen_kappa({}).agreed_fraction));
 }
 
@@ -252,7 +253,8 @@ TEST(Agree, json_and_table) {
   const json object = json::parse(text);
   EXPECT_EQ(object["schools"].size(), 4U);
   EXPECT_EQ(object["kappa_schools"]["counts"], (json{{1, 1}, {2, 0}}));
-  EXPECT_TRUE(object["kappa_decisions"]["kappa"].is_number());
+  EXPECT_TRUE(object["kappa_schools"]["kappa"].is_number());
+  EXPECT_TRUE(object["kappa_decisions"]["kappa"].is_null()) << "Brit rejected nothing";
   EXPECT_THAT(csv_text(told.rows), HasSubstr("school_a,school_b,lies_in,first_time_utc,"));
   EXPECT_THAT(agreement_text(told), HasSubstr("Cohen's kappa"));
   EXPECT_FALSE(agreement_text(agree(ScoreSide{}, ScoreSide{})).empty());

@@ -18,8 +18,8 @@ Kappa cohen_kappa(const AnswerCounts& counts) {
   const std::array<double, 2> of_b = {share(0, 0) + share(1, 0), share(0, 1) + share(1, 1)};
   out.agreed_fraction = share(0, 0) + share(1, 1);
   if (of_a[0] + of_b[0] > 0.0) out.agreed_yes_fraction = 2.0 * share(0, 0) / (of_a[0] + of_b[0]);
-  // Counts tell exactly whether both gave one answer only; shares would to rounding.
-  if (counts[0][0] == out.units || counts[1][1] == out.units) return out;
+  const auto one_answer = [&](std::int64_t yes) { return yes == 0 || yes == out.units; };
+  if (one_answer(counts[0][0] + counts[0][1]) || one_answer(counts[0][0] + counts[1][0])) return out;
   const double by_chance = of_a[0] * of_b[0] + of_a[1] * of_b[1];
   out.kappa = (out.agreed_fraction - by_chance) / (1.0 - by_chance);
   const double missed = 1.0 - out.kappa;

@@ -17,7 +17,8 @@ struct Kappa {
   std::int64_t units = 0;
   double agreed_fraction = kUnknown;      ///< share of units with equal answers
   double agreed_yes_fraction = kUnknown;  ///< 2 yes-yes / (yes of A + yes of B): what both have, whatever neither has
-  double kappa = kUnknown;     ///< unknown where both always gave the same one answer: chance alone would agree as well
+  /// Unknown where a reader gave one answer only: it would be 0, or 0/0, whatever the other said.
+  double kappa = kUnknown;
   double kappa_se = kUnknown;  ///< large-sample standard error; units are taken as independent
 };
 
