@@ -12,6 +12,7 @@
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
+#include "pipeline/exports/export_seabed.h"
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
@@ -23,12 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 6> kFormats = {{
+constexpr std::array<ExportFormat, 7> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
+    {"seabed", "depths of the seabed that each beam saw, as a table and as a GeoTIFF; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
 
@@ -149,6 +151,24 @@ Result<Exported> export_all_sv(const Source& source, const ExportOptions& option
   return done;
 }
 
+Result<Exported> export_all_seabed(const Source& source, const ExportOptions& options, Work& work) {
+  const auto raw = open_raw(source, options, work);
+  if (!raw) return pass_on(raw);
+  auto seabed = SeabedExport::create(options.dest, options.seabed);
+  if (!seabed) return pass_on(seabed);
+  Exported done;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    if (!product->grid) done.without_grid.push_back(product->observation);
+    if (auto added = seabed->add(raw->survey, *product, raw->recipe, work); !added) return pass_on(added);
+  }
+  auto files = seabed->finish();
+  if (!files) return pass_on(files);
+  done.files = std::move(*files);
+  return done;
+}
+
 Result<Exported> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
   const auto raw = open_raw(source, options, work);
   if (!raw) return pass_on(raw);
@@ -215,6 +235,7 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  if (format->name == "seabed") return export_all_seabed(*source, options, work);
   if (format->name == "sv") return export_all_sv(*source, options, work);
   return export_reduced(*source, options, work);
 }
