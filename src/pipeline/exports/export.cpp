@@ -14,6 +14,7 @@
 #include "io/survey_layers.h"
 #include "pipeline/exports/export_seabed.h"
 #include "pipeline/exports/export_sv.h"
+#include "pipeline/exports/track_edges.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
 constexpr std::array<ExportFormat, 7> kFormats = {{
-    {"csv", "schools.csv and school_pings.csv"},
+    {"csv", "schools.csv, school_pings.csv and tracks_edges.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
@@ -79,9 +80,15 @@ Result<ObservationProduct> with_masks(const Source& source, std::size_t i) {
 }
 
 Result<Exported> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
-  Files files = {dest / "schools.csv", dest / "school_pings.csv"};
+  Files files = {dest / "schools.csv", dest / "school_pings.csv", dest / "tracks_edges.csv"};
+  std::vector<TrackEdgeRow> edges;
+  for (const ObservationProduct& product : source.survey.observations) {
+    const std::vector<TrackEdgeRow> own = track_edges(product);
+    edges.insert(edges.end(), own.begin(), own.end());
+  }
   auto written = write_csv_rows(files[0], source.survey.schools, texts);
   if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
+  if (written) written = write_csv_rows(files[2], edges, texts);
   if (!written) return pass_on(written);
   return Exported{std::move(files)};
 }
