@@ -26,6 +26,7 @@ struct ExportArguments {
   std::string dest;
   std::string survey;
   ReduceParams reduce;
+  SeabedRasterParams seabed;
   bool no_formulas = false;
   int jobs = 0;
 };
@@ -42,7 +43,8 @@ int run_export(const ExportArguments& arguments) {
   show_progress(work);
   const ExportOptions options{arguments.out,    arguments.format,
                               arguments.dest,   arguments.survey,
-                              arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are};
+                              arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are,
+                              arguments.seabed};
   const auto done = export_products(options, work);
   clear_progress();
   if (!done) return report(naming_option(done.error(), kOptions));
@@ -69,7 +71,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")
       ->required()
       ->check(named_folder());
-  verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, raw-reduced)")
+  verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, seabed, raw-reduced)")
       ->check(named_path("FOLDER"));
   verb->add_option("--margin-samples", arguments->reduce.margin_samples,
                    "raw-reduced: samples before and after each school that are kept beyond what its figures need");
@@ -79,6 +81,11 @@ void add_export(CLI::App& app, VerbRunner& run) {
                    "raw-reduced: pings kept before each school's first ping and after its last");
   verb->add_option("--coarsen", arguments->reduce.coarsen_beams,
                    "raw-reduced: keep the rest as means of so many neighbouring beams of a fan; 0 = drop it");
+  verb->add_option("--cell-m", arguments->seabed.cell_m, "seabed: side of a cell of the raster, m")
+      ->check(within(0.5, 10000.0))
+      ->capture_default_str();
+  verb->add_flag("--geographic", arguments->seabed.geographic,
+                 "seabed: raster along latitudes and longitudes, not UTM");
   verb->add_flag("--no-formulas", arguments->no_formulas,
                  "csv: texts that a spreadsheet would take for a formula (= + - @) stand behind an apostrophe");
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
@@ -87,6 +94,10 @@ void add_export(CLI::App& app, VerbRunner& run) {
       const std::string option(of.option);
       if (arguments->format == "raw-reduced" || verb->get_option(option)->count() == 0) continue;
       throw CLI::ValidationError(option, "belongs to --to raw-reduced");
+    }
+    for (const char* option : {"--cell-m", "--geographic"}) {
+      if (arguments->format == "seabed" || verb->get_option(option)->count() == 0) continue;
+      throw CLI::ValidationError(option, "belongs to --to seabed");
     }
     if (arguments->no_formulas && arguments->format != "csv") {
       throw CLI::ValidationError("--no-formulas", "belongs to --to csv");

@@ -59,6 +59,7 @@ constexpr std::array kExamples = {
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"},
     Examples{"score", "  sonarx score OUT --truth SYNTHETIC/truth\n"},
+    Examples{"agree", "  sonarx agree OUT OTHER\n  sonarx agree OUT OTHER -o AGREEMENT\n"},
     Examples{"compare", "  sonarx compare OUT OTHER\n"},
     Examples{"recipe", "  sonarx recipe --preset default > R.json\n  sonarx recipe --validate R.json\n"},
     Examples{"render",

@@ -53,6 +53,7 @@ int run_program(int argc, char** argv) {
   add_propagate(app, run);
   add_export(app, run);
   add_score(app, run);
+  add_agree(app, run);
   add_compare(app, run);
   add_recipe(app, run);
   add_render(app, run);

@@ -58,6 +58,9 @@ Result<std::unique_ptr<PictureSource>> source_of(const RenderArguments& argument
   const std::vector<std::filesystem::path> paths(arguments.paths.begin(), arguments.paths.end());
   auto source = PictureSource::open(paths, recipe, work, arguments.quick);
   if (!source) return pass_on(source);
+  if (!arguments.against.empty()) {
+    if (auto compared = (*source)->compare_with(arguments.against); !compared) return pass_on(compared);
+  }
   // Nothing is ever written into the folder of the raw files.
   for (const std::string& file : {arguments.out, arguments.difference}) {
     if (file.empty() || file == kStandardOutput) continue;

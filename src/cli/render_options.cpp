@@ -81,6 +81,11 @@ void add_common(CLI::App& verb, RenderArguments& a) {
                       "CSV name,stratum,type,start_utc,stop_utc: transects along the track, a colour for each stratum")
           ->check(named_file()),
       "survey-map report");
+  suits(verb.add_option("--against", a.against,
+                        "Another reader's work folder of the same raw files: show which voxels are in both, which only "
+                        "in PATH (A) and which only there (B); --ping default: where they differ most")
+            ->check(named_path("FOLDER")),
+        "slice- volume");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
 }

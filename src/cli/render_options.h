@@ -18,6 +18,7 @@ struct RenderArguments {
   std::vector<std::string> paths;
   std::string observation;
   std::string recipe;
+  std::string against;  ///< work folder of another reader
   bool quick = false;
   std::string out;
   int jobs = 0;

@@ -27,6 +27,7 @@ void add_biomass(CLI::App& app, VerbRunner& run);
 void add_propagate(CLI::App& app, VerbRunner& run);
 void add_export(CLI::App& app, VerbRunner& run);
 void add_score(CLI::App& app, VerbRunner& run);
+void add_agree(CLI::App& app, VerbRunner& run);
 void add_compare(CLI::App& app, VerbRunner& run);
 void add_recipe(CLI::App& app, VerbRunner& run);
 void add_render(CLI::App& app, VerbRunner& run);

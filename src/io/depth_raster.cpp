@@ -16,10 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/library_gate.h"
-#include "io/atomic_file.h"
 #include "io/child_process.h"
 #include "io/gdal_drivers.h"
+#include "io/geotiff.h"
 #include "io/netcdf_file.h"
 #include "io/raster_window.h"
 #include "io/sandbox.h"
@@ -31,7 +30,6 @@ namespace {
 using Dataset = std::unique_ptr<GDALDataset, decltype([](GDALDataset* d) { GDALClose(d); })>;
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-constexpr float kNoDataWritten = -32767.0F;
 constexpr std::array<const char*, 4> kDrivers{"GTiff", "netCDF", "AAIGrid", nullptr};
 /// Two-dimensional variables that hold the seabed, best first.
 constexpr std::array<std::string_view, 12> kNames{"elevation", "depth",      "deptho",        "bathymetry",
@@ -343,52 +341,21 @@ Result<DepthGrid> read_depth_raster(const std::filesystem::path& path, const Geo
 
 Result<void> write_depth_raster(const std::filesystem::path& target, const DepthGrid& grid,
                                 const std::string& description) {
-  begin_gdal();
-  auto file = AtomicFile::create(target);
-  if (!file) return pass_on(file);
-  const auto inside = inside_library();
-  const SilentGdal silent;
-  const auto refused = [&](const char* what) {
-    return fail(ErrorCode::io, fmt::format("{}: {}", what, CPLGetLastErrorMsg()), {.file = target.string()});
-  };
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  if (driver == nullptr) return refused("GDAL has no GeoTIFF driver");
-  CPLStringList how;
-  how.SetNameValue("COMPRESS", "DEFLATE");
-  how.SetNameValue("PREDICTOR", "3");
-  how.SetNameValue("TILED", "YES");
-  {
-    Dataset out(driver->Create(file->temporary().c_str(), grid.columns, grid.rows, 1, GDT_Float32, how.List()));
-    if (!out) return refused("cannot make the raster");
-    std::array<double, 6> g{grid.west_deg - grid.step_longitude_deg / 2.0,
-                            grid.step_longitude_deg,
-                            0.0,
-                            grid.south_deg + (grid.rows - 0.5) * grid.step_latitude_deg,
-                            0.0,
-                            -grid.step_latitude_deg};
-    OGRSpatialReference wgs84;
-    wgs84.importFromEPSG(4326);
-    out->SetGeoTransform(g.data());
-    out->SetSpatialRef(&wgs84);
-    if (!description.empty()) out->SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", description.c_str());
-    GDALRasterBand& band = *out->GetRasterBand(1);
-    band.SetNoDataValue(static_cast<double>(kNoDataWritten));
-    band.SetDescription("elevation");
-    band.SetUnitType("m");
-    std::vector<float> line(static_cast<std::size_t>(grid.columns));
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int c = 0; c < grid.columns; ++c) {
-        const float depth = grid.at(grid.rows - 1 - row, c);
-        line[static_cast<std::size_t>(c)] = std::isnan(depth) ? kNoDataWritten : 0.0F - depth;
-      }
-      if (band.RasterIO(GF_Write, 0, row, grid.columns, 1, line.data(), grid.columns, 1, GDT_Float32, 0, 0, nullptr) !=
-          CE_None) {
-        return refused("cannot write the raster");
-      }
-    }
-    if (out->FlushCache(true); CPLGetLastErrorType() >= CE_Failure) return refused("cannot write the raster");
+  GeoTiff raster;
+  raster.west = grid.west_deg - grid.step_longitude_deg / 2.0;
+  raster.north = grid.south_deg + (grid.rows - 0.5) * grid.step_latitude_deg;
+  raster.step_x = grid.step_longitude_deg;
+  raster.step_y = grid.step_latitude_deg;
+  raster.columns = grid.columns;
+  raster.rows = grid.rows;
+  raster.description = description;
+  RasterBand elevation{"elevation", "m", {}};
+  elevation.values.reserve(grid.depth_m.size());
+  for (int row = grid.rows - 1; row >= 0; --row) {
+    for (int column = 0; column < grid.columns; ++column) elevation.values.push_back(0.0F - grid.at(row, column));
   }
-  return file->commit();
+  raster.bands.push_back(std::move(elevation));
+  return write_geotiff(target, raster);
 }
 
 }  // namespace sonar

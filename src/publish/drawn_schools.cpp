@@ -68,8 +68,9 @@ std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOpti
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const char* comma = drawn.status.empty() ? "" : ", ";
-    keys.push_back({drawn.school_id, colour_of(drawn, options), drawn.status,
-                    fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status)});
+    keys.push_back(
+        {drawn.school_id, colour_of(drawn, options), drawn.status,
+         drawn.part.empty() ? fmt::format("school {}{}{}", drawn.school_id, comma, drawn.status) : drawn.part});
   }
   return keys;
 }

@@ -8,6 +8,7 @@
 
 #include "io/product_file.h"
 #include "io/recordings.h"
+#include "pipeline/score/agree.h"
 #include "pipeline/stages/observe.h"
 #include "pipeline/tasks/join_tracks.h"
 #include "pipeline/tasks/merge.h"
@@ -125,8 +126,10 @@ DrawnPing DrawnObservation::ping_without_samples(std::int64_t ping_index) const 
     const auto row = std::find_if(product_->schools.begin(), product_->schools.end(),
                                   [&](const SchoolRow& one) { return one.school_id == school.school_id; });
     // The product outlives every picture of it: the mask is borrowed, not copied.
-    ping.masks.push_back({school.school_id, std::shared_ptr<const PingMask>(std::shared_ptr<void>(), &school.mask),
-                          row == product_->schools.end() ? std::string{} : row->status});
+    ping.masks.push_back(
+        {school.school_id, std::shared_ptr<const PingMask>(std::shared_ptr<void>(), &school.mask),
+         row == product_->schools.end() ? std::string{} : row->status,
+         row != product_->schools.end() && row->origin == kDifferenceOrigin ? row->name : std::string{}});
   }
   return ping;
 }
@@ -216,6 +219,19 @@ std::unique_ptr<PictureSource> PictureSource::of(std::shared_ptr<const SurveyFil
   source->recipe_ = recipe;
   source->match();
   return source;
+}
+
+Result<void> PictureSource::compare_with(const fs::path& other) {
+  if (products_.empty()) return fail(ErrorCode::usage, "there are no products to compare with " + other.string());
+  const auto b = read_result_side(other);
+  if (!b) return pass_on(b);
+  ScoreSide a;
+  a.observations = products_;
+  if (auto one = require_one_survey(a, "what is drawn", *b, other); !one) return one;
+  std::vector<ObservationProduct> differences = difference_products(a, *b);
+  // Observations point to the products: each stays where it is.
+  std::move(differences.begin(), differences.end(), products_.begin());
+  return {};
 }
 
 Result<void> PictureSource::require_outside_raw(const fs::path& file) const {

@@ -28,7 +28,8 @@ namespace sonar {
 struct DrawnMask {
   std::int64_t school_id = 0;
   std::shared_ptr<const PingMask> mask;
-  std::string status;  ///< of the school's review, SchoolRow::status
+  std::string status;     ///< of the school's review, SchoolRow::status
+  std::string part = {};  ///< of a comparison with another reader: what this is, in place of a school's number
 };
 
 /// One ping as pictures need it. Without raw files the volume is empty and only masks are known.
@@ -95,6 +96,11 @@ class PictureSource {
   [[nodiscard]] static std::unique_ptr<PictureSource> of(std::shared_ptr<const SurveyFiles> survey,
                                                          std::vector<ObservationProduct> products,
                                                          const Recipe& recipe);
+
+  /// Shows from here on where the products differ from those of another reader (difference_products()). Before anything
+  /// is drawn.
+  /// errors  usage: no products to compare; mismatch: of another survey; as read_result_side()
+  Result<void> compare_with(const std::filesystem::path& other);
 
   [[nodiscard]] std::vector<DrawnObservation>& observations() { return observations_; }
   [[nodiscard]] const std::vector<ObservationProduct>& products() const { return products_; }

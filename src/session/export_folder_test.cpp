@@ -41,7 +41,7 @@ TEST_F(ExportFolder, BesideTheSurveyIsProposed) {
   accepts = true;
   press("export.csv");
   document().settle();
-  EXPECT_THAT(document().notices().back(), testing::HasSubstr("written: 2 files in " + out.string()));
+  EXPECT_THAT(document().notices().back(), testing::HasSubstr("written: 3 files in " + out.string()));
   fs::remove_all(out);
 }
 

@@ -218,7 +218,7 @@ TEST_F(Exports, NumbersAreThoseOnTheScreen) {
   document().settle();
   export_as(workspace(), "csv", out_);
   document().settle();
-  EXPECT_THAT(told(), HasSubstr("written: 2 files in " + out_.string()));
+  EXPECT_THAT(told(), HasSubstr("written: 3 files in " + out_.string()));
   const std::string table = text_of(out_ / "school_pings.csv");
   EXPECT_THAT(table, HasSubstr("obs-0001,1,4,"));
   EXPECT_THAT(table, HasSubstr("obs-0001,2,2,"));

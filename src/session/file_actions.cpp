@@ -181,6 +181,7 @@ std::string menu_text(std::string_view format) {
   if (format == "netcdf-mask") return "Masks (netCDF)...";
   if (format == "gpkg") return "Map (GeoPackage)...";
   if (format == "geojson") return "Map (GeoJSON)...";
+  if (format == "seabed") return "Seabed (table and GeoTIFF)...";
   if (format == "raw-reduced") return "Reduced raw files...";
   return std::string(format) + "...";
 }

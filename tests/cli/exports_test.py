@@ -40,6 +40,10 @@ class Exports(Case):
         dest = self.export("csv")
         for name in ("schools.csv", "school_pings.csv"):
             self.assertEqual((dest / name).read_bytes(), (OUT / name).read_bytes())
+        first = {(row["observation"], row["school_id"]): row["first_time_utc"] for row in sonarx.read_csv(OUT / "schools.csv")}
+        edges = sonarx.read_csv(dest / "tracks_edges.csv")
+        self.assertEqual({(e["observation"], e["school_id"]): e["time_utc"] for e in edges if e["event"] in ("born", "split")},
+                         first)
 
     def test_geojson(self):
         dest = self.export("geojson")

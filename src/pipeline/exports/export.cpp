@@ -13,7 +13,9 @@
 #include "io/product_file.h"
 #include "io/survey_layers.h"
 #include "pipeline/exports/avoidance.h"
+#include "pipeline/exports/export_seabed.h"
 #include "pipeline/exports/export_sv.h"
+#include "pipeline/exports/track_edges.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
@@ -24,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 7> kFormats = {{
-    {"csv", "schools.csv and school_pings.csv"},
+constexpr std::array<ExportFormat, 8> kFormats = {{
+    {"csv", "schools.csv, school_pings.csv and tracks_edges.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
@@ -33,6 +35,7 @@ constexpr std::array<ExportFormat, 7> kFormats = {{
     {"avoidance",
      "avoidance.csv: speed, direction, depth and density of schools against range, bearing and time to closest "
      "approach"},
+    {"seabed", "depths of the seabed that each beam saw, as a table and as a GeoTIFF; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
 
@@ -81,9 +84,15 @@ Result<ObservationProduct> with_masks(const Source& source, std::size_t i) {
 }
 
 Result<Exported> export_csv(const Source& source, const fs::path& dest, CsvTexts texts) {
-  Files files = {dest / "schools.csv", dest / "school_pings.csv"};
+  Files files = {dest / "schools.csv", dest / "school_pings.csv", dest / "tracks_edges.csv"};
+  std::vector<TrackEdgeRow> edges;
+  for (const ObservationProduct& product : source.survey.observations) {
+    const std::vector<TrackEdgeRow> own = track_edges(product);
+    edges.insert(edges.end(), own.begin(), own.end());
+  }
   auto written = write_csv_rows(files[0], source.survey.schools, texts);
   if (written) written = write_csv_rows(files[1], source.survey.school_pings, texts);
+  if (written) written = write_csv_rows(files[2], edges, texts);
   if (!written) return pass_on(written);
   return Exported{std::move(files)};
 }
@@ -161,6 +170,24 @@ Result<Exported> export_all_sv(const Source& source, const ExportOptions& option
   return done;
 }
 
+Result<Exported> export_all_seabed(const Source& source, const ExportOptions& options, Work& work) {
+  const auto raw = open_raw(source, options, work);
+  if (!raw) return pass_on(raw);
+  auto seabed = SeabedExport::create(options.dest, options.seabed);
+  if (!seabed) return pass_on(seabed);
+  Exported done;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    if (!product->grid) done.without_grid.push_back(product->observation);
+    if (auto added = seabed->add(raw->survey, *product, raw->recipe, work); !added) return pass_on(added);
+  }
+  auto files = seabed->finish();
+  if (!files) return pass_on(files);
+  done.files = std::move(*files);
+  return done;
+}
+
 Result<Exported> export_reduced(const Source& source, const ExportOptions& options, Work& work) {
   const auto raw = open_raw(source, options, work);
   if (!raw) return pass_on(raw);
@@ -228,6 +255,7 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  if (format->name == "seabed") return export_all_seabed(*source, options, work);
   if (format->name == "sv") return export_all_sv(*source, options, work);
   return export_reduced(*source, options, work);
 }

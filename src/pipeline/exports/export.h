@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "io/csv.h"
+#include "io/seabed_raster.h"
 #include "pipeline/exports/reduce.h"
 
 namespace sonar {
@@ -31,6 +32,7 @@ struct ExportOptions {
   std::filesystem::path survey;            ///< folder of the raw files; only where the format needs them
   ReduceParams reduce;                     ///< for raw-reduced
   CsvTexts texts = CsvTexts::as_they_are;  ///< for csv
+  SeabedRasterParams seabed = {};          ///< for seabed
 };
 
 struct Exported {

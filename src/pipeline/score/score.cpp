@@ -12,68 +12,13 @@
 #include <utility>
 
 #include "base/units.h"
-#include "geo/geodesic.h"
 #include "pipeline/score/score_cause.h"
 #include "pipeline/score/score_index.h"
+#include "pipeline/score/score_pairs.h"
 #include "pipeline/score/score_place.h"
 
 namespace sonar {
 namespace {
-
-/// A true school in one ping and what was found there.
-struct PingPair {
-  std::int64_t ping_index = 0;  ///< of the truth
-  const PingMask* truth = nullptr;
-  const SchoolPingRow* truth_row = nullptr;
-  bool unclipped = false;
-  std::size_t found_observation = 0;
-  std::int64_t found_ping = -1;      ///< -1 = this ping is not in the result
-  std::optional<SchoolKey> partner;  ///< largest overlap
-  std::size_t overlap = 0;
-};
-
-bool is_unclipped(const SchoolPingRow* row) { return row == nullptr || row->touches_edge == 0; }
-
-PingPair pair_ping(const Indexed& found, const Indexed& truth, const ScoreSide& truth_side, const PingKey& key) {
-  PingPair pair;
-  const auto& [observation, school_id, ping_index] = key;
-  pair.ping_index = ping_index;
-  pair.truth = &truth.masks.at(key);
-  const auto row = truth.rows.find(key);
-  pair.truth_row = row == truth.rows.end() ? nullptr : row->second;
-  pair.unclipped = is_unclipped(pair.truth_row);
-  const TimeNs time = truth_side.observations[observation].pings[static_cast<std::size_t>(ping_index)].time;
-  const auto there = ping_at(found, time);
-  if (!there) return pair;
-  pair.found_observation = there->first;
-  pair.found_ping = there->second;
-  const auto schools = found.in_ping.find(*there);
-  if (schools == found.in_ping.end()) return pair;
-  for (const std::int64_t id : schools->second) {
-    const PingMask& mask = found.masks.at({there->first, id, there->second});
-    const std::size_t shared = overlap(mask, *pair.truth);
-    if (shared <= pair.overlap || dice(mask, *pair.truth) < kPairDice) continue;
-    pair.overlap = shared;
-    pair.partner = SchoolKey{there->first, id};
-  }
-  return pair;
-}
-
-/// The track that is the partner in most pings; among equals the larger overlap, then the lower number.
-std::optional<SchoolKey> track_partner(const std::vector<PingPair>& pairs) {
-  std::map<SchoolKey, std::pair<std::size_t, std::size_t>> votes;
-  for (const PingPair& pair : pairs) {
-    if (!pair.partner) continue;
-    auto& [pings, voxels] = votes[*pair.partner];
-    ++pings;
-    voxels += pair.overlap;
-  }
-  std::optional<SchoolKey> best;
-  for (const auto& [key, vote] : votes) {
-    if (!best || vote > votes[*best]) best = key;
-  }
-  return best;
-}
 
 bool spans_enough(const PingMask& mask, const std::vector<int>& row_of_channel, int beams_of_grid) {
   std::set<int> beams;
@@ -88,30 +33,6 @@ bool spans_enough(const PingMask& mask, const std::vector<int>& row_of_channel, 
     last = std::max(last, run.end());
   }
   return std::ssize(beams) >= kCountedBeams && std::ssize(fans) >= kCountedFans && last - first >= kCountedSamples;
-}
-
-/// Sums of one figure over the pings that have it on both sides.
-class PairedMeans {
- public:
-  void add(double found, double truth) {
-    if (!std::isfinite(found) || !std::isfinite(truth)) return;
-    found_ += found;
-    truth_ += truth;
-  }
-  [[nodiscard]] double ratio() const { return truth_ > 0.0 ? found_ / truth_ : kUnknown; }
-  [[nodiscard]] double error_db() const {
-    return truth_ > 0.0 && found_ > 0.0 ? db_from_linear(found_ / truth_) : kUnknown;
-  }
-
- private:
-  double found_ = 0.0;
-  double truth_ = 0.0;
-};
-
-double distance_m(const SchoolPingRow& a, const SchoolPingRow& b) {
-  const bool known = std::isfinite(a.latitude) && std::isfinite(b.latitude);
-  const double level = known ? geodesic({a.latitude, a.longitude}, {b.latitude, b.longitude}).distance_m : kUnknown;
-  return std::hypot(level, a.depth_m - b.depth_m);
 }
 
 /// Errors over the unclipped pings in which both have a row.
@@ -317,10 +238,7 @@ Score score(const ScoreSide& found_side, const ScoreSide& truth_side) {
   const Indexed found = index_side(found_side);
   const Indexed truth = index_side(truth_side);
   const Likenesses looks = look_back(found, found_side, truth);
-  std::map<SchoolKey, std::vector<PingPair>> pairs;
-  for (const auto& [key, mask] : truth.masks) {
-    pairs[{std::get<0>(key), std::get<1>(key)}].push_back(pair_ping(found, truth, truth_side, key));
-  }
+  const std::map<SchoolKey, std::vector<PingPair>> pairs = pair_pings(found, truth, truth_side);
   std::map<SchoolKey, std::int64_t> pings_of;
   for (const auto& [key, mask] : found.masks) ++pings_of[{std::get<0>(key), std::get<1>(key)}];
   const Pairing pairing = pair_tracks(pairs, found, looks);

@@ -9,7 +9,9 @@ namespace {
 
 constexpr TimeNs kSamePing_ns = 1'000'000;
 
-PingMask by_channel(const PingMask& mask, const std::vector<int>& channel) {
+}  // namespace
+
+PingMask with_rows(const PingMask& mask, const std::vector<int>& new_row) {
   struct Piece {
     Run run;
     std::size_t first;
@@ -17,7 +19,10 @@ PingMask by_channel(const PingMask& mask, const std::vector<int>& channel) {
   std::vector<Piece> pieces;
   std::size_t voxel = 0;
   for (const Run& run : mask.runs) {
-    pieces.push_back({{channel[static_cast<std::size_t>(run.row)], run.first_sample, run.count}, voxel});
+    const auto row = static_cast<std::size_t>(run.row);
+    if (row < new_row.size() && new_row[row] >= 0) {
+      pieces.push_back({{new_row[row], run.first_sample, run.count}, voxel});
+    }
     voxel += static_cast<std::size_t>(run.count);
   }
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.run < b.run; });
@@ -30,15 +35,13 @@ PingMask by_channel(const PingMask& mask, const std::vector<int>& channel) {
   return out;
 }
 
-}  // namespace
-
-Indexed index_side(const ScoreSide& side) {
+Indexed index_side(const ScoreSide& side, Rejected rejected_schools) {
   Indexed out;
   for (std::size_t o = 0; o < side.observations.size(); ++o) {
     const ObservationProduct& product = side.observations[o];
     std::set<std::int64_t> rejected;
     for (const SchoolRow& school : product.schools) {
-      if (school.status == "rejected") {
+      if (school.status == "rejected" && rejected_schools == Rejected::left_out) {
         rejected.insert(school.school_id);
       } else {
         out.schools[{o, school.school_id}] = &school;
@@ -50,7 +53,7 @@ Indexed index_side(const ScoreSide& side) {
     if (!product.grid) continue;
     for (const SchoolMask& m : product.masks) {
       if (m.mask.empty() || rejected.contains(m.school_id)) continue;
-      out.masks[{o, m.school_id, m.ping_index}] = by_channel(m.mask, product.grid->grid.channel);
+      out.masks[{o, m.school_id, m.ping_index}] = with_rows(m.mask, product.grid->grid.channel);
       out.in_ping[{o, m.ping_index}].push_back(m.school_id);
     }
     for (std::size_t p = 0; p < product.pings.size(); ++p) {

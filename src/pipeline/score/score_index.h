@@ -28,8 +28,13 @@ struct Indexed {
   std::map<TimeNs, std::pair<std::size_t, std::int64_t>> pings;
 };
 
-/// Schools marked as rejected are not there. Borrows the side's rows.
-[[nodiscard]] Indexed index_side(const ScoreSide& side);
+/// A mask whose runs lie in other rows: new_row[row]; those of rows that have none (-1, or beyond the list) are left out.
+[[nodiscard]] PingMask with_rows(const PingMask& mask, const std::vector<int>& new_row);
+
+/// Whether schools that are marked as rejected are there.
+enum class Rejected : std::uint8_t { left_out, kept };
+/// Borrows the side's rows.
+[[nodiscard]] Indexed index_side(const ScoreSide& side, Rejected rejected_schools = Rejected::left_out);
 
 /// (observation, ping) of a side at a time, within 1 ms.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::int64_t>> ping_at(const Indexed& side, TimeNs time);

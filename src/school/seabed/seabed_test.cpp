@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "school/beam_axes.h"
 #include "school/seabed/seabed_echoes.h"
+#include "school/seabed/seabed_hits.h"
 #include "school/test_scene.h"
 #include "school/test_water.h"
 
@@ -85,6 +86,37 @@ TEST(Seabed, FindsALevelBottom) {
   EXPECT_NEAR(bottom_depth_m(seabed, {0.0, -200.0, 50.0}, placement, 0.3, 20.0), 157.0, 5.0);
   EXPECT_TRUE(std::isnan(bottom_depth_m(seabed, {5000.0, 0.0, 0.0}, placement, 0.3, 20.0)));
   EXPECT_EQ(scene.schools(1), 0U);
+}
+
+// Each beam once, at the depth that was put in; a school above has no hit, and an echo that the record's end cuts none.
+TEST(Seabed, HitsLieOnTheBottom) {
+  BottomScene scene;
+  scene.add_bottom(150.0);
+  for (int b = 5; b < 12; ++b) {
+    for (int s = 300; s < 380; ++s) scene.expected(8, b, s) += 1e-3;
+  }
+  const Seabed seabed = scene.look(1);
+  const Array3<std::int16_t> sv = test::filtered(test::counts_of(scene.expected, 1), scene.flags);
+  const SeabedParams params;
+  const Background background;
+  const std::vector<SeabedHit> hits =
+      seabed_hits(seabed, {sv.view(), std::as_const(scene.flags).view(), background, scene.sector, params});
+  ASSERT_GT(hits.size(), 100U);
+  const double se_m = depth_se_m(hits, params);
+  std::size_t near = 0;
+  double sum_m = 0.0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_TRUE(i == 0 || hits[i - 1].row < hits[i].row) << i;
+    EXPECT_NEAR(hits[i].place.z, 150.0, 25.0);
+    EXPECT_NEAR(norm(hits[i].place), hits[i].range_m, 1e-9);
+    sum_m += hits[i].place.z;
+    if (std::abs(hits[i].below_m) <= se_m) ++near;
+  }
+  EXPECT_NEAR(sum_m / static_cast<double>(hits.size()), 150.0, 3.0);
+  EXPECT_NEAR(static_cast<double>(near) / static_cast<double>(hits.size()), 0.6827, 0.01) << "one standard error";
+  EXPECT_TRUE(std::isnan(depth_se_m({hits.begin(), hits.begin() + 5}, params)));
+  EXPECT_TRUE(
+      seabed_hits({}, {sv.view(), std::as_const(scene.flags).view(), background, scene.sector, params}).empty());
 }
 
 TEST(Seabed, TwoFansSeeItBeforeTheRecordEnds) {

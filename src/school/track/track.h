@@ -140,6 +140,8 @@ struct TrackEvent {
 };
 /// "ping 12: school 4 split from school 2".
 [[nodiscard]] std::string to_text(const TrackEvent& event);
+/// The event that to_text() told; none where a text tells none. Products hold events as such texts.
+[[nodiscard]] std::optional<TrackEvent> event_from_text(std::string_view text);
 
 /// What was followed and is no school.
 struct RefusedTrack {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "model/product.h"
+
+namespace sonar {
+
+/// What became of a track in a ping: a row of tracks_edges.csv.
+struct TrackEdgeRow {
+  std::string observation;
+  std::int64_t school_id = 0;
+  std::string event;  ///< born, split, merged, lost, refound
+  std::int64_t ping_index = 0;
+  TimeNs time_utc = 0;
+  std::string other_school;  ///< split: observation/school that it came from; merged: that it went into; else empty
+};
+
+template <class Visitor>
+void columns(Visitor& v, TrackEdgeRow& r) {
+  v("observation", "", r.observation);
+  v("school_id", "1", r.school_id);
+  v("event", "", r.event);
+  v("ping_index", "1", r.ping_index);
+  v("time_utc", "", TimeColumn{r.time_utc});
+  v("other_school", "", r.other_school);
+}
+
+/// The edges of all tracks of a product, by school and ping. A school that is not seen in a ping between two others was lost
+/// in the first and is refound in the second; one that is seen in the observation's last ping is not lost. Splits and
+/// merges are those that the tracker noted; rows tell everything else, so that it is so too where a human has edited.
+[[nodiscard]] std::vector<TrackEdgeRow> track_edges(const ObservationProduct& product);
+
+}  // namespace sonar
