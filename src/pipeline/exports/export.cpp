@@ -12,6 +12,7 @@
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
+#include "pipeline/exports/export_meshes.h"
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
@@ -23,11 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 6> kFormats = {{
+constexpr std::array<ExportFormat, 8> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
+    {"ply", "surface of each school in its strongest ping, in metres: one mesh a file"},
+    {"gltf", "the same surfaces, one .glb an observation"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
@@ -110,6 +113,28 @@ Result<Exported> export_map(const Source& source, const fs::path& dest, MapForma
   }
   if (auto finished = map->finish(); !finished) return pass_on(finished);
   return Exported{{target}};
+}
+
+/// Files of one observation each.
+using ObservationWriter = Result<Files> (*)(const ObservationProduct& product, const fs::path& dest, const Work& work);
+
+/// errors  unsupported: none of the observations has anything for the format
+Result<Exported> export_each(const Source& source, const ExportOptions& options, ObservationWriter write, Work& work) {
+  Exported done;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    auto made = write(*product, options.dest, work);
+    if (!made) return pass_on(made);
+    done.files.insert(done.files.end(), made->begin(), made->end());
+    work.progress(options.format, static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
+  }
+  if (!done.files.empty()) return done;
+  return fail(
+      ErrorCode::unsupported,
+      fmt::format("no school has a mask, a position and a heading: there is nothing for {} to hold", options.format),
+      {.file = options.out.string()});
 }
 
 /// The raw files of the products, under their recipe.
@@ -215,6 +240,8 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  if (format->name == "ply") return export_each(*source, options, export_ply, work);
+  if (format->name == "gltf") return export_each(*source, options, export_glb, work);
   if (format->name == "sv") return export_all_sv(*source, options, work);
   return export_reduced(*source, options, work);
 }
